@@ -1,0 +1,471 @@
+//! The body of an elementary process as data.
+//!
+//! `#[elementary_process]`, `#[migration]` and `#[helper]` keep, beside the native kernel, the parsed body of the
+//! function. An engine that cannot call Rust (a GPU) writes its own program from it. Types are those the user wrote;
+//! whatever Rust infers is inferred again by the reader of the data, from the schemas of the substates and parameters.
+
+pub use crate::ir_constant::ConstantValue;
+use crate::schema::Schema;
+use crate::value::ScalarType;
+
+/// A parsed function.
+#[derive(Debug, Clone)]
+pub struct Function {
+    /// The function's name in the source.
+    pub name: &'static str,
+    /// The module that it stands in, `module_path!()`.
+    pub module: &'static str,
+    /// What the function is for.
+    pub kind: FunctionKind,
+    /// The arguments in order.
+    pub arguments: Vec<Argument>,
+    /// The type of the result, if there is one.
+    pub result: Option<Type>,
+    /// The statements.
+    pub body: Block,
+}
+
+/// What a function is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FunctionKind {
+    /// An elementary process, run once for each cell.
+    Cells,
+    /// An elementary process, run once for each item of a population.
+    Items,
+    /// Says to which cell an item belongs.
+    Migration,
+    /// A function called by the others.
+    Helper,
+}
+
+/// An argument of a function.
+#[derive(Debug, Clone)]
+pub struct Argument {
+    /// Its name in the source.
+    pub name: &'static str,
+    /// What it stands for.
+    pub role: Role,
+}
+
+/// What an argument stands for.
+#[derive(Debug, Clone)]
+pub enum Role {
+    /// The central cell (`&mut Cell<S>`); in a process over items the cell that the item stands in (`&Cell<S>`).
+    Cell(&'static Schema),
+    /// The item of a population (`&mut Slot<S>`, `&Slot<S>`).
+    Slot(&'static Schema),
+    /// All items of the central cell (`&Slots<S>`), for a process over cells.
+    Slots(&'static Schema),
+    /// The parameters (`&P`).
+    Parameters(&'static Schema),
+    /// The cellular space (`&Space`).
+    Space,
+    /// A value, for helpers.
+    Value(Type),
+}
+
+/// A type that the user wrote.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Type {
+    /// `bool`
+    Bool,
+    /// A number.
+    Scalar(ScalarType),
+    /// `Vector2`, `Vector3` or `Vector4` of a scalar; the second is the number of lanes.
+    Vector(ScalarType, u8),
+    /// `[T; N]`
+    Array(Box<Type>, usize),
+    /// `Destination`, the result of a migration.
+    Destination,
+}
+
+/// Statements, and the value of the last expression where the block has one.
+#[derive(Debug, Clone)]
+pub struct Block {
+    /// The statements in order.
+    pub statements: Vec<Statement>,
+    /// The value of the block.
+    pub value: Option<Box<Expression>>,
+}
+
+/// A statement.
+#[derive(Debug, Clone)]
+pub enum Statement {
+    /// `let name: type_ = value;` A later `let` of the same name hides the earlier one, as in Rust.
+    Let {
+        /// The variable.
+        name: &'static str,
+        /// Whether it is `mut`.
+        mutable: bool,
+        /// The type, where it is written.
+        type_: Option<Type>,
+        /// The first value.
+        value: Expression,
+    },
+    /// `let name = cell.neighbour(index);`
+    LetNeighbour {
+        /// The variable that stands for the neighbour.
+        name: &'static str,
+        /// The index of the neighbour, `u32`.
+        index: Expression,
+    },
+    /// `place = value`, `place += value` and the like.
+    Assign {
+        /// What is written.
+        place: Place,
+        /// The operator of a compound assignment.
+        operator: Option<BinaryOperator>,
+        /// The right-hand side.
+        value: Expression,
+    },
+    /// An expression for its effects: `if`, `match`, a block, a call.
+    Expression(Expression),
+    /// `while condition { body }`
+    While {
+        /// The condition.
+        condition: Expression,
+        /// The body.
+        body: Block,
+    },
+    /// `loop { body }`
+    Loop {
+        /// The body.
+        body: Block,
+    },
+    /// `for variable in from..to { body }`, and with `..=` where `inclusive`.
+    ForRange {
+        /// The variable.
+        variable: &'static str,
+        /// The first value.
+        from: Expression,
+        /// The end.
+        to: Expression,
+        /// Whether the end belongs to the range.
+        inclusive: bool,
+        /// The body.
+        body: Block,
+    },
+    /// `for variable in me.others…() { body }`: over other items, in the order neighbour index, then label.
+    ForOthers {
+        /// The variable that stands for the other item.
+        variable: &'static str,
+        /// Where the items are looked for.
+        reach: Reach,
+        /// With a radius, only items whose position is nearer than this (strictly).
+        radius: Option<Expression>,
+        /// The body.
+        body: Block,
+    },
+    /// `for variable in slots { body }` in a process over cells: the items of the central cell, by label.
+    ForItems {
+        /// The variable that stands for the item.
+        variable: &'static str,
+        /// The body.
+        body: Block,
+    },
+    /// `break;`
+    Break,
+    /// `continue;`
+    Continue,
+    /// `return;` or `return value;`
+    Return(Option<Expression>),
+    /// `cell.fault(code, value);`
+    Fault {
+        /// The code, `u32`.
+        code: Expression,
+        /// A value to report, `Real`.
+        value: Expression,
+    },
+}
+
+/// Where a search for other items looks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reach {
+    /// The item's own cell.
+    Cell,
+    /// The neighbours, without the own cell.
+    Neighbours,
+    /// The own cell, then the neighbours.
+    All,
+}
+
+/// Something that can be assigned to: a variable or an own substate, then components and elements of it.
+#[derive(Debug, Clone)]
+pub struct Place {
+    /// Where it starts.
+    pub root: PlaceRoot,
+    /// The path from there, outermost first.
+    pub path: Vec<Projection>,
+}
+
+/// Where a place starts.
+#[derive(Debug, Clone)]
+pub enum PlaceRoot {
+    /// A variable.
+    Local(&'static str),
+    /// A substate of the cell or item that the process runs for.
+    Own(&'static str),
+}
+
+/// One step into a value.
+#[derive(Debug, Clone)]
+pub enum Projection {
+    /// `.x`, `.y`, `.z`, `.w`: 0 to 3.
+    Component(u8),
+    /// `[index]`
+    Element(Expression),
+}
+
+/// An expression.
+#[derive(Debug, Clone)]
+pub enum Expression {
+    /// A literal.
+    Literal(Literal),
+    /// A variable or a value argument.
+    Local(&'static str),
+    /// A constant of the surrounding Rust code.
+    Constant {
+        /// Its path in the source, for a reader.
+        name: &'static str,
+        /// Its value.
+        value: Constant,
+    },
+    /// A substate of the cell or item that the process runs for: what the process has written already, if it has.
+    Own(&'static str),
+    /// A substate of the item's cell, in a process over items that also takes `&Cell<S>`.
+    CellOfItem(&'static str),
+    /// `cell.neighbour(index).field`
+    Neighbour {
+        /// The index of the neighbour, `u32`.
+        index: Box<Expression>,
+        /// The substate.
+        field: &'static str,
+    },
+    /// `name.field` where `name` was bound by [`Statement::LetNeighbour`].
+    NamedNeighbour {
+        /// The variable.
+        name: &'static str,
+        /// The substate.
+        field: &'static str,
+    },
+    /// `name.field` where `name` is the variable of [`Statement::ForOthers`] or [`Statement::ForItems`].
+    Other {
+        /// The variable.
+        name: &'static str,
+        /// The substate.
+        field: &'static str,
+    },
+    /// `name.label()` of such a variable, `u32`.
+    OtherLabel(&'static str),
+    /// `parameters.field`
+    Parameter(&'static str),
+    /// The parameters as a whole, passed on to a helper.
+    Parameters,
+    /// The space as a whole, passed on to a helper.
+    Space,
+    /// Something that the engine provides.
+    Builtin(Builtin, Vec<Expression>),
+    /// `-a`, `!a`
+    Unary(UnaryOperator, Box<Expression>),
+    /// `a + b` and the like.
+    Binary(BinaryOperator, Box<Expression>, Box<Expression>),
+    /// `value as type`
+    Cast(Box<Expression>, Type),
+    /// A call of a helper.
+    Call {
+        /// Gives the helper.
+        function: fn() -> Function,
+        /// The arguments.
+        arguments: Vec<Expression>,
+    },
+    /// A method of a number or vector.
+    Method {
+        /// Which.
+        method: Method,
+        /// The receiver.
+        receiver: Box<Expression>,
+        /// The further arguments.
+        arguments: Vec<Expression>,
+    },
+    /// `.x`, `.y`, `.z`, `.w`: 0 to 3.
+    Component(Box<Expression>, u8),
+    /// `array[index]`
+    Element(Box<Expression>, Box<Expression>),
+    /// `[a, b, c]`
+    Array(Vec<Expression>),
+    /// `[value; length]`
+    Repeat(Box<Expression>, usize),
+    /// `Vector3::new(a, b, c)`: as many components as lanes.
+    Vector(Vec<Expression>),
+    /// `Vector3::splat(a)`; the second is the number of lanes.
+    Splat(Box<Expression>, u8),
+    /// `if condition { then } else { otherwise }`
+    If {
+        /// The condition.
+        condition: Box<Expression>,
+        /// The first branch.
+        then: Block,
+        /// The second branch.
+        otherwise: Option<Block>,
+    },
+    /// `match value { … }` over integers.
+    Match {
+        /// What is compared.
+        value: Box<Expression>,
+        /// The arms in order.
+        arms: Vec<Arm>,
+    },
+    /// `{ … }`
+    Block(Block),
+}
+
+/// An arm of a match.
+#[derive(Debug, Clone)]
+pub struct Arm {
+    /// The patterns, any of which selects the arm.
+    pub patterns: Vec<Pattern>,
+    /// `if` guard.
+    pub guard: Option<Expression>,
+    /// The value or statements.
+    pub body: Block,
+}
+
+/// A pattern of a match arm.
+#[derive(Debug, Clone)]
+pub enum Pattern {
+    /// `_`
+    Any,
+    /// A literal or constant.
+    Value(Expression),
+    /// `a..=b`
+    Range(Expression, Expression),
+}
+
+/// A literal as it is written.
+#[derive(Debug, Clone)]
+pub enum Literal {
+    /// `true`, `false`
+    Bool(bool),
+    /// An integer, with its suffix where one is written.
+    Integer(u64, Option<ScalarType>),
+    /// A decimal fraction: the digits as written, without underscores and suffix, with the suffix apart.
+    Float(&'static str, Option<ScalarType>),
+}
+
+/// The value of a Rust constant.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Constant {
+    /// `bool`
+    Bool(bool),
+    /// `u8`
+    U8(u8),
+    /// `i32`
+    I32(i32),
+    /// `u32`
+    U32(u32),
+    /// `f32`
+    F32(f32),
+    /// `f64`, which in a process is `Real`.
+    Real(f64),
+    /// A small vector.
+    Vector(Vec<Constant>),
+    /// An array.
+    Array(Vec<Constant>),
+}
+
+/// What an engine provides to a process.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Builtin {
+    /// `cell.neighbours()`: the number of cells in the neighbourhood with the central one, `u32`.
+    Neighbours,
+    /// `cell.index()`: the cell's indices x, y, z, `Vector3<i32>`.
+    Index,
+    /// `me.label()`: the item's label, `u32`.
+    Label,
+    /// `cell.random(draw)`: uniform in [0, 1), `Real`.
+    Random,
+    /// `cell.random_bits(draw)`: 32 random bits, `u32`.
+    RandomBits,
+    /// `space.side()`: the side of a cell in metres, `Real`.
+    Side,
+    /// `space.extents()`: the number of cells along x, y, z, `Vector3<i32>`.
+    Extents,
+    /// `space.step()`: the number of the step, from 0, `u32` (its low 32 bits).
+    Step,
+    /// `space.cell_containing(position)`: a destination.
+    CellContaining,
+    /// `Destination::Stay`
+    Stay,
+    /// `Destination::Outside`
+    Outside,
+}
+
+/// Operators of one operand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UnaryOperator {
+    /// `-`
+    Negate,
+    /// `!`
+    Not,
+}
+
+/// Operators of two operands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum BinaryOperator {
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Remainder,
+    And,
+    Or,
+    BitAnd,
+    BitOr,
+    BitXor,
+    ShiftLeft,
+    ShiftRight,
+    Equal,
+    NotEqual,
+    Less,
+    LessEqual,
+    Greater,
+    GreaterEqual,
+}
+
+/// The methods that numbers and vectors have in a process.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// `a.min(b)`: `if b < a { b } else { a }`
+    Min,
+    /// `a.max(b)`: `if a < b { b } else { a }`
+    Max,
+    /// `a.clamp(low, high)`: `a.max(low).min(high)`
+    Clamp,
+    /// `a.abs()` of floats and `i32`.
+    Abs,
+    /// `a.sqrt()`
+    SquareRoot,
+    /// `a.floor()`
+    Floor,
+    /// `a.ceil()`
+    Ceiling,
+    /// `a.trunc()`
+    Truncate,
+    /// `a.wrapping_add(b)` of integers.
+    WrappingAdd,
+    /// `a.wrapping_sub(b)` of integers.
+    WrappingSubtract,
+    /// `a.wrapping_mul(b)` of integers.
+    WrappingMultiply,
+    /// `a.count_ones()` of integers, `u32`.
+    CountOnes,
+    /// `a.dot(b)`: `a.x * b.x + a.y * b.y + …`, added from the left.
+    Dot,
+    /// `a.cross(b)` of three lanes.
+    Cross,
+    /// `a.length_squared()`: `a.dot(a)`
+    LengthSquared,
+    /// `a.length()`: `a.dot(a).sqrt()`
+    Length,
+}

@@ -1,0 +1,87 @@
+//! Elementary processes as a model holds them.
+
+use crate::ir;
+use crate::kernel::{Access, Group, Of, RowKernel};
+use crate::schema::Schema;
+use crate::value::Precision;
+use std::any::TypeId;
+
+/// What a process is run for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ProcessKind {
+    /// Each cell.
+    Cells,
+    /// Each item of a population.
+    Items,
+    /// Each item of a population, to say to which cell it belongs.
+    Migration,
+}
+
+/// Everything that an engine knows about a process; written by `#[elementary_process]` and `#[migration]`.
+#[derive(Debug, Clone, Copy)]
+pub struct Process {
+    /// The name of the function.
+    pub name: &'static str,
+    /// The module that the function stands in.
+    pub module: &'static str,
+    /// What it is run for.
+    pub kind: ProcessKind,
+    /// The substates of what it is run for.
+    pub subject: Group,
+    /// Of a process over items, the substates of their cell; of a process over cells, those of its items.
+    pub companion: Option<Group>,
+    /// The type and the fields of the parameters that it takes.
+    pub parameters: Option<(fn() -> TypeId, &'static Schema)>,
+    /// Whether it looks at neighbours.
+    pub local_interaction: bool,
+    /// How it uses each substate; a substate may stand in two accesses, one of which is the position for a search.
+    pub access: &'static [Access],
+    /// Its body as data.
+    pub body: fn() -> ir::Function,
+    /// The kernel for `f32`.
+    pub row_f32: RowKernel,
+    /// The kernel for `f64`.
+    pub row_f64: RowKernel,
+}
+
+impl Process {
+    /// The kernel for a precision.
+    pub fn kernel(&self, precision: Precision) -> RowKernel {
+        match precision {
+            Precision::F32 => self.row_f32,
+            Precision::F64 => self.row_f64,
+        }
+    }
+
+    /// The group of an access: the subject, or the companion where there is one.
+    pub fn group(&self, of: Of) -> Group {
+        match of {
+            Of::Subject => self.subject,
+            Of::Companion => self.companion.unwrap_or(self.subject),
+        }
+    }
+
+    /// How it uses the subject's field with this number, all accesses taken together.
+    pub fn use_of(&self, of: Of, field: usize) -> (bool, bool, bool) {
+        self.access
+            .iter()
+            .filter(|access| access.of == of && access.field == field)
+            .fold((false, false, false), |(centre, others, write), access| {
+                (centre || access.centre, others || access.others, write || access.write)
+            })
+    }
+
+    /// The names of the substates that it writes.
+    pub fn writes(&self) -> impl Iterator<Item = &'static str> + '_ {
+        self.access
+            .iter()
+            .filter(|access| access.write)
+            .map(|access| self.group(access.of).schema.fields[access.field].name)
+    }
+}
+
+/// A function marked `#[elementary_process]` or `#[migration]`.
+pub trait ElementaryProcess: 'static {
+    /// What an engine knows about it.
+    fn process() -> Process;
+}

@@ -1,0 +1,156 @@
+//! A function of the accepted Rust subset, checked, with the tokens that its messages and its native copy need.
+//!
+//! One front end (`parse`) makes it; the native kernel (`native`) and the data of the body (`data`) are made from it.
+//! The shape is that of `xca_core::ir`.
+
+use proc_macro2::Span;
+use syn::{Ident, Lit, LitFloat, LitInt, Path, Type};
+
+/// The whole function.
+pub(crate) struct Function {
+    pub(crate) name: Ident,
+    pub(crate) visibility: syn::Visibility,
+    pub(crate) attributes: Vec<syn::Attribute>,
+    pub(crate) kind: FunctionKind,
+    pub(crate) arguments: Vec<Argument>,
+    /// The type of the result as written; `None` for processes.
+    pub(crate) result: Option<Type>,
+    pub(crate) body: Block,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum FunctionKind {
+    Cells,
+    Items,
+    Migration,
+    Helper,
+}
+
+pub(crate) struct Argument {
+    pub(crate) name: Ident,
+    pub(crate) role: Role,
+}
+
+pub(crate) enum Role {
+    /// `Cell<S>`: the substates type.
+    Cell(Type),
+    Slot(Type),
+    Slots(Type),
+    /// `&P`: the parameters type.
+    Parameters(Type),
+    Space,
+    /// A value, of helpers, with its type as written.
+    Value(Type),
+}
+
+pub(crate) struct Block {
+    pub(crate) statements: Vec<Statement>,
+    pub(crate) value: Option<Box<Expression>>,
+}
+
+pub(crate) enum Statement {
+    Let { name: Ident, mutable: bool, type_: Option<Type>, value: Expression },
+    LetNeighbour { name: Ident, index: Expression },
+    Assign { place: Place, operator: Option<syn::BinOp>, value: Expression, span: Span },
+    Expression(Expression),
+    While { condition: Expression, body: Block },
+    Loop { body: Block },
+    ForRange { variable: Ident, from: Expression, to: Expression, inclusive: bool, body: Block },
+    ForOthers { variable: Ident, reach: Reach, radius: Option<Expression>, body: Block },
+    ForItems { variable: Ident, body: Block },
+    Break(Span),
+    Continue(Span),
+    Return(Option<Expression>, Span),
+    Fault { code: Expression, value: Expression },
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Reach {
+    Cell,
+    Neighbours,
+    All,
+}
+
+pub(crate) struct Place {
+    pub(crate) root: PlaceRoot,
+    pub(crate) path: Vec<Projection>,
+}
+
+pub(crate) enum PlaceRoot {
+    Local(Ident),
+    Own(Ident),
+}
+
+pub(crate) enum Projection {
+    /// `x`, `y`, `z` or `w`.
+    Component(Ident),
+    Element(Expression),
+}
+
+pub(crate) enum Expression {
+    Bool(syn::LitBool),
+    Integer(LitInt),
+    Float(LitFloat),
+    Local(Ident),
+    Constant(Path),
+    Own(Ident),
+    CellOfItem(Ident),
+    Neighbour { index: Box<Expression>, field: Ident },
+    NamedNeighbour { name: Ident, field: Ident },
+    Other { name: Ident, field: Ident },
+    OtherLabel(Ident),
+    Parameter(Ident),
+    /// The parameters argument as a whole, passed to a helper.
+    Parameters(Span),
+    /// The space argument as a whole, passed to a helper.
+    Space(Span),
+    Builtin(Builtin, Vec<Expression>, Span),
+    Unary(syn::UnOp, Box<Expression>),
+    Binary(syn::BinOp, Box<Expression>, Box<Expression>),
+    Cast(Box<Expression>, Type),
+    Call { function: Path, arguments: Vec<Expression> },
+    /// The method's name is one that `parse` knows.
+    Method { method: Ident, receiver: Box<Expression>, arguments: Vec<Expression> },
+    Component(Box<Expression>, Ident),
+    Element(Box<Expression>, Box<Expression>),
+    Array(Vec<Expression>, Span),
+    /// The length is an integer literal.
+    Repeat(Box<Expression>, LitInt),
+    /// `Vector3::new(a, b, c)`: the path's type segment (`Vector3`) and the components.
+    Vector(Ident, Vec<Expression>),
+    /// `Vector3::splat(a)`: the path's type segment and the value.
+    Splat(Ident, Box<Expression>),
+    If { condition: Box<Expression>, then: Block, otherwise: Option<Block>, span: Span },
+    Match { value: Box<Expression>, arms: Vec<Arm>, span: Span },
+    Block(Block),
+}
+
+pub(crate) struct Arm {
+    pub(crate) patterns: Vec<Pattern>,
+    pub(crate) guard: Option<Expression>,
+    pub(crate) body: Block,
+}
+
+pub(crate) enum Pattern {
+    Any(Span),
+    /// A literal, negated where the flag is set.
+    Literal(Lit, bool),
+    Constant(Path),
+    /// `a..=b`, each end a literal (negated where the flag is set).
+    Range((LitInt, bool), (LitInt, bool)),
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Builtin {
+    Neighbours,
+    Index,
+    Label,
+    Random,
+    RandomBits,
+    Side,
+    Extents,
+    Step,
+    CellContaining,
+    Stay,
+    Outside,
+}

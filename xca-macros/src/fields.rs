@@ -1,0 +1,259 @@
+//! `derive(Substates)` and `derive(Parameters)`.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+use syn::spanned::Spanned;
+use syn::{Data, DeriveInput, Error, Fields, GenericArgument, Ident, PathArguments, Result, Type, Visibility};
+
+struct Field {
+    name: Ident,
+    visibility: Visibility,
+    type_: Type,
+    scalar: Ident,
+    lanes: u8,
+    position: bool,
+    documentation: Vec<syn::Attribute>,
+}
+
+const SCALARS: [(&str, &str); 6] =
+    [("u8", "U8"), ("i32", "I32"), ("u32", "U32"), ("f32", "F32"), ("f64", "F64"), ("Real", "Real")];
+
+/// The number by which the macros find a field of a struct that they cannot see: FNV-1a of its name.
+pub(crate) fn name_number(name: &str) -> Literal {
+    let hash = name.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    });
+    Literal::u64_suffixed(hash)
+}
+
+/// The name under which the position is found.
+pub(crate) const POSITION: &str = "#position";
+
+fn fields(item: &DeriveInput) -> Result<Vec<Field>> {
+    if !item.generics.params.is_empty() {
+        return Err(Error::new_spanned(&item.generics, "this struct cannot be generic; write `Real` for the floating type"));
+    }
+    let Data::Struct(data) = &item.data else {
+        return Err(Error::new_spanned(&item.ident, "derive this for a struct whose fields are the values"));
+    };
+    let Fields::Named(named) = &data.fields else {
+        return Err(Error::new_spanned(&item.ident, "give the fields names"));
+    };
+    let mut fields = Vec::new();
+    for field in &named.named {
+        let Some(name) = field.ident.clone() else { continue };
+        let (scalar, lanes) = value_type(&field.ty)?;
+        let position = field.attrs.iter().any(|attribute| attribute.path().is_ident("position"));
+        if position && (scalar != "Real" || lanes != 3) {
+            return Err(Error::new_spanned(&field.ty, "a position is a `Vector3<Real>`"));
+        }
+        if position && fields.iter().any(|field: &Field| field.position) {
+            return Err(Error::new_spanned(&name, "only one field can be the position"));
+        }
+        let documentation =
+            field.attrs.iter().filter(|attribute| attribute.path().is_ident("doc")).cloned().collect();
+        fields.push(Field {
+            name,
+            visibility: field.vis.clone(),
+            type_: field.ty.clone(),
+            scalar: format_ident!("{scalar}"),
+            lanes,
+            position,
+            documentation,
+        });
+    }
+    if fields.is_empty() {
+        return Err(Error::new_spanned(&item.ident, "there is no field"));
+    }
+    Ok(fields)
+}
+
+fn value_type(type_: &Type) -> Result<(&'static str, u8)> {
+    let unsupported = || {
+        Error::new_spanned(
+            type_,
+            "a substate or parameter is a u8, i32, u32, f32, f64, Real, or a Vector2, Vector3, Vector4 of one of these",
+        )
+    };
+    let Type::Path(path) = type_ else { return Err(unsupported()) };
+    let segment = path.path.segments.last().ok_or_else(unsupported)?;
+    let lanes = match segment.ident.to_string().as_str() {
+        "Vector2" => 2,
+        "Vector3" => 3,
+        "Vector4" => 4,
+        scalar => {
+            let (_, variant) = SCALARS.iter().find(|(name, _)| *name == scalar).ok_or_else(unsupported)?;
+            return Ok((variant, 1));
+        }
+    };
+    let PathArguments::AngleBracketed(arguments) = &segment.arguments else { return Err(unsupported()) };
+    match arguments.args.first() {
+        Some(GenericArgument::Type(inner)) => match value_type(inner)? {
+            (scalar, 1) => Ok((scalar, lanes)),
+            _ => Err(unsupported()),
+        },
+        _ => Err(unsupported()),
+    }
+}
+
+fn schema(item: &DeriveInput, fields: &[Field]) -> TokenStream {
+    let struct_name = item.ident.to_string();
+    let descriptions = fields.iter().map(|field| {
+        let (name, scalar, lanes) = (field.name.to_string(), &field.scalar, field.lanes);
+        quote! {
+            ::xca_core::Field {
+                name: #name,
+                value_type: ::xca_core::ValueType { scalar: ::xca_core::ScalarType::#scalar, lanes: #lanes },
+            }
+        }
+    });
+    let position = match fields.iter().position(|field| field.position) {
+        Some(index) => quote!(::core::option::Option::Some(#index)),
+        None => quote!(::core::option::Option::None),
+    };
+    quote! {
+        const SCHEMA: &'static ::xca_core::Schema = &::xca_core::Schema {
+            name: #struct_name,
+            fields: &[#(#descriptions),*],
+            position: #position,
+        };
+    }
+}
+
+/// A type of the user with `Real` replaced by another type.
+pub(crate) fn with_real(type_: &Type, real: &TokenStream) -> TokenStream {
+    replace_real(quote!(#type_), real)
+}
+
+fn replace_real(tokens: TokenStream, real: &TokenStream) -> TokenStream {
+    tokens
+        .into_iter()
+        .flat_map(|token| match token {
+            proc_macro2::TokenTree::Ident(ident) if ident == "Real" => real.clone(),
+            proc_macro2::TokenTree::Group(group) => {
+                let mut replaced = proc_macro2::Group::new(group.delimiter(), replace_real(group.stream(), real));
+                replaced.set_span(group.span());
+                proc_macro2::TokenTree::Group(replaced).into()
+            }
+            other => other.into(),
+        })
+        .collect()
+}
+
+pub(crate) fn substates(item: &DeriveInput) -> Result<TokenStream> {
+    let fields = fields(item)?;
+    let name = &item.ident;
+    let schema = schema(item, &fields);
+    let real = quote!(R);
+    let mut named = TokenStream::new();
+    let mut handles = TokenStream::new();
+    for (index, field) in fields.iter().enumerate() {
+        let native = with_real(&field.type_, &real);
+        let mut names = vec![field.name.to_string()];
+        if field.position {
+            names.push(POSITION.to_owned());
+        }
+        for key in names {
+            let number = name_number(&key);
+            named.extend(quote! {
+                impl ::xca_core::HasSubstate<#number> for #name {
+                    type Native<R: ::xca_core::Float> = #native;
+                    const INDEX: usize = #index;
+                }
+            });
+        }
+        let handle = format_ident!("{}", field.name.to_string().to_uppercase(), span = field.name.span());
+        let (visibility, type_, documentation) = (&field.visibility, &field.type_, &field.documentation);
+        let about = format!("The name of the substate `{}` for the host.", field.name);
+        let about = if documentation.is_empty() { quote!(#[doc = #about]) } else { quote!(#(#documentation)*) };
+        handles.extend(quote! {
+            #about
+            #[allow(dead_code)]
+            #visibility const #handle: ::xca_core::Substate<#name, #type_> = ::xca_core::Substate::from_index(#index);
+        });
+    }
+    let indices: Vec<usize> = (0..fields.len()).collect();
+    let names: Vec<&Ident> = fields.iter().map(|field| &field.name).collect();
+    Ok(quote! {
+        #named
+        impl #name {
+            #handles
+        }
+        impl ::xca_core::Substates for #name {
+            #schema
+
+            fn encode(&self, field: usize, precision: ::xca_core::Precision, out: &mut [u8]) {
+                let stored = <Self as ::xca_core::Substates>::SCHEMA.fields[field].value_type.stored(precision);
+                match field {
+                    #(#indices => ::xca_core::HostValue::encode(&self.#names, stored, out),)*
+                    _ => {}
+                }
+            }
+
+            fn decode<'a>(precision: ::xca_core::Precision, mut field: impl FnMut(usize) -> &'a [u8]) -> Self {
+                let stored = |index: usize| <Self as ::xca_core::Substates>::SCHEMA.fields[index].value_type.stored(precision);
+                Self { #(#names: ::xca_core::HostValue::decode(stored(#indices), field(#indices)),)* }
+            }
+        }
+    })
+}
+
+pub(crate) fn parameters(item: &DeriveInput) -> Result<TokenStream> {
+    let fields = fields(item)?;
+    if let Some(field) = fields.iter().find(|field| field.scalar == "U8") {
+        return Err(Error::new(field.type_.span(), "a parameter is no u8; use u32"));
+    }
+    let name = &item.ident;
+    let schema = schema(item, &fields);
+    let visibility = &item.vis;
+    let native_name = format_ident!("{}InKernel", name);
+    let real = quote!(R);
+    let names: Vec<&Ident> = fields.iter().map(|field| &field.name).collect();
+    let natives: Vec<TokenStream> = fields.iter().map(|field| with_real(&field.type_, &real)).collect();
+    let conversions: Vec<TokenStream> = fields
+        .iter()
+        .map(|field| {
+            let name = &field.name;
+            // `f64` stays itself and `Real` becomes `R`: only the word tells them apart.
+            if field.scalar == "Real" {
+                quote!(::xca_core::kernel::constant::<R, _>(self.#name))
+            } else {
+                quote!(self.#name)
+            }
+        })
+        .collect();
+    let indices: Vec<usize> = (0..fields.len()).collect();
+    Ok(quote! {
+        #[doc(hidden)]
+        #[derive(Clone, Copy, Debug)]
+        #[allow(missing_docs, dead_code)]
+        #visibility struct #native_name<R> {
+            #(pub #names: #natives,)*
+            #[allow(non_snake_case)]
+            pub __real: ::core::marker::PhantomData<R>,
+        }
+        impl ::xca_core::Parameters for #name {
+            #schema
+            type Native<R: ::xca_core::Float> = #native_name<R>;
+
+            fn native<R: ::xca_core::Float>(&self) -> #native_name<R> {
+                #native_name { #(#names: #conversions,)* __real: ::core::marker::PhantomData }
+            }
+
+            fn value(&self, field: usize) -> ::xca_core::ParameterValue {
+                let value_type = <Self as ::xca_core::Parameters>::SCHEMA.fields[field].value_type;
+                match field {
+                    #(#indices => ::xca_core::ParameterValue::new(value_type, self.#names),)*
+                    _ => ::xca_core::ParameterValue::new(value_type, 0.0),
+                }
+            }
+
+            fn set_value(&mut self, field: usize, value: &::xca_core::ParameterValue) {
+                match field {
+                    #(#indices => self.#names = value.to(),)*
+                    _ => {}
+                }
+            }
+        }
+    })
+}

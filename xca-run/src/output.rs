@@ -1,0 +1,17 @@
+//! The files of a run.
+//!
+//! Every module here takes plain data and writes one kind of file. A file either appears complete under its name or not
+//! at all ([`atomic`]); the one exception is the time series ([`table_csv`]), which grows by whole rows.
+//!
+//! | module | file | for |
+//! |---|---|---|
+//! | [`particle_csv`] | `final.csv` | particles, exact to the last bit; can be read back as an initial state |
+//! | [`table_csv`] | `observables.csv` | time series |
+//! | [`vtk`] | `.vtp`, `.vti`, `.pvd` | particles and dense substates in ParaView |
+//! | [`picture`] | `.png` | pictures, made without a display |
+
+pub mod atomic;
+pub mod particle_csv;
+pub mod picture;
+pub mod table_csv;
+pub mod vtk;

@@ -1,0 +1,274 @@
+//! Files that appear complete or not at all, and the folder that a run writes to.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// A file or folder that could not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum WriteError {
+    /// The output folder does not exist and cannot be made.
+    #[error("cannot create the output folder {}", path.display())]
+    CreateFolder {
+        /// The folder.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The path of the output folder belongs to something else.
+    #[error("cannot use {} as the output folder: it exists and is not a folder", path.display())]
+    NotAFolder {
+        /// The path.
+        path: PathBuf,
+    },
+    /// The output folder exists, but no file can be made in it.
+    #[error("cannot write into the output folder {}", path.display())]
+    NotWritable {
+        /// The folder.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// A file could not be written, completed or renamed.
+    #[error("cannot write {}", path.display())]
+    File {
+        /// The file under its final name.
+        path: PathBuf,
+        /// What the system, or the encoder of the file's format, said.
+        source: io::Error,
+    },
+}
+
+/// Writes a file so that its name never shows half of it.
+///
+/// `fill` receives a buffered file with a temporary name in the same folder. If it succeeds, the file is flushed to the
+/// disk and renamed to `path`, which replaces an earlier file in one move; else the temporary file is removed and an
+/// earlier file of that name stays as it was.
+///
+/// # Errors
+/// [`WriteError::File`] with `path` and the error of `fill` or of the system.
+pub fn write_atomically(
+    path: &Path,
+    fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> Result<(), WriteError> {
+    let failed = |source| WriteError::File { path: path.to_owned(), source };
+    let temporary = temporary_name(path).map_err(failed)?;
+    let result = fill_and_rename(path, &temporary, fill);
+    if result.is_err() {
+        // The first error is the one to report; a leftover with a telling name does no harm.
+        let _ = fs::remove_file(&temporary);
+    }
+    result.map_err(failed)
+}
+
+fn fill_and_rename(
+    path: &Path,
+    temporary: &Path,
+    fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut writer = BufWriter::with_capacity(1 << 18, File::create(temporary)?);
+    fill(&mut writer)?;
+    writer.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()?;
+    fs::rename(temporary, path)
+}
+
+/// `folder/name.csv` gives `folder/.name.csv.PROCESS-COUNT.part`, unlike any other in use.
+fn temporary_name(path: &Path) -> io::Result<PathBuf> {
+    static COUNT: AtomicU64 = AtomicU64::new(0);
+    let name = path
+        .file_name()
+        .ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the path does not end in a file name"))?;
+    let mut hidden = std::ffi::OsString::from(".");
+    hidden.push(name);
+    hidden.push(format!(".{}-{}.part", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed)));
+    Ok(path.with_file_name(hidden))
+}
+
+/// A folder in which the files of a run are made.
+///
+/// Made at the start of a run, so that a folder that cannot be written is reported before hours of computation, not
+/// after.
+///
+/// ```
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # let temporary = tempfile::tempdir()?;
+/// # let somewhere = temporary.path();
+/// use xca_run::output::atomic::OutputFolder;
+///
+/// let out = OutputFolder::create(somewhere.join("runs/first"))?;
+/// assert!(out.file("final.csv").ends_with("runs/first/final.csv"));
+/// assert!(out.numbered("particles", 250, "vtp").ends_with("runs/first/particles_00000250.vtp"));
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug, Clone)]
+pub struct OutputFolder {
+    path: PathBuf,
+}
+
+impl OutputFolder {
+    /// Creates the folder, with those above it, if it does not exist, and makes sure that files can be made in it by
+    /// making one and removing it. What the folder already holds stays.
+    ///
+    /// # Errors
+    /// [`WriteError::CreateFolder`], [`WriteError::NotAFolder`] or [`WriteError::NotWritable`], each with the path.
+    pub fn create(path: impl Into<PathBuf>) -> Result<Self, WriteError> {
+        let path = path.into();
+        if path.exists() && !path.is_dir() {
+            return Err(WriteError::NotAFolder { path });
+        }
+        if let Err(source) = fs::create_dir_all(&path) {
+            return Err(WriteError::CreateFolder { path, source });
+        }
+        match probe(&path) {
+            Ok(()) => Ok(Self { path }),
+            Err(source) => Err(WriteError::NotWritable { path, source }),
+        }
+    }
+
+    /// The folder itself.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The path of a file of this folder.
+    ///
+    /// Names may come from the names of substates: characters other than ASCII letters, digits and `.`, `_`, `-`
+    /// become `_`, so that the path stays inside the folder on every system.
+    #[must_use]
+    pub fn file(&self, name: &str) -> PathBuf {
+        let kept = |c: char| if c.is_ascii_alphanumeric() || "._-".contains(c) { c } else { '_' };
+        let name: String = name.chars().map(kept).collect();
+        let only_dots = name.chars().all(|c| c == '.');
+        self.path.join(if only_dots { "_".to_owned() } else { name })
+    }
+
+    /// The path of one file of a series, `STEM_STEP.EXTENSION` with the step in eight digits or more, so that the
+    /// names sort in the order of the steps.
+    #[must_use]
+    pub fn numbered(&self, stem: &str, step: u64, extension: &str) -> PathBuf {
+        self.file(&format!("{stem}_{step:08}.{extension}"))
+    }
+
+    /// A folder inside this one, created and checked like this one.
+    ///
+    /// # Errors
+    /// As [`OutputFolder::create`].
+    pub fn subfolder(&self, name: &str) -> Result<Self, WriteError> {
+        Self::create(self.file(name))
+    }
+}
+
+fn probe(folder: &Path) -> io::Result<()> {
+    let file = temporary_name(&folder.join("probe"))?;
+    OpenOptions::new().write(true).create_new(true).open(&file)?.write_all(b"x")?;
+    fs::remove_file(&file)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::error::Error;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let mut names: Vec<String> =
+            fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_file_replaces_an_earlier_one_and_leaves_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.txt");
+        write_atomically(&path, |w| w.write_all(b"first, and longer")).unwrap();
+        write_atomically(&path, |w| w.write_all(b"second")).unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"second");
+        assert_eq!(names(folder.path()), ["a.txt"]);
+    }
+
+    #[test]
+    fn the_name_shows_the_old_content_until_the_new_is_complete() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.txt");
+        write_atomically(&path, |w| w.write_all(b"old")).unwrap();
+        write_atomically(&path, |w| {
+            w.write_all(b"new")?;
+            w.flush()?;
+            assert_eq!(fs::read(&path).unwrap(), b"old");
+            Ok(())
+        })
+        .unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"new");
+    }
+
+    #[test]
+    fn a_failure_keeps_the_old_file_and_names_the_path() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.txt");
+        write_atomically(&path, |w| w.write_all(b"old")).unwrap();
+        let error = write_atomically(&path, |w| {
+            w.write_all(b"half of the n")?;
+            Err(io::Error::other("no more paper"))
+        })
+        .unwrap_err();
+        assert!(error.to_string().contains("a.txt"), "{error}");
+        assert_eq!(error.source().unwrap().to_string(), "no more paper");
+        assert_eq!(fs::read(&path).unwrap(), b"old");
+        assert_eq!(names(folder.path()), ["a.txt"]);
+    }
+
+    #[test]
+    fn a_file_in_a_missing_folder_is_an_error() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("missing/a.txt");
+        let error = write_atomically(&path, |_| Ok(())).unwrap_err();
+        assert!(error.to_string().contains("missing/a.txt"), "{error}");
+        assert!(write_atomically(Path::new("/"), |_| Ok(())).is_err());
+    }
+
+    #[test]
+    fn a_folder_is_created_and_left_empty() {
+        let folder = tempfile::tempdir().unwrap();
+        let out = OutputFolder::create(folder.path().join("a/b")).unwrap();
+        assert!(out.path().is_dir());
+        assert!(names(out.path()).is_empty());
+        let again = OutputFolder::create(out.path()).unwrap();
+        assert_eq!(again.path(), out.path());
+        assert!(out.subfolder("vtk").unwrap().path().ends_with("a/b/vtk"));
+    }
+
+    #[test]
+    fn a_file_in_the_folders_place_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("taken");
+        fs::write(&path, "").unwrap();
+        let error = OutputFolder::create(&path).unwrap_err();
+        assert!(matches!(error, WriteError::NotAFolder { .. }));
+        assert!(error.to_string().contains("taken"), "{error}");
+        let error = OutputFolder::create(path.join("below")).unwrap_err();
+        assert!(matches!(error, WriteError::CreateFolder { .. }), "{error:?}");
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_folder_that_takes_no_files_is_refused_at_once() {
+        // Even the superuser cannot make a file here.
+        let error = OutputFolder::create("/proc/self").unwrap_err();
+        assert!(matches!(error, WriteError::NotWritable { .. }), "{error:?}");
+        assert!(error.source().is_some());
+    }
+
+    #[test]
+    fn names_stay_inside_the_folder() {
+        let folder = tempfile::tempdir().unwrap();
+        let out = OutputFolder::create(folder.path()).unwrap();
+        for name in ["../x", "/etc/x", "a/b", "..", ".", "", "a\\b", "c:d"] {
+            assert_eq!(out.file(name).parent(), Some(out.path()), "{name}");
+        }
+        assert_eq!(out.file("final-1.csv").file_name().unwrap(), "final-1.csv");
+        assert_eq!(out.numbered("p", 123_456_789, "vtp").file_name().unwrap(), "p_123456789.vtp");
+    }
+}

@@ -1,0 +1,320 @@
+//! Reading particles from CSV.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::{self, BufReader};
+use std::num::{ParseFloatError, ParseIntError};
+use std::path::{Path, PathBuf};
+
+use super::LABEL;
+use super::lines::MeaningfulLines;
+
+/// Particles as they stand in a file, in its order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ParticleTable {
+    /// The label of each particle.
+    pub labels: Vec<u32>,
+    /// The values, `columns[c][i]` for column `c` (in the order asked for) and particle `i`; all are finite.
+    pub columns: Vec<Vec<f64>>,
+    /// The line of the file that each particle stands on, from 1, for the errors that only the model can find.
+    pub lines: Vec<u64>,
+}
+
+/// A particle file that cannot be read, or says what cannot be.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadError {
+    /// The file is not there or not readable.
+    #[error("cannot open the particle file {}", path.display())]
+    Open {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// Reading broke off.
+    #[error("cannot read the particle file {} to its end", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The header lacks a column.
+    #[error("{}:{line}: the header has no column `{column}`; it must be `{expected}`, in any order", path.display())]
+    MissingColumn {
+        /// The file.
+        path: PathBuf,
+        /// The line of the header.
+        line: u64,
+        /// The column.
+        column: String,
+        /// The columns that must be there.
+        expected: String,
+    },
+    /// The header has a column that no one asked for.
+    #[error("{}:{line}: unknown column `{column}` in the header; it must be `{expected}`, in any order", path.display())]
+    UnknownColumn {
+        /// The file.
+        path: PathBuf,
+        /// The line of the header.
+        line: u64,
+        /// The column.
+        column: String,
+        /// The columns that may be there.
+        expected: String,
+    },
+    /// The header has a column twice.
+    #[error("{}:{line}: the column `{column}` stands twice in the header", path.display())]
+    RepeatedColumn {
+        /// The file.
+        path: PathBuf,
+        /// The line of the header.
+        line: u64,
+        /// The column.
+        column: String,
+    },
+    /// A row is longer or shorter than the header.
+    #[error("{}:{line}: {found} fields in this row, {expected} in the header", path.display())]
+    FieldCount {
+        /// The file.
+        path: PathBuf,
+        /// The line.
+        line: u64,
+        /// The number of fields of the header.
+        expected: usize,
+        /// The number of fields of the row.
+        found: usize,
+    },
+    /// A label is not a whole number from 0 to 4294967295.
+    #[error("{}:{line}: the label `{text}` is not a whole number from 0 to {}", path.display(), u32::MAX)]
+    Label {
+        /// The file.
+        path: PathBuf,
+        /// The line.
+        line: u64,
+        /// The text of the field.
+        text: String,
+        /// What is wrong with it.
+        source: ParseIntError,
+    },
+    /// A value is not a number.
+    #[error("{}:{line}: `{text}` in column `{column}` is not a number", path.display())]
+    Number {
+        /// The file.
+        path: PathBuf,
+        /// The line.
+        line: u64,
+        /// The column.
+        column: String,
+        /// The text of the field.
+        text: String,
+        /// What is wrong with it.
+        source: ParseFloatError,
+    },
+    /// A value is infinite, not a number, or beyond the range of `f64`.
+    #[error("{}:{line}: `{text}` in column `{column}` is not a finite number", path.display())]
+    NotFinite {
+        /// The file.
+        path: PathBuf,
+        /// The line.
+        line: u64,
+        /// The column.
+        column: String,
+        /// The text of the field.
+        text: String,
+    },
+    /// Two rows have one label.
+    #[error("{}:{line}: the label {label} stands on line {first} already", path.display())]
+    DuplicateLabel {
+        /// The file.
+        path: PathBuf,
+        /// The line of the second row.
+        line: u64,
+        /// The line of the first row.
+        first: u64,
+        /// The label.
+        label: u32,
+    },
+}
+
+/// Reads the particles of `path`, whose header must hold `label` and each of `columns` once, in any order.
+///
+/// Blanks around fields, blank lines and lines that begin with `#` are passed over. Every value is checked to be finite
+/// and every label to be used once; that a value makes sense to the model is for the model to check, which can name
+/// [`ParticleTable::lines`]. A file written in `f32` gives the same `f32` when its values are cast.
+///
+/// # Errors
+/// [`ReadError`], with the path and the line.
+pub fn read(path: &Path, columns: &[&str]) -> Result<ParticleTable, ReadError> {
+    let file = File::open(path).map_err(|source| ReadError::Open { path: path.to_owned(), source })?;
+    let broken = |error: csv::Error| ReadError::Read { path: path.to_owned(), source: error.into() };
+    let mut csv = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .trim(csv::Trim::All)
+        .from_reader(MeaningfulLines::new(BufReader::with_capacity(1 << 18, file)));
+    let line_of = |csv: &csv::Reader<MeaningfulLines<_>>, record: &csv::ByteRecord| {
+        csv.get_ref().number(record.position().map_or(1, csv::Position::line))
+    };
+    let mut record = csv::ByteRecord::new();
+    csv.read_byte_record(&mut record).map_err(broken)?;
+    let places = header(path, line_of(&csv, &record), &record, columns)?;
+
+    let mut table =
+        ParticleTable { labels: Vec::new(), columns: vec![Vec::new(); columns.len()], lines: Vec::new() };
+    let mut seen = HashMap::new();
+    while csv.read_byte_record(&mut record).map_err(broken)? {
+        let line = line_of(&csv, &record);
+        let row = Row { path, line, record: &record, width: places.len() };
+        let label = row.label(places[0])?;
+        if let Some(first) = seen.insert(label, line) {
+            return Err(ReadError::DuplicateLabel { path: path.to_owned(), line, first, label });
+        }
+        table.labels.push(label);
+        table.lines.push(line);
+        for ((values, &place), name) in table.columns.iter_mut().zip(&places[1..]).zip(columns) {
+            values.push(row.number(place, name)?);
+        }
+    }
+    Ok(table)
+}
+
+/// For `label` and then for each of `columns`, the place of the field in a row.
+fn header(
+    path: &Path,
+    line: u64,
+    record: &csv::ByteRecord,
+    columns: &[&str],
+) -> Result<Vec<usize>, ReadError> {
+    let wanted: Vec<&str> = std::iter::once(LABEL).chain(columns.iter().copied()).collect();
+    let names: Vec<Cow<'_, str>> = record.iter().map(String::from_utf8_lossy).collect();
+    for (place, name) in names.iter().enumerate() {
+        let (path, column) = (path.to_owned(), name.to_string());
+        if !wanted.contains(&name.as_ref()) {
+            return Err(ReadError::UnknownColumn { path, line, column, expected: wanted.join(",") });
+        }
+        if names[..place].contains(name) {
+            return Err(ReadError::RepeatedColumn { path, line, column });
+        }
+    }
+    let place_of = |name: &&str| {
+        names.iter().position(|field| field == name).ok_or_else(|| ReadError::MissingColumn {
+            path: path.to_owned(),
+            line,
+            column: (*name).to_owned(),
+            expected: wanted.join(","),
+        })
+    };
+    wanted.iter().map(place_of).collect()
+}
+
+struct Row<'a> {
+    path: &'a Path,
+    line: u64,
+    record: &'a csv::ByteRecord,
+    width: usize,
+}
+
+impl<'a> Row<'a> {
+    fn field(&self, place: usize) -> Result<Cow<'a, str>, ReadError> {
+        let (expected, found) = (self.width, self.record.len());
+        let field = self.record.get(place).filter(|_| found == expected);
+        field.map(String::from_utf8_lossy).ok_or_else(|| ReadError::FieldCount {
+            path: self.path.to_owned(),
+            line: self.line,
+            expected,
+            found,
+        })
+    }
+
+    fn label(&self, place: usize) -> Result<u32, ReadError> {
+        let text = self.field(place)?;
+        text.parse().map_err(|source| ReadError::Label {
+            path: self.path.to_owned(),
+            line: self.line,
+            text: text.into_owned(),
+            source,
+        })
+    }
+
+    fn number(&self, place: usize, column: &str) -> Result<f64, ReadError> {
+        let text = self.field(place)?;
+        let (path, line) = (self.path.to_owned(), self.line);
+                match text.parse::<f64>() {
+            Ok(value) if value.is_finite() => Ok(value),
+            Ok(_) => Err(ReadError::NotFinite { path, line, column: column.to_owned(), text: text.into_owned() }),
+            Err(source) => {
+                Err(ReadError::Number { path, line, column: column.to_owned(), text: text.into_owned(), source })
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read_text(text: &[u8]) -> Result<ParticleTable, ReadError> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("p.csv");
+        std::fs::write(&path, text).unwrap();
+        read(&path, &["x", "y"])
+    }
+
+    /// The message without the folder, which differs from run to run.
+    fn message(text: &str) -> String {
+        let message = read_text(text.as_bytes()).unwrap_err().to_string();
+        message[message.find("p.csv").unwrap()..].to_owned()
+    }
+
+    #[test]
+    fn columns_may_stand_in_any_order() {
+        let table = read_text(b"y,label,x\n2,7,1\n4.5e-3, 3 ,-3\n").unwrap();
+        assert_eq!(table.labels, [7, 3]);
+        assert_eq!(table.columns, [vec![1.0, -3.0], vec![2.0, 4.5e-3]]);
+        assert_eq!(table.lines, [2, 3]);
+    }
+
+    #[test]
+    fn lines_are_counted_through_blanks_comments_and_foreign_line_ends() {
+        let table = read_text(b"\xEF\xBB\xBF# made by hand\n\nlabel,x,y\r\n1,0,0\r\n\r\n\n# more\n2,0,0").unwrap();
+        assert_eq!(table.labels, [1, 2]);
+        assert_eq!(table.lines, [4, 8]);
+    }
+
+    #[test]
+    fn a_bad_header_is_named() {
+        assert_eq!(message(""), "p.csv:1: the header has no column `label`; it must be `label,x,y`, in any order");
+        assert_eq!(message("label,x\n"), "p.csv:1: the header has no column `y`; it must be `label,x,y`, in any order");
+        assert_eq!(
+            message("label,x,y,z\n"),
+            "p.csv:1: unknown column `z` in the header; it must be `label,x,y`, in any order"
+        );
+        assert_eq!(message("label,x,x,y\n"), "p.csv:1: the column `x` stands twice in the header");
+    }
+
+    #[test]
+    fn a_bad_row_is_named_by_its_line() {
+        let line_4 = |row: &str| message(&format!("label,x,y\n1,0,0\n\n{row}\n9,0,0\n"));
+        assert_eq!(line_4("2,0"), "p.csv:4: 2 fields in this row, 3 in the header");
+        assert_eq!(line_4("2,0,0,0"), "p.csv:4: 4 fields in this row, 3 in the header");
+        assert_eq!(line_4("2,0.1.2,0"), "p.csv:4: `0.1.2` in column `x` is not a number");
+        assert_eq!(line_4("2,0,"), "p.csv:4: `` in column `y` is not a number");
+        assert_eq!(line_4("2,0,nan"), "p.csv:4: `nan` in column `y` is not a finite number");
+        assert_eq!(line_4("2,-inf,0"), "p.csv:4: `-inf` in column `x` is not a finite number");
+        assert_eq!(line_4("2,1e999,0"), "p.csv:4: `1e999` in column `x` is not a finite number");
+        assert_eq!(line_4("-2,0,0"), "p.csv:4: the label `-2` is not a whole number from 0 to 4294967295");
+        assert_eq!(line_4("4294967296,0,0"), "p.csv:4: the label `4294967296` is not a whole number from 0 to 4294967295");
+        assert_eq!(line_4("1,5,5"), "p.csv:4: the label 1 stands on line 2 already");
+    }
+
+    #[test]
+    fn bytes_that_are_no_text_and_a_missing_file_are_errors() {
+        let error = read_text(b"label,x,y\n\n1,0,\xFF\n").unwrap_err().to_string();
+        assert!(error.ends_with("p.csv:3: `\u{FFFD}` in column `y` is not a number"), "{error}");
+        let error = read(Path::new("/nowhere/p.csv"), &[]).unwrap_err();
+        assert!(error.to_string().contains("/nowhere/p.csv"), "{error}");
+        assert!(std::error::Error::source(&error).is_some());
+    }
+}

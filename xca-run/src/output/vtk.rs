@@ -1,0 +1,85 @@
+//! VTK XML files, which ParaView, VisIt and VTK read.
+//!
+//! | function | file | holds |
+//! |---|---|---|
+//! | [`write_particles`] | `.vtp`, PolyData | particles: one vertex each, with arrays of values |
+//! | [`write_dense`] | `.vti`, ImageData | dense substates: one value, or vector, a cell |
+//! | [`Collection`] | `.pvd` | the files of a run with their times: what to open to see the run as a film |
+//!
+//! Values are stored as they are (binary, little-endian, `AppendedData` in raw encoding), so nothing is lost. Units are
+//! those of the model. Every file carries its time as the field `TimeValue`.
+
+mod appended;
+mod collection;
+mod dense;
+mod particles;
+mod values;
+
+use std::path::PathBuf;
+
+use super::atomic::WriteError;
+
+pub use collection::Collection;
+pub use dense::{Grid, write_dense};
+pub use particles::write_particles;
+pub use values::{DataArray, Values};
+
+/// Data that cannot be written as a VTK file.
+#[derive(Debug, thiserror::Error)]
+pub enum VtkError {
+    /// An array does not have one value, or vector, for each particle or cell.
+    #[error("cannot write {}: array `{array}` has {found} entries, not {expected}", path.display())]
+    ArrayLength {
+        /// The file.
+        path: PathBuf,
+        /// The array.
+        array: String,
+        /// The number of particles or cells.
+        expected: usize,
+        /// The number of entries.
+        found: usize,
+    },
+    /// Two arrays have one name.
+    #[error("cannot write {}: two arrays are named `{array}`", path.display())]
+    RepeatedArray {
+        /// The file.
+        path: PathBuf,
+        /// The name.
+        array: String,
+    },
+    /// Positions are not 3-vectors of `f32` or `f64`.
+    #[error("cannot write {}: positions must be 3-vectors of f32 or f64", path.display())]
+    Positions {
+        /// The file.
+        path: PathBuf,
+    },
+    /// VTK counts points and cells along an axis with 32 bits.
+    #[error("cannot write {}: {found} is more than VTK's limit of {}", path.display(), i32::MAX)]
+    TooMany {
+        /// The file.
+        path: PathBuf,
+        /// The number of particles, or of cells along an axis.
+        found: usize,
+    },
+    /// A time, an origin or a spacing that is not finite, or a spacing that is not positive.
+    #[error("cannot write {}: {what} is {value}", path.display())]
+    Geometry {
+        /// The file.
+        path: PathBuf,
+        /// What the value stands for.
+        what: &'static str,
+        /// The value.
+        value: f64,
+    },
+    /// A collection can only name files that lie in its own folder or below.
+    #[error("cannot list {} in {}: it is not in the same folder or below", file.display(), path.display())]
+    OutsideFolder {
+        /// The collection.
+        path: PathBuf,
+        /// The file.
+        file: PathBuf,
+    },
+    /// The system refused.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+}

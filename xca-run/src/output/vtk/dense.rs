@@ -1,0 +1,117 @@
+//! Dense substates as ImageData.
+
+use std::path::Path;
+
+use super::super::atomic::write_atomically;
+use super::VtkError;
+use super::appended::{Appended, joined};
+use super::values::{DataArray, check_arrays};
+
+/// The cellular space as VTK's ImageData sees it: boxes of equal size, x running fastest.
+///
+/// Hexagonal cells have no place in it and are shown as boxes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid {
+    /// The number of cells along x, y and z; 1 along z for a model of one layer.
+    pub cells: [usize; 3],
+    /// The lower corner of the space, as a length.
+    pub origin: [f64; 3],
+    /// The side of a cell along each axis, as a length.
+    pub spacing: [f64; 3],
+}
+
+impl Grid {
+    /// A space of cubic cells with its lower corner at the origin.
+    #[must_use]
+    pub fn cubic(cells: [usize; 3], side: f64) -> Self {
+        Self { cells, origin: [0.0; 3], spacing: [side; 3] }
+    }
+}
+
+/// Writes dense substates to `path` (`.vti`) as cell data: every array has one entry a cell, x fastest, then y, then z.
+/// `time` is the simulated time.
+///
+/// # Errors
+/// [`VtkError::ArrayLength`], [`VtkError::RepeatedArray`], [`VtkError::TooMany`], [`VtkError::Geometry`] and
+/// [`VtkError::Write`], each with the path.
+pub fn write_dense(path: &Path, time: f64, grid: &Grid, arrays: &[DataArray<'_>]) -> Result<(), VtkError> {
+    let bad = |what, value| VtkError::Geometry { path: path.to_owned(), what, value };
+    if !time.is_finite() {
+        return Err(bad("the time", time));
+    }
+    if let Some(&origin) = grid.origin.iter().find(|x| !x.is_finite()) {
+        return Err(bad("a coordinate of the origin", origin));
+    }
+    if let Some(&spacing) = grid.spacing.iter().find(|x| !(x.is_finite() && **x > 0.0)) {
+        return Err(bad("a side of the cells", spacing));
+    }
+    if let Some(&found) = grid.cells.iter().find(|&&n| i32::try_from(n).is_err()) {
+        return Err(VtkError::TooMany { path: path.to_owned(), found });
+    }
+    let cells = grid.cells.iter().try_fold(1_usize, |product, &n| product.checked_mul(n)).unwrap_or(usize::MAX);
+    check_arrays(path, arrays, cells)?;
+
+    let [nx, ny, nz] = grid.cells;
+    let extent = format!("0 {nx} 0 {ny} 0 {nz}");
+    let mut appended = Appended::default();
+    let content = format!(
+        "<ImageData WholeExtent=\"{extent}\" Origin=\"{origin}\" Spacing=\"{spacing}\">\n{time}\
+         <Piece Extent=\"{extent}\">\n{data}</Piece>\n</ImageData>\n",
+        origin = joined(&grid.origin),
+        spacing = joined(&grid.spacing),
+        time = appended.time(time),
+        data = appended.data("CellData", arrays),
+    );
+    write_atomically(path, |file| appended.write(file, "ImageData", &content))?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    #[test]
+    fn the_bytes_are_those_of_the_format() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("d.vti");
+        let grid = Grid { cells: [3, 2, 1], origin: [0.0, -0.5, 0.0], spacing: [0.1, 0.25, 1e-7] };
+        let arrays = [DataArray::new("alive", &[1_u8, 0, 1, 1, 0, 9][..])];
+        write_dense(&path, 2.0, &grid, &arrays).unwrap();
+        let mut expected = br#"<?xml version="1.0"?>
+<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian" header_type="UInt64">
+<ImageData WholeExtent="0 3 0 2 0 1" Origin="0.0 -0.5 0.0" Spacing="0.1 0.25 1e-7">
+<FieldData>
+<DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" format="appended" offset="0"/>
+</FieldData>
+<Piece Extent="0 3 0 2 0 1">
+<CellData Scalars="alive">
+<DataArray type="UInt8" Name="alive" NumberOfComponents="1" format="appended" offset="16"/>
+</CellData>
+</Piece>
+</ImageData>
+<AppendedData encoding="raw">
+_"#
+        .to_vec();
+        expected.extend([8, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x40]);
+        expected.extend([6, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 1, 0, 9]);
+        expected.extend(b"\n</AppendedData>\n</VTKFile>\n");
+        assert_eq!(String::from_utf8_lossy(&fs::read(&path).unwrap()), String::from_utf8_lossy(&expected));
+        assert_eq!(fs::read(&path).unwrap(), expected);
+    }
+
+    #[test]
+    fn what_does_not_fit_the_grid_is_named() {
+        let path = Path::new("/nowhere/d.vti");
+        let write = |grid: &Grid, n: usize| {
+            let values = vec![0.0; n];
+            write_dense(path, 0.0, grid, &[DataArray::new("t", &values[..])]).unwrap_err().to_string()
+        };
+        let grid = Grid::cubic([3, 2, 2], 0.5);
+        assert_eq!(write(&grid, 11), "cannot write /nowhere/d.vti: array `t` has 11 entries, not 12");
+        assert!(write(&Grid { spacing: [0.5, 0.0, 0.5], ..grid }, 12).contains("a side of the cells is 0"));
+        assert!(write(&Grid { origin: [f64::NAN; 3], ..grid }, 12).contains("origin is NaN"));
+        assert!(write(&Grid { cells: [usize::MAX, 1, 1], ..grid }, 12).contains("limit of 2147483647"));
+        assert!(write(&Grid { cells: [1 << 30; 3], ..grid }, 12).contains("has 12 entries"));
+    }
+}

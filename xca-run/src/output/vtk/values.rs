@@ -1,0 +1,159 @@
+//! Arrays of values as VTK knows them.
+
+use std::collections::HashSet;
+use std::io::{self, Write};
+use std::path::Path;
+
+use super::VtkError;
+
+/// The values of an array: scalars, or vectors stored one after the other.
+///
+/// Made from a slice of scalars (`&[f64]`), a slice of vectors (`&[[f64; 3]]`), or with [`Values::interleaved`].
+#[derive(Debug, Clone, Copy)]
+pub struct Values<'a> {
+    data: Data<'a>,
+    components: usize,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Data<'a> {
+    U8(&'a [u8]),
+    I32(&'a [i32]),
+    U32(&'a [u32]),
+    F32(&'a [f32]),
+    F64(&'a [f64]),
+}
+
+macro_rules! from_slices {
+    ($($scalar:ident $variant:ident),*) => {$(
+        impl<'a> From<&'a [$scalar]> for Values<'a> {
+            fn from(values: &'a [$scalar]) -> Self {
+                Self { data: Data::$variant(values), components: 1 }
+            }
+        }
+
+        impl<'a, const N: usize> From<&'a [[$scalar; N]]> for Values<'a> {
+            fn from(values: &'a [[$scalar; N]]) -> Self {
+                Self { data: Data::$variant(values.as_flattened()), components: N }
+            }
+        }
+    )*};
+}
+from_slices!(u8 U8, i32 I32, u32 U32, f32 F32, f64 F64);
+
+impl<'a> Values<'a> {
+    /// Vectors of `components` scalars each, stored one after the other in a flat slice.
+    #[must_use]
+    pub fn interleaved(components: usize, values: impl Into<Self>) -> Self {
+        Self { components, ..values.into() }
+    }
+
+    /// The number of scalars or vectors. Vectors that are not complete count as one more.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.scalars().div_ceil(self.components.max(1))
+    }
+
+    /// Whether there are no values.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.scalars() == 0
+    }
+
+    /// The number of scalars in a vector, 1 for plain scalars.
+    #[must_use]
+    pub fn components(&self) -> usize {
+        self.components
+    }
+
+    fn scalars(&self) -> usize {
+        match self.data {
+            Data::U8(v) => v.len(),
+            Data::I32(v) => v.len(),
+            Data::U32(v) => v.len(),
+            Data::F32(v) => v.len(),
+            Data::F64(v) => v.len(),
+        }
+    }
+
+    /// VTK's name of the scalar type and its size in bytes.
+    pub(super) fn vtk_type(&self) -> (&'static str, u64) {
+        match self.data {
+            Data::U8(_) => ("UInt8", 1),
+            Data::I32(_) => ("Int32", 4),
+            Data::U32(_) => ("UInt32", 4),
+            Data::F32(_) => ("Float32", 4),
+            Data::F64(_) => ("Float64", 8),
+        }
+    }
+
+    pub(super) fn is_float(&self) -> bool {
+        matches!(self.data, Data::F32(_) | Data::F64(_))
+    }
+
+    pub(super) fn bytes(&self) -> u64 {
+        self.scalars() as u64 * self.vtk_type().1
+    }
+
+    /// Writes the scalars in little-endian order.
+    pub(super) fn write_to(&self, out: &mut dyn Write) -> io::Result<()> {
+        match self.data {
+            Data::U8(v) => out.write_all(v),
+            Data::I32(v) => write_little_endian(out, v, |x| x.to_le_bytes()),
+            Data::U32(v) => write_little_endian(out, v, |x| x.to_le_bytes()),
+            Data::F32(v) => write_little_endian(out, v, |x| x.to_le_bytes()),
+            Data::F64(v) => write_little_endian(out, v, |x| x.to_le_bytes()),
+        }
+    }
+
+    fn is_whole(&self) -> bool {
+        self.components > 0 && self.scalars().is_multiple_of(self.components)
+    }
+}
+
+fn write_little_endian<T: Copy, const N: usize>(
+    out: &mut dyn Write,
+    values: &[T],
+    bytes: impl Fn(T) -> [u8; N],
+) -> io::Result<()> {
+    let mut buffer = Vec::with_capacity(8192 * N);
+    for chunk in values.chunks(8192) {
+        buffer.clear();
+        buffer.extend(chunk.iter().flat_map(|&value| bytes(value)));
+        out.write_all(&buffer)?;
+    }
+    Ok(())
+}
+
+/// A named array: one scalar or vector for each particle or cell.
+#[derive(Debug, Clone, Copy)]
+pub struct DataArray<'a> {
+    /// The name that ParaView shows, with the unit if there is one, such as `velocity (m/s)`.
+    pub name: &'a str,
+    /// The values.
+    pub values: Values<'a>,
+}
+
+impl<'a> DataArray<'a> {
+    /// An array of scalars (from `&[f64]` and the like) or of vectors (from `&[[f64; 3]]` and the like).
+    #[must_use]
+    pub fn new(name: &'a str, values: impl Into<Values<'a>>) -> Self {
+        Self { name, values: values.into() }
+    }
+}
+
+/// Checks that the arrays have different names and `expected` entries each.
+pub(super) fn check_arrays(path: &Path, arrays: &[DataArray<'_>], expected: usize) -> Result<(), VtkError> {
+    let mut names = HashSet::new();
+    for array in arrays {
+        let (path, name) = (path.to_owned(), array.name.to_owned());
+        if array.values.len() != expected || !array.values.is_whole() {
+            let found = array.values.len();
+            return Err(VtkError::ArrayLength { path, array: name, expected, found });
+        }
+        if !names.insert(array.name) {
+            return Err(VtkError::RepeatedArray { path, array: name });
+        }
+    }
+    Ok(())
+}
