@@ -6,14 +6,14 @@
 //! particles of their small system and the 315,979 ("about 316,000") of their benchmark, one by one. It has
 //! two passes over the cells with z-index k <= 0.2 n_z, both with x outermost and z innermost.
 //!
-//! 1. **Draw.** A cell has [`SLOTS`] slots, of which each domain face that the cell touches takes one. For
-//!    each other slot a number decides whether it is filled (3 in 4 are), and if so three more give the
+//! 1. **Draw.** A cell has 12 slots, of which each domain face that the cell touches takes one. For each
+//!    other slot a number decides whether it is filled (3 in 4 are), and if so three more give the
 //!    particle's place, uniform in the cell.
 //! 2. **Thin out.** In the order in which they were drawn, particles that touch another one still standing,
 //!    or that are within two radii of a domain face, are deleted.
 //!
-//! The second pass is why the result depends on the order: the first of two touching particles goes, the
-//! later one stays.
+//! The second pass depends on the order: of two touching particles the first goes, and the later one stays
+//! unless it touches a third.
 
 mod error;
 mod random;

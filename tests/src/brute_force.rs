@@ -1,13 +1,14 @@
 //! A plain particle code, to compare CADEM with: no cells, no slots, nothing of xca.
 //!
-//! It knows all particles at once, looks for contacts by sweeping along x, and gives each contact's force to both particles with
-//! opposite signs. CADEM finds contacts cell by cell, and each particle computes its own force. So an error in one is not repeated in the
-//! other. The physics is that of De Rango et al., section II: linear springs and dashpots, gravity along -z, spheres of one size.
+//! It knows all particles at once, looks for contacts by sweeping along x, and gives each contact's force to
+//! both particles with opposite signs. CADEM finds contacts cell by cell, and each particle computes its own
+//! force. So an error in one is not repeated in the other. The physics is that of De Rango et al., section
+//! II: linear springs and dashpots, gravity along -z, spheres of one size.
 
 mod vector;
 
-use vector::{add_scaled, difference, dot};
 pub use vector::Vector;
+use vector::{add_scaled, difference, dot};
 
 /// A sphere that can move.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,6 +17,13 @@ pub struct Particle {
     pub position: Vector,
     /// The velocity, in m/s.
     pub velocity: Vector,
+}
+
+impl Particle {
+    /// A particle that does not move.
+    pub fn at_rest(position: Vector) -> Self {
+        Self { position, velocity: [0.0; 3] }
+    }
 }
 
 /// What the particles are made of.
@@ -48,8 +56,12 @@ pub enum Walls {
     Off,
     /// Each face pushes a particle that overlaps it, once.
     Single,
-    /// The law of the authors' program: walls stand one radius inside the box, and each acts through nine of its pieces, those of
-    /// the nine outermost cells around a particle. So spring and dashpot are nine times those of [`Self::Single`].
+    /// The law of the authors' program: walls stand one radius inside the box, and each acts through nine of
+    /// its pieces, those in the nine outermost cells around a particle. So spring and dashpot are nine times
+    /// those of [`Self::Single`].
+    ///
+    /// The program takes distances from walls without a sign. Here they have one, which is the same until a
+    /// centre crosses a wall.
     PerSlot,
 }
 
@@ -69,7 +81,8 @@ impl Walls {
 pub enum Integrator {
     /// v' = v + a dt, x' = x + v' dt.
     SymplecticEuler,
-    /// v' = v + a dt, x' = x + v dt, as De Rango et al. print it. It makes collisions gain energy unless eta > k_n dt.
+    /// v' = v + a dt, x' = x + v dt, as De Rango et al. print it. It makes collisions gain energy unless eta
+    /// > k_n dt.
     ExplicitEuler,
 }
 
@@ -225,9 +238,9 @@ impl BruteForce {
         let radius = self.material.radius;
         let mut contacts = Vec::new();
         for (particle, Particle { position, .. }) in self.particles.iter().enumerate() {
-            for axis in 0..3 {
-                let above_lower = position[axis] - inset * radius;
-                let below_upper = self.side[axis] - inset * radius - position[axis];
+            for (axis, (coordinate, side)) in position.iter().zip(self.side).enumerate() {
+                let above_lower = coordinate - inset * radius;
+                let below_upper = side - inset * radius - coordinate;
                 for (normal, distance) in [(1.0, above_lower), (-1.0, below_upper)] {
                     if distance < radius {
                         contacts.push(WallContact { particle, axis, normal, overlap: radius - distance });

@@ -1,0 +1,2 @@
+pub mod brute_force;
+pub mod restitution;

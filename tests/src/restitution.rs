@@ -4,10 +4,12 @@
 //!
 //! m_eff delta'' + eta delta' + k_n delta = 0, with delta = 0 and delta' = v at first touch,
 //!
-//! where m_eff is half a particle's mass if two particles collide, and the whole mass at a wall. With b = eta / (2 m_eff) and
-//! w = sqrt(k_n / m_eff - b^2) its solution is delta(t) = (v / w) exp(-b t) sin(w t), until delta = 0 again at t = pi / w.
+//! where m_eff is half a particle's mass if two particles collide, and the whole mass at a wall. With b = eta
+//! / (2 m_eff) and w = sqrt(k_n / m_eff - b^2) its solution is delta(t) = (v / w) exp(-b t) sin(w t), until
+//! delta = 0 again at t = pi / w.
 //!
-//! The equation is linear: restitution and contact time do not depend on the impact speed v, and the largest overlap is proportional to it.
+//! The equation is linear: restitution and contact time do not depend on the impact speed v, and the largest
+//! overlap is proportional to it.
 
 use std::f64::consts::PI;
 
@@ -33,10 +35,11 @@ pub struct Spread {
 }
 
 impl Collision {
-    /// A collision of two particles of this mass (in kg), with stiffness k_n (in N/m) and damping eta (in kg/s).
+    /// A collision of two particles of this mass (in kg), with stiffness k_n (in N/m) and damping eta (in
+    /// kg/s).
     ///
-    /// `None` if the bodies would not bounce: if the damping is at or above the critical one, or the numbers are not those of
-    /// a spring, a mass and a dashpot.
+    /// `None` if the bodies would not bounce: if the damping is at or above the critical one, or the numbers
+    /// are not those of a spring, a mass and a dashpot.
     pub fn of_particles(stiffness: f64, damping: f64, mass: f64) -> Option<Self> {
         Self::new(stiffness, damping, mass / 2.0)
     }
@@ -87,8 +90,9 @@ impl Collision {
 
     /// The restitution that an integrator makes of the collision, to rounding.
     ///
-    /// Forces act from the first time step on that starts with an overlap. `phase` is the overlap there in units of impact speed times
-    /// `time_step` (in s), above 0 and at most 1: how much of the time step before the bodies already spent overlapping.
+    /// Forces act from the first time step on that starts with an overlap. `phase`, above 0 and at most 1, is
+    /// that overlap in units of impact speed times `time_step` (in s): the part of the time step before that
+    /// the bodies already spent in contact.
     ///
     /// `None` if the bodies have not parted after a hundred contact times.
     pub fn discrete_restitution(&self, integrator: Integrator, time_step: f64, phase: f64) -> Option<f64> {
@@ -110,7 +114,8 @@ impl Collision {
         None
     }
 
-    /// [`Self::discrete_restitution`] over `phases` phases, in the middle of as many equal parts of a time step.
+    /// [`Self::discrete_restitution`] over `phases` phases, in the middle of as many equal parts of a time
+    /// step.
     ///
     /// `None` if there are no phases, or if some phase has no restitution.
     pub fn spread_of_restitution(
@@ -131,15 +136,16 @@ impl Collision {
     }
 }
 
-/// The overlap (in m) of a particle of this mass (in kg) at rest on a floor of this stiffness (in N/m): m g / k_n.
+/// The overlap (in m) of a particle of this mass (in kg) at rest on a floor of this stiffness (in N/m): m g /
+/// k_n.
 pub fn static_deflection(mass: f64, gravity: f64, stiffness: f64) -> f64 {
     mass * gravity / stiffness
 }
 
 /// How far (in m) a particle has fallen from rest after `steps` steps of an integrator.
 ///
-/// The distance is g dt^2 n (n + 1) / 2 with the symplectic Euler method, and g dt^2 n (n - 1) / 2 with the explicit one; the exact distance
-/// g t^2 / 2 lies between the two.
+/// The distance is g dt^2 n (n + 1) / 2 with the symplectic Euler method, and g dt^2 n (n - 1) / 2 with the
+/// explicit one; the exact distance g t^2 / 2 lies between the two.
 pub fn free_fall(integrator: Integrator, gravity: f64, time_step: f64, steps: u32) -> f64 {
     let n = f64::from(steps);
     let factor = match integrator {
@@ -152,19 +158,122 @@ pub fn free_fall(integrator: Integrator, gravity: f64, time_step: f64, steps: u3
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The parameters of De Rango et al., Table I.
+    const STIFFNESS: f64 = 8000.0;
+    const DAMPING: f64 = 0.0015;
+    const MASS: f64 = 1e-4;
+
+    fn collisions() -> [Collision; 2] {
+        [Collision::of_particles(STIFFNESS, DAMPING, MASS), Collision::with_wall(STIFFNESS, DAMPING, MASS)]
+            .map(|collision| collision.expect("it bounces"))
+    }
+
+    /// The time step of De Rango et al., footnote 4.
+    fn time_step() -> f64 {
+        0.1 * (MASS / STIFFNESS).sqrt()
+    }
+
+    fn spread(collision: Collision, integrator: Integrator, time_step: f64) -> Spread {
+        collision.spread_of_restitution(integrator, time_step, 20_000).expect("it bounces")
+    }
+
+    fn close(found: f64, expected: f64, tolerance: f64) {
+        assert!((found - expected).abs() <= tolerance, "{found:e} is not {expected:e} within {tolerance:e}");
+    }
+
     #[test]
-    fn explore() {
-        let dt = 0.1 * (1e-4f64 / 8000.0).sqrt();
-        for c in [Collision::of_particles(8000.0, 0.0015, 1e-4).unwrap(), Collision::with_wall(8000.0, 0.0015, 1e-4).unwrap()] {
-            println!("{} {} {} {}", c.restitution(), c.contact_time(), c.contact_time() / dt, c.largest_overlap_per_speed());
-            for i in [Integrator::SymplecticEuler, Integrator::ExplicitEuler] {
-                for phases in [100, 400,1000, 10000] {
-                println!("{:?}", c.spread_of_restitution(i, dt, phases));}
-            }
-            for h in [1.0, 2.0, 4.0, 8.0] {
-                let s = c.spread_of_restitution(Integrator::SymplecticEuler, dt / h, 10_000).unwrap();
-                println!("err {}", s.mean - c.restitution());
-            }
+    fn exact_numbers_of_table_1() {
+        let [particles, wall] = collisions();
+        close(particles.restitution(), 0.996_281_458, 5e-10);
+        close(wall.restitution(), 0.997_369_160, 5e-10);
+        close(particles.contact_time(), 2.483_649e-4, 5e-11);
+        close(wall.contact_time(), 3.512_409e-4, 5e-11);
+        close(particles.contact_time() / time_step(), 22.2, 0.05);
+        close(wall.contact_time() / time_step(), 31.4, 0.05);
+        close(particles.largest_overlap_per_speed(), 7.890_993e-5, 5e-12);
+        close(wall.largest_overlap_per_speed(), 1.116_563e-4, 5e-11);
+        close(static_deflection(MASS, 9.81, STIFFNESS), 1.226_25e-7, 1e-15);
+    }
+
+    #[test]
+    fn largest_overlap_is_the_maximum_of_the_solution() {
+        // Far from the weakly damped case, in which any formula near 1 / w would pass.
+        let collision = Collision::with_wall(100.0, 0.15, 1e-4).expect("it bounces");
+        let (b, w) = (collision.decay(), collision.frequency());
+        let overlap = |n: i32| {
+            let t = f64::from(n) / 1e5 * collision.contact_time();
+            (-b * t).exp() * (w * t).sin() / w
+        };
+        let largest = (0..=100_000).map(overlap).fold(0.0, f64::max);
+        close(collision.largest_overlap_per_speed() / largest, 1.0, 1e-8);
+        assert!(largest < 0.6 / w);
+    }
+
+    #[test]
+    fn symplectic_restitution_of_table_1() {
+        let [particles, wall] = collisions();
+        let found = spread(particles, Integrator::SymplecticEuler, time_step());
+        close(found.mean, 0.996_285_4, 2e-7);
+        close(found.least, 0.994_455, 1e-6);
+        close(found.most, 0.997_913, 1e-6);
+        let found = spread(wall, Integrator::SymplecticEuler, time_step());
+        close(found.mean, 0.997_370_9, 2e-7);
+        close(found.least, 0.996_071, 1e-6);
+        close(found.most, 0.998_638, 1e-6);
+    }
+
+    #[test]
+    fn explicit_restitution_of_table_1_is_above_one() {
+        let [particles, wall] = collisions();
+        close(spread(particles, Integrator::ExplicitEuler, time_step()).mean, 1.2432, 5e-5);
+        close(spread(wall, Integrator::ExplicitEuler, time_step()).mean, 1.1667, 5e-5);
+    }
+
+    #[test]
+    fn explicit_restitution_needs_damping_above_stiffness_times_time_step() {
+        let critical = STIFFNESS * time_step();
+        close(critical, 0.0894, 5e-5);
+        for (damping, gains) in [(0.9 * critical, true), (1.1 * critical, false)] {
+            let collision = Collision::with_wall(STIFFNESS, damping, MASS).expect("it bounces");
+            let found = spread(collision, Integrator::ExplicitEuler, time_step());
+            assert_eq!(found.mean > 1.0, gains, "damping {damping}: {found:?}");
         }
+    }
+
+    #[test]
+    fn mean_error_falls_at_least_with_the_second_power_of_the_time_step() {
+        for collision in collisions() {
+            let errors = [1.0, 2.0, 4.0].map(|parts| {
+                let mean = spread(collision, Integrator::SymplecticEuler, time_step() / parts).mean;
+                (mean - collision.restitution()).abs()
+            });
+            assert!(errors[0] < 5e-6, "{errors:?}");
+            assert!(errors[0] / errors[1] > 4.0 && errors[1] / errors[2] > 4.0, "{errors:?}");
+        }
+    }
+
+    #[test]
+    fn free_fall_encloses_the_exact_distance() {
+        let (gravity, time_step, steps) = (9.81, 1e-3, 100);
+        let exact = gravity * 0.1 * 0.1 / 2.0;
+        close(free_fall(Integrator::SymplecticEuler, gravity, time_step, steps), exact * 1.01, 1e-15);
+        close(free_fall(Integrator::ExplicitEuler, gravity, time_step, steps), exact * 0.99, 1e-15);
+    }
+
+    #[test]
+    fn what_does_not_bounce_is_no_collision() {
+        let critical = 2.0 * (STIFFNESS * MASS).sqrt();
+        assert_eq!(Collision::with_wall(STIFFNESS, 1.001 * critical, MASS), None);
+        assert!(Collision::with_wall(STIFFNESS, 0.999 * critical, MASS).is_some());
+        // Two particles have half the mass between them, and less damping is critical.
+        assert_eq!(Collision::of_particles(STIFFNESS, 0.999 * critical, MASS), None);
+        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert_eq!(Collision::with_wall(bad, DAMPING, MASS), None, "stiffness {bad}");
+            assert_eq!(Collision::with_wall(STIFFNESS, DAMPING, bad), None, "mass {bad}");
+        }
+        assert_eq!(Collision::with_wall(STIFFNESS, f64::NAN, MASS), None);
+        let [particles, _] = collisions();
+        assert_eq!(particles.spread_of_restitution(Integrator::SymplecticEuler, time_step(), 0), None);
     }
 }

@@ -152,7 +152,10 @@ pub struct Row<'a> {
 
 impl std::fmt::Debug for Row<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Row").field("origin", &self.origin).field("length", &self.length).finish_non_exhaustive()
+        f.debug_struct("Row")
+            .field("origin", &self.origin)
+            .field("length", &self.length)
+            .finish_non_exhaustive()
     }
 }
 
@@ -332,7 +335,9 @@ impl<'a> Row<'a> {
                 if nearest_image {
                     separation = self.nearest_image(separation);
                 }
-                let near = separation.x * separation.x + separation.y * separation.y + separation.z * separation.z < reach;
+                let near =
+                    separation.x * separation.x + separation.y * separation.y + separation.z * separation.z
+                        < reach;
                 let number = first + index;
                 if near && number != item {
                     found.push(number as u32);
@@ -343,10 +348,7 @@ impl<'a> Row<'a> {
 
     /// The separation by the shorter way round each toroidal axis.
     #[inline]
-    fn nearest_image<R: Float>(
-        &self,
-        separation: Vector3<R>,
-    ) -> Vector3<R> {
+    fn nearest_image<R: Float>(&self, separation: Vector3<R>) -> Vector3<R> {
         let along = |value: R, axis: usize| {
             if !self.frame.toroidal[axis] {
                 return value;
@@ -488,8 +490,11 @@ impl<const K: usize> Offsets<'_, K> {
     /// The offset of the neighbour with this index. Beyond the neighbourhood it is a fault, and the cell itself is read.
     #[inline(always)]
     pub fn at(&self, index: u32, row: &Row<'_>, x: usize) -> isize {
-        let offset =
-            if K > 0 { self.fixed.get(index as usize).copied() } else { self.any.get(index as usize).copied() };
+        let offset = if K > 0 {
+            self.fixed.get(index as usize).copied()
+        } else {
+            self.any.get(index as usize).copied()
+        };
         offset.unwrap_or_else(|| {
             row.beyond_neighbourhood(x, index);
             0

@@ -64,10 +64,8 @@ pub trait Parameters: Clone + fmt::Debug + Send + Sync + 'static {
 }
 
 fn find(schema: &'static Schema, name: &str) -> Result<(usize, ValueType), ParameterError> {
-    schema.field(name).map(|(index, field)| (index, field.value_type)).ok_or_else(|| ParameterError::Unknown {
-        name: name.to_owned(),
-        of: schema.name,
-        known: schema.names(),
+    schema.field(name).map(|(index, field)| (index, field.value_type)).ok_or_else(|| {
+        ParameterError::Unknown { name: name.to_owned(), of: schema.name, known: schema.names() }
     })
 }
 
@@ -138,7 +136,11 @@ impl ParameterValue {
                 if fits { Ok(number) } else { Err(invalid()) }
             })
             .collect::<Result<Vec<_>, _>>()?;
-        if lanes.len() == usize::from(value_type.lanes) { Ok(Self { value_type, lanes }) } else { Err(invalid()) }
+        if lanes.len() == usize::from(value_type.lanes) {
+            Ok(Self { value_type, lanes })
+        } else {
+            Err(invalid())
+        }
     }
 }
 

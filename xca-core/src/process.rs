@@ -63,12 +63,12 @@ impl Process {
 
     /// How it uses the subject's field with this number, all accesses taken together.
     pub fn use_of(&self, of: Of, field: usize) -> (bool, bool, bool) {
-        self.access
-            .iter()
-            .filter(|access| access.of == of && access.field == field)
-            .fold((false, false, false), |(centre, others, write), access| {
+        self.access.iter().filter(|access| access.of == of && access.field == field).fold(
+            (false, false, false),
+            |(centre, others, write), access| {
                 (centre || access.centre, others || access.others, write || access.write)
-            })
+            },
+        )
     }
 
     /// The names of the substates that it writes.

@@ -283,7 +283,9 @@ pub trait HostValue: Copy + Default + PartialEq + fmt::Debug + Send + Sync + 'st
     /// Reads the value back.
     fn decode(stored: StoredType, bytes: &[u8]) -> Self {
         let size = stored.scalar.size();
-        Self::from_lanes(|index| Self::Scalar::decode(stored.scalar, &bytes[index * size..(index + 1) * size]))
+        Self::from_lanes(|index| {
+            Self::Scalar::decode(stored.scalar, &bytes[index * size..(index + 1) * size])
+        })
     }
 }
 

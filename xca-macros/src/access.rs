@@ -1,6 +1,8 @@
 //! Which substates a body reads and writes, and where.
 
-use crate::ast::{Block, Expression, Function, FunctionKind, Place, PlaceRoot, Projection, Reach, Role, Statement};
+use crate::ast::{
+    Block, Expression, Function, FunctionKind, Place, PlaceRoot, Projection, Reach, Role, Statement,
+};
 use syn::{Ident, Type};
 
 /// How a body uses one substate.
@@ -39,7 +41,13 @@ impl Uses {
     fn entry(&mut self, field: &Ident, group: GroupOf) -> &mut Access {
         let known = self.accesses.iter().position(|access| access.group == group && access.field == *field);
         let index = known.unwrap_or_else(|| {
-            self.accesses.push(Access { field: field.clone(), group, centre: false, others: false, write: false });
+            self.accesses.push(Access {
+                field: field.clone(),
+                group,
+                centre: false,
+                others: false,
+                write: false,
+            });
             self.accesses.len() - 1
         });
         &mut self.accesses[index]
@@ -135,12 +143,16 @@ impl Uses {
             Expression::Unary(_, value) | Expression::Cast(value, _) | Expression::Repeat(value, _) => {
                 self.expression(value, over_cells);
             }
-            Expression::Component(value, _) | Expression::Splat(_, value) => self.expression(value, over_cells),
+            Expression::Component(value, _) | Expression::Splat(_, value) => {
+                self.expression(value, over_cells)
+            }
             Expression::Binary(_, left, right) | Expression::Element(left, right) => {
                 self.expression(left, over_cells);
                 self.expression(right, over_cells);
             }
-            Expression::Call { arguments, .. } | Expression::Array(arguments, _) | Expression::Vector(_, arguments) => {
+            Expression::Call { arguments, .. }
+            | Expression::Array(arguments, _)
+            | Expression::Vector(_, arguments) => {
                 arguments.iter().for_each(|argument| self.expression(argument, over_cells));
             }
             Expression::Method { receiver, arguments, .. } => {

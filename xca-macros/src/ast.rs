@@ -95,9 +95,18 @@ pub(crate) enum Expression {
     Constant(Path),
     Own(Ident),
     CellOfItem(Ident),
-    Neighbour { index: Box<Expression>, field: Ident },
-    NamedNeighbour { name: Ident, field: Ident },
-    Other { name: Ident, field: Ident },
+    Neighbour {
+        index: Box<Expression>,
+        field: Ident,
+    },
+    NamedNeighbour {
+        name: Ident,
+        field: Ident,
+    },
+    Other {
+        name: Ident,
+        field: Ident,
+    },
     OtherLabel(Ident),
     Parameter(Ident),
     /// The parameters argument as a whole, passed to a helper.
@@ -108,9 +117,16 @@ pub(crate) enum Expression {
     Unary(syn::UnOp, Box<Expression>),
     Binary(syn::BinOp, Box<Expression>, Box<Expression>),
     Cast(Box<Expression>, Type),
-    Call { function: Path, arguments: Vec<Expression> },
+    Call {
+        function: Path,
+        arguments: Vec<Expression>,
+    },
     /// The method's name is one that `parse` knows.
-    Method { method: Ident, receiver: Box<Expression>, arguments: Vec<Expression> },
+    Method {
+        method: Ident,
+        receiver: Box<Expression>,
+        arguments: Vec<Expression>,
+    },
     Component(Box<Expression>, Ident),
     Element(Box<Expression>, Box<Expression>),
     Array(Vec<Expression>, Span),
@@ -120,8 +136,17 @@ pub(crate) enum Expression {
     Vector(Ident, Vec<Expression>),
     /// `Vector3::splat(a)`: the path's type segment and the value.
     Splat(Ident, Box<Expression>),
-    If { condition: Box<Expression>, then: Block, otherwise: Option<Block>, span: Span },
-    Match { value: Box<Expression>, arms: Vec<Arm>, span: Span },
+    If {
+        condition: Box<Expression>,
+        then: Block,
+        otherwise: Option<Block>,
+        span: Span,
+    },
+    Match {
+        value: Box<Expression>,
+        arms: Vec<Arm>,
+        span: Span,
+    },
     Block(Block),
 }
 

@@ -3,7 +3,9 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use syn::spanned::Spanned;
-use syn::{Data, DeriveInput, Error, Fields, GenericArgument, Ident, PathArguments, Result, Type, Visibility};
+use syn::{
+    Data, DeriveInput, Error, Fields, GenericArgument, Ident, PathArguments, Result, Type, Visibility,
+};
 
 struct Field {
     name: Ident,
@@ -31,7 +33,10 @@ pub(crate) const POSITION: &str = "#position";
 
 fn fields(item: &DeriveInput) -> Result<Vec<Field>> {
     if !item.generics.params.is_empty() {
-        return Err(Error::new_spanned(&item.generics, "this struct cannot be generic; write `Real` for the floating type"));
+        return Err(Error::new_spanned(
+            &item.generics,
+            "this struct cannot be generic; write `Real` for the floating type",
+        ));
     }
     let Data::Struct(data) = &item.data else {
         return Err(Error::new_spanned(&item.ident, "derive this for a struct whose fields are the values"));
@@ -131,7 +136,8 @@ fn replace_real(tokens: TokenStream, real: &TokenStream) -> TokenStream {
         .flat_map(|token| match token {
             proc_macro2::TokenTree::Ident(ident) if ident == "Real" => real.clone(),
             proc_macro2::TokenTree::Group(group) => {
-                let mut replaced = proc_macro2::Group::new(group.delimiter(), replace_real(group.stream(), real));
+                let mut replaced =
+                    proc_macro2::Group::new(group.delimiter(), replace_real(group.stream(), real));
                 replaced.set_span(group.span());
                 proc_macro2::TokenTree::Group(replaced).into()
             }
@@ -165,7 +171,8 @@ pub(crate) fn substates(item: &DeriveInput) -> Result<TokenStream> {
         let handle = format_ident!("{}", field.name.to_string().to_uppercase(), span = field.name.span());
         let (visibility, type_, documentation) = (&field.visibility, &field.type_, &field.documentation);
         let about = format!("The name of the substate `{}` for the host.", field.name);
-        let about = if documentation.is_empty() { quote!(#[doc = #about]) } else { quote!(#(#documentation)*) };
+        let about =
+            if documentation.is_empty() { quote!(#[doc = #about]) } else { quote!(#(#documentation)*) };
         handles.extend(quote! {
             #about
             #[allow(dead_code)]

@@ -41,7 +41,8 @@ fn process(function: &Function, original: &syn::ItemFn) -> Result<TokenStream> {
     let data = crate::data::function(function)?;
     let uses = Uses::of(function);
     let (name, visibility) = (&function.name, &function.visibility);
-    let documentation: Vec<_> = function.attributes.iter().filter(|attribute| attribute.path().is_ident("doc")).collect();
+    let documentation: Vec<_> =
+        function.attributes.iter().filter(|attribute| attribute.path().is_ident("doc")).collect();
     let text = name.to_string();
     let kind = match function.kind {
         FunctionKind::Cells => quote!(Cells),

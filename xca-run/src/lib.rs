@@ -9,5 +9,6 @@
 //! These three work on plain data (slices of numbers) and know nothing of models and engines.
 
 pub mod interrupt;
+mod numbers;
 pub mod output;
 pub mod progress;

@@ -1,1 +1,267 @@
-//! p
+//! What a run shows of itself: a line while it goes on, a table at its end.
+
+use std::fmt::Write as _;
+use std::io::IsTerminal;
+use std::time::Duration;
+
+use comfy_table::{CellAlignment, Table, presets};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+
+use crate::numbers::significant;
+
+/// The line that shows how far a run has come: steps done and to do, steps a second, time left.
+///
+/// It goes to stderr, and only if that is a terminal. A run whose end is not known (it ends at a criterion) shows no
+/// time left.
+///
+/// ```
+/// use xca_run::progress::Progress;
+///
+/// let progress = Progress::new(Some(1000));
+/// for step in 1..=1000 {
+///     // ... the step ...
+///     progress.at(step);
+/// }
+/// progress.finish();
+/// ```
+#[derive(Debug)]
+pub struct Progress {
+    bar: ProgressBar,
+}
+
+impl Progress {
+    /// A line for a run of `total` steps, or of an unknown number.
+    #[must_use]
+    pub fn new(total: Option<u64>) -> Self {
+        if std::io::stderr().is_terminal() {
+            Self::on(total, ProgressDrawTarget::stderr_with_hz(10))
+        } else {
+            Self::hidden()
+        }
+    }
+
+    /// A line that no one sees.
+    #[must_use]
+    pub fn hidden() -> Self {
+        Self::on(None, ProgressDrawTarget::hidden())
+    }
+
+    fn on(total: Option<u64>, target: ProgressDrawTarget) -> Self {
+        let bar = ProgressBar::with_draw_target(total, target);
+        let template = if total.is_some() {
+            "{bar:32} {pos}/{len} steps, {rate}, {left} left  {msg}"
+        } else {
+            "{spinner} {pos} steps, {rate}, {elapsed}  {msg}"
+        };
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(
+                style
+                    .progress_chars("━╸─")
+                    .with_key("rate", |state: &ProgressState, out: &mut dyn std::fmt::Write| {
+                        let _ = out.write_str(&rate_text(state.per_sec()));
+                    })
+                    .with_key("left", |state: &ProgressState, out: &mut dyn std::fmt::Write| {
+                        let _ = out.write_str(&duration_text(state.eta()));
+                    })
+                    .with_key("elapsed", |state: &ProgressState, out: &mut dyn std::fmt::Write| {
+                        let _ = out.write_str(&duration_text(state.elapsed()));
+                    }),
+            );
+        }
+        Self { bar }
+    }
+
+    /// `steps` are done. May be called after every step: the line itself is redrawn ten times a second at most.
+    pub fn at(&self, steps: u64) {
+        self.bar.set_position(steps);
+    }
+
+    /// Shows a text at the end of the line, such as what is being written.
+    pub fn message(&self, text: &str) {
+        self.bar.set_message(text.to_owned());
+    }
+
+    /// Does `work`, which prints, with the line out of the way.
+    pub fn suspend<R>(&self, work: impl FnOnce() -> R) -> R {
+        self.bar.suspend(work)
+    }
+
+    /// Leaves the line as it is and ends it; the next output starts on a line of its own.
+    pub fn finish(&self) {
+        self.bar.abandon();
+    }
+}
+
+/// A rate for people: `1.23e6`, `812.4` or `0.51` steps a second; below one in ten seconds, the seconds a step.
+#[must_use]
+pub fn rate_text(steps_per_second: f64) -> String {
+    match steps_per_second {
+        rate if !rate.is_finite() || rate <= 0.0 => "- steps/s".to_owned(),
+        rate if rate < 0.1 => format!("{} s/step", significant(1.0 / rate, 3)),
+        rate if rate < 1e6 => format!("{} steps/s", significant(rate, if rate < 100.0 { 3 } else { 4 })),
+        rate => format!("{rate:.2e} steps/s"),
+    }
+}
+
+/// A duration for people: `0.8 s`, `42 s`, `3 min 05 s`, `2 h 07 min` or `4 d 03 h`.
+#[must_use]
+pub fn duration_text(duration: Duration) -> String {
+    let seconds = duration.as_secs();
+    match seconds {
+        0..10 => format!("{:.1} s", duration.as_secs_f64()),
+        10..60 => format!("{seconds} s"),
+        60..3600 => format!("{} min {:02} s", seconds / 60, seconds % 60),
+        3600..86_400 => format!("{} h {:02} min", seconds / 3600, seconds / 60 % 60),
+        _ => format!("{} d {:02} h", seconds / 86_400, seconds / 3600 % 24),
+    }
+}
+
+/// One line of the table at the end of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Diagnostic {
+    /// The quantity, such as `kinetic energy`.
+    pub name: String,
+    /// Its unit, such as `J`; empty for a number.
+    pub unit: String,
+    /// Its value before the first step; `None` if it was not measured.
+    pub initial: Option<f64>,
+    /// Its value after the last step; `None` if it was not measured.
+    pub last: Option<f64>,
+}
+
+/// The table of diagnostics, ready to be printed: quantity, unit, initial and final value to six significant digits.
+/// Lines do not end in blanks; there is no line end after the last.
+#[must_use]
+pub fn summary(diagnostics: &[Diagnostic]) -> String {
+    let mut table = Table::new();
+    table.load_style(presets::UTF8_HORIZONTAL_ONLY);
+    table.set_header(["quantity", "unit", "initial", "final"]);
+    let text = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| significant(value, 6));
+    for Diagnostic { name, unit, initial, last } in diagnostics {
+        table.add_row([name.clone(), unit.clone(), text(*initial), text(*last)]);
+    }
+    for column in [2, 3] {
+        if let Some(column) = table.column_mut(column) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+    }
+    let mut out = String::new();
+    for line in table.lines() {
+        // Writing to a string cannot fail.
+        let _ = write!(out, "{}{}", if out.is_empty() { "" } else { "\n" }, line.trim_end());
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use indicatif::TermLike;
+    use std::io;
+    use std::sync::{Arc, Mutex};
+
+    /// A terminal that keeps what is written to it.
+    #[derive(Debug, Clone, Default)]
+    struct Paper(Arc<Mutex<String>>);
+
+    impl TermLike for Paper {
+        fn width(&self) -> u16 {
+            100
+        }
+        fn move_cursor_up(&self, _: usize) -> io::Result<()> {
+            Ok(())
+        }
+        fn move_cursor_down(&self, _: usize) -> io::Result<()> {
+            Ok(())
+        }
+        fn move_cursor_right(&self, _: usize) -> io::Result<()> {
+            Ok(())
+        }
+        fn move_cursor_left(&self, _: usize) -> io::Result<()> {
+            Ok(())
+        }
+        fn write_line(&self, text: &str) -> io::Result<()> {
+            self.write_str(&format!("{text}\n"))
+        }
+        fn write_str(&self, text: &str) -> io::Result<()> {
+            self.0.lock().unwrap().push_str(text);
+            Ok(())
+        }
+        fn clear_line(&self) -> io::Result<()> {
+            self.write_str("\r")
+        }
+        fn flush(&self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn the_line_shows_steps_rate_and_time_left() {
+        let paper = Paper::default();
+        let progress = Progress::on(Some(200), ProgressDrawTarget::term_like(Box::new(paper.clone())));
+        progress.at(50);
+        progress.message("writing");
+        progress.at(100);
+        progress.finish();
+        let text = paper.0.lock().unwrap().clone();
+        let line = text.rsplit('\r').find(|line| !line.trim().is_empty()).unwrap();
+        assert!(line.contains("100/200 steps, "), "{text}");
+        assert!(line.contains(" steps/s, ") && line.contains(" left  writing"), "{line}");
+        let spinner = Progress::on(None, ProgressDrawTarget::term_like(Box::new(paper.clone())));
+        spinner.at(7);
+        spinner.finish();
+        assert!(paper.0.lock().unwrap().contains(" 7 steps, "));
+    }
+
+    #[test]
+    fn a_hidden_line_is_no_trouble() {
+        let progress = Progress::hidden();
+        progress.at(3);
+        assert_eq!(progress.suspend(|| 7), 7);
+        progress.finish();
+    }
+
+    #[test]
+    fn rates_and_durations_are_short() {
+        for (rate, text) in [
+            (1.0e7, "1.00e7 steps/s"),
+            (812.36, "812.4 steps/s"),
+            (4.5678, "4.57 steps/s"),
+            (0.025, "40 s/step"),
+            (0.0, "- steps/s"),
+            (f64::INFINITY, "- steps/s"),
+        ] {
+            assert_eq!(rate_text(rate), text);
+        }
+        for (seconds, text) in [
+            (0.81, "0.8 s"),
+            (42.9, "42 s"),
+            (185.0, "3 min 05 s"),
+            (7620.0, "2 h 07 min"),
+            (86_400.0 * 4.0 + 3.0 * 3600.0, "4 d 03 h"),
+        ] {
+            assert_eq!(duration_text(Duration::from_secs_f64(seconds)), text);
+        }
+    }
+
+    #[test]
+    fn the_table_is_aligned() {
+        let line = |name: &str, unit: &str, initial, last| Diagnostic {
+            name: name.to_owned(),
+            unit: unit.to_owned(),
+            initial,
+            last,
+        };
+        let table = summary(&[
+            line("particles", "", Some(2602.0), Some(2602.0)),
+            line("kinetic energy", "J", Some(0.0), Some(0.011_240_501)),
+            line("largest overlap", "m", None, Some(1.2345678e-7)),
+        ]);
+        let expected = "
+──────────────────────────────────────────────────────
+ quantity          unit   initial          final
+══════════════════════════════════════════════════════
+";
+        assert_eq!(table, expected);
+    }
+}

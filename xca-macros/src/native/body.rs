@@ -3,7 +3,8 @@
 use super::hidden;
 use crate::access::GroupOf;
 use crate::ast::{
-    Block, Builtin, Expression, Function, FunctionKind, Pattern, Place, PlaceRoot, Projection, Reach, Statement,
+    Block, Builtin, Expression, Function, FunctionKind, Pattern, Place, PlaceRoot, Projection, Reach,
+    Statement,
 };
 use crate::fields::with_real;
 use proc_macro2::{Ident, Span, TokenStream};
@@ -62,7 +63,8 @@ impl<'a> Writer<'a> {
     }
 
     pub(super) fn block(&mut self, block: &Block) -> TokenStream {
-        let statements: Vec<TokenStream> = block.statements.iter().map(|statement| self.statement(statement)).collect();
+        let statements: Vec<TokenStream> =
+            block.statements.iter().map(|statement| self.statement(statement)).collect();
         let value = block.value.as_ref().map(|value| self.expression(value));
         quote!({ #(#statements)* #value })
     }
@@ -108,7 +110,9 @@ impl<'a> Writer<'a> {
                 let dots = if *inclusive { quote!(..=) } else { quote!(..) };
                 quote!(for #variable in #from #dots #to #body)
             }
-            Statement::ForOthers { variable, reach, radius, body } => self.for_others(variable, *reach, radius.as_ref(), body),
+            Statement::ForOthers { variable, reach, radius, body } => {
+                self.for_others(variable, *reach, radius.as_ref(), body)
+            }
             Statement::ForItems { variable, body } => {
                 let (row, x) = (self.name("row"), self.name("x"));
                 let body = self.block(body);
@@ -138,7 +142,13 @@ impl<'a> Writer<'a> {
         }
     }
 
-    fn for_others(&mut self, variable: &Ident, reach: Reach, radius: Option<&Expression>, body: &Block) -> TokenStream {
+    fn for_others(
+        &mut self,
+        variable: &Ident,
+        reach: Reach,
+        radius: Option<&Expression>,
+        body: &Block,
+    ) -> TokenStream {
         let [row, x, item] = ["row", "x", "item"].map(|name| self.name(name));
         let number = match reach {
             Reach::Cell => quote!(0),

@@ -28,8 +28,8 @@ const METHODS: [(&str, usize); 16] = [
 
 /// Methods of Rust's floats whose bits differ from machine to machine.
 const INEXACT: [&str; 22] = [
-    "exp", "exp2", "exp_m1", "ln", "ln_1p", "log", "log2", "log10", "powf", "powi", "sin", "cos", "tan", "asin", "acos",
-    "atan", "atan2", "sinh", "cosh", "tanh", "cbrt", "hypot",
+    "exp", "exp2", "exp_m1", "ln", "ln_1p", "log", "log2", "log10", "powf", "powi", "sin", "cos", "tan",
+    "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "cbrt", "hypot",
 ];
 
 impl Scope {
@@ -44,23 +44,30 @@ impl Scope {
                 UnOp::Neg(_) | UnOp::Not(_) => {
                     Ok(Expression::Unary(unary.op, Box::new(self.expression(&unary.expr)?)))
                 }
-                _ => Err(Error::new_spanned(unary, "there are no references in a process: use the value itself")),
+                _ => Err(Error::new_spanned(
+                    unary,
+                    "there are no references in a process: use the value itself",
+                )),
             },
-            Expr::Binary(binary) if is_assignment(&binary.op) => {
-                Err(Error::new_spanned(binary, "an assignment has no value; write it as a statement of its own"))
-            }
+            Expr::Binary(binary) if is_assignment(&binary.op) => Err(Error::new_spanned(
+                binary,
+                "an assignment has no value; write it as a statement of its own",
+            )),
             Expr::Binary(binary) => {
                 let left = self.expression(&binary.left);
                 let right = self.expression(&binary.right)?;
                 Ok(Expression::Binary(binary.op, Box::new(left?), Box::new(right)))
             }
-            Expr::Cast(cast) => Ok(Expression::Cast(Box::new(self.expression(&cast.expr)?), (*cast.ty).clone())),
+            Expr::Cast(cast) => {
+                Ok(Expression::Cast(Box::new(self.expression(&cast.expr)?), (*cast.ty).clone()))
+            }
             Expr::Index(index) => {
                 let array = self.expression(&index.expr)?;
                 Ok(Expression::Element(Box::new(array), Box::new(self.expression(&index.index)?)))
             }
             Expr::Array(array) => {
-                let elements = array.elems.iter().map(|element| self.expression(element)).collect::<Result<_>>()?;
+                let elements =
+                    array.elems.iter().map(|element| self.expression(element)).collect::<Result<_>>()?;
                 Ok(Expression::Array(elements, array.span()))
             }
             Expr::Repeat(repeat) => {
@@ -133,7 +140,8 @@ impl Scope {
         if path.qself.is_some() {
             return Err(Error::new_spanned(path, "give the constant a plain path"));
         }
-        let segments: Vec<String> = path.path.segments.iter().map(|segment| segment.ident.to_string()).collect();
+        let segments: Vec<String> =
+            path.path.segments.iter().map(|segment| segment.ident.to_string()).collect();
         if let [.., type_, variant] = segments.as_slice()
             && type_ == "Destination"
         {
@@ -163,7 +171,10 @@ impl Scope {
 
     fn field(&mut self, field: &syn::ExprField) -> Result<Expression> {
         let Member::Named(member) = &field.member else {
-            return Err(Error::new_spanned(&field.member, "tuples are not part of a process; use variables or a small vector"));
+            return Err(Error::new_spanned(
+                &field.member,
+                "tuples are not part of a process; use variables or a small vector",
+            ));
         };
         let member = member.clone();
         if let Expr::Path(path) = strip(&field.base)
@@ -173,13 +184,21 @@ impl Scope {
                 Some(Binding::Subject) => return Ok(Expression::Own(member)),
                 Some(Binding::CellOfItem) => return Ok(Expression::CellOfItem(member)),
                 Some(Binding::Parameters) => return Ok(Expression::Parameter(member)),
-                Some(Binding::Neighbour) => return Ok(Expression::NamedNeighbour { name: name.clone(), field: member }),
+                Some(Binding::Neighbour) => {
+                    return Ok(Expression::NamedNeighbour { name: name.clone(), field: member });
+                }
                 Some(Binding::Other) => return Ok(Expression::Other { name: name.clone(), field: member }),
                 Some(Binding::Slots) => {
-                    return Err(Error::new_spanned(field, format!("go through the items: `for item in {name} {{ … }}`")));
+                    return Err(Error::new_spanned(
+                        field,
+                        format!("go through the items: `for item in {name} {{ … }}`"),
+                    ));
                 }
                 Some(Binding::Space) => {
-                    return Err(Error::new_spanned(&field.member, "the space has side(), extents(), step() and cell_containing(position)"));
+                    return Err(Error::new_spanned(
+                        &field.member,
+                        "the space has side(), extents(), step() and cell_containing(position)",
+                    ));
                 }
                 Some(Binding::Value) | None => {}
             }
@@ -207,7 +226,10 @@ impl Scope {
         }
         match call.args.first() {
             Some(index) if call.args.len() == 1 => self.expression(index),
-            _ => Err(Error::new_spanned(call, "give the index of the neighbour: `cell.neighbour(n)`, with 0 for the cell itself")),
+            _ => Err(Error::new_spanned(
+                call,
+                "give the index of the neighbour: `cell.neighbour(n)`, with 0 for the cell itself",
+            )),
         }
     }
 
@@ -230,7 +252,12 @@ impl Scope {
                 };
             }
             Some(Binding::Value) | None => {}
-            Some(_) => return Err(Error::new_spanned(&call.method, "this has no methods in a process; use its fields")),
+            Some(_) => {
+                return Err(Error::new_spanned(
+                    &call.method,
+                    "this has no methods in a process; use its fields",
+                ));
+            }
         }
         let method = call.method.to_string();
         if INEXACT.contains(&method.as_str()) {
@@ -243,10 +270,16 @@ impl Scope {
             ));
         }
         if method == "round" {
-            return Err(Error::new_spanned(&call.method, "round differs between engines at halves; write (value + 0.5).floor()"));
+            return Err(Error::new_spanned(
+                &call.method,
+                "round differs between engines at halves; write (value + 0.5).floor()",
+            ));
         }
         if method == "mul_add" {
-            return Err(Error::new_spanned(&call.method, "fused operations differ between engines; write a * b + c"));
+            return Err(Error::new_spanned(
+                &call.method,
+                "fused operations differ between engines; write a * b + c",
+            ));
         }
         let Some((_, count)) = METHODS.iter().find(|(known, _)| *known == method) else {
             return Err(Error::new_spanned(
@@ -280,9 +313,14 @@ impl Scope {
                     "read a substate of the neighbour, `cell.neighbour(n).substate`, or name it: `let other = cell.neighbour(n);`",
                 ));
             }
-            "fault" => return Err(Error::new_spanned(call, "`fault` is a statement: `cell.fault(code, value);`")),
+            "fault" => {
+                return Err(Error::new_spanned(call, "`fault` is a statement: `cell.fault(code, value);`"));
+            }
             _ if method.starts_with("others") => {
-                return Err(Error::new_spanned(call, "searches are for loops: `for other in me.others_within(radius) { … }`"));
+                return Err(Error::new_spanned(
+                    call,
+                    "searches are for loops: `for other in me.others_within(radius) { … }`",
+                ));
             }
             _ => {
                 return Err(Error::new_spanned(
@@ -305,10 +343,16 @@ impl Scope {
             "step" => (Builtin::Step, 0),
             "cell_containing" if self.kind == FunctionKind::Migration => (Builtin::CellContaining, 1),
             "cell_containing" => {
-                return Err(Error::new_spanned(&call.method, "only a #[migration] asks which cell contains a position"));
+                return Err(Error::new_spanned(
+                    &call.method,
+                    "only a #[migration] asks which cell contains a position",
+                ));
             }
             _ => {
-                return Err(Error::new_spanned(&call.method, "the space has side(), extents(), step() and cell_containing(position)"));
+                return Err(Error::new_spanned(
+                    &call.method,
+                    "the space has side(), extents(), step() and cell_containing(position)",
+                ));
             }
         };
         self.builtin(builtin, count, call)
@@ -337,9 +381,14 @@ impl Scope {
         if let [only] = segments.as_slice()
             && only.ident.to_string().starts_with(char::is_uppercase)
         {
-            return Err(Error::new_spanned(call, "only small vectors can be made in a process: `Vector3::new(x, y, z)`"));
+            return Err(Error::new_spanned(
+                call,
+                "only small vectors can be made in a process: `Vector3::new(x, y, z)`",
+            ));
         }
-        if segments.len() > 1 && segments[segments.len() - 2].ident.to_string().starts_with(char::is_uppercase) {
+        if segments.len() > 1
+            && segments[segments.len() - 2].ident.to_string().starts_with(char::is_uppercase)
+        {
             return Err(Error::new_spanned(
                 &call.func,
                 "associated functions cannot be called in a process; write a free function marked #[helper]",
@@ -348,20 +397,31 @@ impl Scope {
         if let Some(name) = function.path.get_ident()
             && self.binding(name).is_some()
         {
-            return Err(Error::new_spanned(name, "this is no function; helpers are free functions marked #[helper]"));
+            return Err(Error::new_spanned(
+                name,
+                "this is no function; helpers are free functions marked #[helper]",
+            ));
         }
         Ok(Expression::Call { function: function.path.clone(), arguments })
     }
 
     fn argument(&mut self, argument: &Expr) -> Result<Expression> {
         if let Expr::Reference(reference) = strip(argument) {
-            return Err(Error::new_spanned(reference, "pass the value itself; parameters and space are references already"));
+            return Err(Error::new_spanned(
+                reference,
+                "pass the value itself; parameters and space are references already",
+            ));
         }
         self.expression(argument)
     }
 }
 
-fn vector(type_: &Ident, method: &Ident, mut arguments: Vec<Expression>, call: &syn::ExprCall) -> Result<Expression> {
+fn vector(
+    type_: &Ident,
+    method: &Ident,
+    mut arguments: Vec<Expression>,
+    call: &syn::ExprCall,
+) -> Result<Expression> {
     let lanes = match type_.to_string().as_str() {
         "Vector2" => 2,
         "Vector3" => 3,
@@ -376,7 +436,10 @@ fn vector(type_: &Ident, method: &Ident, mut arguments: Vec<Expression>, call: &
     {
         return Ok(Expression::Splat(type_.clone(), Box::new(value)));
     }
-    Err(Error::new_spanned(call, format!("make a vector by `{type_}::new` with {lanes} components or by `{type_}::splat(value)`")))
+    Err(Error::new_spanned(
+        call,
+        format!("make a vector by `{type_}::new` with {lanes} components or by `{type_}::splat(value)`"),
+    ))
 }
 
 fn literal_expression(literal: &Lit) -> Result<Expression> {
@@ -407,7 +470,10 @@ fn patterns(pattern: &Pat) -> Result<Vec<Pattern>> {
 
 fn single_pattern(pattern: &Pat) -> Result<Pattern> {
     let unsupported = || {
-        Error::new_spanned(pattern, "patterns in a process are integers, constants, ranges of integers `a..=b`, and `_`")
+        Error::new_spanned(
+            pattern,
+            "patterns in a process are integers, constants, ranges of integers `a..=b`, and `_`",
+        )
     };
     match pattern {
         Pat::Lit(literal) => match &literal.lit {
@@ -415,7 +481,9 @@ fn single_pattern(pattern: &Pat) -> Result<Pattern> {
             Lit::Int(_) | Lit::Bool(_) => Ok(Pattern::Literal(literal.lit.clone(), false)),
             _ => Err(unsupported()),
         },
-        Pat::Ident(name) if name.ident.to_string().starts_with(char::is_uppercase) && name.subpat.is_none() => {
+        Pat::Ident(name)
+            if name.ident.to_string().starts_with(char::is_uppercase) && name.subpat.is_none() =>
+        {
             Ok(Pattern::Constant(name.ident.clone().into()))
         }
         Pat::Path(path) => Ok(Pattern::Constant(path.path.clone())),
@@ -450,7 +518,9 @@ fn integer(expression: &Expr) -> Option<(syn::LitInt, bool)> {
             Lit::Int(value) => Some((value.clone(), false)),
             _ => None,
         },
-        Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => integer(&unary.expr).map(|(value, sign)| (value, !sign)),
+        Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => {
+            integer(&unary.expr).map(|(value, sign)| (value, !sign))
+        }
         _ => None,
     }
 }
@@ -475,18 +545,26 @@ fn is_assignment(operator: &BinOp) -> bool {
 fn refused(expression: &Expr) -> Error {
     let advice = match expression {
         Expr::Macro(call) => return macro_call(&call.mac),
-        Expr::Closure(_) => "closures are not part of a process; write the code in place or as a function marked #[helper]",
+        Expr::Closure(_) => {
+            "closures are not part of a process; write the code in place or as a function marked #[helper]"
+        }
         Expr::Reference(_) | Expr::RawAddr(_) => "there are no references in a process: use the value itself",
         Expr::Tuple(_) => "tuples are not part of a process; use variables, a small vector or an array",
         Expr::Struct(_) => "structs cannot be made in a process; assign the substates one by one",
         Expr::Range(_) => "a range stands only in `for i in a..b`",
         Expr::Let(_) => "`if let` is not part of a process; compare with `if` or `match`",
         Expr::Unsafe(_) => "unsafe code is not part of a process",
-        Expr::Try(_) => "`?` is not part of a process; report an impossible state by `cell.fault(code, value);`",
-        Expr::Await(_) | Expr::Async(_) => "asynchronous code is not part of a process",
-        Expr::Assign(_) | Expr::While(_) | Expr::Loop(_) | Expr::ForLoop(_) | Expr::Break(_) | Expr::Continue(_) | Expr::Return(_) => {
-            "this has no value; write it as a statement of its own"
+        Expr::Try(_) => {
+            "`?` is not part of a process; report an impossible state by `cell.fault(code, value);`"
         }
+        Expr::Await(_) | Expr::Async(_) => "asynchronous code is not part of a process",
+        Expr::Assign(_)
+        | Expr::While(_)
+        | Expr::Loop(_)
+        | Expr::ForLoop(_)
+        | Expr::Break(_)
+        | Expr::Continue(_)
+        | Expr::Return(_) => "this has no value; write it as a statement of its own",
         Expr::Block(_) => "blocks have no labels in a process",
         _ => "this is not part of the Rust that a process can use",
     };

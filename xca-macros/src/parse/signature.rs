@@ -36,7 +36,10 @@ pub(super) fn parse(item: &syn::ItemFn, wanted: Wanted) -> Result<Signature> {
             ));
         }
         (ReturnType::Default, FunctionKind::Migration) => {
-            return Err(Error::new_spanned(&signature.ident, "a migration returns where the item goes: add `-> Destination`"));
+            return Err(Error::new_spanned(
+                &signature.ident,
+                "a migration returns where the item goes: add `-> Destination`",
+            ));
         }
         (ReturnType::Type(_, type_), FunctionKind::Migration) => {
             if last_segment(type_).is_none_or(|segment| segment.ident != "Destination") {
@@ -68,9 +71,10 @@ fn kind(item: &syn::ItemFn, wanted: Wanted, arguments: &[Argument]) -> Result<Fu
             "the first argument of an elementary process is `cell: &mut Cell<Substates>`, or `me: &mut Slot<Substates>` for a \
              process over the items of a population",
         )),
-        (Wanted::Migration, _) => {
-            Err(Error::new_spanned(&item.sig.ident, "the first argument of a migration is `me: &Slot<Substates>`"))
-        }
+        (Wanted::Migration, _) => Err(Error::new_spanned(
+            &item.sig.ident,
+            "the first argument of a migration is `me: &Slot<Substates>`",
+        )),
     }
 }
 
@@ -78,7 +82,9 @@ fn check_companions(kind: FunctionKind, arguments: &[Argument], name: &syn::Iden
     let mut seen: Vec<&'static str> = Vec::new();
     for (position, argument) in arguments.iter().enumerate() {
         let (word, fits) = match &argument.role {
-            Role::Cell(_) => ("Cell", position == 0 || matches!(kind, FunctionKind::Items | FunctionKind::Migration)),
+            Role::Cell(_) => {
+                ("Cell", position == 0 || matches!(kind, FunctionKind::Items | FunctionKind::Migration))
+            }
             Role::Slot(_) => ("Slot", position == 0),
             Role::Slots(_) => ("Slots", kind == FunctionKind::Cells),
             Role::Parameters(_) => ("parameters", true),
@@ -94,7 +100,9 @@ fn check_companions(kind: FunctionKind, arguments: &[Argument], name: &syn::Iden
         if !fits || seen.contains(&word) {
             return Err(Error::new_spanned(
                 &argument.name,
-                format!("`{name}` cannot take this {word} argument here; it takes one cell or item, and at most one each of parameters, space, and companion"),
+                format!(
+                    "`{name}` cannot take this {word} argument here; it takes one cell or item, and at most one each of parameters, space, and companion"
+                ),
             ));
         }
         seen.push(word);
@@ -142,11 +150,15 @@ fn referenced(reference: &syn::TypeReference, position: usize, wanted: Wanted) -
         "Space" => Role::Space,
         _ => Role::Parameters((*reference.elem).clone()),
     };
-    let wants_mutable = position == 0 && wanted == Wanted::Process && matches!(role, Role::Cell(_) | Role::Slot(_));
+    let wants_mutable =
+        position == 0 && wanted == Wanted::Process && matches!(role, Role::Cell(_) | Role::Slot(_));
     if wants_mutable && !mutable {
         return Err(Error::new(
             reference.span(),
-            format!("write `&mut {word}<…>`: an elementary process writes the substates of its own {}", word.to_lowercase()),
+            format!(
+                "write `&mut {word}<…>`: an elementary process writes the substates of its own {}",
+                word.to_lowercase()
+            ),
         ));
     }
     if mutable && !wants_mutable {

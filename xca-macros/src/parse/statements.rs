@@ -105,17 +105,26 @@ impl Scope {
             Expr::ForLoop(for_) => self.for_loop(for_)?,
             Expr::Break(break_) => {
                 if let Some(label) = &break_.label {
-                    return Err(Error::new_spanned(label, "loops have no labels in a process; use a variable that ends the outer loop"));
+                    return Err(Error::new_spanned(
+                        label,
+                        "loops have no labels in a process; use a variable that ends the outer loop",
+                    ));
                 }
                 if let Some(value) = &break_.expr {
-                    return Err(Error::new_spanned(value, "`break` carries no value in a process; assign it to a variable first"));
+                    return Err(Error::new_spanned(
+                        value,
+                        "`break` carries no value in a process; assign it to a variable first",
+                    ));
                 }
                 self.check_in_loop(break_.span())?;
                 Statement::Break(break_.span())
             }
             Expr::Continue(continue_) => {
                 if let Some(label) = &continue_.label {
-                    return Err(Error::new_spanned(label, "loops have no labels in a process; use a variable that ends the outer loop"));
+                    return Err(Error::new_spanned(
+                        label,
+                        "loops have no labels in a process; use a variable that ends the outer loop",
+                    ));
                 }
                 self.check_in_loop(continue_.span())?;
                 Statement::Continue(continue_.span())
@@ -154,12 +163,18 @@ impl Scope {
     fn for_loop(&mut self, for_: &ExprForLoop) -> Result<Statement> {
         refuse_label(for_.label.as_ref())?;
         let variable = match &*for_.pat {
-            Pat::Ident(pattern) if pattern.by_ref.is_none() && pattern.mutability.is_none() && pattern.subpat.is_none() => {
+            Pat::Ident(pattern)
+                if pattern.by_ref.is_none() && pattern.mutability.is_none() && pattern.subpat.is_none() =>
+            {
                 pattern.ident.clone()
             }
-            Pat::Ident(pattern) => return Err(Error::new_spanned(pattern, "the variable of a `for` is a plain name")),
+            Pat::Ident(pattern) => {
+                return Err(Error::new_spanned(pattern, "the variable of a `for` is a plain name"));
+            }
             // `for _ in 0..3`
-            Pat::Path(_) | Pat::Rest(_) => return Err(Error::new_spanned(&for_.pat, "the variable of a `for` is a plain name")),
+            Pat::Path(_) | Pat::Rest(_) => {
+                return Err(Error::new_spanned(&for_.pat, "the variable of a `for` is a plain name"));
+            }
             other => {
                 if quote::quote!(#other).to_string() != "_" {
                     return Err(Error::new_spanned(other, "the variable of a `for` is a plain name"));
@@ -198,7 +213,10 @@ impl Scope {
                     (false, None) => None,
                     (true, _) => return Err(Error::new_spanned(call, "give one radius, in metres")),
                     (false, Some(extra)) => {
-                        return Err(Error::new_spanned(extra, "this search takes no radius; its name with `_within` does"));
+                        return Err(Error::new_spanned(
+                            extra,
+                            "this search takes no radius; its name with `_within` does",
+                        ));
                     }
                 };
                 let body = self.loop_body(&variable, Binding::Other, &for_.body)?;
@@ -232,15 +250,24 @@ impl Scope {
                             path.reverse();
                             Ok(Place { root: PlaceRoot::Local(name.clone()), path })
                         }
-                        Some(_) => Err(Error::new_spanned(name, "assign to a substate of it: `cell.substate = …`")),
-                        None => Err(Error::new_spanned(name, format!("there is no variable `{name}` to assign to; write `let mut {name} = …;` first"))),
+                        Some(_) => {
+                            Err(Error::new_spanned(name, "assign to a substate of it: `cell.substate = …`"))
+                        }
+                        None => Err(Error::new_spanned(
+                            name,
+                            format!(
+                                "there is no variable `{name}` to assign to; write `let mut {name} = …;` first"
+                            ),
+                        )),
                     };
                 }
                 Expr::Field(field) => {
                     let Member::Named(member) = &field.member else {
                         return Err(Error::new_spanned(&field.member, "tuples are not part of a process"));
                     };
-                    if let Some(binding) = self.named(&field.base).filter(|binding| *binding != Binding::Value) {
+                    if let Some(binding) =
+                        self.named(&field.base).filter(|binding| *binding != Binding::Value)
+                    {
                         if binding == Binding::Subject && self.kind != FunctionKind::Migration {
                             path.reverse();
                             return Ok(Place { root: PlaceRoot::Own(member.clone()), path });
@@ -253,7 +280,10 @@ impl Scope {
                         return Err(Error::new_spanned(left, cannot_write(Binding::Neighbour, self.kind)));
                     }
                     if !is_component(member) {
-                        return Err(Error::new_spanned(member, "the components of a vector are x, y, z and w"));
+                        return Err(Error::new_spanned(
+                            member,
+                            "the components of a vector are x, y, z and w",
+                        ));
                     }
                     path.push(Projection::Component(member.clone()));
                     here = strip(&field.base);
@@ -263,7 +293,10 @@ impl Scope {
                     here = strip(&index.expr);
                 }
                 other => {
-                    return Err(Error::new_spanned(other, "assign to a variable or to a substate of the own cell: `cell.substate = …`"));
+                    return Err(Error::new_spanned(
+                        other,
+                        "assign to a variable or to a substate of the own cell: `cell.substate = …`",
+                    ));
                 }
             }
         }
@@ -281,7 +314,9 @@ fn cannot_write(binding: Binding, kind: FunctionKind) -> &'static str {
         Binding::CellOfItem => {
             "a process over items cannot write the cell; a process over cells with a `&Slots<…>` argument can sum up its items"
         }
-        Binding::Parameters => "parameters are the same in all cells; only steering changes them, between steps",
+        Binding::Parameters => {
+            "parameters are the same in all cells; only steering changes them, between steps"
+        }
         Binding::Subject if kind == FunctionKind::Migration => {
             "a migration only says where the item goes; change its substates in an elementary process"
         }
@@ -305,9 +340,10 @@ pub(super) fn macro_call(call: &syn::Macro) -> Error {
 
 fn refuse_label(label: Option<&syn::Label>) -> Result<()> {
     match label {
-        Some(label) => {
-            Err(Error::new_spanned(label, "loops have no labels in a process; use a variable that ends the outer loop"))
-        }
+        Some(label) => Err(Error::new_spanned(
+            label,
+            "loops have no labels in a process; use a variable that ends the outer loop",
+        )),
         None => Ok(()),
     }
 }
@@ -369,7 +405,9 @@ pub(super) fn ends_in_return(block: &Block) -> bool {
         Some(Statement::Expression(Expression::If { then, otherwise: Some(otherwise), .. })) => {
             ends_in_return(then) && ends_in_return(otherwise)
         }
-        Some(Statement::Expression(Expression::Match { arms, .. })) => arms.iter().all(|arm| ends_in_return(&arm.body)),
+        Some(Statement::Expression(Expression::Match { arms, .. })) => {
+            arms.iter().all(|arm| ends_in_return(&arm.body))
+        }
         Some(Statement::Expression(Expression::Block(block))) => ends_in_return(block),
         _ => false,
     }

@@ -241,12 +241,18 @@ impl<'a> Row<'a> {
     fn number(&self, place: usize, column: &str) -> Result<f64, ReadError> {
         let text = self.field(place)?;
         let (path, line) = (self.path.to_owned(), self.line);
-                match text.parse::<f64>() {
+        match text.parse::<f64>() {
             Ok(value) if value.is_finite() => Ok(value),
-            Ok(_) => Err(ReadError::NotFinite { path, line, column: column.to_owned(), text: text.into_owned() }),
-            Err(source) => {
-                Err(ReadError::Number { path, line, column: column.to_owned(), text: text.into_owned(), source })
+            Ok(_) => {
+                Err(ReadError::NotFinite { path, line, column: column.to_owned(), text: text.into_owned() })
             }
+            Err(source) => Err(ReadError::Number {
+                path,
+                line,
+                column: column.to_owned(),
+                text: text.into_owned(),
+                source,
+            }),
         }
     }
 }
@@ -278,15 +284,22 @@ mod tests {
 
     #[test]
     fn lines_are_counted_through_blanks_comments_and_foreign_line_ends() {
-        let table = read_text(b"\xEF\xBB\xBF# made by hand\n\nlabel,x,y\r\n1,0,0\r\n\r\n\n# more\n2,0,0").unwrap();
+        let table =
+            read_text(b"\xEF\xBB\xBF# made by hand\n\nlabel,x,y\r\n1,0,0\r\n\r\n\n# more\n2,0,0").unwrap();
         assert_eq!(table.labels, [1, 2]);
         assert_eq!(table.lines, [4, 8]);
     }
 
     #[test]
     fn a_bad_header_is_named() {
-        assert_eq!(message(""), "p.csv:1: the header has no column `label`; it must be `label,x,y`, in any order");
-        assert_eq!(message("label,x\n"), "p.csv:1: the header has no column `y`; it must be `label,x,y`, in any order");
+        assert_eq!(
+            message(""),
+            "p.csv:1: the header has no column `label`; it must be `label,x,y`, in any order"
+        );
+        assert_eq!(
+            message("label,x\n"),
+            "p.csv:1: the header has no column `y`; it must be `label,x,y`, in any order"
+        );
         assert_eq!(
             message("label,x,y,z\n"),
             "p.csv:1: unknown column `z` in the header; it must be `label,x,y`, in any order"
@@ -305,7 +318,10 @@ mod tests {
         assert_eq!(line_4("2,-inf,0"), "p.csv:4: `-inf` in column `x` is not a finite number");
         assert_eq!(line_4("2,1e999,0"), "p.csv:4: `1e999` in column `x` is not a finite number");
         assert_eq!(line_4("-2,0,0"), "p.csv:4: the label `-2` is not a whole number from 0 to 4294967295");
-        assert_eq!(line_4("4294967296,0,0"), "p.csv:4: the label `4294967296` is not a whole number from 0 to 4294967295");
+        assert_eq!(
+            line_4("4294967296,0,0"),
+            "p.csv:4: the label `4294967296` is not a whole number from 0 to 4294967295"
+        );
         assert_eq!(line_4("1,5,5"), "p.csv:4: the label 1 stands on line 2 already");
     }
 

@@ -61,7 +61,8 @@ impl<'a> Appended<'a> {
     /// The elements of point or cell data (`kind`): the first scalars are what ParaView colours by.
     pub(super) fn data(&mut self, kind: &str, arrays: &[DataArray<'a>]) -> String {
         let scalars = arrays.iter().find(|array| array.values.components() == 1);
-        let scalars = scalars.map(|array| format!(r#" Scalars="{}""#, escaped(array.name))).unwrap_or_default();
+        let scalars =
+            scalars.map(|array| format!(r#" Scalars="{}""#, escaped(array.name))).unwrap_or_default();
         let elements: String = arrays.iter().map(|array| self.array(array)).collect();
         format!("<{kind}{scalars}>\n{elements}</{kind}>\n")
     }

@@ -48,7 +48,8 @@ pub fn write_dense(path: &Path, time: f64, grid: &Grid, arrays: &[DataArray<'_>]
     if let Some(&found) = grid.cells.iter().find(|&&n| i32::try_from(n).is_err()) {
         return Err(VtkError::TooMany { path: path.to_owned(), found });
     }
-    let cells = grid.cells.iter().try_fold(1_usize, |product, &n| product.checked_mul(n)).unwrap_or(usize::MAX);
+    let cells =
+        grid.cells.iter().try_fold(1_usize, |product, &n| product.checked_mul(n)).unwrap_or(usize::MAX);
     check_arrays(path, arrays, cells)?;
 
     let [nx, ny, nz] = grid.cells;

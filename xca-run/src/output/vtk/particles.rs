@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::appended::Appended;
 use super::values::{DataArray, Values, check_arrays};
-use super::{VtkError, super::atomic::write_atomically};
+use super::{super::atomic::write_atomically, VtkError};
 
 /// Writes particles to `path` (`.vtp`): `n` vertices at `positions`, each with an entry of every array.
 ///
@@ -80,7 +80,8 @@ mod tests {
         let mut arrays = Vec::new();
         for element in head.split("<DataArray ").skip(1) {
             let attributes = element.split("/>").next().unwrap();
-            let offset: usize = attributes.split("offset=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap();
+            let offset: usize =
+                attributes.split("offset=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap();
             let at = start + offset;
             let len = u64::from_le_bytes(bytes[at..at + 8].try_into().unwrap()) as usize;
             arrays.push((attributes.to_owned(), bytes[at + 8..at + 8 + len].to_vec()));

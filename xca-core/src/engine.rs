@@ -1,0 +1,262 @@
+//! What an engine is to a simulation.
+
+use crate::model::Model;
+use crate::reduction::{Reduced, Reduction};
+use crate::value::Precision;
+use std::any::Any;
+use std::fmt;
+
+/// A way to run models: a value that a program chooses, and that a model never names.
+pub trait Engine: fmt::Debug + Send + Sync {
+    /// The name as on a command line: `reference`, `cpu`.
+    fn name(&self) -> &str;
+
+    /// How many threads it uses.
+    fn threads(&self) -> usize;
+
+    /// Makes room for the state of a model. All substates are zero and all populations empty.
+    ///
+    /// # Errors
+    /// Where the engine cannot run this model at this precision.
+    fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError>;
+}
+
+/// An engine that cannot run a model.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum StartError {
+    /// More memory or more cells than the engine can number.
+    #[error(
+        "the {engine} engine cannot hold this model: {what} would be {wanted}, at most {limit} can be; use fewer cells or slots"
+    )]
+    TooLarge {
+        /// The engine.
+        engine: String,
+        /// What is too many.
+        what: String,
+        /// How many there would be.
+        wanted: u128,
+        /// How many there can be.
+        limit: u128,
+    },
+    /// Anything else, such as threads that could not be started.
+    #[error("the {engine} engine cannot start: {reason}")]
+    Other {
+        /// The engine.
+        engine: String,
+        /// Why.
+        reason: String,
+    },
+}
+
+/// A substate of a model: the number of its group, and of the field in the group.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct SubstateId {
+    /// The number of the group in the order in which the model names them.
+    pub group: usize,
+    /// The number of the field.
+    pub field: usize,
+}
+
+/// What the processes of a step need beside the state.
+#[derive(Debug, Clone, Copy)]
+pub struct StepContext<'a> {
+    /// The number of the step, from 0.
+    pub step: u64,
+    /// The seed of random numbers.
+    pub seed: u64,
+    /// `P::Native<R>` of the parameters.
+    pub parameters: &'a (dyn Any + Send + Sync),
+}
+
+/// All items of a population, in the order of cells, then labels.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Population {
+    /// How many items each cell has.
+    pub counts: Vec<u32>,
+    /// The labels.
+    pub labels: Vec<u32>,
+    /// The stored bytes of each field.
+    pub fields: Vec<Vec<u8>>,
+}
+
+/// The state of a model on an engine. Values pass as stored bytes: of cells in the order of linear indices, of items cell after cell
+/// and by label.
+pub trait Execution: Send {
+    /// Runs processes by their numbers in the model, in order.
+    ///
+    /// # Errors
+    /// The first fault, by process, then cell, then label. The state is then that of an unfinished step.
+    fn run(&mut self, processes: std::ops::Range<usize>, context: &StepContext<'_>) -> Result<(), Fault>;
+
+    /// All values of a substate.
+    fn read(&self, substate: SubstateId) -> Vec<u8>;
+
+    /// Replaces all values of a substate; as many bytes as [`Self::read`] gives.
+    fn write(&mut self, substate: SubstateId, values: &[u8]);
+
+    /// The value of a substate in one cell.
+    fn read_cell(&self, substate: SubstateId, cell: usize) -> Vec<u8>;
+
+    /// Replaces the value of a substate in one cell.
+    fn write_cell(&mut self, substate: SubstateId, cell: usize, value: &[u8]);
+
+    /// All items of a population.
+    fn population(&self, group: usize) -> Population;
+
+    /// Replaces all items of a population.
+    ///
+    /// # Errors
+    /// [`Fault::CellFull`] where a cell has more items than slots.
+    fn set_population(&mut self, group: usize, population: &Population) -> Result<(), Fault>;
+
+    /// How many items a population has.
+    fn items(&self, group: usize) -> usize;
+
+    /// How many items have left the space.
+    fn left(&self, group: usize) -> u64;
+
+    /// Sets how many items have left the space, when a run is resumed.
+    fn set_left(&mut self, group: usize, left: u64);
+
+    /// The most items in one cell.
+    fn largest_occupancy(&self, group: usize) -> u32;
+
+    /// Reduces a substate, lane by lane, rows or blocks in order (see [`crate::reduction`]).
+    fn reduce(&self, substate: SubstateId, reduction: &Reduction) -> Vec<Reduced>;
+
+    /// The bytes that the state takes.
+    fn memory(&self) -> usize;
+}
+
+/// What stops a run within a step.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Fault {
+    /// A process reported it.
+    Reported {
+        /// The process.
+        process: &'static str,
+        /// The indices of the cell.
+        cell: [usize; 3],
+        /// The item, in a process over items.
+        label: Option<u32>,
+        /// The code.
+        code: u32,
+        /// The value.
+        value: f64,
+    },
+    /// A process asked for a neighbour that the neighbourhood does not have.
+    BeyondNeighbourhood {
+        /// The process.
+        process: &'static str,
+        /// The indices of the cell.
+        cell: [usize; 3],
+        /// The index that it asked for.
+        index: u32,
+        /// The size of the neighbourhood.
+        size: usize,
+    },
+    /// More items in a cell than it has slots.
+    CellFull {
+        /// The indices of the cell.
+        cell: [usize; 3],
+        /// How many items there would be.
+        items: usize,
+        /// How many slots there are.
+        slots: usize,
+    },
+    /// A migration sends an item to a cell that is no neighbour.
+    TooFar {
+        /// The process.
+        process: &'static str,
+        /// The item.
+        label: u32,
+        /// The indices of its cell.
+        from: [usize; 3],
+        /// The indices of the cell where it would go.
+        to: [usize; 3],
+    },
+    /// A migration finds an item at a position that is no number.
+    Nowhere {
+        /// The process.
+        process: &'static str,
+        /// The item.
+        label: u32,
+        /// The indices of its cell.
+        cell: [usize; 3],
+    },
+    /// A migration sends an item out of a space that none may leave.
+    Left {
+        /// The process.
+        process: &'static str,
+        /// The item.
+        label: u32,
+        /// The indices of its cell.
+        cell: [usize; 3],
+    },
+    /// The code of a process panicked: an integer overflow, a division by zero, an index beyond an array.
+    Panicked {
+        /// The process.
+        process: &'static str,
+        /// The panic's message.
+        message: String,
+    },
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Reported { process, cell, label: None, code, value } => {
+                write!(f, "`{process}` reports fault {code} with value {value} in cell {cell:?}")
+            }
+            Self::Reported { process, cell, label: Some(label), code, value } => {
+                write!(
+                    f,
+                    "`{process}` reports fault {code} with value {value} for item {label} in cell {cell:?}"
+                )
+            }
+            Self::BeyondNeighbourhood { process, cell, index, size } => {
+                write!(
+                    f,
+                    "`{process}` asks for neighbour {index} in cell {cell:?}, but the neighbourhood has {size} cells (0 to {})",
+                    size.saturating_sub(1)
+                )
+            }
+            Self::CellFull { cell, items, slots } => {
+                write!(
+                    f,
+                    "cell {cell:?} would hold {items} items but has {slots} slots; give the population more slots"
+                )
+            }
+            Self::TooFar { process, label, from, to } => {
+                write!(
+                    f,
+                    "`{process}` moves item {label} from cell {from:?} to cell {to:?}, which is no neighbour; a smaller time step helps"
+                )
+            }
+            Self::Nowhere { process, label, cell } => {
+                write!(f, "`{process}` finds item {label} of cell {cell:?} at a position that is no number")
+            }
+            Self::Left { process, label, cell } => {
+                write!(
+                    f,
+                    "`{process}` moves item {label} of cell {cell:?} out of the space, which this model does not allow"
+                )
+            }
+            Self::Panicked { process, message } => write!(f, "the code of `{process}` panicked: {message}"),
+        }
+    }
+}
+
+impl std::error::Error for Fault {}
+
+impl Fault {
+    /// The fault that a panic of a process's code is.
+    pub fn panicked(process: &'static str, panic: &(dyn Any + Send)) -> Self {
+        let message = panic
+            .downcast_ref::<&str>()
+            .map(|text| (*text).to_owned())
+            .or_else(|| panic.downcast_ref::<String>().cloned())
+            .unwrap_or_else(|| "without a message".to_owned());
+        Self::Panicked { process, message }
+    }
+}

@@ -1,0 +1,165 @@
+//! Models: what a scientist defines and an engine runs.
+
+mod builder;
+mod error;
+
+pub use builder::ModelBuilder;
+pub use error::ModelError;
+
+use crate::engine::SubstateId;
+use crate::geometry::Geometry;
+use crate::parameters::AnyParameters;
+use crate::process::Process;
+use crate::schema::Schema;
+use crate::steering::Steering;
+use crate::substates::Substates;
+use crate::value::{Precision, StoredType};
+use std::any::TypeId;
+use std::fmt;
+use std::sync::Arc;
+
+/// An Extended Cellular Automaton in three dimensions (or two: one layer of cells), built by [`Model::builder`] and checked when it is built.
+#[derive(Clone, Debug)]
+pub struct Model {
+    name: String,
+    geometry: Geometry,
+    groups: Vec<Group>,
+    processes: Vec<Process>,
+    parameters: Box<dyn AnyParameters>,
+    steering: Vec<Steering>,
+    fault_texts: Vec<(u32, String)>,
+}
+
+/// The substates of a model that belong to one struct.
+#[derive(Clone)]
+pub struct Group {
+    type_id: TypeId,
+    schema: &'static Schema,
+    kind: GroupKind,
+}
+
+/// What a group's substates belong to.
+#[derive(Clone)]
+pub enum GroupKind {
+    /// The cells.
+    Cells {
+        /// Writes the outside value of the field with this number, for flat boundaries.
+        outside: Arc<dyn Fn(usize, Precision, &mut [u8]) + Send + Sync>,
+    },
+    /// The items of a population.
+    Population {
+        /// The most items in a cell.
+        slots: usize,
+        /// Whether a migration may send items out of the space.
+        may_leave: bool,
+    },
+}
+
+impl fmt::Debug for GroupKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Cells { .. } => f.write_str("Cells"),
+            Self::Population { slots, may_leave } => {
+                f.debug_struct("Population").field("slots", slots).field("may_leave", may_leave).finish()
+            }
+        }
+    }
+}
+
+impl Group {
+    /// The type of the struct.
+    pub fn type_id(&self) -> TypeId {
+        self.type_id
+    }
+
+    /// The fields.
+    pub fn schema(&self) -> &'static Schema {
+        self.schema
+    }
+
+    /// What they belong to.
+    pub fn kind(&self) -> &GroupKind {
+        &self.kind
+    }
+
+    /// The machine types of the fields.
+    pub fn stored(&self, precision: Precision) -> Vec<StoredType> {
+        self.schema.fields.iter().map(|field| field.value_type.stored(precision)).collect()
+    }
+}
+
+impl fmt::Debug for Group {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Group").field("substates", &self.schema.name).field("kind", &self.kind).finish()
+    }
+}
+
+impl Model {
+    /// Starts the definition of a model.
+    pub fn builder(name: impl Into<String>) -> ModelBuilder {
+        ModelBuilder::new(name.into())
+    }
+
+    /// The model's name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The cellular space.
+    pub fn geometry(&self) -> &Geometry {
+        &self.geometry
+    }
+
+    /// The structs of substates in the order in which the builder was told of them.
+    pub fn groups(&self) -> &[Group] {
+        &self.groups
+    }
+
+    /// The elementary processes in order.
+    pub fn processes(&self) -> &[Process] {
+        &self.processes
+    }
+
+    /// The parameters at the start.
+    pub fn parameters(&self) -> &dyn AnyParameters {
+        &*self.parameters
+    }
+
+    pub(crate) fn steering(&self) -> &[Steering] {
+        &self.steering
+    }
+
+    /// What the model says of a fault code.
+    pub fn fault_text(&self, code: u32) -> Option<&str> {
+        self.fault_texts.iter().find(|(known, _)| *known == code).map(|(_, text)| text.as_str())
+    }
+
+    /// The number of the group of this type.
+    pub fn group_number(&self, type_id: TypeId) -> Option<usize> {
+        self.groups.iter().position(|group| group.type_id == type_id)
+    }
+
+    /// The group that the struct `S` is, if the model has it.
+    pub fn group_of<S: Substates>(&self) -> Option<usize> {
+        self.group_number(TypeId::of::<S>())
+    }
+
+    /// The machine type of a substate.
+    pub fn stored(&self, substate: SubstateId, precision: Precision) -> StoredType {
+        self.groups[substate.group].schema.fields[substate.field].value_type.stored(precision)
+    }
+
+    /// The substate that an access of a process means.
+    pub fn substate(&self, process: &Process, access: &crate::kernel::Access) -> SubstateId {
+        let group = self.group_number((process.group(access.of).type_id)()).unwrap_or_default();
+        SubstateId { group, field: access.field }
+    }
+
+    /// Sets a parameter of the model by name, before it is run.
+    ///
+    /// # Errors
+    /// Where no parameter has the name, or the text is no value of its type.
+    pub fn set_parameter(&mut self, name: &str, text: &str) -> Result<(), crate::ParameterError> {
+        self.parameters.set_by_name(name, text)
+    }
+}

@@ -1,0 +1,76 @@
+//! What can be wrong with a model.
+
+use crate::geometry::Boundary;
+
+/// A model that cannot be built; the message says what to change.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages explain the fields")]
+pub enum ModelError {
+    #[error(
+        "the model `{model}` has no extents; call `.extents([x, y, z])` with the number of cells along each axis"
+    )]
+    NoExtents { model: String },
+    #[error("the space has no cells along {axis}; each of the extents {extents:?} must be at least 1")]
+    ZeroExtent { axis: char, extents: [usize; 3] },
+    #[error(
+        "a space of {extents:?} cells is too large: cells are numbered by 32 bits, at most {limit} can be"
+    )]
+    TooManyCells { extents: [usize; 3], limit: u64 },
+    #[error("the cell side is {side} m; it must be a positive number")]
+    CellSide { side: f64 },
+    #[error(
+        "the neighbourhood ({neighbourhood}) reaches {reach} cells along {axis}, which is too far for {extent} cells with a {boundary} boundary; \
+         use more cells, or a neighbourhood within one layer for a 2D model"
+    )]
+    NeighbourhoodTooWide {
+        neighbourhood: String,
+        axis: char,
+        reach: usize,
+        extent: usize,
+        boundary: Boundary,
+    },
+    #[error(
+        "a hexagonal neighbourhood on a torus needs an even number of cells along {axis}, not {extent}: rows alternate"
+    )]
+    OddHexagonalTorus { axis: char, extent: usize },
+    #[error(
+        "a hexagonal neighbourhood with a reflecting boundary along {axis} has no meaning: the mirror image of an even row is not an odd row"
+    )]
+    ReflectedHexagons { axis: char },
+    #[error("the model `{model}` has no substates; call `.substates::<S>()` or `.population::<S>(slots)`")]
+    NoSubstates { model: String },
+    #[error("the substates `{substates}` are given twice")]
+    SubstatesTwice { substates: &'static str },
+    #[error(
+        "the process `{process}` works on `{substates}`, which the model does not have; add `.substates::<{substates}>()` or `.population::<{substates}>(slots)`"
+    )]
+    UnknownSubstates { process: &'static str, substates: &'static str },
+    #[error(
+        "the process `{process}` runs for cells, but `{substates}` is a population; take `me: &mut Slot<{substates}>`"
+    )]
+    CellsOfPopulation { process: &'static str, substates: &'static str },
+    #[error(
+        "the process `{process}` runs for items, but `{substates}` are the substates of cells; take `cell: &mut Cell<{substates}>`, or add them as `.population::<{substates}>(slots)`"
+    )]
+    ItemsOfCells { process: &'static str, substates: &'static str },
+    #[error(
+        "the process `{process}` takes the parameters `{wanted}`, but the model has `{given}`; call `.parameters({wanted} {{ … }})`"
+    )]
+    Parameters { process: &'static str, wanted: &'static str, given: &'static str },
+    #[error(
+        "the process `{process}` writes `{substate}` and searches by it: what is near would depend on the order of items; search in one process, move in the next"
+    )]
+    SearchOfWritten { process: &'static str, substate: &'static str },
+    #[error("a population has no slots; `{substates}` needs at least 1 in a cell")]
+    NoSlots { substates: &'static str },
+    #[error(
+        "a reflecting boundary has no meaning for the items of `{substates}` along {axis}; use a flat or toroidal one"
+    )]
+    ReflectedPopulation { substates: &'static str, axis: char },
+    #[error("`{substates}` is a population; only substates of cells have an outside value")]
+    OutsideOfPopulation { substates: &'static str },
+    #[error("`{substates}` is not among the substates of the model; add it before")]
+    NotAdded { substates: &'static str },
+    #[error("a schedule of every 0 steps never comes; give at least 1")]
+    ZeroInterval,
+}

@@ -1,0 +1,236 @@
+//! Neighbourhoods: which cells a cell sees.
+
+use std::fmt;
+
+/// The cells that a process sees, as displacements from the central cell, which has index 0.
+///
+/// In the ready-made neighbourhoods the others follow with z slowest and x fastest, from the negative to the positive side: the seven of
+/// [`Neighbourhood::von_neumann`] are centre, -z, -y, -x, +x, +y, +z. A custom list keeps its order.
+#[derive(Clone, PartialEq, Eq)]
+pub struct Neighbourhood {
+    name: String,
+    /// For cells in even and in odd rows (or columns): the same list except in hexagonal grids.
+    displacements: [Vec<[i32; 3]>; 2],
+    parity: Parity,
+}
+
+/// What the displacements depend on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Parity {
+    /// Nothing: all cells have the same.
+    None,
+    /// On whether the row, y, is even or odd.
+    Row,
+    /// On whether the column, x, is even or odd.
+    Column,
+}
+
+/// How the hexagons of a hexagonal grid stand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Hexagons {
+    /// With a corner up: cells stand in straight rows, and odd rows are shifted half a cell towards +x.
+    CornerUp,
+    /// With a side up: cells stand in straight columns, and odd columns are shifted half a cell towards +y.
+    SideUp,
+}
+
+/// A list of displacements that is no neighbourhood.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum NeighbourhoodError {
+    /// Index 0 is the central cell.
+    #[error("a neighbourhood starts with the central cell: put [0, 0, 0] first")]
+    NoCentre,
+    /// The same displacement twice.
+    #[error("the displacement {0:?} stands twice in the neighbourhood")]
+    Twice([i32; 3]),
+}
+
+impl Neighbourhood {
+    /// The cells that are at most `radius` steps away along the axes: 7 for radius 1.
+    pub fn von_neumann(radius: u32) -> Self {
+        Self::ball(format!("von Neumann, radius {radius}"), radius, radius, |[x, y, z]| {
+            x.unsigned_abs() + y.unsigned_abs() + z.unsigned_abs() <= radius
+        })
+    }
+
+    /// The cube of cells at most `radius` away along each axis: 27 for radius 1.
+    pub fn moore(radius: u32) -> Self {
+        Self::ball(format!("Moore, radius {radius}"), radius, radius, |_| true)
+    }
+
+    /// [`Self::von_neumann`] within one layer: 5 for radius 1.
+    pub fn von_neumann_2d(radius: u32) -> Self {
+        Self::ball(format!("von Neumann 2D, radius {radius}"), radius, 0, |[x, y, _]| {
+            x.unsigned_abs() + y.unsigned_abs() <= radius
+        })
+    }
+
+    /// [`Self::moore`] within one layer: 9 for radius 1.
+    pub fn moore_2d(radius: u32) -> Self {
+        Self::ball(format!("Moore 2D, radius {radius}"), radius, 0, |_| true)
+    }
+
+    /// The six touching hexagons of a cell in one layer, 7 with itself.
+    pub fn hexagonal(hexagons: Hexagons) -> Self {
+        // In even rows the two neighbours below and above stand at x - 1 and x, in odd rows at x and x + 1.
+        let rows = |shift: i32| {
+            vec![
+                [0, 0, 0],
+                [shift - 1, -1, 0],
+                [shift, -1, 0],
+                [-1, 0, 0],
+                [1, 0, 0],
+                [shift - 1, 1, 0],
+                [shift, 1, 0],
+            ]
+        };
+        let turn = |list: Vec<[i32; 3]>| list.into_iter().map(|[x, y, z]| [y, x, z]).collect();
+        match hexagons {
+            Hexagons::CornerUp => Self {
+                name: "hexagonal, corner up".to_owned(),
+                displacements: [rows(0), rows(1)],
+                parity: Parity::Row,
+            },
+            Hexagons::SideUp => Self {
+                name: "hexagonal, side up".to_owned(),
+                displacements: [turn(rows(0)), turn(rows(1))],
+                parity: Parity::Column,
+            },
+        }
+    }
+
+    /// Any list of displacements; the first is the central cell.
+    ///
+    /// # Errors
+    /// Where the first is not `[0, 0, 0]`, or one stands twice.
+    pub fn custom(displacements: Vec<[i32; 3]>) -> Result<Self, NeighbourhoodError> {
+        if displacements.first() != Some(&[0, 0, 0]) {
+            return Err(NeighbourhoodError::NoCentre);
+        }
+        for (index, displacement) in displacements.iter().enumerate() {
+            if displacements[..index].contains(displacement) {
+                return Err(NeighbourhoodError::Twice(*displacement));
+            }
+        }
+        let name = format!("custom, {} cells", displacements.len());
+        Ok(Self { name, displacements: [displacements.clone(), displacements], parity: Parity::None })
+    }
+
+    fn ball(name: String, radius: u32, layers: u32, inside: impl Fn([i32; 3]) -> bool) -> Self {
+        let (radius, layers) = (radius as i32, layers as i32);
+        let mut displacements = vec![[0, 0, 0]];
+        for z in -layers..=layers {
+            for y in -radius..=radius {
+                for x in -radius..=radius {
+                    if [x, y, z] != [0, 0, 0] && inside([x, y, z]) {
+                        displacements.push([x, y, z]);
+                    }
+                }
+            }
+        }
+        Self { name, displacements: [displacements.clone(), displacements], parity: Parity::None }
+    }
+
+    /// The number of cells, with the central one.
+    pub fn size(&self) -> usize {
+        self.displacements[0].len()
+    }
+
+    /// The displacements along x, y, z for a cell with these indices.
+    pub fn displacements(&self, cell: [usize; 3]) -> &[[i32; 3]] {
+        let odd = match self.parity {
+            Parity::None => 0,
+            Parity::Row => cell[1] % 2,
+            Parity::Column => cell[0] % 2,
+        };
+        &self.displacements[odd]
+    }
+
+    /// What the displacements depend on.
+    pub fn parity(&self) -> Parity {
+        self.parity
+    }
+
+    /// The largest displacement along x, y, z.
+    pub fn reach(&self) -> [usize; 3] {
+        let mut reach = [0; 3];
+        for displacement in self.displacements.iter().flatten() {
+            for (reach, along) in reach.iter_mut().zip(displacement) {
+                *reach = (*reach).max(along.unsigned_abs() as usize);
+            }
+        }
+        reach
+    }
+}
+
+impl fmt::Debug for Neighbourhood {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Neighbourhood({self})")
+    }
+}
+
+impl fmt::Display for Neighbourhood {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Hexagons, Neighbourhood, NeighbourhoodError};
+
+    #[test]
+    fn sizes_of_the_ready_made_ones() {
+        assert_eq!(Neighbourhood::von_neumann(1).size(), 7);
+        assert_eq!(Neighbourhood::moore(1).size(), 27);
+        assert_eq!(Neighbourhood::von_neumann_2d(1).size(), 5);
+        assert_eq!(Neighbourhood::moore_2d(1).size(), 9);
+        // The octahedral number of radius 2, and a cube of five.
+        assert_eq!(Neighbourhood::von_neumann(2).size(), 25);
+        assert_eq!(Neighbourhood::moore(2).size(), 125);
+        assert_eq!(Neighbourhood::moore(2).reach(), [2, 2, 2]);
+        assert_eq!(Neighbourhood::moore_2d(2).reach(), [2, 2, 0]);
+    }
+
+    #[test]
+    fn order_is_centre_then_x_fastest() {
+        let seven = Neighbourhood::von_neumann(1);
+        let expected = [[0, 0, 0], [0, 0, -1], [0, -1, 0], [-1, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]];
+        assert_eq!(seven.displacements([4, 4, 4]), expected);
+    }
+
+    /// Centres of touching hexagons are one apart, whatever the parity of the cell.
+    #[test]
+    fn hexagons_touch() {
+        let height = 3_f64.sqrt() / 2.0;
+        for hexagons in [Hexagons::CornerUp, Hexagons::SideUp] {
+            let neighbourhood = Neighbourhood::hexagonal(hexagons);
+            let place = |[x, y]: [i32; 2]| match hexagons {
+                Hexagons::CornerUp => {
+                    [f64::from(x) + 0.5 * f64::from(y.rem_euclid(2)), height * f64::from(y)]
+                }
+                Hexagons::SideUp => [height * f64::from(x), f64::from(y) + 0.5 * f64::from(x.rem_euclid(2))],
+            };
+            for cell in [[4, 4, 0], [5, 4, 0], [4, 5, 0], [5, 5, 0]] {
+                let here = [cell[0] as i32, cell[1] as i32];
+                let mut seen = Vec::new();
+                for [x, y, _] in &neighbourhood.displacements(cell)[1..] {
+                    let other = [here[0] + x, here[1] + y];
+                    let (a, b) = (place(here), place(other));
+                    let distance = (a[0] - b[0]).hypot(a[1] - b[1]);
+                    assert!((distance - 1.0).abs() < 1e-12, "{hexagons:?} {cell:?} {other:?}: {distance}");
+                    assert!(!seen.contains(&other));
+                    seen.push(other);
+                }
+                assert_eq!(seen.len(), 6);
+            }
+        }
+    }
+
+    #[test]
+    fn custom_lists_are_checked() {
+        assert_eq!(Neighbourhood::custom(vec![[1, 0, 0]]), Err(NeighbourhoodError::NoCentre));
+        let twice = vec![[0, 0, 0], [1, 0, 0], [1, 0, 0]];
+        assert_eq!(Neighbourhood::custom(twice), Err(NeighbourhoodError::Twice([1, 0, 0])));
+    }
+}

@@ -1,0 +1,209 @@
+//! Reductions: one value out of a whole substate.
+//!
+//! A reduction is done row by row (for items: block by block), and the rows' results are combined in order, so that it gives the same
+//! bits whoever works on which row. Floating numbers are added up in `f64`, integers in `i64`, which wraps around.
+
+use crate::value::{HostValue, StoredScalar, StoredType};
+
+/// How many items make a block.
+pub const ITEMS_IN_BLOCK: usize = 4096;
+
+/// What is made of the values.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Reduction {
+    /// The sum.
+    Sum,
+    /// The product.
+    Product,
+    /// The smallest; a NaN is never smaller.
+    Minimum,
+    /// The largest; a NaN is never larger.
+    Maximum,
+    /// How many equal this value (given as the stored bytes of one lane).
+    CountEqual(Vec<u8>),
+    /// 1 where all are non-zero, else 0.
+    LogicalAnd,
+    /// 1 where any is non-zero, else 0.
+    LogicalOr,
+    /// 1 where an odd number are non-zero, else 0.
+    LogicalXor,
+    /// Bit by bit, of integers.
+    BitAnd,
+    /// Bit by bit, of integers.
+    BitOr,
+    /// Bit by bit, of integers.
+    BitXor,
+}
+
+/// The result of a reduction of one lane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Reduced {
+    /// There was no value.
+    Nothing,
+    /// Of integers, counts and logical values.
+    Integer(i64),
+    /// Of floating numbers.
+    Float(f64),
+}
+
+impl Reduced {
+    /// The result of two results.
+    pub fn combine(self, other: Self, reduction: &Reduction) -> Self {
+        match (self, other) {
+            (Self::Nothing, result) | (result, Self::Nothing) => result,
+            (Self::Integer(a), Self::Integer(b)) => Self::Integer(match reduction {
+                Reduction::Sum | Reduction::CountEqual(_) => a.wrapping_add(b),
+                Reduction::Product => a.wrapping_mul(b),
+                Reduction::Minimum => a.min(b),
+                Reduction::Maximum => a.max(b),
+                Reduction::LogicalAnd | Reduction::BitAnd => a & b,
+                Reduction::LogicalOr | Reduction::BitOr => a | b,
+                Reduction::LogicalXor | Reduction::BitXor => a ^ b,
+            }),
+            (Self::Float(a), Self::Float(b)) => Self::Float(match reduction {
+                Reduction::Product => a * b,
+                Reduction::Minimum if b < a => b,
+                Reduction::Maximum if a < b => b,
+                Reduction::Minimum | Reduction::Maximum => a,
+                _ => a + b,
+            }),
+            (Self::Integer(a), Self::Float(b)) | (Self::Float(b), Self::Integer(a)) => {
+                Self::Float(a as f64 + b)
+            }
+        }
+    }
+
+    /// The number as `f64`, if there is one.
+    pub fn number(self) -> Option<f64> {
+        match self {
+            Self::Nothing => None,
+            Self::Integer(value) => Some(value as f64),
+            Self::Float(value) => Some(value),
+        }
+    }
+}
+
+/// Reduces consecutive stored values, lane by lane.
+pub fn reduce_values(reduction: &Reduction, stored: StoredType, values: &[u8]) -> Vec<Reduced> {
+    let lanes = usize::from(stored.lanes);
+    let size = stored.scalar.size();
+    let mut results = vec![Reduced::Nothing; lanes];
+    for value in values.chunks_exact(stored.size()) {
+        for (result, lane) in results.iter_mut().zip(value.chunks_exact(size)) {
+            *result = result.combine(one(reduction, stored.scalar, lane), reduction);
+        }
+    }
+    results
+}
+
+fn one(reduction: &Reduction, scalar: StoredScalar, bytes: &[u8]) -> Reduced {
+    let number = match scalar {
+        StoredScalar::U8 => Reduced::Integer(i64::from(bytes[0])),
+        StoredScalar::I32 => Reduced::Integer(i64::from(bytemuck::pod_read_unaligned::<i32>(bytes))),
+        StoredScalar::U32 => Reduced::Integer(i64::from(bytemuck::pod_read_unaligned::<u32>(bytes))),
+        StoredScalar::F32 => Reduced::Float(f64::from(bytemuck::pod_read_unaligned::<f32>(bytes))),
+        StoredScalar::F64 => Reduced::Float(bytemuck::pod_read_unaligned(bytes)),
+    };
+    match reduction {
+        Reduction::CountEqual(wanted) => Reduced::Integer(i64::from(bytes == wanted.as_slice())),
+        Reduction::LogicalAnd | Reduction::LogicalOr | Reduction::LogicalXor => {
+            Reduced::Integer(i64::from(number.number() != Some(0.0)))
+        }
+        _ => number,
+    }
+}
+
+/// A value whose lanes can be reduced to values of the same shape.
+pub trait Reducible: HostValue {
+    /// The type of a sum: `i64` for integers, `f64` for floating numbers, or a vector of these.
+    type Sum;
+
+    /// The sum from the results of the lanes.
+    fn sum(results: &[Reduced]) -> Self::Sum;
+
+    /// A value of the same type from the results of the lanes; nothing where there was no value.
+    fn same(results: &[Reduced]) -> Option<Self>;
+}
+
+macro_rules! reducible {
+    ($($type:ident => $sum:ident),*) => {$(
+        impl Reducible for $type {
+            type Sum = $sum;
+
+            fn sum(results: &[Reduced]) -> $sum {
+                match results[0] {
+                    Reduced::Nothing => $sum::default(),
+                    Reduced::Integer(value) => value as $sum,
+                    Reduced::Float(value) => value as $sum,
+                }
+            }
+
+            fn same(results: &[Reduced]) -> Option<Self> {
+                match results[0] {
+                    Reduced::Nothing => None,
+                    Reduced::Integer(value) => Some(value as $type),
+                    Reduced::Float(value) => Some(value as $type),
+                }
+            }
+        }
+    )*};
+}
+
+reducible!(u8 => i64, i32 => i64, u32 => i64, f32 => f64, f64 => f64);
+
+macro_rules! reducible_vector {
+    ($($vector:ident { $($index:literal),+ }),*) => {$(
+        impl<T> Reducible for crate::vector::$vector<T>
+        where
+            T: Reducible<Scalar = T> + crate::value::HostScalar,
+        {
+            type Sum = crate::vector::$vector<T::Sum>;
+
+            fn sum(results: &[Reduced]) -> Self::Sum {
+                crate::vector::$vector::new($(T::sum(&results[$index..])),+)
+            }
+
+            fn same(results: &[Reduced]) -> Option<Self> {
+                Some(crate::vector::$vector::new($(T::same(&results[$index..])?),+))
+            }
+        }
+    )*};
+}
+
+reducible_vector!(Vector2 { 0, 1 }, Vector3 { 0, 1, 2 }, Vector4 { 0, 1, 2, 3 });
+
+#[cfg(test)]
+mod tests {
+    use super::{Reduced, Reduction, reduce_values};
+    use crate::value::{StoredScalar, StoredType};
+
+    #[test]
+    fn each_reduction_by_hand() {
+        let stored = StoredType { scalar: StoredScalar::I32, lanes: 1 };
+        let values: Vec<u8> = [6_i32, -3, 0, 6].iter().flat_map(|value| value.to_ne_bytes()).collect();
+        let reduce = |reduction: Reduction| reduce_values(&reduction, stored, &values)[0];
+        assert_eq!(reduce(Reduction::Sum), Reduced::Integer(9));
+        assert_eq!(reduce(Reduction::Product), Reduced::Integer(0));
+        assert_eq!(reduce(Reduction::Minimum), Reduced::Integer(-3));
+        assert_eq!(reduce(Reduction::Maximum), Reduced::Integer(6));
+        assert_eq!(reduce(Reduction::CountEqual(6_i32.to_ne_bytes().to_vec())), Reduced::Integer(2));
+        assert_eq!(reduce(Reduction::LogicalAnd), Reduced::Integer(0));
+        assert_eq!(reduce(Reduction::LogicalOr), Reduced::Integer(1));
+        assert_eq!(reduce(Reduction::LogicalXor), Reduced::Integer(1));
+        assert_eq!(reduce(Reduction::BitAnd), Reduced::Integer(6 & -3 & 0 & 6));
+        assert_eq!(reduce(Reduction::BitOr), Reduced::Integer(6 | -3));
+        assert_eq!(reduce(Reduction::BitXor), Reduced::Integer(-3));
+        assert_eq!(reduce_values(&Reduction::Sum, stored, &[]), [Reduced::Nothing]);
+    }
+
+    #[test]
+    fn lanes_are_apart() {
+        let stored = StoredType { scalar: StoredScalar::F32, lanes: 2 };
+        let values: Vec<u8> =
+            [1.0_f32, 10.0, 2.0, 20.0].iter().flat_map(|value| value.to_ne_bytes()).collect();
+        assert_eq!(
+            reduce_values(&Reduction::Sum, stored, &values),
+            [Reduced::Float(3.0), Reduced::Float(30.0)]
+        );
+    }
+}

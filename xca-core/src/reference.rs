@@ -1,0 +1,145 @@
+//! The reference engine: serial, plain, dense slots.
+//!
+//! It is the oracle for all other engines and the baseline of every speed-up. Each process is a pass of its own over all cells; for each cell
+//! the neighbourhood is gathered by the boundary rules, one neighbour after the other; every cell holds all its slots, as in De Rango et al.,
+//! section III. Nothing is clever here, and nothing is shared with the other engines but the processes.
+
+mod execution;
+mod migration;
+mod pass;
+
+use crate::engine::{Engine, Execution, StartError};
+use crate::geometry::Geometry;
+use crate::model::{GroupKind, Model};
+use crate::storage::Buffer;
+use crate::value::{Precision, StoredType};
+
+/// The serial engine.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Reference;
+
+impl Engine for Reference {
+    fn name(&self) -> &str {
+        "reference"
+    }
+
+    fn threads(&self) -> usize {
+        1
+    }
+
+    fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {
+        let cells = model.geometry().cells();
+        let groups = model
+            .groups()
+            .iter()
+            .map(|group| group_state(group, cells, precision))
+            .collect::<Result<_, _>>()?;
+        Ok(Box::new(ReferenceExecution { model: model.clone(), precision, groups }))
+    }
+}
+
+fn group_state(
+    group: &crate::model::Group,
+    cells: usize,
+    precision: Precision,
+) -> Result<GroupState, StartError> {
+    let types = group.stored(precision);
+    let (slots, outside) = match group.kind() {
+        GroupKind::Cells { outside } => {
+            let values = types.iter().enumerate().map(|(field, stored)| {
+                let mut bytes = vec![0; stored.size()];
+                outside(field, precision, &mut bytes);
+                bytes
+            });
+            (1, values.collect())
+        }
+        GroupKind::Population { slots, .. } => (*slots, Vec::new()),
+    };
+    let size: usize = types.iter().map(|stored| stored.size()).sum();
+    let too_large = |what: &str, wanted: u128, limit: u128| StartError::TooLarge {
+        engine: "reference".to_owned(),
+        what: what.to_owned(),
+        wanted,
+        limit,
+    };
+    let places = cells as u128 * slots as u128;
+    if places > u128::from(u32::MAX) {
+        return Err(too_large("the number of slots of all cells", places, u128::from(u32::MAX)));
+    }
+    // A quarter of the address space is more than any machine has; below that the system says what it has.
+    let bytes = places * size as u128;
+    if bytes > 1 << 46 {
+        return Err(too_large("the bytes of the state", bytes, 1 << 46));
+    }
+    let places = cells * slots;
+    Ok(GroupState {
+        slots,
+        planes: types.iter().map(|stored| Buffer::zeroed(stored.size() * places)).collect(),
+        counts: if matches!(group.kind(), GroupKind::Population { .. }) {
+            vec![0; cells]
+        } else {
+            Vec::new()
+        },
+        labels: if matches!(group.kind(), GroupKind::Population { .. }) {
+            vec![0; places]
+        } else {
+            Vec::new()
+        },
+        types,
+        outside,
+        left: 0,
+    })
+}
+
+/// The state of a model on the reference engine.
+struct ReferenceExecution {
+    model: Model,
+    precision: Precision,
+    groups: Vec<GroupState>,
+}
+
+/// The substates of one struct: of cells with one place each, or of items with as many places a cell as it has slots.
+struct GroupState {
+    types: Vec<StoredType>,
+    /// The places of a cell: 1 for cells.
+    slots: usize,
+    /// For each field all places, cell after cell.
+    planes: Vec<Buffer>,
+    /// For cells, the value of each field beyond a flat boundary.
+    outside: Vec<Vec<u8>>,
+    /// For populations, the occupied slots of each cell: the first ones, by label.
+    counts: Vec<u32>,
+    /// For populations, the label in each slot.
+    labels: Vec<u32>,
+    /// How many items have left.
+    left: u64,
+}
+
+impl GroupState {
+    fn value(&self, field: usize, place: usize) -> &[u8] {
+        let size = self.types[field].size();
+        &self.planes[field].bytes()[place * size..(place + 1) * size]
+    }
+
+    fn value_mut(&mut self, field: usize, place: usize) -> &mut [u8] {
+        let size = self.types[field].size();
+        &mut self.planes[field].bytes_mut()[place * size..(place + 1) * size]
+    }
+
+    /// The occupied places, cell after cell.
+    fn occupied(&self) -> impl Iterator<Item = usize> + '_ {
+        let slots = self.slots;
+        self.counts
+            .iter()
+            .enumerate()
+            .flat_map(move |(cell, count)| cell * slots..cell * slots + *count as usize)
+    }
+}
+
+/// The cells of a cell's neighbourhood, by the boundary rules; nothing stands for the outside.
+fn neighbourhood(geometry: &Geometry, cell: [usize; 3]) -> impl Iterator<Item = Option<usize>> + '_ {
+    let displacements = geometry.neighbourhood().displacements(cell);
+    displacements
+        .iter()
+        .map(move |displacement| geometry.at(cell, *displacement).map(|at| geometry.linear(at)))
+}

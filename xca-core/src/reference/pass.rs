@@ -1,0 +1,163 @@
+//! One process over all cells, one cell at a time.
+//!
+//! The kernels run on rows; here a row is a single cell, whose neighbourhood has been gathered into a list.
+#![allow(unsafe_code)]
+
+use super::{GroupState, ReferenceExecution, neighbourhood};
+use crate::engine::{Fault, StepContext, SubstateId};
+use crate::geometry::Boundary;
+use crate::kernel::{Access, BEYOND_NEIGHBOURHOOD, Entry, Frame, Row, RowFault, RowItems, Scratch};
+use crate::process::{Process, ProcessKind};
+use crate::storage::Buffer;
+
+/// Where a process's substates are read and written during a pass.
+struct Pass {
+    substate: SubstateId,
+    access: Access,
+    size: usize,
+    /// Of cells, read at neighbours: the gathered values.
+    gathered: Option<Buffer>,
+    /// Written, and read elsewhere: the new values.
+    next: Option<Buffer>,
+}
+
+impl ReferenceExecution {
+    /// Runs a process. For a migration the result is the answer for each place of the population.
+    pub(super) fn pass(&mut self, process: &Process, context: &StepContext<'_>) -> Result<Vec<u32>, Fault> {
+        let geometry = self.model.geometry().clone();
+        let mut passes: Vec<Pass> =
+            process.access.iter().map(|access| self.prepare(process, access)).collect();
+        let population = self.population_of(process);
+        let places = population.map_or(0, |group| self.groups[group].labels.len());
+        let mut answers = vec![0; if process.kind == ProcessKind::Migration { places } else { 0 }];
+        let size = geometry.neighbourhood().size();
+        let offsets: Vec<isize> = (0..size as isize).collect();
+        let frame = Frame {
+            extents: geometry.extents().map(|extent| extent as u32),
+            side: geometry.side(),
+            toroidal: geometry.boundaries().map(|boundary| boundary == Boundary::Toroidal),
+            step: context.step,
+            seed: context.seed,
+            parameters: context.parameters,
+            offsets: &offsets,
+        };
+        let kernel = process.kernel(self.precision);
+        let scratch = Scratch::default();
+        let mut first_fault = None;
+        for cell in 0..geometry.cells() {
+            let indices = geometry.indices(cell);
+            let around: Vec<Option<usize>> = neighbourhood(&geometry, indices).collect();
+            let entries: Vec<Entry> =
+                passes.iter_mut().map(|pass| self.entry(pass, process, cell, &around)).collect();
+            let ranges: Option<(Vec<u32>, Vec<u32>)> =
+                population.map(|group| self.groups[group].ranges(&around));
+            let own = population.map_or((0, 0), |group| self.groups[group].range(cell));
+            let items = population.zip(ranges.as_ref()).map(|(group, (starts, ends))| RowItems {
+                starts: starts.as_ptr(),
+                ends: ends.as_ptr(),
+                labels: &self.groups[group].labels,
+                own,
+            });
+            let destinations =
+                if process.kind == ProcessKind::Migration { Some(&mut answers[own.0..own.1]) } else { None };
+            let origin = indices.map(|index| index as u32);
+            // SAFETY: `entries` follow the process's accesses. Of cells, `read` is the gathered list of as many values as offsets, or
+            // the cell's own value where no neighbour is read; `write` is one value, of this cell, in memory apart from the gathered
+            // list. Of items, `read` starts a plane of as many values as labels, and `write` is this cell's part of it, or of another
+            // plane where others are read. Ranges are lists of as many values as offsets. All of it outlives the row, and
+            // nothing else touches it meanwhile: pointers were taken last from each buffer.
+            let row = unsafe { Row::new(&frame, &entries, items, destinations, &scratch, origin, 1) };
+            kernel(&row);
+            if first_fault.is_none() {
+                first_fault = row.first_fault();
+            }
+        }
+        if let Some(fault) = first_fault {
+            return Err(reported(process, fault, &geometry));
+        }
+        for pass in passes {
+            if let Some(next) = pass.next {
+                self.groups[pass.substate.group].planes[pass.substate.field] = next;
+            }
+        }
+        Ok(answers)
+    }
+
+    /// The group of the items that a process runs for or sums up.
+    pub(super) fn population_of(&self, process: &Process) -> Option<usize> {
+        let group = match process.kind {
+            ProcessKind::Cells => process.companion?,
+            ProcessKind::Items | ProcessKind::Migration => process.subject,
+        };
+        self.model.group_number((group.type_id)())
+    }
+
+    fn prepare(&self, process: &Process, access: &Access) -> Pass {
+        let substate = self.model.substate(process, access);
+        let group = &self.groups[substate.group];
+        let size = group.types[substate.field].size();
+        let of_cells = !group.is_population();
+        let gathered = (of_cells && access.others)
+            .then(|| Buffer::zeroed(size * self.model.geometry().neighbourhood().size()));
+        let next = (access.write && access.others).then(|| group.planes[substate.field].clone());
+        Pass { substate, access: *access, size, gathered, next }
+    }
+
+    fn entry(&mut self, pass: &mut Pass, _process: &Process, cell: usize, around: &[Option<usize>]) -> Entry {
+        let group = &mut self.groups[pass.substate.group];
+        let (field, size) = (pass.substate.field, pass.size);
+        let place = cell * group.slots;
+        let write_plane = pass.next.as_mut().unwrap_or(&mut group.planes[field]);
+        let write = if pass.access.write {
+            write_plane.bytes_mut()[place * size..].as_mut_ptr()
+        } else {
+            std::ptr::null_mut()
+        };
+        let read = if let Some(gathered) = &mut pass.gathered {
+            for (at, value) in around.iter().zip(gathered.bytes_mut().chunks_exact_mut(size)) {
+                value.copy_from_slice(match at {
+                    Some(cell) => group.value(field, *cell),
+                    None => &group.outside[field],
+                });
+            }
+            gathered.bytes().as_ptr()
+        } else if pass.access.write && pass.next.is_none() {
+            // In place: the kernel reads through `write` alone.
+            write.cast_const()
+        } else if group.is_population() {
+            group.planes[field].bytes().as_ptr()
+        } else {
+            group.planes[field].bytes()[place * size..].as_ptr()
+        };
+        Entry { read, write }
+    }
+}
+
+/// The fault as the host sees it.
+pub(super) fn reported(process: &Process, fault: RowFault, geometry: &crate::geometry::Geometry) -> Fault {
+    let cell = geometry.indices(fault.cell as usize);
+    if fault.code == BEYOND_NEIGHBOURHOOD {
+        let size = geometry.neighbourhood().size();
+        return Fault::BeyondNeighbourhood { process: process.name, cell, index: fault.value as u32, size };
+    }
+    Fault::Reported { process: process.name, cell, label: fault.label, code: fault.code, value: fault.value }
+}
+
+impl GroupState {
+    pub(super) fn is_population(&self) -> bool {
+        !self.counts.is_empty()
+    }
+
+    /// The occupied places of a cell.
+    pub(super) fn range(&self, cell: usize) -> (usize, usize) {
+        (cell * self.slots, cell * self.slots + self.counts[cell] as usize)
+    }
+
+    fn ranges(&self, around: &[Option<usize>]) -> (Vec<u32>, Vec<u32>) {
+        around
+            .iter()
+            .map(|cell| cell.map_or((0, 0), |cell| self.range(cell)))
+            .map(|(start, end)| (start as u32, end as u32))
+            .unzip()
+    }
+}

@@ -1,0 +1,271 @@
+//! A model on an engine.
+
+use crate::engine::{Engine, Execution, Fault, Population, StartError, StepContext, SubstateId};
+use crate::model::{GroupKind, Model};
+use crate::parameters::AnyParameters;
+use crate::state::State;
+use crate::steering::{Schedule, SteeringError};
+use crate::value::Precision;
+use std::fmt;
+
+/// How a model is run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct RunOptions {
+    /// What `Real` is.
+    pub precision: Precision,
+    /// The seed of random numbers.
+    pub seed: u64,
+}
+
+/// Why a run ended.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Outcome {
+    /// All steps are done.
+    StepsDone,
+    /// A steering operation ended it.
+    Stopped {
+        /// The reason that it gave.
+        reason: String,
+    },
+}
+
+/// What makes a run end early.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The engine cannot run the model.
+    #[error(transparent)]
+    Start(#[from] StartError),
+    /// A fault within a step.
+    #[error("step {step}: {}{fault}", text.as_ref().map(|text| format!("{text}: ")).unwrap_or_default())]
+    Fault {
+        /// The number of the step, from 1 for the first.
+        step: u64,
+        /// What the model says of the code.
+        text: Option<String>,
+        /// The fault.
+        fault: Fault,
+    },
+    /// A steering operation failed.
+    #[error("steering after step {step} failed: {source}")]
+    Steering {
+        /// The number of steps done.
+        step: u64,
+        /// Its error.
+        source: SteeringError,
+    },
+    /// A step after a fault.
+    #[error(
+        "the run ended with a fault in step {step}; its state is that of an unfinished step and cannot go on"
+    )]
+    Broken {
+        /// The number of that step.
+        step: u64,
+    },
+    /// A process that the model does not have.
+    #[error("the model has {processes} processes, no process {index}")]
+    NoSuchProcess {
+        /// The number that was asked for, from 0.
+        index: usize,
+        /// How many there are.
+        processes: usize,
+    },
+}
+
+/// A model with its state on an engine.
+pub struct Simulation {
+    model: Model,
+    execution: Box<dyn Execution>,
+    parameters: Box<dyn AnyParameters>,
+    options: RunOptions,
+    step: u64,
+    started: bool,
+    broken: bool,
+    stop: Option<String>,
+}
+
+impl Simulation {
+    /// Puts a model on an engine and makes its initial state.
+    ///
+    /// # Errors
+    /// Where the engine cannot run the model, or making the initial state fails.
+    pub fn new(model: &Model, engine: &dyn Engine, options: RunOptions) -> Result<Self, RunError> {
+        let execution = engine.start(model, options.precision)?;
+        let parameters = model.parameters().duplicate();
+        let mut simulation = Self {
+            model: model.clone(),
+            execution,
+            parameters,
+            options,
+            step: 0,
+            started: false,
+            broken: false,
+            stop: None,
+        };
+        simulation.steer(|schedule| *schedule == Schedule::Start)?;
+        simulation.steer(|schedule| schedule.is_due(0))?;
+        simulation.started = true;
+        Ok(simulation)
+    }
+
+    /// The model.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// How it is run.
+    pub fn options(&self) -> RunOptions {
+        self.options
+    }
+
+    /// The number of steps done.
+    pub fn step_number(&self) -> u64 {
+        self.step
+    }
+
+    /// Why a steering operation ended the run, if one did.
+    pub fn stop_reason(&self) -> Option<&str> {
+        self.stop.as_deref()
+    }
+
+    /// The bytes that the state takes.
+    pub fn memory(&self) -> usize {
+        self.execution.memory()
+    }
+
+    /// The state, to look at or to change.
+    pub fn state(&mut self) -> State<'_> {
+        State {
+            model: &self.model,
+            execution: &mut *self.execution,
+            parameters: &mut self.parameters,
+            precision: self.options.precision,
+            seed: self.options.seed,
+            step: self.step,
+            stop: &mut self.stop,
+        }
+    }
+
+    fn steer(&mut self, due: impl Fn(&Schedule) -> bool) -> Result<(), RunError> {
+        for index in 0..self.model.steering().len() {
+            if due(&self.model.steering()[index].schedule) {
+                let operation = self.model.steering()[index].operation.clone();
+                let step = self.step;
+                operation(&mut self.state()).map_err(|source| RunError::Steering { step, source })?;
+            }
+        }
+        Ok(())
+    }
+
+    fn run_processes(&mut self, processes: std::ops::Range<usize>) -> Result<(), RunError> {
+        if self.broken {
+            return Err(RunError::Broken { step: self.step + 1 });
+        }
+        let parameters = self.parameters.kernel_view(self.options.precision);
+        let context = StepContext { step: self.step, seed: self.options.seed, parameters: &*parameters };
+        self.execution.run(processes, &context).map_err(|fault| {
+            self.broken = true;
+            let text = match &fault {
+                Fault::Reported { code, .. } => self.model.fault_text(*code).map(str::to_owned),
+                _ => None,
+            };
+            RunError::Fault { step: self.step + 1, text, fault }
+        })
+    }
+
+    /// Does one step: all processes in order, then the steering that is due.
+    ///
+    /// # Errors
+    /// A fault of a process, or an error of a steering operation.
+    pub fn step(&mut self) -> Result<(), RunError> {
+        self.run_processes(0..self.model.processes().len())?;
+        self.step += 1;
+        let step = self.step;
+        self.steer(|schedule| schedule.is_due(step))
+    }
+
+    /// Does at most so many steps; fewer where a steering operation ends the run.
+    ///
+    /// # Errors
+    /// As [`Self::step`].
+    pub fn run(&mut self, steps: u64) -> Result<Outcome, RunError> {
+        for _ in 0..steps {
+            if self.stop.is_some() {
+                break;
+            }
+            self.step()?;
+        }
+        Ok(match &self.stop {
+            Some(reason) => Outcome::Stopped { reason: reason.clone() },
+            None => Outcome::StepsDone,
+        })
+    }
+
+    /// Runs the steering of [`Schedule::End`].
+    ///
+    /// # Errors
+    /// Of a steering operation.
+    pub fn finish(&mut self) -> Result<(), RunError> {
+        self.steer(|schedule| *schedule == Schedule::End)
+    }
+
+    /// Runs one process alone, by its number in the model, for debugging. It belongs to the step that is under way: steps are not counted.
+    ///
+    /// # Errors
+    /// A fault of the process, or a number that no process has.
+    pub fn run_process(&mut self, index: usize) -> Result<(), RunError> {
+        let processes = self.model.processes().len();
+        if index >= processes {
+            return Err(RunError::NoSuchProcess { index, processes });
+        }
+        self.run_processes(index..index + 1)
+    }
+
+    /// The whole state as bytes, for comparisons: equal snapshots are equal to the last bit.
+    pub fn snapshot(&self) -> Snapshot {
+        let groups = self
+            .model
+            .groups()
+            .iter()
+            .enumerate()
+            .map(|(group, definition)| match definition.kind() {
+                GroupKind::Cells { .. } => GroupSnapshot::Cells(
+                    (0..definition.schema().fields.len())
+                        .map(|field| self.execution.read(SubstateId { group, field }))
+                        .collect(),
+                ),
+                GroupKind::Population { .. } => {
+                    GroupSnapshot::Population(self.execution.population(group), self.execution.left(group))
+                }
+            })
+            .collect();
+        Snapshot { step: self.step, groups }
+    }
+}
+
+impl fmt::Debug for Simulation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Simulation")
+            .field("model", &self.model.name())
+            .field("options", &self.options)
+            .field("step", &self.step)
+            .finish_non_exhaustive()
+    }
+}
+
+/// The whole state of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Snapshot {
+    /// The number of steps done.
+    pub step: u64,
+    /// The groups in the model's order.
+    pub groups: Vec<GroupSnapshot>,
+}
+
+/// The state of one group.
+#[derive(Debug, Clone, PartialEq)]
+pub enum GroupSnapshot {
+    /// The stored bytes of each substate of cells.
+    Cells(Vec<Vec<u8>>),
+    /// The items, and how many have left.
+    Population(Population, u64),
+}

@@ -1,0 +1,438 @@
+//! The state of a run as steering and the host see it.
+
+use crate::engine::{Execution, Fault, Population, SubstateId};
+use crate::geometry::Geometry;
+use crate::model::Model;
+use crate::parameters::{AnyParameters, ParameterError, ParameterValue, Parameters};
+use crate::reduction::{Reduced, Reducible, Reduction};
+use crate::steering::SteeringError;
+use crate::substates::{Substate, Substates};
+use crate::value::{HostValue, Precision};
+
+/// The state between steps. Values of `Real` pass as `f64`, whatever the precision of the run.
+pub struct State<'a> {
+    pub(crate) model: &'a Model,
+    pub(crate) execution: &'a mut dyn Execution,
+    pub(crate) parameters: &'a mut Box<dyn AnyParameters>,
+    pub(crate) precision: Precision,
+    pub(crate) seed: u64,
+    pub(crate) step: u64,
+    pub(crate) stop: &'a mut Option<String>,
+}
+
+/// An item of a population on the host.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Item<S> {
+    /// Its label.
+    pub label: u32,
+    /// The indices of its cell.
+    pub cell: [usize; 3],
+    /// Its substates.
+    pub state: S,
+}
+
+/// A question or an order that the model has no answer to.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum StateError {
+    /// The model does not have these substates.
+    #[error("the model has no substates `{0}`")]
+    UnknownSubstates(&'static str),
+    /// The substates belong to cells.
+    #[error("`{0}` are the substates of cells, not of a population")]
+    NotAPopulation(&'static str),
+    /// The substates belong to items.
+    #[error("`{0}` is a population; its items are not numbered by cells")]
+    NotOfCells(&'static str),
+    /// A cell that the space does not have.
+    #[error("the space of {extents:?} cells has no cell {cell:?}")]
+    NoSuchCell {
+        /// The indices that were asked for.
+        cell: [usize; 3],
+        /// The extents.
+        extents: [usize; 3],
+    },
+    /// As many values as cells or items are needed.
+    #[error("`{substate}` has {wanted} values, but {given} are given")]
+    WrongNumber {
+        /// The substate.
+        substate: &'static str,
+        /// How many there are.
+        wanted: usize,
+        /// How many were given.
+        given: usize,
+    },
+    /// Two items with the same label.
+    #[error("the label {0} is given to two items")]
+    LabelTwice(u32),
+    /// The parameters are of another type.
+    #[error("the model's parameters are `{given}`, not `{wanted}`")]
+    OtherParameters {
+        /// The type that was asked for.
+        wanted: &'static str,
+        /// The type that the model has.
+        given: &'static str,
+    },
+    /// A parameter that cannot be set.
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
+    /// Items that do not fit.
+    #[error(transparent)]
+    Fault(#[from] Fault),
+}
+
+impl State<'_> {
+    /// The number of steps done.
+    pub fn step(&self) -> u64 {
+        self.step
+    }
+
+    /// The seed of the run's random numbers.
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// The precision of the run.
+    pub fn precision(&self) -> Precision {
+        self.precision
+    }
+
+    /// The cellular space.
+    pub fn geometry(&self) -> &Geometry {
+        self.model.geometry()
+    }
+
+    /// Ends the run, with a reason for the report.
+    pub fn stop(&mut self, reason: impl Into<String>) {
+        self.stop.get_or_insert(reason.into());
+    }
+
+    fn group<S: Substates>(&self) -> Result<usize, StateError> {
+        self.model.group_of::<S>().ok_or(StateError::UnknownSubstates(S::SCHEMA.name))
+    }
+
+    fn is_population(&self, group: usize) -> bool {
+        matches!(self.model.groups()[group].kind(), crate::model::GroupKind::Population { .. })
+    }
+
+    fn population_of<S: Substates>(&self) -> Result<usize, StateError> {
+        let group = self.group::<S>()?;
+        if self.is_population(group) { Ok(group) } else { Err(StateError::NotAPopulation(S::SCHEMA.name)) }
+    }
+
+    fn cells_of<S: Substates>(&self) -> Result<usize, StateError> {
+        let group = self.group::<S>()?;
+        if self.is_population(group) { Err(StateError::NotOfCells(S::SCHEMA.name)) } else { Ok(group) }
+    }
+
+    fn id<S: Substates, V: HostValue>(&self, substate: Substate<S, V>) -> Result<SubstateId, StateError> {
+        Ok(SubstateId { group: self.group::<S>()?, field: substate.index() })
+    }
+
+    fn cell(&self, cell: [usize; 3]) -> Result<usize, StateError> {
+        let extents = self.geometry().extents();
+        if cell.iter().zip(extents).all(|(index, extent)| *index < extent) {
+            Ok(self.geometry().linear(cell))
+        } else {
+            Err(StateError::NoSuchCell { cell, extents })
+        }
+    }
+
+    /// Sets the state of every cell from its indices.
+    ///
+    /// # Errors
+    /// Where the model does not have these substates of cells.
+    pub fn fill<S: Substates>(&mut self, state: impl Fn([usize; 3]) -> S) -> Result<(), SteeringError> {
+        let group = self.cells_of::<S>()?;
+        let cells = self.geometry().cells();
+        let types = self.model.groups()[group].stored(self.precision);
+        let mut fields: Vec<Vec<u8>> = types.iter().map(|stored| vec![0; stored.size() * cells]).collect();
+        for linear in 0..cells {
+            let value = state(self.geometry().indices(linear));
+            for (field, (bytes, stored)) in fields.iter_mut().zip(&types).enumerate() {
+                let size = stored.size();
+                value.encode(field, self.precision, &mut bytes[linear * size..(linear + 1) * size]);
+            }
+        }
+        for (field, bytes) in fields.iter().enumerate() {
+            self.execution.write(SubstateId { group, field }, bytes);
+        }
+        Ok(())
+    }
+
+    /// The value of a substate in one cell.
+    ///
+    /// # Errors
+    /// Where the model does not have the substate, or the space the cell.
+    pub fn get<S: Substates, V: HostValue>(
+        &self,
+        substate: Substate<S, V>,
+        cell: [usize; 3],
+    ) -> Result<V, StateError> {
+        self.cells_of::<S>()?;
+        let id = self.id(substate)?;
+        let bytes = self.execution.read_cell(id, self.cell(cell)?);
+        Ok(V::decode(self.model.stored(id, self.precision), &bytes))
+    }
+
+    /// Sets the value of a substate in one cell.
+    ///
+    /// # Errors
+    /// Where the model does not have the substate, or the space the cell.
+    pub fn set<S: Substates, V: HostValue>(
+        &mut self,
+        substate: Substate<S, V>,
+        cell: [usize; 3],
+        value: V,
+    ) -> Result<(), StateError> {
+        self.cells_of::<S>()?;
+        let id = self.id(substate)?;
+        let stored = self.model.stored(id, self.precision);
+        let mut bytes = vec![0; stored.size()];
+        value.encode(stored, &mut bytes);
+        let cell = self.cell(cell)?;
+        self.execution.write_cell(id, cell, &bytes);
+        Ok(())
+    }
+
+    /// All values of a substate: of cells by linear index (x fastest), of items cell after cell and by label.
+    ///
+    /// # Errors
+    /// Where the model does not have the substate.
+    pub fn read<S: Substates, V: HostValue>(&self, substate: Substate<S, V>) -> Result<Vec<V>, StateError> {
+        let id = self.id(substate)?;
+        let stored = self.model.stored(id, self.precision);
+        Ok(self
+            .execution
+            .read(id)
+            .chunks_exact(stored.size())
+            .map(|bytes| V::decode(stored, bytes))
+            .collect())
+    }
+
+    /// Replaces all values of a substate, in the order of [`Self::read`].
+    ///
+    /// # Errors
+    /// Where the model does not have the substate, or there are not as many values as cells or items.
+    pub fn write<S: Substates, V: HostValue>(
+        &mut self,
+        substate: Substate<S, V>,
+        values: &[V],
+    ) -> Result<(), StateError> {
+        let id = self.id(substate)?;
+        let stored = self.model.stored(id, self.precision);
+        let wanted = if self.is_population(id.group) {
+            self.execution.items(id.group)
+        } else {
+            self.geometry().cells()
+        };
+        if values.len() != wanted {
+            return Err(StateError::WrongNumber { substate: substate.name(), wanted, given: values.len() });
+        }
+        let mut bytes = vec![0; stored.size() * values.len()];
+        for (value, bytes) in values.iter().zip(bytes.chunks_exact_mut(stored.size())) {
+            value.encode(stored, bytes);
+        }
+        self.execution.write(id, &bytes);
+        Ok(())
+    }
+
+    /// The items of a population, cell after cell and by label.
+    ///
+    /// # Errors
+    /// Where the model does not have the population.
+    pub fn items<S: Substates>(&self) -> Result<Vec<Item<S>>, StateError> {
+        let group = self.population_of::<S>()?;
+        let sizes: Vec<usize> =
+            self.model.groups()[group].stored(self.precision).iter().map(|stored| stored.size()).collect();
+        let population = self.execution.population(group);
+        let mut items = Vec::with_capacity(population.labels.len());
+        let cells =
+            population.counts.iter().enumerate().flat_map(|(cell, count)| (0..*count).map(move |_| cell));
+        for (index, (cell, label)) in cells.zip(&population.labels).enumerate() {
+            let bytes =
+                |field: usize| &population.fields[field][index * sizes[field]..(index + 1) * sizes[field]];
+            let state = S::decode(self.precision, bytes);
+            items.push(Item { label: *label, cell: self.geometry().indices(cell), state });
+        }
+        Ok(items)
+    }
+
+    /// Replaces the items of a population, given in any order.
+    ///
+    /// # Errors
+    /// Where the model does not have the population, two items have one label, a cell lies outside the space or has too few slots.
+    pub fn set_items<S: Substates>(&mut self, mut items: Vec<Item<S>>) -> Result<(), StateError> {
+        let group = self.population_of::<S>()?;
+        let mut labels: Vec<u32> = items.iter().map(|item| item.label).collect();
+        labels.sort_unstable();
+        if let Some(pair) = labels.windows(2).find(|pair| pair[0] == pair[1]) {
+            return Err(StateError::LabelTwice(pair[0]));
+        }
+        let mut counts = vec![0; self.geometry().cells()];
+        for item in &items {
+            counts[self.cell(item.cell)?] += 1;
+        }
+        let geometry = self.geometry();
+        items.sort_unstable_by_key(|item| (geometry.linear(item.cell), item.label));
+        let types = self.model.groups()[group].stored(self.precision);
+        let mut fields: Vec<Vec<u8>> =
+            types.iter().map(|stored| vec![0; stored.size() * items.len()]).collect();
+        for (index, item) in items.iter().enumerate() {
+            for (field, (bytes, stored)) in fields.iter_mut().zip(&types).enumerate() {
+                let size = stored.size();
+                item.state.encode(field, self.precision, &mut bytes[index * size..(index + 1) * size]);
+            }
+        }
+        let labels = items.iter().map(|item| item.label).collect();
+        Ok(self.execution.set_population(group, &Population { counts, labels, fields })?)
+    }
+
+    /// How many items a population has.
+    ///
+    /// # Errors
+    /// Where the model does not have the population.
+    pub fn count_items<S: Substates>(&self) -> Result<usize, StateError> {
+        Ok(self.execution.items(self.population_of::<S>()?))
+    }
+
+    /// How many items of a population have left the space.
+    ///
+    /// # Errors
+    /// Where the model does not have the population.
+    pub fn count_left<S: Substates>(&self) -> Result<u64, StateError> {
+        Ok(self.execution.left(self.population_of::<S>()?))
+    }
+
+    /// The most items that a cell holds.
+    ///
+    /// # Errors
+    /// Where the model does not have the population.
+    pub fn largest_occupancy<S: Substates>(&self) -> Result<u32, StateError> {
+        Ok(self.execution.largest_occupancy(self.population_of::<S>()?))
+    }
+
+    /// Any reduction of a substate, lane by lane.
+    ///
+    /// # Errors
+    /// Where the model does not have the substate.
+    pub fn reduce<S: Substates, V: HostValue>(
+        &self,
+        substate: Substate<S, V>,
+        reduction: &Reduction,
+    ) -> Result<Vec<Reduced>, StateError> {
+        Ok(self.execution.reduce(self.id(substate)?, reduction))
+    }
+
+    /// The sum of a substate: in `f64`, or in `i64` of integers.
+    ///
+    /// # Errors
+    /// Where the model does not have the substate.
+    pub fn sum<S: Substates, V: Reducible>(&self, substate: Substate<S, V>) -> Result<V::Sum, StateError> {
+        Ok(V::sum(&self.reduce(substate, &Reduction::Sum)?))
+    }
+
+    /// The product of a substate: in `f64`, or in `i64` of integers.
+    ///
+    /// # Errors
+    /// Where the model does not have the substate.
+    pub fn product<S: Substates, V: Reducible>(
+        &self,
+        substate: Substate<S, V>,
+    ) -> Result<V::Sum, StateError> {
+        Ok(V::sum(&self.reduce(substate, &Reduction::Product)?))
+    }
+
+    /// The smallest value of a substate, lane by lane; nothing of an empty population.
+    ///
+    /// # Errors
+    /// Where the model does not have the substate.
+    pub fn minimum<S: Substates, V: Reducible>(
+        &self,
+        substate: Substate<S, V>,
+    ) -> Result<Option<V>, StateError> {
+        Ok(V::same(&self.reduce(substate, &Reduction::Minimum)?))
+    }
+
+    /// The largest value of a substate, lane by lane; nothing of an empty population.
+    ///
+    /// # Errors
+    /// Where the model does not have the substate.
+    pub fn maximum<S: Substates, V: Reducible>(
+        &self,
+        substate: Substate<S, V>,
+    ) -> Result<Option<V>, StateError> {
+        Ok(V::same(&self.reduce(substate, &Reduction::Maximum)?))
+    }
+
+    /// How many cells or items have this value of a scalar substate.
+    ///
+    /// # Errors
+    /// Where the model does not have the substate.
+    pub fn count<S: Substates, V: Reducible<Scalar = V> + crate::value::HostScalar>(
+        &self,
+        substate: Substate<S, V>,
+        value: V,
+    ) -> Result<u64, StateError> {
+        let stored = self.model.stored(self.id(substate)?, self.precision);
+        let mut bytes = vec![0; stored.size()];
+        HostValue::encode(&value, stored, &mut bytes);
+        let results = self.reduce(substate, &Reduction::CountEqual(bytes))?;
+        Ok(match results.first() {
+            Some(Reduced::Integer(count)) => count.unsigned_abs(),
+            _ => 0,
+        })
+    }
+
+    /// The parameters.
+    ///
+    /// # Errors
+    /// Where they are of another type.
+    pub fn parameters<P: Parameters>(&self) -> Result<P, StateError> {
+        self.parameters.as_any().downcast_ref::<P>().cloned().ok_or_else(|| StateError::OtherParameters {
+            wanted: P::SCHEMA.name,
+            given: self.parameters.schema().name,
+        })
+    }
+
+    /// Replaces the parameters, from the next step on.
+    ///
+    /// # Errors
+    /// Where they are of another type.
+    pub fn set_parameters<P: Parameters>(&mut self, parameters: P) -> Result<(), StateError> {
+        self.parameters::<P>()?;
+        *self.parameters = Box::new(parameters);
+        Ok(())
+    }
+
+    /// The value of a parameter by name.
+    ///
+    /// # Errors
+    /// Where no parameter has the name.
+    pub fn parameter(&self, name: &str) -> Result<ParameterValue, StateError> {
+        let schema = self.parameters.schema();
+        match schema.field(name) {
+            Some((index, _)) => Ok(self.parameters.value_of(index)),
+            None => {
+                Err(ParameterError::Unknown { name: name.to_owned(), of: schema.name, known: schema.names() }
+                    .into())
+            }
+        }
+    }
+
+    /// Sets a parameter by name, from the next step on.
+    ///
+    /// # Errors
+    /// Where no parameter has the name, or the text is no value of its type.
+    pub fn set_parameter(&mut self, name: &str, text: &str) -> Result<(), StateError> {
+        Ok(self.parameters.set_by_name(name, text)?)
+    }
+}
+
+impl std::fmt::Debug for State<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("State")
+            .field("model", &self.model.name())
+            .field("step", &self.step)
+            .finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,56 @@
+//! Steering: global operations between steps.
+
+use crate::state::State;
+use std::fmt;
+use std::sync::Arc;
+
+/// When a steering operation runs. Steps are counted from the initial state, which is step 0.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Schedule {
+    /// Before the first step, to make the initial state.
+    Start,
+    /// After every so many steps.
+    Every(u64),
+    /// After these numbers of steps; 0 is before the first.
+    At(Vec<u64>),
+    /// When the run ends.
+    End,
+}
+
+impl Schedule {
+    /// Whether it is time after this number of steps.
+    pub fn is_due(&self, step: u64) -> bool {
+        match self {
+            Self::Start | Self::End => false,
+            Self::Every(interval) => step > 0 && *interval > 0 && step.is_multiple_of(*interval),
+            Self::At(steps) => steps.contains(&step),
+        }
+    }
+}
+
+/// What went wrong in a steering operation: any error.
+pub type SteeringError = Box<dyn std::error::Error + Send + Sync>;
+
+type Operation = dyn Fn(&mut State<'_>) -> Result<(), SteeringError> + Send + Sync;
+
+/// An operation with its schedule.
+#[derive(Clone)]
+pub(crate) struct Steering {
+    pub(crate) schedule: Schedule,
+    pub(crate) operation: Arc<Operation>,
+}
+
+impl Steering {
+    pub(crate) fn new(
+        schedule: Schedule,
+        operation: impl Fn(&mut State<'_>) -> Result<(), SteeringError> + Send + Sync + 'static,
+    ) -> Self {
+        Self { schedule, operation: Arc::new(operation) }
+    }
+}
+
+impl fmt::Debug for Steering {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Steering").field(&self.schedule).finish()
+    }
+}

@@ -1,0 +1,167 @@
+//! Colours and colour maps.
+//!
+//! Light adds up in *linear* RGB, files hold *encoded* (sRGB) values; both are `[f32; 3]` from 0 to 1 here, and the
+//! names of functions and fields say which.
+
+/// How a value becomes a colour.
+///
+/// The maps are paths through Oklab, in which equal steps look equal, so that a map does not invent edges.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ColourMap {
+    /// From dark violet through blue and green to yellow, ever lighter: for magnitudes.
+    #[default]
+    Sequential,
+    /// From blue through near-white to red: for signed values; give it a range that is symmetric about zero.
+    Diverging,
+    /// From near-white to dark blue: for shares and densities on paper.
+    Paper,
+}
+
+impl ColourMap {
+    /// Lightness, chroma and hue in degrees, at equal distances along the map.
+    fn path(self) -> &'static [[f32; 3]] {
+        match self {
+            Self::Sequential => &[
+                [0.34, 0.135, 300.0],
+                [0.44, 0.160, 278.0],
+                [0.54, 0.135, 248.0],
+                [0.63, 0.115, 205.0],
+                [0.73, 0.140, 165.0],
+                [0.83, 0.170, 130.0],
+                [0.93, 0.165, 103.0],
+            ],
+            Self::Diverging => &[
+                [0.40, 0.140, 262.0],
+                [0.62, 0.120, 250.0],
+                [0.82, 0.060, 240.0],
+                [0.96, 0.000, 240.0],
+                [0.82, 0.075, 40.0],
+                [0.62, 0.160, 32.0],
+                [0.42, 0.155, 25.0],
+            ],
+            Self::Paper => &[[0.975, 0.010, 240.0], [0.66, 0.110, 245.0], [0.30, 0.090, 262.0]],
+        }
+    }
+
+    /// The colour at `t`, from 0 to 1, in linear RGB. Values beyond an end give the colour of
+    /// that end, NaN that of the lower one.
+    #[must_use]
+    pub fn linear(self, t: f64) -> [f32; 3] {
+        let path = self.path();
+        let last = path.len() - 1;
+        let t = if t.is_nan() { 0.0 } else { t.clamp(0.0, 1.0) };
+        let place = t as f32 * last as f32;
+        let from = (place as usize).min(last.saturating_sub(1));
+        let share = place - from as f32;
+        // Between the points along straight lines in Oklab, so that a hue without chroma does not matter.
+        let [a, b] = [oklab(path[from]), oklab(path[(from + 1).min(last)])];
+        linear_of_oklab(mix(a, b, share))
+    }
+
+    /// The colours at 256 equal distances along the map, in linear RGB.
+    pub(super) fn table(self) -> Vec<[f32; 3]> {
+        (0..256).map(|i| self.linear(f64::from(i) / 255.0)).collect()
+    }
+}
+
+/// Colours that are told apart easily, for the categories of a cell, in linear RGB; after eight they repeat.
+pub(super) fn category(index: usize) -> [f32; 3] {
+    const COLOURS: [[f32; 3]; 8] = [
+        [0.97, 0.005, 250.0],
+        [0.38, 0.090, 265.0],
+        [0.72, 0.150, 60.0],
+        [0.62, 0.130, 155.0],
+        [0.60, 0.180, 25.0],
+        [0.75, 0.100, 220.0],
+        [0.55, 0.150, 310.0],
+        [0.85, 0.150, 95.0],
+    ];
+    linear_of_oklab(oklab(COLOURS[index % COLOURS.len()]))
+}
+
+/// `a` and `b` mixed: `b`'s share is `share`.
+pub(super) fn mix(a: [f32; 3], b: [f32; 3], share: f32) -> [f32; 3] {
+    std::array::from_fn(|i| a[i] + (b[i] - a[i]) * share)
+}
+
+/// Oklab's lightness and two axes from lightness, chroma and hue in degrees.
+fn oklab([lightness, chroma, hue]: [f32; 3]) -> [f32; 3] {
+    let (sin, cos) = hue.to_radians().sin_cos();
+    [lightness, chroma * cos, chroma * sin]
+}
+
+/// Linear RGB of an Oklab colour (B. Ottosson, "A perceptual color space for image processing", 2020), cut to what a
+/// screen can show.
+fn linear_of_oklab([l, a, b]: [f32; 3]) -> [f32; 3] {
+    let long = (l + 0.396_337_78 * a + 0.215_803_76 * b).powi(3);
+    let medium = (l - 0.105_561_346 * a - 0.063_854_17 * b).powi(3);
+    let short = (l - 0.089_484_18 * a - 1.291_485_5 * b).powi(3);
+    [
+        4.076_741_7 * long - 3.307_711_6 * medium + 0.230_969_94 * short,
+        -1.268_438 * long + 2.609_757_4 * medium - 0.341_319_38 * short,
+        -0.004_196_086_3 * long - 0.703_418_6 * medium + 1.707_614_7 * short,
+    ]
+    .map(|x| x.clamp(0.0, 1.0))
+}
+
+/// Encoded from linear RGB.
+pub(super) fn encode(linear: [f32; 3]) -> [f32; 3] {
+    linear.map(|x| {
+        let x = x.clamp(0.0, 1.0);
+        if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Relative luminance of a linear colour.
+    fn luminance([r, g, b]: [f32; 3]) -> f32 {
+        0.2126 * r + 0.7152 * g + 0.0722 * b
+    }
+
+    #[test]
+    fn oklab_white_black_and_red_are_where_they_belong() {
+        for (oklab, rgb) in [
+            ([1.0, 0.0, 0.0], [1.0, 1.0, 1.0]),
+            ([0.0, 0.0, 0.0], [0.0, 0.0, 0.0]),
+            ([0.627_955, 0.224_863, 0.125_846], [1.0, 0.0, 0.0]),
+        ] {
+            let found = linear_of_oklab(oklab);
+            for i in 0..3 {
+                assert!((found[i] - rgb[i]).abs() < 2e-3, "{oklab:?} gives {found:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_sequential_map_grows_ever_lighter() {
+        let table = ColourMap::Sequential.table();
+        assert!(table.windows(2).all(|pair| luminance(pair[0]) < luminance(pair[1])));
+        let steps = |map: ColourMap| {
+            let table = map.table();
+            table
+                .windows(2)
+                .map(|p| (0..3).map(|i| (encode(p[0])[i] - encode(p[1])[i]).abs()).fold(0.0, f32::max))
+                .fold(0.0, f32::max)
+        };
+        for map in [ColourMap::Sequential, ColourMap::Diverging, ColourMap::Paper] {
+            assert!(steps(map) < 0.025, "{map:?} has a jump of {}", steps(map));
+        }
+    }
+
+    #[test]
+    fn values_beyond_the_ends_have_the_colour_of_the_end() {
+        let map = ColourMap::Diverging;
+        assert_eq!(map.linear(-1.0), map.linear(0.0));
+        assert_eq!(map.linear(7.0), map.linear(1.0));
+        assert!(map.linear(f64::NAN).iter().all(|x| x.is_finite()));
+    }
+
+    #[test]
+    fn encoding_meets_the_known_points() {
+        let [a, b, c] = encode([0.0, 0.214_041_14, 1.0]);
+        assert!(a == 0.0 && (b - 0.5).abs() < 1e-4 && (c - 1.0).abs() < 1e-6);
+    }
+}

@@ -1,0 +1,199 @@
+//! Spheres in their box, lit, on the ground.
+
+use super::canvas::{Canvas, Strokes};
+use super::colour::{encode, mix};
+use super::depth::{DepthBuffer, Disc};
+use super::light::{Light, Surface};
+use super::view::{Camera, along, dot, unit};
+
+/// Samples a pixel, each way.
+const SAMPLES: usize = 2;
+
+/// What there is to see, in a space where the box has its centre at the origin and a diagonal of 1.
+pub(super) struct Scene<'a> {
+    /// The eye, in pixels of the canvas.
+    pub(super) camera: Camera,
+    /// The middles of the spheres.
+    pub(super) spheres: &'a [[f32; 3]],
+    pub(super) radius: f32,
+    /// For each sphere the entry of `palette`.
+    pub(super) colours: &'a [u16],
+    /// Linear RGB.
+    pub(super) palette: &'a [[f32; 3]],
+    /// The upper corner of the box; the lower one is its opposite.
+    pub(super) corner: [f32; 3],
+}
+
+impl Scene<'_> {
+    /// Draws the ground, the spheres and the edges of the box.
+    pub(super) fn draw(&self, canvas: &mut Canvas) {
+        let eye = self.camera.magnified(SAMPLES as f32);
+        let mut buffer = DepthBuffer::new(canvas.width() * SAMPLES, canvas.height() * SAMPLES);
+        for (owner, &sphere) in (0..).zip(self.spheres) {
+            buffer.draw(self.disc(&eye, sphere), owner);
+        }
+        let light = Light::new(&self.camera, self.spheres, self.radius);
+        let lit = Lit { scene: self, eye, buffer, light };
+        for y in 0..canvas.height() {
+            for x in 0..canvas.width() {
+                let mut sum = [0.0; 3];
+                for sample in 0..SAMPLES * SAMPLES {
+                    let (i, j) = (sample % SAMPLES, sample / SAMPLES);
+                    let colour = lit.sample(x * SAMPLES + i, y * SAMPLES + j);
+                    sum = std::array::from_fn(|c| sum[c] + colour[c]);
+                }
+                canvas.set(x, y, encode(sum.map(|c| c / (SAMPLES * SAMPLES) as f32)));
+            }
+        }
+        self.draw_edges(canvas, &lit.buffer);
+    }
+
+    fn disc(&self, eye: &Camera, sphere: [f32; 3]) -> Disc {
+        let [x, y, depth] = eye.project(sphere);
+        Disc { at: [x, y], radius: self.radius * eye.focal / depth, depth, thickness: self.radius }
+    }
+
+    /// A corner of the box: bit `axis` of `index` says whether it is the upper one.
+    pub(super) fn corner(&self, index: usize) -> [f32; 3] {
+        std::array::from_fn(
+            |axis| if index >> axis & 1 == 1 { self.corner[axis] } else { -self.corner[axis] },
+        )
+    }
+
+    /// Whether the face of the box at the upper or lower end of `axis` is seen from outside.
+    pub(super) fn faces_eye(&self, axis: usize, upper: bool) -> bool {
+        let eye = self.camera.eye[axis];
+        if upper { eye > self.corner[axis] } else { eye < -self.corner[axis] }
+    }
+
+    fn draw_edges(&self, canvas: &mut Canvas, buffer: &DepthBuffer) {
+        for axis in 0..3 {
+            for start in (0..8).filter(|start| start >> axis & 1 == 0) {
+                // Two faces meet at the edge; it is hidden by the box itself when both look away.
+                let in_front = (0..3).filter(|&a| a != axis).any(|a| self.faces_eye(a, start >> a & 1 == 1));
+                let (colour, strength, width) =
+                    if in_front { ([0.20, 0.23, 0.29], 0.75, 1.3) } else { ([0.45, 0.48, 0.54], 0.60, 1.0) };
+                let from = self.camera.project(self.corner(start));
+                let to = self.camera.project(self.corner(start | 1 << axis));
+                let edge = Strokes { segments: vec![[[from[0], from[1]], [to[0], to[1]]]], width };
+                edge.cover(canvas.width(), canvas.height(), |x, y, cover| {
+                    let depth = depth_on_line(from, to, [x as f32 + 0.5, y as f32 + 0.5]);
+                    let seen = (0..SAMPLES * SAMPLES)
+                        .filter(|sample| {
+                            let (i, j) = (sample % SAMPLES, sample / SAMPLES);
+                            depth < buffer.depth(x * SAMPLES + i, y * SAMPLES + j)
+                        })
+                        .count();
+                    let share = seen as f32 / (SAMPLES * SAMPLES) as f32;
+                    canvas.blend(x, y, colour, cover * share * strength);
+                });
+            }
+        }
+    }
+}
+
+/// The depth of the line from `a` to `b` (pixels and depth) next to the pixel `p`: 1 / depth is linear on the screen.
+fn depth_on_line(a: [f32; 3], b: [f32; 3], p: [f32; 2]) -> f32 {
+    let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+    let length2 = (dx * dx + dy * dy).max(1e-6);
+    let t = (((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / length2).clamp(0.0, 1.0);
+    1.0 / ((1.0 - t) / a[2] + t / b[2])
+}
+
+/// A scene with what is needed to colour one sample of it.
+struct Lit<'a> {
+    scene: &'a Scene<'a>,
+    eye: Camera,
+    buffer: DepthBuffer,
+    light: Light,
+}
+
+impl Lit<'_> {
+    /// The light that reaches the eye through a sample, in linear RGB.
+    fn sample(&self, x: usize, y: usize) -> [f32; 3] {
+        let ray = self.eye.ray(x as f32 + 0.5, y as f32 + 0.5);
+        let to_eye = unit(ray.map(|c| -c));
+        let Some(owner) = self.buffer.owner(x, y) else {
+            return self.ground(x, y, ray, to_eye);
+        };
+        let scene = self.scene;
+        let depth = self.buffer.depth(x, y);
+        let disc = scene.disc(&self.eye, scene.spheres[owner]);
+        let [u, v, w] = disc.normal(x, y);
+        let normal =
+            std::array::from_fn(|i| u * self.eye.right[i] + v * self.eye.up[i] - w * self.eye.forward[i]);
+        let surface = Surface {
+            at: along(self.eye.eye, depth, ray),
+            normal,
+            albedo: scene.palette[usize::from(scene.colours[owner])],
+            open: self.openness(x, y, depth, disc.radius),
+            gloss: 0.16,
+        };
+        self.light.shade(&surface, to_eye)
+    }
+
+    /// The background and, around the box, the ground, which fades into it.
+    fn ground(&self, x: usize, y: usize, ray: [f32; 3], to_eye: [f32; 3]) -> [f32; 3] {
+        const PAPER: [f32; 3] = [1.0, 1.0, 1.0];
+        let [half_x, half_y, half_z] = self.scene.corner;
+        let depth = (-half_z - self.eye.eye[2]) / ray[2];
+        // Seen from below, the ground would hide the box.
+        if !(depth > 0.0 && ray[2] < 0.0) {
+            return PAPER;
+        }
+        let at = along(self.eye.eye, depth, ray);
+        let beyond = (at[0].abs() - half_x).max(0.0).hypot((at[1].abs() - half_y).max(0.0));
+        let share = if beyond > 0.0 { 0.62 * (-(beyond / 0.13).powi(2)).exp() } else { 1.0 };
+        if share < 1e-3 {
+            return PAPER;
+        }
+        let radius = self.scene.radius * self.eye.focal / depth;
+        let surface = Surface {
+            at,
+            normal: [0.0, 0.0, 1.0],
+            albedo: [0.80, 0.815, 0.84],
+            open: self.openness(x, y, depth, radius),
+            gloss: 0.0,
+        };
+        mix(PAPER, self.light.shade(&surface, to_eye), share)
+    }
+
+    /// How open a place is, from 0 to 1, judged by how far its neighbours on the screen stand in front of it: spheres
+    /// stand out from those behind. `radius` is that of a sphere there, in samples.
+    fn openness(&self, x: usize, y: usize, depth: f32, radius: f32) -> f32 {
+        const RING: [[f32; 2]; 8] = [
+            [1.0, 0.0],
+            [0.7, 0.7],
+            [0.0, 1.0],
+            [-0.7, 0.7],
+            [-1.0, 0.0],
+            [-0.7, -0.7],
+            [0.0, -1.0],
+            [0.7, -0.7],
+        ];
+        let mut closed = 0.0;
+        for reach in [(0.45 * radius).clamp(1.0, 10.0), (1.6 * radius).clamp(2.0, 36.0)] {
+            for [dx, dy] in RING {
+                let near = (x as f32 + reach * dx + 0.5) as i64;
+                let neighbour = self.buffer.depth_near(near, (y as f32 + reach * dy + 0.5) as i64);
+                closed += ((depth - neighbour) / (3.0 * self.scene.radius)).clamp(0.0, 1.0);
+            }
+        }
+        (-1.5 * closed / 16.0).exp()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn depth_along_a_line_is_that_of_perspective() {
+        let (a, b) = ([0.0, 0.0, 1.0], [100.0, 0.0, 3.0]);
+        assert_eq!(depth_on_line(a, b, [0.0, 5.0]), 1.0);
+        assert_eq!(depth_on_line(a, b, [200.0, 5.0]), 3.0);
+        // Half way on the screen is nearer than half way in space.
+        assert!((depth_on_line(a, b, [50.0, 0.0]) - 1.5).abs() < 1e-6);
+        assert!((dot(unit([3.0, 4.0, 0.0]), [3.0, 4.0, 0.0]) - 5.0).abs() < 1e-6);
+    }
+}

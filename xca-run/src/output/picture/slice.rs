@@ -1,0 +1,297 @@
+//! Pictures of dense substates, one layer at a time.
+
+use super::canvas::{Canvas, Strokes};
+use super::colour::{category, encode};
+use super::legend::{FAINT_INK, INK, Scalar, draw_bar, draw_title};
+use super::text::{self, Anchor, Style};
+use super::{Picture, PictureError, check_size};
+use crate::numbers::significant;
+
+const LEFT: usize = 36;
+const TOP: usize = 96;
+const BOTTOM: usize = 64;
+/// The room for the bar, or the list of the categories.
+const RIGHT: usize = 176;
+
+/// One layer of a dense substate, a colour a cell, x to the right and y upwards.
+///
+/// Cells become squares of a whole number of pixels as long as there is room; where there are more cells than pixels,
+/// a pixel shows the mean of its cells.
+#[derive(Debug, Clone)]
+pub struct SlicePicture<'a> {
+    /// The number of cells along x.
+    pub columns: usize,
+    /// The number of cells along y.
+    pub rows: usize,
+    /// The values, `columns * rows` of them, x fastest, the lowest y first.
+    pub scalar: Scalar<'a>,
+    /// If not empty, the values are no magnitudes but kinds: each with its name. Others are drawn in grey.
+    pub categories: &'a [(f64, &'a str)],
+    /// The text above the picture.
+    pub title: &'a str,
+    /// The smaller text below the title.
+    pub caption: &'a str,
+    /// The side of a cell in `length_unit`, for the scale below the picture.
+    pub cell_side: f64,
+    /// The unit of length.
+    pub length_unit: &'a str,
+    /// The longer side of the drawing in pixels, at most; the texts around it come on top. From 200 to 7900.
+    pub pixels: usize,
+}
+
+impl<'a> SlicePicture<'a> {
+    /// A picture of at most 768 pixels each way, its scale in cells, without text.
+    #[must_use]
+    pub fn new(columns: usize, rows: usize, scalar: Scalar<'a>) -> Self {
+        Self {
+            columns,
+            rows,
+            scalar,
+            categories: &[],
+            title: "",
+            caption: "",
+            cell_side: 1.0,
+            length_unit: "cells",
+            pixels: 768,
+        }
+    }
+
+    /// Draws the picture.
+    ///
+    /// # Errors
+    /// [`PictureError::NoCells`], [`PictureError::Length`] (one value for each cell) and [`PictureError::Size`].
+    pub fn render(&self) -> Result<Picture, PictureError> {
+        let Self { columns, rows, .. } = *self;
+        if columns == 0 || rows == 0 {
+            return Err(PictureError::NoCells { columns, rows });
+        }
+        self.scalar.check(columns.saturating_mul(rows), "cells")?;
+        check_size([self.pixels; 2])?;
+        let drawing = self.drawing_size();
+        // A narrow drawing leaves room for the title, a flat one for the bar.
+        let plate = [drawing[0].max(320), drawing[1].max(240)];
+        let size = [LEFT + plate[0] + RIGHT, TOP + plate[1] + BOTTOM];
+        check_size(size)?;
+        let mut canvas = Canvas::new(size[0], size[1], [1.0; 3]);
+        let corner = [LEFT + (plate[0] - drawing[0]) / 2, TOP + (plate[1] - drawing[1]) / 2];
+        self.draw_cells(&mut canvas, corner, drawing);
+        canvas.frame(corner, drawing, INK);
+        draw_title(&mut canvas, LEFT as f32, self.title, self.caption);
+        self.draw_scale(&mut canvas, [corner[0], corner[1] + drawing[1]], drawing[0]);
+        let x = LEFT + plate[0] + 36;
+        if self.categories.is_empty() {
+            let bar = [18, plate[1].min(420)];
+            let y = TOP + (plate[1] - bar[1]) / 2;
+            let (label, map) = (self.scalar.label, self.scalar.map);
+            // The label stands above the bar.
+            let (y, bar) = if y < TOP + 24 { (y + 24, [bar[0], bar[1] - 24]) } else { (y, bar) };
+            draw_bar(&mut canvas, [x, y], bar, label, map, self.scalar.scale());
+        } else {
+            self.draw_categories(&mut canvas, [x, TOP + 24]);
+        }
+        Ok(canvas.into_picture())
+    }
+
+    /// Pixels across and down.
+    fn drawing_size(&self) -> [usize; 2] {
+        let longest = self.columns.max(self.rows);
+        if longest <= self.pixels {
+            let side = self.pixels / longest;
+            return [self.columns * side, self.rows * side];
+        }
+        let share = self.pixels as f64 / longest as f64;
+        [self.columns, self.rows].map(|n| ((n as f64 * share).round() as usize).max(1))
+    }
+
+    fn draw_cells(&self, canvas: &mut Canvas, [x0, y0]: [usize; 2], [w, h]: [usize; 2]) {
+        let scale = self.scalar.scale();
+        let table = self.scalar.map.table();
+        let across: Vec<Share> = (0..w).map(|x| Share::new(x, w, self.columns)).collect();
+        for y in 0..h {
+            // The first row of cells is at the bottom.
+            let down = Share::new(h - 1 - y, h, self.rows);
+            for (x, across) in across.iter().enumerate() {
+                let cells = down.cells().flat_map(|(row, a)| {
+                    across
+                        .cells()
+                        .map(move |(column, b)| (self.scalar.values[row * self.columns + column], a * b))
+                });
+                let colour = if self.categories.is_empty() {
+                    let (sum, weight) = cells
+                        .filter(|(value, _)| value.is_finite())
+                        .fold((0.0, 0.0), |(sum, weight), (value, w)| (sum + value * w, weight + w));
+                    let place = scale.place(sum / weight);
+                    place.map_or(GREY, |place| table[(place * 255.0).round() as usize])
+                } else {
+                    let (sum, weight) = cells.fold(([0.0_f32; 3], 0.0), |(sum, weight), (value, w)| {
+                        let colour = self.colour_of(value);
+                        (std::array::from_fn(|i| sum[i] + colour[i] * w as f32), weight + w as f32)
+                    });
+                    sum.map(|c| c / weight)
+                };
+                canvas.set(x0 + x, y0 + y, encode(colour));
+            }
+        }
+    }
+
+    /// The colour of a category, in linear RGB.
+    fn colour_of(&self, value: f64) -> [f32; 3] {
+        self.categories.iter().position(|(of, _)| *of == value).map_or(GREY, category)
+    }
+
+    fn draw_categories(&self, canvas: &mut Canvas, [x, y]: [usize; 2]) {
+        let style = Style { height: 11.0, weight: 0.115, colour: INK };
+        text::draw(canvas, self.scalar.label, [x as f32, y as f32 - 10.0], Anchor::Left, &style);
+        for (i, (_, name)) in self.categories.iter().enumerate() {
+            let top = y + 8 + 26 * i;
+            canvas.fill([x, top], [16, 16], encode(category(i)));
+            canvas.frame([x, top], [16, 16], INK);
+            text::draw(canvas, name, [x as f32 + 28.0, top as f32 + 13.5], Anchor::Left, &style);
+        }
+    }
+
+    /// A bar of a round length below the drawing, whose lower left corner is at `[x, y]`.
+    fn draw_scale(&self, canvas: &mut Canvas, [x, y]: [usize; 2], width: usize) {
+        let length = self.columns as f64 * self.cell_side;
+        if !(length.is_finite() && length > 0.0) {
+            return;
+        }
+        let power = 10.0_f64.powf((length / 3.0).log10().floor());
+        let round =
+            [5.0, 2.0, 1.0].into_iter().map(|f| f * power).find(|r| *r <= length / 3.0).unwrap_or(power);
+        let pixels = (round / length * width as f64) as f32;
+        let (left, line) = (x as f32, y as f32 + 20.5);
+        let right = left + pixels;
+        let end = |x: f32| [[x, line - 4.0], [x, line + 4.0]];
+        let segments = vec![[[left, line], [right, line]], end(left), end(right)];
+        canvas.stroke(&Strokes { segments, width: 1.4 }, INK);
+        let text = format!("{} {}", significant(round, 4), self.length_unit);
+        let style = Style { height: 11.0, weight: 0.11, colour: FAINT_INK };
+        text::draw(canvas, &text, [right + 12.0, line + 5.5], Anchor::Left, &style);
+    }
+}
+
+/// Linear RGB of cells without a value.
+const GREY: [f32; 3] = [0.35, 0.35, 0.35];
+
+/// The cells that a pixel shows along one axis.
+struct Share {
+    first: usize,
+    last: usize,
+    /// What it has of the first and the last; of those between it has the whole.
+    of_first: f64,
+    of_last: f64,
+}
+
+impl Share {
+    fn new(pixel: usize, pixels: usize, cells: usize) -> Self {
+        if cells <= pixels {
+            let cell = (pixel * cells / pixels).min(cells - 1);
+            return Self { first: cell, last: cell, of_first: 1.0, of_last: 1.0 };
+        }
+        let size = cells as f64 / pixels as f64;
+        let (from, to) = (pixel as f64 * size, (pixel + 1) as f64 * size);
+        let first = (from as usize).min(cells - 1);
+        let last = ((to.ceil() as usize).max(1) - 1).clamp(first, cells - 1);
+        Self { first, last, of_first: first as f64 + 1.0 - from, of_last: to - last as f64 }
+    }
+
+    fn cells(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        (self.first..=self.last).map(|cell| {
+            let share = if cell == self.first {
+                self.of_first
+            } else if cell == self.last {
+                self.of_last
+            } else {
+                1.0
+            };
+            (cell, share)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::picture::ColourMap;
+
+    fn colour(t: f64) -> [u8; 3] {
+        encode(ColourMap::Sequential.linear(t)).map(|x| (x * 255.0).round() as u8)
+    }
+
+    fn near(a: [u8; 3], b: [u8; 3]) -> bool {
+        (0..3).all(|i| a[i].abs_diff(b[i]) <= 2)
+    }
+
+    #[test]
+    fn small_cells_are_squares_with_the_first_row_below() {
+        let values = [0.0, 1.0, 0.25, 0.5, 0.75, 1.0];
+        let mut slice = SlicePicture::new(3, 2, Scalar::new("t", &values));
+        slice.pixels = 600;
+        let picture = slice.render().unwrap();
+        assert_eq!((picture.width(), picture.height()), (LEFT + 600 + RIGHT, TOP + 400 + BOTTOM));
+        for (i, value) in values.into_iter().enumerate() {
+            let (x, y) = (LEFT + 200 * (i % 3), TOP + 200 * (1 - i / 3));
+            for (dx, dy) in [(0, 0), (199, 0), (0, 199), (199, 199)] {
+                assert!(near(picture.pixel(x + dx, y + dy), colour(value)), "cell {i} at {dx} {dy}");
+            }
+        }
+    }
+
+    #[test]
+    fn many_cells_are_averaged_by_their_areas() {
+        // Columns of 0 and 1 in turn: every pixel shows the mean, one half.
+        let values: Vec<f64> = (0..800 * 400).map(|i| f64::from(i % 2)).collect();
+        let mut slice = SlicePicture::new(800, 400, Scalar::new("t", &values));
+        slice.pixels = 400;
+        let picture = slice.render().unwrap();
+        assert_eq!(picture.height(), TOP + 240 + BOTTOM);
+        for (x, y) in [(0, 0), (200, 100), (399, 199)] {
+            let found = picture.pixel(LEFT + x, TOP + 20 + y);
+            assert!(near(found, colour(0.5)), "{found:?} at {x} {y}, not {:?}", colour(0.5));
+        }
+    }
+
+    #[test]
+    fn the_shares_of_all_pixels_are_all_cells() {
+        for (pixels, cells) in [(400, 1001), (7, 8), (1, 5), (333, 4096)] {
+            let mut found = vec![0.0; cells];
+            for share in (0..pixels).map(|pixel| Share::new(pixel, pixels, cells)) {
+                let mut sum = 0.0;
+                for (cell, part) in share.cells() {
+                    found[cell] += part;
+                    sum += part;
+                }
+                assert!((sum - cells as f64 / pixels as f64).abs() < 1e-9, "{pixels} {cells}");
+            }
+            assert!(found.iter().all(|sum| (sum - 1.0).abs() < 1e-9), "{pixels} {cells}");
+        }
+    }
+
+    #[test]
+    fn kinds_have_colours_of_their_own_and_others_are_grey() {
+        let mut slice = SlicePicture::new(3, 1, Scalar::new("state", &[0.0, 1.0, 7.0]));
+        slice.categories = &[(0.0, "dead"), (1.0, "alive")];
+        slice.pixels = 300;
+        let picture = slice.render().unwrap();
+        let at = |cell: usize| picture.pixel(LEFT + 10 + 100 * cell + 50, TOP + 70 + 50);
+        let bytes = |linear| encode(linear).map(|x| (x * 255.0).round() as u8);
+        assert_eq!([at(0), at(1), at(2)], [bytes(category(0)), bytes(category(1)), bytes(GREY)]);
+    }
+
+    #[test]
+    fn what_cannot_be_drawn_is_said() {
+        let error = |columns, rows, n: usize| {
+            let values = vec![0.0; n];
+            SlicePicture::new(columns, rows, Scalar::new("t", &values)).render().unwrap_err().to_string()
+        };
+        assert_eq!(error(3, 2, 5), "cannot draw `t`: 5 values for 6 cells");
+        assert_eq!(error(0, 2, 0), "cannot draw a slice of 0 by 2 cells");
+        assert!(error(usize::MAX, 2, 0).contains("0 values"));
+        assert!(
+            SlicePicture { pixels: 9000, ..SlicePicture::new(1, 1, Scalar::new("t", &[f64::NAN])) }
+                .render()
+                .is_err()
+        );
+    }
+}

@@ -1,0 +1,162 @@
+//! What a process uses: substates, and what the engine provides.
+
+use crate::error::Problem;
+use crate::program::{Program, Roles};
+use crate::visit::{self, Node};
+use xca_core::Schema;
+use xca_core::ir::{Builtin, Expression, Function, FunctionKind, PlaceRoot, Reach, Statement};
+use xca_core::kernel::Of;
+
+/// How a process uses one substate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Use {
+    pub(crate) of: Of,
+    pub(crate) field: usize,
+    /// Read or written at the centre.
+    pub(crate) centre: bool,
+    /// Read at neighbours or of other items, as it was before the process.
+    pub(crate) others: bool,
+    pub(crate) write: bool,
+}
+
+impl Use {
+    /// Whether results go to a second buffer: where others still read what was before.
+    pub(crate) fn doubled(&self) -> bool {
+        self.others && self.write
+    }
+}
+
+/// Everything that a process uses.
+#[derive(Debug, Default)]
+pub(crate) struct Uses {
+    pub(crate) substates: Vec<Use>,
+    pub(crate) parameters: bool,
+    pub(crate) neighbourhood: bool,
+    /// The ranges of items in cells.
+    pub(crate) ranges: bool,
+    pub(crate) labels: bool,
+    pub(crate) index: bool,
+    pub(crate) random: bool,
+    pub(crate) faults: bool,
+    pub(crate) searches: bool,
+}
+
+impl Uses {
+    pub(crate) fn of(program: &Program) -> Result<Self, Problem> {
+        let mut uses = Self::default();
+        for function in &program.functions {
+            uses.add(function)?;
+        }
+        uses.substates.sort_by_key(|used| (used.of == Of::Companion, used.field));
+        Ok(uses)
+    }
+
+    pub(crate) fn substate(&self, of: Of, field: usize) -> Option<&Use> {
+        self.substates.iter().find(|used| used.of == of && used.field == field)
+    }
+
+    fn add(&mut self, function: &Function) -> Result<(), Problem> {
+        let roles = Roles::of(function);
+        let kind = function.kind;
+        let mut problem = None;
+        visit::block(&function.body, &mut |node| {
+            let result = match node {
+                Node::Statement(statement) => self.statement(statement, &roles, kind),
+                Node::Expression(expression) => self.expression(expression, &roles, kind),
+            };
+            if let Err(first) = result {
+                problem.get_or_insert(first);
+            }
+            true
+        });
+        problem.map_or(Ok(()), Err)
+    }
+
+    fn statement(&mut self, statement: &Statement, roles: &Roles<'_>, kind: FunctionKind) -> Result<(), Problem> {
+        match statement {
+            Statement::LetNeighbour { .. } => self.neighbourhood = true,
+            Statement::Assign { place, .. } => {
+                if let PlaceRoot::Own(name) = &place.root {
+                    if !matches!(kind, FunctionKind::Cells | FunctionKind::Items) {
+                        return Err(Problem::unsupported(format!("an assignment to `{name}`"), "only processes write"));
+                    }
+                    let used = self.entry(Of::Subject, roles.subject, name)?;
+                    used.centre = true;
+                    used.write = true;
+                }
+            }
+            Statement::ForOthers { reach, radius, .. } => {
+                if kind != FunctionKind::Items {
+                    let reason = "it belongs in a process over items";
+                    return Err(Problem::unsupported("a search for other items", reason));
+                }
+                self.ranges = true;
+                self.neighbourhood |= *reach != Reach::Cell;
+                if radius.is_some() {
+                    self.searches = true;
+                    let name = position(roles.subject)?;
+                    self.entry(Of::Subject, roles.subject, name)?.others = true;
+                }
+            }
+            Statement::ForItems { .. } => self.ranges = true,
+            Statement::Fault { .. } => self.faults = true,
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn expression(&mut self, value: &Expression, roles: &Roles<'_>, kind: FunctionKind) -> Result<(), Problem> {
+        match value {
+            Expression::Own(name) => self.entry(Of::Subject, roles.subject, name)?.centre = true,
+            Expression::CellOfItem(name) => self.entry(Of::Companion, roles.companion, name)?.centre = true,
+            Expression::Neighbour { field, .. } => {
+                self.neighbourhood = true;
+                self.entry(Of::Subject, roles.subject, field)?.others = true;
+            }
+            Expression::NamedNeighbour { field, .. } => self.entry(Of::Subject, roles.subject, field)?.others = true,
+            Expression::Other { field, .. } => {
+                let (of, group) = match kind {
+                    FunctionKind::Cells => (Of::Companion, roles.companion),
+                    _ => (Of::Subject, roles.subject),
+                };
+                self.entry(of, group, field)?.others = true;
+            }
+            Expression::OtherLabel(_) | Expression::Builtin(Builtin::Label, _) => self.labels = true,
+            Expression::Parameter(_) => self.parameters = true,
+            Expression::Builtin(Builtin::Random | Builtin::RandomBits, _) => {
+                self.random = true;
+                match kind {
+                    FunctionKind::Cells => self.index = true,
+                    _ => self.labels = true,
+                }
+            }
+            Expression::Builtin(Builtin::Index, _) => self.index = true,
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn entry(
+        &mut self,
+        of: Of,
+        group: Option<(&str, &'static Schema)>,
+        name: &str,
+    ) -> Result<&mut Use, Problem> {
+        let (field, _) =
+            group.and_then(|(_, schema)| schema.field(name)).ok_or_else(|| Problem::unknown("substate", name))?;
+        let known = self.substates.iter().position(|used| used.of == of && used.field == field);
+        let index = known.unwrap_or_else(|| {
+            self.substates.push(Use { of, field, centre: false, others: false, write: false });
+            self.substates.len() - 1
+        });
+        Ok(&mut self.substates[index])
+    }
+}
+
+/// The name of the substate by which searches measure distances.
+pub(crate) fn position(subject: Option<(&str, &'static Schema)>) -> Result<&'static str, Problem> {
+    subject
+        .and_then(|(_, schema)| schema.position.and_then(|field| schema.fields.get(field)))
+        .map(|field| field.name)
+        .ok_or_else(|| Problem::unsupported("a search within a radius", "no substate is marked `#[position]`"))
+}

@@ -1,0 +1,108 @@
+//! Numbers as WGSL writes them, exact to the last bit.
+
+use crate::error::Problem;
+use crate::types::{self, Type};
+use xca_core::ir::Literal;
+use xca_core::{Precision, ScalarType};
+
+/// A literal of this type.
+pub(crate) fn literal(literal: &Literal, type_: &Type, precision: Precision) -> Result<String, Problem> {
+    match (literal, type_) {
+        (Literal::Bool(value), _) => Ok(value.to_string()),
+        (Literal::Integer(value, _), Type::Scalar(scalar)) => integer(i128::from(*value), *scalar),
+        (Literal::Float(digits, _), Type::Scalar(scalar)) if types::is_f64(*scalar, precision) => {
+            double(digits.parse().map_err(|_| unreadable(digits))?)
+        }
+        (Literal::Float(digits, _), _) => single(digits.parse().map_err(|_| unreadable(digits))?),
+        (Literal::Integer(..), _) => Err(Problem::unsupported("a literal", "its type is not known")),
+    }
+}
+
+fn unreadable(digits: &str) -> Problem {
+    Problem::unsupported(format!("the literal `{digits}`"), "it is no number")
+}
+
+/// An integer of this type.
+pub(crate) fn integer(value: i128, scalar: ScalarType) -> Result<String, Problem> {
+    let too_large = || Problem::unsupported(format!("the literal `{value}`"), format!("it does not fit into {scalar}"));
+    match scalar {
+        ScalarType::U8 => u8::try_from(value).map(|value| format!("{value}u")).map_err(|_| too_large()),
+        ScalarType::U32 => u32::try_from(value).map(|value| format!("{value}u")).map_err(|_| too_large()),
+        ScalarType::I32 => match i32::try_from(value) {
+            // There are no negative literals, and 2147483648 is no i32.
+            Ok(i32::MIN) => Ok("i32(-2147483648)".to_owned()),
+            Ok(value) => Ok(format!("{value}i")),
+            Err(_) => Err(too_large()),
+        },
+        ScalarType::F32 | ScalarType::F64 | ScalarType::Real => {
+            Err(Problem::unsupported(format!("the literal `{value}`"), "an integer stands where a float is needed"))
+        }
+    }
+}
+
+/// A float of this type; `f64` is rounded where the type is narrower, as `as f32` does.
+pub(crate) fn float(value: f64, scalar: ScalarType, precision: Precision) -> Result<String, Problem> {
+    if types::is_f64(scalar, precision) { double(value) } else { single(value as f32) }
+}
+
+fn single(value: f32) -> Result<String, Problem> {
+    match value.classify() {
+        std::num::FpCategory::Nan => Err(not_a_number()),
+        std::num::FpCategory::Infinite => Ok(infinite("f32", value.is_sign_negative())),
+        _ => Ok(format!("{value:?}f")),
+    }
+}
+
+fn double(value: f64) -> Result<String, Problem> {
+    match value.classify() {
+        std::num::FpCategory::Nan => Err(not_a_number()),
+        std::num::FpCategory::Infinite => Ok(infinite("f64", value.is_sign_negative())),
+        _ => Ok(format!("{value:?}lf")),
+    }
+}
+
+fn not_a_number() -> Problem {
+    Problem::unsupported("NaN as a constant", "WGSL cannot write it; report a fault instead")
+}
+
+/// WGSL refuses infinite constants, so that they are computed at run time.
+fn infinite(scalar: &str, negative: bool) -> String {
+    format!("{}infinity_{scalar}()", if negative { "-" } else { "" })
+}
+
+/// The routine behind an infinite constant.
+pub(crate) fn infinity_routine(scalar: &str) -> String {
+    let largest = if scalar == "f64" { format!("{:?}lf", f64::MAX) } else { format!("{:?}f", f32::MAX) };
+    format!(
+        "fn infinity_{scalar}() -> {scalar} {{\n    let largest: {scalar} = {largest};\n    return largest + largest;\n}}\n"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{float, integer, literal};
+    use crate::types::Type;
+    use xca_core::ir::Literal;
+    use xca_core::{Precision, ScalarType};
+
+    #[test]
+    fn floats_are_exact() {
+        let real = Type::Scalar(ScalarType::Real);
+        let tenth = Literal::Float("0.1", None);
+        assert_eq!(literal(&tenth, &real, Precision::F32).unwrap(), "0.1f");
+        assert_eq!(literal(&tenth, &real, Precision::F64).unwrap(), "0.1lf");
+        let long = Literal::Float("1.118033988749894848e-5", None);
+        assert_eq!(literal(&long, &real, Precision::F64).unwrap(), "1.118033988749895e-5lf");
+        assert_eq!(float(1e300, ScalarType::Real, Precision::F32).unwrap(), "infinity_f32()");
+        assert_eq!(float(f64::NEG_INFINITY, ScalarType::F64, Precision::F32).unwrap(), "-infinity_f64()");
+        assert!(float(f64::NAN, ScalarType::F64, Precision::F32).is_err());
+    }
+
+    #[test]
+    fn integers_fit() {
+        assert_eq!(integer(255, ScalarType::U8).unwrap(), "255u");
+        assert!(integer(256, ScalarType::U8).is_err());
+        assert_eq!(integer(-2_147_483_648, ScalarType::I32).unwrap(), "i32(-2147483648)");
+        assert_eq!(integer(-1, ScalarType::I32).unwrap(), "-1i");
+    }
+}

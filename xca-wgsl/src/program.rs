@@ -1,0 +1,137 @@
+//! A process together with the helpers that it calls.
+
+use crate::error::{Error, Problem};
+use crate::visit::{self, Node};
+use std::collections::HashMap;
+use xca_core::Schema;
+use xca_core::ir::{Expression, Function, FunctionKind, Role};
+
+/// The process (number 0) and the helpers, callees after callers. Functions are boxed: what is known about a part of a
+/// body is kept by its address.
+pub(crate) struct Program {
+    pub(crate) functions: Vec<Box<Function>>,
+    by_address: HashMap<usize, usize>,
+}
+
+impl Program {
+    pub(crate) fn collect(process: &Function) -> Result<Self, Error> {
+        if process.kind == FunctionKind::Helper {
+            return Err(error(process.name, process.name, Problem::NotAProcess));
+        }
+        let mut program = Self { functions: vec![Box::new(process.clone())], by_address: HashMap::new() };
+        program.add_callees(0)?;
+        program.check_recursion()?;
+        Ok(program)
+    }
+
+    pub(crate) fn process(&self) -> &Function {
+        &self.functions[0]
+    }
+
+    /// The number of the helper that a call means.
+    pub(crate) fn helper(&self, function: fn() -> Function) -> Option<usize> {
+        self.by_address.get(&(function as usize)).copied()
+    }
+
+    fn add_callees(&mut self, caller: usize) -> Result<(), Error> {
+        let mut calls: Vec<fn() -> Function> = Vec::new();
+        visit::block(&self.functions[caller].body, &mut |node| {
+            if let Node::Expression(Expression::Call { function, .. }) = node {
+                calls.push(*function);
+            }
+            true
+        });
+        for call in calls {
+            if self.by_address.contains_key(&(call as usize)) {
+                continue;
+            }
+            let helper = call();
+            // A function may have several addresses; its text decides.
+            let text = format!("{helper:?}");
+            let known = self.functions.iter().position(|known| format!("{known:?}") == text);
+            if let Some(known) = known {
+                self.by_address.insert(call as usize, known);
+                continue;
+            }
+            let (name, kind) = (helper.name, helper.kind);
+            if kind != FunctionKind::Helper {
+                let problem = Problem::unsupported(format!("a call of `{name}`"), "only helpers can be called");
+                return Err(self.error(caller, problem));
+            }
+            let number = self.functions.len();
+            self.functions.push(Box::new(helper));
+            self.by_address.insert(call as usize, number);
+            self.add_callees(number)?;
+        }
+        Ok(())
+    }
+
+    /// Refuses helpers that call themselves.
+    fn check_recursion(&self) -> Result<(), Error> {
+        let mut done = vec![false; self.functions.len()];
+        self.descend(0, &mut Vec::new(), &mut done)
+    }
+
+    fn descend(&self, number: usize, path: &mut Vec<usize>, done: &mut [bool]) -> Result<(), Error> {
+        if path.contains(&number) {
+            let helper = self.functions[number].name;
+            return Err(error(self.process().name, helper, Problem::Recursion { helper: helper.to_owned() }));
+        }
+        if done[number] {
+            return Ok(());
+        }
+        let mut callees = Vec::new();
+        visit::block(&self.functions[number].body, &mut |node| {
+            if let Node::Expression(Expression::Call { function, .. }) = node {
+                callees.extend(self.helper(*function));
+            }
+            true
+        });
+        path.push(number);
+        for callee in callees {
+            self.descend(callee, path, done)?;
+        }
+        path.pop();
+        done[number] = true;
+        Ok(())
+    }
+
+    /// An error in one of the functions.
+    pub(crate) fn error(&self, function: usize, problem: Problem) -> Error {
+        error(self.process().name, self.functions[function].name, problem)
+    }
+}
+
+fn error(process: &str, function: &str, problem: Problem) -> Error {
+    Error { process: process.to_owned(), function: function.to_owned(), problem }
+}
+
+/// What the arguments of a function stand for.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Roles<'a> {
+    /// The substates of the cell or item that the process runs for, and what the source calls it.
+    pub(crate) subject: Option<(&'a str, &'static Schema)>,
+    /// The substates of the item's cell, or of the cell's items, and what the source calls them.
+    pub(crate) companion: Option<(&'a str, &'static Schema)>,
+    /// The parameters, and what the source calls them.
+    pub(crate) parameters: Option<(&'a str, &'static Schema)>,
+}
+
+impl<'a> Roles<'a> {
+    pub(crate) fn of(function: &'a Function) -> Self {
+        let mut roles = Self::default();
+        for (position, argument) in function.arguments.iter().enumerate() {
+            match argument.role {
+                Role::Cell(schema) | Role::Slot(schema) if position == 0 => {
+                    roles.subject = Some((argument.name, schema));
+                }
+                Role::Cell(schema) | Role::Slot(schema) | Role::Slots(schema) => {
+                    roles.companion = Some((argument.name, schema));
+                }
+                Role::Parameters(schema) => roles.parameters = Some((argument.name, schema)),
+                Role::Space | Role::Value(_) => {}
+            }
+        }
+        roles
+    }
+}

@@ -1,0 +1,129 @@
+//! Types as the shader knows them, and what WGSL calls them.
+
+use xca_core::{Precision, ScalarType, ValueType, ir};
+
+/// A type, after inference.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Type {
+    Unit,
+    Bool,
+    Scalar(ScalarType),
+    Vector(ScalarType, u8),
+    Array(Box<Type>, usize),
+    Destination,
+}
+
+impl Type {
+    pub(crate) const U32: Self = Self::Scalar(ScalarType::U32);
+
+    pub(crate) fn of_value(value_type: ValueType) -> Self {
+        match value_type.lanes {
+            1 => Self::Scalar(value_type.scalar),
+            lanes => Self::Vector(value_type.scalar, lanes),
+        }
+    }
+
+    /// The scalar of a number or vector.
+    pub(crate) fn scalar(&self) -> Option<ScalarType> {
+        match self {
+            Self::Scalar(scalar) | Self::Vector(scalar, _) => Some(*scalar),
+            _ => None,
+        }
+    }
+
+    /// The number of lanes of a vector, 1 for everything else.
+    pub(crate) fn lanes(&self) -> u8 {
+        match self {
+            Self::Vector(_, lanes) => *lanes,
+            _ => 1,
+        }
+    }
+
+    pub(crate) fn is_float(&self) -> bool {
+        self.scalar().is_some_and(is_float)
+    }
+
+    pub(crate) fn is_u8(&self) -> bool {
+        self.scalar() == Some(ScalarType::U8)
+    }
+
+    /// What WGSL calls it.
+    pub(crate) fn wgsl(&self) -> String {
+        match self {
+            Self::Unit => "()".to_owned(),
+            Self::Bool => "bool".to_owned(),
+            Self::Scalar(scalar) => scalar_name(*scalar).to_owned(),
+            Self::Vector(scalar, lanes) => format!("vec{lanes}<{}>", scalar_name(*scalar)),
+            Self::Array(element, length) => format!("array<{}, {length}>", element.wgsl()),
+            Self::Destination => "Destination".to_owned(),
+        }
+    }
+
+    /// A part of the name of a routine that works on this type.
+    pub(crate) fn word(&self) -> String {
+        match self {
+            Self::Scalar(scalar) => scalar_name(*scalar).to_lowercase(),
+            Self::Vector(scalar, lanes) => format!("vec{lanes}_{}", scalar_name(*scalar).to_lowercase()),
+            other => other.wgsl(),
+        }
+    }
+
+    /// Whether the shader needs 64-bit floats for it.
+    pub(crate) fn needs_f64(&self, precision: Precision) -> bool {
+        match self {
+            Self::Array(element, _) => element.needs_f64(precision),
+            other => other.scalar().is_some_and(|scalar| is_f64(scalar, precision)),
+        }
+    }
+}
+
+impl From<&ir::Type> for Type {
+    fn from(written: &ir::Type) -> Self {
+        match written {
+            ir::Type::Bool => Self::Bool,
+            ir::Type::Scalar(scalar) => Self::Scalar(*scalar),
+            ir::Type::Vector(scalar, lanes) => Self::Vector(*scalar, *lanes),
+            ir::Type::Array(element, length) => Self::Array(Box::new(Self::from(&**element)), *length),
+            ir::Type::Destination => Self::Destination,
+        }
+    }
+}
+
+/// What WGSL calls a scalar. There are no bytes in WGSL: `u8` is a `u32` that is kept below 256.
+pub(crate) fn scalar_name(scalar: ScalarType) -> &'static str {
+    match scalar {
+        ScalarType::U8 | ScalarType::U32 => "u32",
+        ScalarType::I32 => "i32",
+        ScalarType::F32 => "f32",
+        ScalarType::F64 => "f64",
+        ScalarType::Real => "Real",
+    }
+}
+
+pub(crate) fn is_float(scalar: ScalarType) -> bool {
+    matches!(scalar, ScalarType::F32 | ScalarType::F64 | ScalarType::Real)
+}
+
+pub(crate) fn is_f64(scalar: ScalarType, precision: Precision) -> bool {
+    match scalar {
+        ScalarType::F64 => true,
+        ScalarType::Real => precision == Precision::F64,
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Type;
+    use xca_core::{Precision, ScalarType, ir};
+
+    #[test]
+    fn names() {
+        let table = Type::from(&ir::Type::Array(Box::new(ir::Type::Vector(ScalarType::Real, 3)), 4));
+        assert_eq!(table.wgsl(), "array<vec3<Real>, 4>");
+        assert!(table.needs_f64(Precision::F64));
+        assert!(!table.needs_f64(Precision::F32));
+        assert_eq!(Type::Scalar(ScalarType::U8).wgsl(), "u32");
+        assert_eq!(Type::Vector(ScalarType::I32, 2).word(), "vec2_i32");
+    }
+}
