@@ -43,4 +43,14 @@ impl Buffer {
     pub fn bytes_mut(&mut self) -> &mut [u8] {
         &mut bytemuck::cast_slice_mut(&mut self.words)[..self.length]
     }
+
+    /// Where the bytes start. Asking again, or for [`Self::as_mut_ptr`], leaves earlier pointers valid.
+    pub fn as_ptr(&self) -> *const u8 {
+        self.words.as_ptr().cast()
+    }
+
+    /// Where the bytes start, to be written. Asking again leaves earlier pointers valid.
+    pub fn as_mut_ptr(&mut self) -> *mut u8 {
+        self.words.as_mut_ptr().cast()
+    }
 }

@@ -1,1 +1,90 @@
+//! The parallel CPU engine.
+//!
+//! It runs the rows of the cellular space on all cores, with the same bits as the reference engine at any number of threads:
+//! - substates of cells are planes with a halo as wide as the neighbourhood, so that a neighbour is a constant offset;
+//! - populations are compact: items are stored cell after cell, and empty rows cost nothing;
+//! - processes that do not disturb each other run together, row by row ([`stages`]);
+//! - a substate that is read at the centre only is written in place, any other is written to a second buffer.
 
+mod dense;
+mod execution;
+mod layout;
+mod migration;
+mod population;
+mod rows;
+mod stages;
+
+use execution::CpuExecution;
+use std::fmt;
+use std::sync::Arc;
+use xca_core::engine::{Engine, Execution, StartError};
+use xca_core::{Model, Precision};
+
+/// The engine for all cores.
+#[derive(Clone)]
+pub struct Cpu {
+    pool: Arc<rayon::ThreadPool>,
+}
+
+impl Cpu {
+    /// With one thread for each core that the process may use.
+    ///
+    /// # Errors
+    /// Where the system does not start the threads.
+    pub fn new() -> Result<Self, CpuError> {
+        Self::build(0)
+    }
+
+    /// With so many threads.
+    ///
+    /// # Errors
+    /// For 0 threads, and where the system does not start the threads.
+    pub fn with_threads(threads: usize) -> Result<Self, CpuError> {
+        if threads == 0 { Err(CpuError::NoThreads) } else { Self::build(threads) }
+    }
+
+    fn build(threads: usize) -> Result<Self, CpuError> {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .thread_name(|number| format!("xca-cpu-{number}"))
+            .build()
+            .map_err(|source| CpuError::Threads { threads, source })?;
+        Ok(Self { pool: Arc::new(pool) })
+    }
+}
+
+impl fmt::Debug for Cpu {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Cpu").field("threads", &self.threads()).finish()
+    }
+}
+
+/// An engine that cannot be made.
+#[derive(Debug, thiserror::Error)]
+pub enum CpuError {
+    /// No thread at all.
+    #[error("the cpu engine needs at least 1 thread")]
+    NoThreads,
+    /// The system does not start the threads.
+    #[error("the cpu engine could not start {threads} threads")]
+    Threads {
+        /// How many were wanted; 0 for one a core.
+        threads: usize,
+        /// The system's reason.
+        source: rayon::ThreadPoolBuildError,
+    },
+}
+
+impl Engine for Cpu {
+    fn name(&self) -> &str {
+        "cpu"
+    }
+
+    fn threads(&self) -> usize {
+        self.pool.current_num_threads()
+    }
+
+    fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {
+        Ok(Box::new(CpuExecution::new(model, precision, Arc::clone(&self.pool))?))
+    }
+}

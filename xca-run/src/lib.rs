@@ -8,6 +8,8 @@
 //!
 //! These three work on plain data (slices of numbers) and know nothing of models and engines.
 
+#![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
+
 pub mod interrupt;
 mod numbers;
 pub mod output;

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::io::IsTerminal;
 use std::time::Duration;
 
-use comfy_table::{CellAlignment, Table, presets};
+use comfy_table::{CellAlignment, ContentLineStyle, LineStyle, Table, TableStyle};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 use crate::numbers::significant;
@@ -133,8 +133,10 @@ pub struct Diagnostic {
 /// Lines do not end in blanks; there is no line end after the last.
 #[must_use]
 pub fn summary(diagnostics: &[Diagnostic]) -> String {
+    let line = LineStyle::none().fill('─').junction('─');
+    let rows = ContentLineStyle::none();
     let mut table = Table::new();
-    table.load_style(presets::UTF8_HORIZONTAL_ONLY);
+    table.load_style(TableStyle::new().header_lines(rows).header_separator(line).content_lines(rows));
     table.set_header(["quantity", "unit", "initial", "final"]);
     let text = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| significant(value, 6));
     for Diagnostic { name, unit, initial, last } in diagnostics {
@@ -257,11 +259,11 @@ mod tests {
             line("kinetic energy", "J", Some(0.0), Some(0.011_240_501)),
             line("largest overlap", "m", None, Some(1.2345678e-7)),
         ]);
-        let expected = "
-──────────────────────────────────────────────────────
- quantity          unit   initial          final
-══════════════════════════════════════════════════════
-";
+        let expected = " quantity          unit   initial        final
+───────────────────────────────────────────────
+ particles                   2602         2602
+ kinetic energy    J            0    0.0112405
+ largest overlap   m            -   1.23457e-7";
         assert_eq!(table, expected);
     }
 }

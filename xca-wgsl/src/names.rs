@@ -26,12 +26,13 @@ sqrt step tan tanh transpose trunc bitcast arrayLength atomicLoad atomicStore at
 const OWN: &str = "
 Real Destination Space Moment Fault Faults main space moment neighbour_offsets item_starts item_ends item_labels
 item_cells destinations faults here here_index this_item reported_fault first_fault storage_index cell_index linear_index
-neighbour_at checked_neighbour_at report_fault philox random_words random_bits random_real cell_containing nearest_image
-infinity process_cell process_item
+neighbour_at checked_neighbour_at report_fault has_fault multiply_high philox random_words random_bits random_real
+cell_containing nearest_image
+
 ";
 
 /// The beginnings of the names of routines.
-const PREFIXES: [&str; 6] = ["minimum_", "maximum_", "dot_", "length_", "saturate_", "set_"];
+const PREFIXES: [&str; 7] = ["minimum_", "maximum_", "dot_", "cross_", "length_", "saturate_", "infinity_"];
 
 /// Gives out names.
 #[derive(Debug, Default)]
@@ -44,6 +45,13 @@ impl Names {
     /// A name that the whole module sees. All of these are given out before the first local one.
     pub(crate) fn module(&mut self, wanted: &str) -> String {
         let name = self.free(wanted);
+        self.module.push(name.clone());
+        name
+    }
+
+    /// The name of a routine, which no variable of a model takes.
+    pub(crate) fn routine(&mut self, wanted: &str) -> String {
+        let name = if self.module.iter().any(|known| known == wanted) { self.free(wanted) } else { wanted.to_owned() };
         self.module.push(name.clone());
         name
     }

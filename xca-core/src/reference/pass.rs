@@ -109,7 +109,7 @@ impl ReferenceExecution {
         let place = cell * group.slots;
         let write_plane = pass.next.as_mut().unwrap_or(&mut group.planes[field]);
         let write = if pass.access.write {
-            write_plane.bytes_mut()[place * size..].as_mut_ptr()
+            write_plane.as_mut_ptr().wrapping_add(place * size)
         } else {
             std::ptr::null_mut()
         };
@@ -120,14 +120,14 @@ impl ReferenceExecution {
                     None => &group.outside[field],
                 });
             }
-            gathered.bytes().as_ptr()
+            gathered.as_ptr()
         } else if pass.access.write && pass.next.is_none() {
             // In place: the kernel reads through `write` alone.
             write.cast_const()
         } else if group.is_population() {
-            group.planes[field].bytes().as_ptr()
+            group.planes[field].as_ptr()
         } else {
-            group.planes[field].bytes()[place * size..].as_ptr()
+            group.planes[field].as_ptr().wrapping_add(place * size)
         };
         Entry { read, write }
     }

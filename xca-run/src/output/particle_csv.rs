@@ -6,15 +6,17 @@
 //!
 //! [`write`] makes such a file, [`read()`] takes one, by hand or from a run, with errors that say the line.
 
+mod error;
 mod lines;
 mod read;
 
 use std::fmt::{self, Write as _};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use super::atomic::{WriteError, write_atomically};
+use super::atomic::write_atomically;
 
-pub use read::{ParticleTable, ReadError, read};
+pub use error::{ReadError, WriteParticlesError};
+pub use read::{ParticleTable, read};
 
 /// The name of the first column.
 pub const LABEL: &str = "label";
@@ -43,34 +45,6 @@ impl Column<'_> {
             Self::F32(values) => write!(text, "{:.8e}", values[index]),
         }
     }
-}
-
-/// Particles that cannot be written as a file.
-#[derive(Debug, thiserror::Error)]
-pub enum WriteParticlesError {
-    /// A column has more or fewer values than there are labels.
-    #[error("cannot write {}: column `{column}` has {found} values for {labels} labels", path.display())]
-    ColumnLength {
-        /// The file.
-        path: PathBuf,
-        /// The column.
-        column: String,
-        /// The number of its values.
-        found: usize,
-        /// The number of labels.
-        labels: usize,
-    },
-    /// Two particles have one label, so that a reader could not tell them apart.
-    #[error("cannot write {}: two particles have the label {label}", path.display())]
-    DuplicateLabel {
-        /// The file.
-        path: PathBuf,
-        /// The label.
-        label: u32,
-    },
-    /// The system refused.
-    #[error(transparent)]
-    Write(#[from] WriteError),
 }
 
 /// Writes particles to `path`, sorted by label. The file appears complete or not at all.

@@ -3,11 +3,11 @@
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::fs::File;
-use std::io::{self, BufReader};
-use std::num::{ParseFloatError, ParseIntError};
-use std::path::{Path, PathBuf};
+use std::io::BufReader;
+use std::path::Path;
 
 use super::LABEL;
+use super::error::ReadError;
 use super::lines::MeaningfulLines;
 
 /// Particles as they stand in a file, in its order.
@@ -19,123 +19,6 @@ pub struct ParticleTable {
     pub columns: Vec<Vec<f64>>,
     /// The line of the file that each particle stands on, from 1, for the errors that only the model can find.
     pub lines: Vec<u64>,
-}
-
-/// A particle file that cannot be read, or says what cannot be.
-#[derive(Debug, thiserror::Error)]
-pub enum ReadError {
-    /// The file is not there or not readable.
-    #[error("cannot open the particle file {}", path.display())]
-    Open {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        source: io::Error,
-    },
-    /// Reading broke off.
-    #[error("cannot read the particle file {} to its end", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        source: io::Error,
-    },
-    /// The header lacks a column.
-    #[error("{}:{line}: the header has no column `{column}`; it must be `{expected}`, in any order", path.display())]
-    MissingColumn {
-        /// The file.
-        path: PathBuf,
-        /// The line of the header.
-        line: u64,
-        /// The column.
-        column: String,
-        /// The columns that must be there.
-        expected: String,
-    },
-    /// The header has a column that no one asked for.
-    #[error("{}:{line}: unknown column `{column}` in the header; it must be `{expected}`, in any order", path.display())]
-    UnknownColumn {
-        /// The file.
-        path: PathBuf,
-        /// The line of the header.
-        line: u64,
-        /// The column.
-        column: String,
-        /// The columns that may be there.
-        expected: String,
-    },
-    /// The header has a column twice.
-    #[error("{}:{line}: the column `{column}` stands twice in the header", path.display())]
-    RepeatedColumn {
-        /// The file.
-        path: PathBuf,
-        /// The line of the header.
-        line: u64,
-        /// The column.
-        column: String,
-    },
-    /// A row is longer or shorter than the header.
-    #[error("{}:{line}: {found} fields in this row, {expected} in the header", path.display())]
-    FieldCount {
-        /// The file.
-        path: PathBuf,
-        /// The line.
-        line: u64,
-        /// The number of fields of the header.
-        expected: usize,
-        /// The number of fields of the row.
-        found: usize,
-    },
-    /// A label is not a whole number from 0 to 4294967295.
-    #[error("{}:{line}: the label `{text}` is not a whole number from 0 to {}", path.display(), u32::MAX)]
-    Label {
-        /// The file.
-        path: PathBuf,
-        /// The line.
-        line: u64,
-        /// The text of the field.
-        text: String,
-        /// What is wrong with it.
-        source: ParseIntError,
-    },
-    /// A value is not a number.
-    #[error("{}:{line}: `{text}` in column `{column}` is not a number", path.display())]
-    Number {
-        /// The file.
-        path: PathBuf,
-        /// The line.
-        line: u64,
-        /// The column.
-        column: String,
-        /// The text of the field.
-        text: String,
-        /// What is wrong with it.
-        source: ParseFloatError,
-    },
-    /// A value is infinite, not a number, or beyond the range of `f64`.
-    #[error("{}:{line}: `{text}` in column `{column}` is not a finite number", path.display())]
-    NotFinite {
-        /// The file.
-        path: PathBuf,
-        /// The line.
-        line: u64,
-        /// The column.
-        column: String,
-        /// The text of the field.
-        text: String,
-    },
-    /// Two rows have one label.
-    #[error("{}:{line}: the label {label} stands on line {first} already", path.display())]
-    DuplicateLabel {
-        /// The file.
-        path: PathBuf,
-        /// The line of the second row.
-        line: u64,
-        /// The line of the first row.
-        first: u64,
-        /// The label.
-        label: u32,
-    },
 }
 
 /// Reads the particles of `path`, whose header must hold `label` and each of `columns` once, in any order.

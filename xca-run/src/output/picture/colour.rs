@@ -22,11 +22,11 @@ impl ColourMap {
     fn path(self) -> &'static [[f32; 3]] {
         match self {
             Self::Sequential => &[
-                [0.34, 0.135, 300.0],
-                [0.44, 0.160, 278.0],
-                [0.54, 0.135, 248.0],
-                [0.63, 0.115, 205.0],
-                [0.73, 0.140, 165.0],
+                [0.37, 0.145, 300.0],
+                [0.46, 0.165, 278.0],
+                [0.55, 0.132, 252.0],
+                [0.64, 0.101, 210.0],
+                [0.73, 0.124, 165.0],
                 [0.83, 0.170, 130.0],
                 [0.93, 0.165, 103.0],
             ],
@@ -55,7 +55,7 @@ impl ColourMap {
         let share = place - from as f32;
         // Between the points along straight lines in Oklab, so that a hue without chroma does not matter.
         let [a, b] = [oklab(path[from]), oklab(path[(from + 1).min(last)])];
-        linear_of_oklab(mix(a, b, share))
+        linear_of_oklab(mix(a, b, share)).map(|x| x.clamp(0.0, 1.0))
     }
 
     /// The colours at 256 equal distances along the map, in linear RGB.
@@ -76,7 +76,7 @@ pub(super) fn category(index: usize) -> [f32; 3] {
         [0.55, 0.150, 310.0],
         [0.85, 0.150, 95.0],
     ];
-    linear_of_oklab(oklab(COLOURS[index % COLOURS.len()]))
+    linear_of_oklab(oklab(COLOURS[index % COLOURS.len()])).map(|x| x.clamp(0.0, 1.0))
 }
 
 /// `a` and `b` mixed: `b`'s share is `share`.
@@ -90,8 +90,8 @@ fn oklab([lightness, chroma, hue]: [f32; 3]) -> [f32; 3] {
     [lightness, chroma * cos, chroma * sin]
 }
 
-/// Linear RGB of an Oklab colour (B. Ottosson, "A perceptual color space for image processing", 2020), cut to what a
-/// screen can show.
+/// Linear RGB of an Oklab colour (B. Ottosson, "A perceptual color space for image processing", 2020); beyond 0 and
+/// 1 where no screen can show it.
 fn linear_of_oklab([l, a, b]: [f32; 3]) -> [f32; 3] {
     let long = (l + 0.396_337_78 * a + 0.215_803_76 * b).powi(3);
     let medium = (l - 0.105_561_346 * a - 0.063_854_17 * b).powi(3);
@@ -101,7 +101,6 @@ fn linear_of_oklab([l, a, b]: [f32; 3]) -> [f32; 3] {
         -1.268_438 * long + 2.609_757_4 * medium - 0.341_319_38 * short,
         -0.004_196_086_3 * long - 0.703_418_6 * medium + 1.707_614_7 * short,
     ]
-    .map(|x| x.clamp(0.0, 1.0))
 }
 
 /// Encoded from linear RGB.
@@ -148,6 +147,23 @@ mod tests {
         };
         for map in [ColourMap::Sequential, ColourMap::Diverging, ColourMap::Paper] {
             assert!(steps(map) < 0.025, "{map:?} has a jump of {}", steps(map));
+        }
+    }
+
+    #[test]
+    fn a_screen_can_show_every_colour() {
+        let shown = |oklab| linear_of_oklab(oklab).iter().all(|x| (-0.004..=1.004).contains(x));
+        for map in [ColourMap::Sequential, ColourMap::Diverging, ColourMap::Paper] {
+            for pair in map.path().windows(2) {
+                for share in [0.0, 0.25, 0.5, 0.75, 1.0] {
+                    let point = mix(oklab(pair[0]), oklab(pair[1]), share);
+                    assert!(
+                        shown(point),
+                        "{map:?} between {pair:?} at {share}: {:?}",
+                        linear_of_oklab(point)
+                    );
+                }
+            }
         }
     }
 

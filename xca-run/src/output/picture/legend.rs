@@ -31,6 +31,20 @@ impl<'a> Scalar<'a> {
         Self { label, values, range: None, map: ColourMap::default() }
     }
 
+    /// The scalar with a range that leaves out the given share of the values, from 0 to 1, at its upper end: a few fast
+    /// particles then do not make all others look alike. Values beyond the range have the colour of its end.
+    #[must_use]
+    pub fn without_largest(mut self, share: f64) -> Self {
+        let mut finite: Vec<f64> = self.values.iter().copied().filter(|value| value.is_finite()).collect();
+        if let Some(last) = finite.len().checked_sub(1) {
+            let least = finite.iter().copied().fold(f64::INFINITY, f64::min);
+            let place = ((last as f64 * (1.0 - share.clamp(0.0, 1.0))).round() as usize).min(last);
+            let (_, &mut high, _) = finite.select_nth_unstable_by(place, f64::total_cmp);
+            self.range = Some([least, high]);
+        }
+        self
+    }
+
     pub(super) fn check(&self, expected: usize, of: &'static str) -> Result<(), PictureError> {
         let found = self.values.len();
         if found == expected {
@@ -86,6 +100,7 @@ pub(super) fn draw_bar(
     let style = Style { height: 11.0, weight: 0.115, colour: INK };
     let ticks = ticks(scale.low, scale.high, h / 70);
     let right = (x + w) as f32;
+    let mut above = y as f32 - 20.0;
     if scale.high > scale.low {
         for j in 0..h {
             let colour = encode(map.linear(1.0 - (j as f64 + 0.5) / h as f64));
@@ -106,27 +121,26 @@ pub(super) fn draw_bar(
         canvas.frame([x, top], [w, w], INK);
         let at = [right + 12.0, (top + w / 2) as f32 + 5.5];
         text::draw(canvas, &significant(scale.low, 4), at, Anchor::Left, &style);
+        above = top as f32 - 20.0;
     }
-    let mut label = label.to_owned();
+    let left = x as f32 - 2.0;
+    let room = canvas.width() as f32 - 14.0 - left;
     if ticks.exponent != 0 {
-        label.push_str(&format!("  ×10^{}", ticks.exponent));
+        text::draw(canvas, &format!("×10^{}", ticks.exponent), [left, above], Anchor::Left, &style);
+        above -= 21.0;
     }
-    // The label ends near the edge of the picture at the latest.
-    let room = canvas.width() as f32 - 14.0 - text::width(&label, &style);
-    text::draw(canvas, &label, [(x as f32 - 2.0).min(room), y as f32 - 20.0], Anchor::Left, &style);
+    text::draw(canvas, label, [left, above], Anchor::Left, &text::fitted(label, style, room));
 }
 
 /// Draws title and caption in the top left corner.
 pub(super) fn draw_title(canvas: &mut Canvas, left: f32, title: &str, caption: &str) {
-    text::draw(
-        canvas,
-        title,
-        [left, 44.0],
-        Anchor::Left,
-        &Style { height: 17.0, weight: 0.125, colour: INK },
-    );
-    let style = Style { height: 11.5, weight: 0.11, colour: FAINT_INK };
-    text::draw(canvas, caption, [left, 70.0], Anchor::Left, &style);
+    let room = canvas.width() as f32 - 2.0 * left;
+    for (text, height, weight, colour, line) in
+        [(title, 17.0, 0.125, INK, 44.0), (caption, 11.5, 0.11, FAINT_INK, 70.0)]
+    {
+        let style = text::fitted(text, Style { height, weight, colour }, room);
+        text::draw(canvas, text, [left, line], Anchor::Left, &style);
+    }
 }
 
 #[cfg(test)]
@@ -144,6 +158,15 @@ mod tests {
         assert_eq!(scalar.scale(), Scale { low: -1.0, high: 2.0 });
         assert_eq!(Scalar::new("a", &[]).scale(), Scale { low: 0.0, high: 0.0 });
         assert_eq!(Scalar::new("a", &[f64::NAN]).scale(), Scale { low: 0.0, high: 0.0 });
+    }
+
+    #[test]
+    fn the_largest_values_can_be_left_out() {
+        let values: Vec<f64> = (0..=100).rev().map(f64::from).chain([f64::NAN]).collect();
+        assert_eq!(Scalar::new("a", &values).without_largest(0.02).range, Some([0.0, 98.0]));
+        assert_eq!(Scalar::new("a", &values).without_largest(0.0).range, Some([0.0, 100.0]));
+        assert_eq!(Scalar::new("a", &values).without_largest(f64::NAN).range, Some([0.0, 0.0]));
+        assert_eq!(Scalar::new("a", &[]).without_largest(0.02).range, None);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::canvas::{Canvas, Strokes};
 use super::colour::{encode, mix};
 use super::depth::{DepthBuffer, Disc};
 use super::light::{Light, Surface};
-use super::view::{Camera, along, dot, unit};
+use super::view::{Camera, along, unit};
 
 /// Samples a pixel, each way.
 const SAMPLES: usize = 2;
@@ -36,13 +36,7 @@ impl Scene<'_> {
         let lit = Lit { scene: self, eye, buffer, light };
         for y in 0..canvas.height() {
             for x in 0..canvas.width() {
-                let mut sum = [0.0; 3];
-                for sample in 0..SAMPLES * SAMPLES {
-                    let (i, j) = (sample % SAMPLES, sample / SAMPLES);
-                    let colour = lit.sample(x * SAMPLES + i, y * SAMPLES + j);
-                    sum = std::array::from_fn(|c| sum[c] + colour[c]);
-                }
-                canvas.set(x, y, encode(sum.map(|c| c / (SAMPLES * SAMPLES) as f32)));
+                canvas.set(x, y, encode(lit.pixel(x, y)));
             }
         }
         self.draw_edges(canvas, &lit.buffer);
@@ -109,13 +103,29 @@ struct Lit<'a> {
 }
 
 impl Lit<'_> {
-    /// The light that reaches the eye through a sample, in linear RGB.
-    fn sample(&self, x: usize, y: usize) -> [f32; 3] {
+    /// The colour of a pixel in linear RGB.
+    fn pixel(&self, x: usize, y: usize) -> [f32; 3] {
+        const SHARE: f32 = 1.0 / (SAMPLES * SAMPLES) as f32;
+        let owners: [Option<usize>; SAMPLES * SAMPLES] = std::array::from_fn(|sample| {
+            self.buffer.owner(x * SAMPLES + sample % SAMPLES, y * SAMPLES + sample / SAMPLES)
+        });
+        // The ground is smooth: one look is enough for the samples that show it.
+        let bare = owners.iter().filter(|owner| owner.is_none()).count() as f32 * SHARE;
+        let mut sum = if bare > 0.0 { self.ground(x, y).map(|c| c * bare) } else { [0.0; 3] };
+        for (sample, owner) in owners.into_iter().enumerate() {
+            if let Some(owner) = owner {
+                let colour =
+                    self.sphere(x * SAMPLES + sample % SAMPLES, y * SAMPLES + sample / SAMPLES, owner);
+                sum = along(sum, SHARE, colour);
+            }
+        }
+        sum
+    }
+
+    /// The light that a sphere sends through a sample.
+    fn sphere(&self, x: usize, y: usize, owner: usize) -> [f32; 3] {
         let ray = self.eye.ray(x as f32 + 0.5, y as f32 + 0.5);
         let to_eye = unit(ray.map(|c| -c));
-        let Some(owner) = self.buffer.owner(x, y) else {
-            return self.ground(x, y, ray, to_eye);
-        };
         let scene = self.scene;
         let depth = self.buffer.depth(x, y);
         let disc = scene.disc(&self.eye, scene.spheres[owner]);
@@ -132,30 +142,28 @@ impl Lit<'_> {
         self.light.shade(&surface, to_eye)
     }
 
-    /// The background and, around the box, the ground, which fades into it.
-    fn ground(&self, x: usize, y: usize, ray: [f32; 3], to_eye: [f32; 3]) -> [f32; 3] {
+    /// The background of a pixel and, around the box, the ground, which fades into it.
+    fn ground(&self, x: usize, y: usize) -> [f32; 3] {
         const PAPER: [f32; 3] = [1.0, 1.0, 1.0];
+        const FADE: f32 = 0.11;
         let [half_x, half_y, half_z] = self.scene.corner;
+        let middle = |pixel: usize| (pixel * SAMPLES) as f32 + SAMPLES as f32 / 2.0;
+        let ray = self.eye.ray(middle(x), middle(y));
         let depth = (-half_z - self.eye.eye[2]) / ray[2];
         // Seen from below, the ground would hide the box.
         if !(depth > 0.0 && ray[2] < 0.0) {
             return PAPER;
         }
         let at = along(self.eye.eye, depth, ray);
-        let beyond = (at[0].abs() - half_x).max(0.0).hypot((at[1].abs() - half_y).max(0.0));
-        let share = if beyond > 0.0 { 0.62 * (-(beyond / 0.13).powi(2)).exp() } else { 1.0 };
+        // The square of the distance from the box.
+        let beyond = (at[0].abs() - half_x).max(0.0).powi(2) + (at[1].abs() - half_y).max(0.0).powi(2);
+        let share = if beyond > 0.0 { 0.85 * (-beyond / (FADE * FADE)).exp() } else { 1.0 };
         if share < 1e-3 {
             return PAPER;
         }
-        let radius = self.scene.radius * self.eye.focal / depth;
-        let surface = Surface {
-            at,
-            normal: [0.0, 0.0, 1.0],
-            albedo: [0.80, 0.815, 0.84],
-            open: self.openness(x, y, depth, radius),
-            gloss: 0.0,
-        };
-        mix(PAPER, self.light.shade(&surface, to_eye), share)
+        let surface =
+            Surface { at, normal: [0.0, 0.0, 1.0], albedo: [0.655, 0.665, 0.685], open: 1.0, gloss: 0.0 };
+        mix(PAPER, self.light.shade(&surface, unit(ray.map(|c| -c))), share)
     }
 
     /// How open a place is, from 0 to 1, judged by how far its neighbours on the screen stand in front of it: spheres
@@ -194,6 +202,5 @@ mod tests {
         assert_eq!(depth_on_line(a, b, [200.0, 5.0]), 3.0);
         // Half way on the screen is nearer than half way in space.
         assert!((depth_on_line(a, b, [50.0, 0.0]) - 1.5).abs() < 1e-6);
-        assert!((dot(unit([3.0, 4.0, 0.0]), [3.0, 4.0, 0.0]) - 5.0).abs() < 1e-6);
     }
 }

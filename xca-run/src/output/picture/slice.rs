@@ -78,14 +78,14 @@ impl<'a> SlicePicture<'a> {
         canvas.frame(corner, drawing, INK);
         draw_title(&mut canvas, LEFT as f32, self.title, self.caption);
         self.draw_scale(&mut canvas, [corner[0], corner[1] + drawing[1]], drawing[0]);
-        let x = LEFT + plate[0] + 36;
+        let x = LEFT + plate[0] + 34;
         if self.categories.is_empty() {
-            let bar = [18, plate[1].min(420)];
-            let y = TOP + (plate[1] - bar[1]) / 2;
-            let (label, map) = (self.scalar.label, self.scalar.map);
             // The label stands above the bar.
-            let (y, bar) = if y < TOP + 24 { (y + 24, [bar[0], bar[1] - 24]) } else { (y, bar) };
-            draw_bar(&mut canvas, [x, y], bar, label, map, self.scalar.scale());
+            let room = plate[1] - 40;
+            let height = room.min(420);
+            let y = TOP + 40 + (room - height) / 2;
+            let (label, map) = (self.scalar.label, self.scalar.map);
+            draw_bar(&mut canvas, [x, y], [18, height], label, map, self.scalar.scale());
         } else {
             self.draw_categories(&mut canvas, [x, TOP + 24]);
         }

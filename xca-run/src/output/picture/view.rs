@@ -39,7 +39,7 @@ impl Camera {
         low: [f32; 2],
         high: [f32; 2],
     ) -> Result<Self, PictureError> {
-        const DISTANCE: f32 = 2.6;
+        const DISTANCE: f32 = 3.0;
         for (what, value) in
             [("the azimuth of the eye", viewpoint.azimuth), ("the elevation of the eye", viewpoint.elevation)]
         {

@@ -99,10 +99,10 @@ impl<'a> Values<'a> {
     pub(super) fn write_to(&self, out: &mut dyn Write) -> io::Result<()> {
         match self.data {
             Data::U8(v) => out.write_all(v),
-            Data::I32(v) => write_little_endian(out, v, |x| x.to_le_bytes()),
-            Data::U32(v) => write_little_endian(out, v, |x| x.to_le_bytes()),
-            Data::F32(v) => write_little_endian(out, v, |x| x.to_le_bytes()),
-            Data::F64(v) => write_little_endian(out, v, |x| x.to_le_bytes()),
+            Data::I32(v) => write_little_endian(out, v, i32::to_le_bytes),
+            Data::U32(v) => write_little_endian(out, v, u32::to_le_bytes),
+            Data::F32(v) => write_little_endian(out, v, f32::to_le_bytes),
+            Data::F64(v) => write_little_endian(out, v, f64::to_le_bytes),
         }
     }
 

@@ -1,0 +1,227 @@
+//! The state of a model on this engine.
+
+use crate::dense::Plane;
+use crate::layout::Layout;
+use crate::migration;
+use crate::population::Population;
+use crate::rows::{self, Group};
+use crate::stages::{Stage, is_doubled, stages};
+use rayon::prelude::*;
+use std::ops::Range;
+use std::sync::Arc;
+use xca_core::engine::{Execution, Fault, Population as Items, StartError, StepContext, SubstateId};
+use xca_core::model::{Group as Definition, GroupKind};
+use xca_core::reduction::{ITEMS_IN_BLOCK, Reduced, Reduction, reduce_values};
+use xca_core::{Model, Precision, ProcessKind};
+
+/// A model under way.
+pub(crate) struct CpuExecution {
+    model: Model,
+    precision: Precision,
+    pool: Arc<rayon::ThreadPool>,
+    layout: Layout,
+    groups: Vec<Group>,
+    /// The stages of a whole step.
+    stages: Vec<Stage>,
+}
+
+impl CpuExecution {
+    pub(crate) fn new(
+        model: &Model,
+        precision: Precision,
+        pool: Arc<rayon::ThreadPool>,
+    ) -> Result<Self, StartError> {
+        let layout = Layout::new(model.geometry());
+        check_size(model, &layout, precision)?;
+        let groups = model.groups().iter().enumerate();
+        let groups = groups.map(|(number, group)| state(model, number, group, &layout, precision)).collect();
+        let stages = stages(model, 0..model.processes().len());
+        Ok(Self { model: model.clone(), precision, pool, layout, groups, stages })
+    }
+
+    fn run_stage(&mut self, stage: &Stage, context: &StepContext<'_>) -> Result<(), Fault> {
+        let threads = self.pool.current_num_threads();
+        let movers = rows::run(
+            &self.model,
+            &self.layout,
+            self.precision,
+            &mut self.groups,
+            stage.processes.clone(),
+            context,
+            threads,
+        )?;
+        // A migration is the last of its stage.
+        let Some(process) = self.model.processes()[stage.processes.clone()].last() else { return Ok(()) };
+        if process.kind == ProcessKind::Migration
+            && let Some(number) = self.model.group_number((process.subject.type_id)())
+            && let Group::Population(population) = &mut self.groups[number]
+        {
+            migration::migrate(population, &self.layout, self.model.geometry(), process, &movers)?;
+        }
+        Ok(())
+    }
+}
+
+fn check_size(model: &Model, layout: &Layout, precision: Precision) -> Result<(), StartError> {
+    let too_large = |what: &str, wanted: u128, limit: u128| StartError::TooLarge {
+        engine: "cpu".to_owned(),
+        what: what.to_owned(),
+        wanted,
+        limit,
+    };
+    let cells = layout.checked_cells().unwrap_or(usize::MAX);
+    let of_cells = model.groups().iter().filter(|group| matches!(group.kind(), GroupKind::Cells { .. }));
+    let size: usize =
+        of_cells.flat_map(|group| group.stored(precision)).map(|stored| 2 * stored.size()).sum();
+    let bytes = cells as u128 * size.max(8) as u128;
+    if bytes > 1 << 46 { Err(too_large("the bytes of the state", bytes, 1 << 46)) } else { Ok(()) }
+}
+
+fn state(model: &Model, number: usize, group: &Definition, layout: &Layout, precision: Precision) -> Group {
+    let types = group.stored(precision);
+    match group.kind() {
+        GroupKind::Cells { outside } => Group::Cells(
+            types
+                .into_iter()
+                .enumerate()
+                .map(|(field, stored)| {
+                    let mut bytes = vec![0; stored.size()];
+                    outside(field, precision, &mut bytes);
+                    Plane::new(stored, layout, &bytes, is_doubled(model, SubstateId { group: number, field }))
+                })
+                .collect(),
+        ),
+        GroupKind::Population { slots, may_leave } => {
+            Group::Population(Population::new(types, *slots, *may_leave, layout))
+        }
+    }
+}
+
+impl Execution for CpuExecution {
+    fn run(&mut self, processes: Range<usize>, context: &StepContext<'_>) -> Result<(), Fault> {
+        let whole = processes == (0..self.model.processes().len());
+        let stages = if whole { self.stages.clone() } else { stages(&self.model, processes) };
+        // Parallel iterators run on the pool that they are started in.
+        let pool = Arc::clone(&self.pool);
+        pool.install(|| stages.iter().try_for_each(|stage| self.run_stage(stage, context)))
+    }
+
+    fn read(&self, substate: SubstateId) -> Vec<u8> {
+        match &self.groups[substate.group] {
+            Group::Cells(planes) => planes[substate.field].read(&self.layout),
+            Group::Population(population) => population.items.fields[substate.field].bytes().to_vec(),
+        }
+    }
+
+    fn write(&mut self, substate: SubstateId, values: &[u8]) {
+        match &mut self.groups[substate.group] {
+            Group::Cells(planes) => planes[substate.field].write(&self.layout, values),
+            Group::Population(population) => {
+                population.items.fields[substate.field].bytes_mut().copy_from_slice(values);
+            }
+        }
+    }
+
+    fn read_cell(&self, substate: SubstateId, cell: usize) -> Vec<u8> {
+        match &self.groups[substate.group] {
+            Group::Cells(planes) => planes[substate.field].cell(&self.layout, cell).to_vec(),
+            Group::Population(_) => Vec::new(),
+        }
+    }
+
+    fn write_cell(&mut self, substate: SubstateId, cell: usize, value: &[u8]) {
+        if let Group::Cells(planes) = &mut self.groups[substate.group] {
+            planes[substate.field].write_cell(&self.layout, cell, value);
+        }
+    }
+
+    fn population(&self, group: usize) -> Items {
+        match &self.groups[group] {
+            Group::Cells(_) => Items::default(),
+            Group::Population(population) => Items {
+                counts: (0..self.layout.rows())
+                    .flat_map(|row| population.counts(&self.layout, row))
+                    .collect(),
+                labels: population.items.labels.clone(),
+                fields: population.items.fields.iter().map(|field| field.bytes().to_vec()).collect(),
+            },
+        }
+    }
+
+    fn set_population(&mut self, group: usize, items: &Items) -> Result<(), Fault> {
+        if let Group::Population(population) = &mut self.groups[group] {
+            if let Some(cell) = items.counts.iter().position(|count| *count as usize > population.slots) {
+                return Err(Fault::CellFull {
+                    cell: self.model.geometry().indices(cell),
+                    items: items.counts[cell] as usize,
+                    slots: population.slots,
+                });
+            }
+            population.set(&self.layout, items);
+        }
+        Ok(())
+    }
+
+    fn items(&self, group: usize) -> usize {
+        match &self.groups[group] {
+            Group::Cells(_) => 0,
+            Group::Population(population) => population.count(),
+        }
+    }
+
+    fn left(&self, group: usize) -> u64 {
+        match &self.groups[group] {
+            Group::Cells(_) => 0,
+            Group::Population(population) => population.left,
+        }
+    }
+
+    fn set_left(&mut self, group: usize, left: u64) {
+        if let Group::Population(population) = &mut self.groups[group] {
+            population.left = left;
+        }
+    }
+
+    fn largest_occupancy(&self, group: usize) -> u32 {
+        match &self.groups[group] {
+            Group::Cells(_) => 0,
+            Group::Population(population) => (0..self.layout.rows())
+                .filter(|row| population.row(*row).0 < population.row(*row).1)
+                .flat_map(|row| population.counts(&self.layout, row))
+                .max()
+                .unwrap_or(0),
+        }
+    }
+
+    fn reduce(&self, substate: SubstateId, reduction: &Reduction) -> Vec<Reduced> {
+        let stored = self.model.stored(substate, self.precision);
+        let parts: Vec<Vec<Reduced>> = self.pool.install(|| match &self.groups[substate.group] {
+            Group::Cells(planes) => (0..self.layout.rows())
+                .into_par_iter()
+                .map(|row| reduce_values(reduction, stored, planes[substate.field].row(&self.layout, row)))
+                .collect(),
+            Group::Population(population) => population.items.fields[substate.field]
+                .bytes()
+                .par_chunks(ITEMS_IN_BLOCK * stored.size())
+                .map(|values| reduce_values(reduction, stored, values))
+                .collect(),
+        });
+        let mut results = vec![Reduced::Nothing; usize::from(stored.lanes)];
+        for part in parts {
+            for (result, part) in results.iter_mut().zip(part) {
+                *result = result.combine(part, reduction);
+            }
+        }
+        results
+    }
+
+    fn memory(&self) -> usize {
+        self.groups
+            .iter()
+            .map(|group| match group {
+                Group::Cells(planes) => planes.iter().map(Plane::memory).sum(),
+                Group::Population(population) => population.memory(),
+            })
+            .sum()
+    }
+}

@@ -1,0 +1,379 @@
+//! One pass over the rows, in parallel.
+//!
+//! The rows are split into blocks of consecutive rows; each block belongs to one thread at a time. How they are split changes nothing in the
+//! result: a row writes only what is its own, and faults are compared by process and cell.
+#![allow(unsafe_code)]
+
+use crate::dense::Plane;
+use crate::layout::Layout;
+use crate::population::Population;
+use rayon::prelude::*;
+use std::ops::Range;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use xca_core::engine::{Fault, StepContext, SubstateId};
+use xca_core::kernel::{
+    Access, BEYOND_NEIGHBOURHOOD, Entry, Frame, Row, RowFault, RowItems, RowKernel, STAY, Scratch,
+};
+use xca_core::{Boundary, Model, Parity, Precision, Process, ProcessKind};
+
+/// The substates of one struct.
+pub(crate) enum Group {
+    Cells(Vec<Plane>),
+    Population(Population),
+}
+
+/// Blocks a thread: enough that an uneven load evens out, few enough that a block is worth its start.
+const BLOCKS_PER_THREAD: usize = 32;
+
+/// Where a substate's memory starts, shared by the threads.
+#[derive(Clone, Copy)]
+struct Memory {
+    read: *const u8,
+    write: *mut u8,
+    size: usize,
+    of_items: bool,
+}
+
+// SAFETY: the pointers lead to memory that is written through rows alone, and rows are disjoint, see `run_row`.
+unsafe impl Send for Memory {}
+// SAFETY: as above.
+unsafe impl Sync for Memory {}
+
+/// A process made ready for a pass.
+struct Prepared<'a> {
+    process: &'a Process,
+    index: usize,
+    kernel: RowKernel,
+    memory: Vec<Memory>,
+    population: Option<usize>,
+}
+
+/// What a pass over a block of rows found.
+#[derive(Default)]
+pub(crate) struct Found {
+    /// Items that a migration sends elsewhere: item, linear index of its cell, answer.
+    pub(crate) movers: Vec<Mover>,
+    fault: Option<(usize, u32, Fault)>,
+}
+
+/// An item on its way to another cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Mover {
+    pub(crate) item: u32,
+    pub(crate) from: u32,
+    pub(crate) answer: u32,
+}
+
+impl Found {
+    fn keep(&mut self, process: usize, cell: u32, fault: Fault) {
+        if self.fault.as_ref().is_none_or(|(first, at, _)| (process, cell) < (*first, *at)) {
+            self.fault = Some((process, cell, fault));
+        }
+    }
+}
+
+/// Runs processes together over all rows. The result is what the migration among them, if there is one, moves, in the order of items.
+pub(crate) fn run(
+    model: &Model,
+    layout: &Layout,
+    precision: Precision,
+    groups: &mut [Group],
+    processes: Range<usize>,
+    context: &StepContext<'_>,
+    threads: usize,
+) -> Result<Vec<Mover>, Fault> {
+    let geometry = model.geometry();
+    let doubled = prepare_buffers(model, layout, groups, &processes);
+    let prepared: Vec<Prepared<'_>> =
+        processes.map(|index| prepare(model, groups, index, precision, &doubled)).collect();
+    let offsets = layout.offsets(geometry);
+    let frames: [Frame<'_>; 2] = std::array::from_fn(|odd| Frame {
+        extents: geometry.extents().map(|extent| extent as u32),
+        side: geometry.side(),
+        toroidal: geometry.boundaries().map(|boundary| boundary == Boundary::Toroidal),
+        step: context.step,
+        seed: context.seed,
+        parameters: context.parameters,
+        offsets: &offsets[odd],
+    });
+    let pass = Pass { layout, parity: geometry.neighbourhood().parity(), frames, prepared, groups };
+    let rows = layout.rows();
+    let per_block = rows.div_ceil(threads * BLOCKS_PER_THREAD).max(1);
+    let found: Vec<Found> = (0..rows.div_ceil(per_block))
+        .into_par_iter()
+        .map(|block| pass.block(model, block * per_block..((block + 1) * per_block).min(rows)))
+        .collect();
+    let mut movers = Vec::new();
+    let mut first = Found::default();
+    for block in found {
+        movers.extend(block.movers);
+        if let Some((process, cell, fault)) = block.fault {
+            first.keep(process, cell, fault);
+        }
+    }
+    if let Some((.., fault)) = first.fault {
+        return Err(fault);
+    }
+    for substate in doubled {
+        match &mut groups[substate.group] {
+            Group::Cells(planes) => planes[substate.field].swap(),
+            Group::Population(population) => {
+                std::mem::swap(
+                    &mut population.items.fields[substate.field],
+                    &mut population.next.fields[substate.field],
+                );
+            }
+        }
+    }
+    Ok(movers)
+}
+
+/// Fills halos that will be read and makes second buffers; gives the substates that the pass writes to a second buffer.
+fn prepare_buffers(
+    model: &Model,
+    layout: &Layout,
+    groups: &mut [Group],
+    processes: &Range<usize>,
+) -> Vec<SubstateId> {
+    let mut doubled = Vec::new();
+    for process in &model.processes()[processes.clone()] {
+        for access in process.access {
+            let substate = model.substate(process, access);
+            match &mut groups[substate.group] {
+                Group::Cells(planes) if access.others => planes[substate.field].refresh(layout),
+                Group::Cells(_) => {}
+                Group::Population(population) if access.others && access.write => {
+                    let bytes = population.items.fields[substate.field].len();
+                    population.next.fields[substate.field].resize(bytes);
+                }
+                Group::Population(_) => {}
+            }
+            if access.others && access.write {
+                doubled.push(substate);
+            }
+        }
+    }
+    // A plane that is written in place no longer has the halo of its cells.
+    for process in &model.processes()[processes.clone()] {
+        for access in process.access.iter().filter(|access| access.write) {
+            let substate = model.substate(process, access);
+            if let Group::Cells(planes) = &mut groups[substate.group] {
+                planes[substate.field].touch();
+            }
+        }
+    }
+    doubled
+}
+
+fn prepare<'a>(
+    model: &'a Model,
+    groups: &mut [Group],
+    index: usize,
+    precision: Precision,
+    doubled: &[SubstateId],
+) -> Prepared<'a> {
+    let process = &model.processes()[index];
+    let memory =
+        process.access.iter().map(|access| memory(model, groups, process, access, doubled)).collect();
+    let population = match process.kind {
+        ProcessKind::Cells => process.companion,
+        ProcessKind::Items | ProcessKind::Migration => Some(process.subject),
+    };
+    let population = population.and_then(|group| model.group_number((group.type_id)()));
+    Prepared { process, index, kernel: process.kernel(precision), memory, population }
+}
+
+fn memory(
+    model: &Model,
+    groups: &mut [Group],
+    process: &Process,
+    access: &Access,
+    doubled: &[SubstateId],
+) -> Memory {
+    let substate = model.substate(process, access);
+    let (current, next, size, of_items) = match &mut groups[substate.group] {
+        Group::Cells(planes) => {
+            let plane = &mut planes[substate.field];
+            (&mut plane.current, plane.next.as_mut(), plane.stored.size(), false)
+        }
+        Group::Population(population) => {
+            let size = population.types[substate.field].size();
+            let next = &mut population.next.fields[substate.field];
+            (&mut population.items.fields[substate.field], Some(next), size, true)
+        }
+    };
+    let (read, write) = match next {
+        _ if !access.write => (current.as_ptr(), std::ptr::null_mut()),
+        Some(next) if doubled.contains(&substate) => {
+            (current.as_ptr(), next.as_mut_ptr())
+        }
+        _ => {
+            let write = current.as_mut_ptr();
+            (write.cast_const(), write)
+        }
+    };
+    Memory { read, write, size, of_items }
+}
+
+/// Everything that the rows of a pass share.
+struct Pass<'a> {
+    layout: &'a Layout,
+    parity: Parity,
+    frames: [Frame<'a>; 2],
+    prepared: Vec<Prepared<'a>>,
+    groups: &'a [Group],
+}
+
+impl Pass<'_> {
+    fn block(&self, model: &Model, rows: Range<usize>) -> Found {
+        let mut found = Found::default();
+        let scratch = Scratch::default();
+        let mut entries = Vec::new();
+        let mut answers = Vec::new();
+        for row in rows {
+            for prepared in &self.prepared {
+                let population = prepared.population.and_then(|group| match &self.groups[group] {
+                    Group::Population(population) => Some(population),
+                    Group::Cells(_) => None,
+                });
+                let own = population.map_or((0, 0), |population| population.row(row));
+                let over_items = prepared.process.kind != ProcessKind::Cells;
+                if over_items && own.0 == own.1 {
+                    continue;
+                }
+                if prepared.process.kind == ProcessKind::Migration {
+                    answers.clear();
+                    answers.resize(own.1 - own.0, STAY);
+                }
+                let run =
+                    || self.run_row(prepared, row, population, own, &mut entries, &mut answers, &scratch);
+                match catch_unwind(AssertUnwindSafe(run)) {
+                    Ok(None) => {}
+                    Ok(Some(fault)) => {
+                        found.keep(prepared.index, fault.cell, reported(model, prepared.process, fault))
+                    }
+                    Err(panic) => {
+                        let cell = (row * self.layout.width()) as u32;
+                        found.keep(prepared.index, cell, Fault::panicked(prepared.process.name, &*panic));
+                        return found;
+                    }
+                }
+                if let (ProcessKind::Migration, Some(population)) = (prepared.process.kind, population) {
+                    self.collect_movers(population, row, &answers, &mut found.movers);
+                }
+            }
+        }
+        found
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "the lists are kept from row to row")]
+    fn run_row(
+        &self,
+        prepared: &Prepared<'_>,
+        row: usize,
+        population: Option<&Population>,
+        own: (usize, usize),
+        entries: &mut Vec<Entry>,
+        answers: &mut [u32],
+        scratch: &Scratch,
+    ) -> Option<RowFault> {
+        let [y, z] = self.layout.row(row).map(|index| index as u32);
+        let width = self.layout.width();
+        if self.parity != Parity::Column || !prepared.process.local_interaction {
+            let frame = &self.frames[if self.parity == Parity::Row { y as usize % 2 } else { 0 }];
+            let cells = Cells { first: self.layout.first(row), origin: [0, y, z], length: width, own };
+            return self.run_cells(prepared, frame, &cells, population, entries, answers, scratch);
+        }
+        // The neighbourhood changes from cell to cell: each is a row of its own.
+        let mut first_fault = None;
+        for x in 0..width {
+            let first = self.layout.first(row) + x;
+            let range = population.map_or((0, 0), |population| {
+                (population.starts[first] as usize, population.ends[first] as usize)
+            });
+            let cells = Cells { first, origin: [x as u32, y, z], length: 1, own: range };
+            let part =
+                if answers.is_empty() { &mut [][..] } else { &mut answers[range.0 - own.0..range.1 - own.0] };
+            let fault =
+                self.run_cells(prepared, &self.frames[x % 2], &cells, population, entries, part, scratch);
+            first_fault = first_fault.or(fault);
+        }
+        first_fault
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "the lists are kept from row to row")]
+    fn run_cells(
+        &self,
+        prepared: &Prepared<'_>,
+        frame: &Frame<'_>,
+        cells: &Cells,
+        population: Option<&Population>,
+        entries: &mut Vec<Entry>,
+        answers: &mut [u32],
+        scratch: &Scratch,
+    ) -> Option<RowFault> {
+        entries.clear();
+        entries.extend(prepared.memory.iter().map(|memory| {
+            let (read, write) = if memory.of_items { (0, cells.own.0) } else { (cells.first, cells.first) };
+            Entry {
+                read: memory.read.wrapping_add(read * memory.size),
+                write: memory.write.wrapping_add(write * memory.size),
+            }
+        }));
+        let items = population.map(|population| RowItems {
+            starts: population.starts[cells.first..].as_ptr(),
+            ends: population.ends[cells.first..].as_ptr(),
+            labels: &population.items.labels,
+            own: cells.own,
+        });
+        let destinations = (prepared.process.kind == ProcessKind::Migration).then_some(answers);
+        // SAFETY:
+        // - `entries` follow the process's accesses, in buffers that are aligned for every scalar and hold values of the schema's types.
+        // - Planes have a halo as wide as the neighbourhood, and the offsets are made from the same layout, so that all of them can be
+        //   read from every cell of the row. Planes of items hold as many values as labels.
+        // - What is written belongs to the row's own cells or items. Rows are disjoint, and each is run by one thread.
+        // - A process that reads a substate elsewhere and writes it writes to the second buffer; no process of a stage writes what another of
+        //   it reads elsewhere (`stages`). So nothing readable is written meanwhile, by this row or by another.
+        // - `starts` and `ends` are padded like planes and hold ranges of items; those of a row's cells are the row's own items.
+        let row =
+            unsafe { Row::new(frame, entries, items, destinations, scratch, cells.origin, cells.length) };
+        (prepared.kernel)(&row);
+        row.first_fault()
+    }
+
+    fn collect_movers(&self, population: &Population, row: usize, answers: &[u32], movers: &mut Vec<Mover>) {
+        let (first_item, _) = population.row(row);
+        let first_cell = (row * self.layout.width()) as u32;
+        let padded = self.layout.first(row);
+        for x in 0..self.layout.width() {
+            let from = first_cell + x as u32;
+            for item in population.starts[padded + x]..population.ends[padded + x] {
+                let answer = answers[item as usize - first_item];
+                if answer != STAY && answer != from {
+                    movers.push(Mover { item, from, answer });
+                }
+            }
+        }
+    }
+}
+
+/// The cells that a kernel is given.
+struct Cells {
+    /// The padded number of the first.
+    first: usize,
+    origin: [u32; 3],
+    length: usize,
+    /// Their items.
+    own: (usize, usize),
+}
+
+/// The fault as the host sees it.
+fn reported(model: &Model, process: &Process, fault: RowFault) -> Fault {
+    let geometry = model.geometry();
+    let cell = geometry.indices(fault.cell as usize);
+    if fault.code == BEYOND_NEIGHBOURHOOD {
+        let size = geometry.neighbourhood().size();
+        return Fault::BeyondNeighbourhood { process: process.name, cell, index: fault.value as u32, size };
+    }
+    Fault::Reported { process: process.name, cell, label: fault.label, code: fault.code, value: fault.value }
+}

@@ -1,0 +1,141 @@
+//! The entry point: which cell or item an invocation works on, loading, storing, faults.
+
+use crate::access::Uses;
+use crate::module::Glossary;
+use crate::names;
+use crate::shader::Options;
+use std::fmt::Write as _;
+use xca_core::ir::FunctionKind;
+use xca_core::kernel::Of;
+
+/// What the entry point is written for.
+pub(crate) struct Entry<'a> {
+    pub(crate) kind: FunctionKind,
+    pub(crate) uses: &'a Uses,
+    pub(crate) glossary: &'a Glossary,
+    pub(crate) options: &'a Options,
+    /// Whether the process can report a fault.
+    pub(crate) faults: bool,
+    /// Whether the process has to know its cell.
+    pub(crate) here: bool,
+}
+
+/// How a fault is kept until the process has ended.
+pub(crate) fn report_fault(kind: FunctionKind) -> String {
+    let label = if kind == FunctionKind::Cells { "0xffffffffu" } else { "item_labels[this_item]" };
+    format!(
+        "// The first fault of a cell or item counts.
+fn report_fault(code: u32, value: Real) {{
+    if !has_fault {{
+        has_fault = true;
+        reported_fault = Fault(linear_index(here_index), {label}, code, value);
+    }}
+}}
+"
+    )
+}
+
+impl Entry<'_> {
+    pub(crate) fn text(&self) -> String {
+        let [x, y, z] = self.options.workgroup_size;
+        let (size, guard) = match self.kind {
+            FunctionKind::Cells => (format!("{x}, {y}, {z}"), "all(id < vec3<u32>(space.extents))".to_owned()),
+            _ => ((x * y * z).to_string(), "item < moment.items".to_owned()),
+        };
+        let mut arguments = vec!["@builtin(global_invocation_id) id: vec3<u32>"];
+        if self.kind != FunctionKind::Cells || self.faults {
+            arguments.push("@builtin(num_workgroups) workgroups: vec3<u32>");
+        }
+        if self.faults {
+            arguments.push("@builtin(workgroup_id) workgroup_id: vec3<u32>");
+            arguments.push("@builtin(local_invocation_index) local: u32");
+        }
+        let mut out = String::new();
+        let over = if self.kind == FunctionKind::Cells { "cell" } else { "item" };
+        let _ = writeln!(out, "{}", self.one(over));
+        let _ = writeln!(out, "@compute @workgroup_size({size})");
+        let _ = writeln!(out, "fn main(\n    {},\n) {{", arguments.join(",\n    "));
+        if self.kind != FunctionKind::Cells {
+            let _ = writeln!(out, "    let item: u32 = id.x + id.y * workgroups.x * {size}u;");
+        }
+        let argument = if self.kind == FunctionKind::Cells { "id" } else { "item" };
+        if self.faults {
+            out.push_str(&self.with_faults(&guard, over, argument));
+        } else {
+            let _ = writeln!(out, "    if {guard} {{\n        process_{over}({argument});\n    }}");
+        }
+        out.push_str("}\n");
+        out
+    }
+
+    /// The process for one cell or item: load, run, store.
+    fn one(&self, over: &str) -> String {
+        let mut out = String::new();
+        let argument = if self.kind == FunctionKind::Cells { "id: vec3<u32>" } else { "item: u32" };
+        let _ = writeln!(out, "fn process_{over}({argument}) {{");
+        if self.kind == FunctionKind::Cells {
+            out.push_str("    here = storage_index(id);\n");
+            if self.uses.index || self.faults {
+                out.push_str("    here_index = vec3<i32>(id);\n");
+            }
+        } else {
+            out.push_str("    this_item = item;\n");
+            if self.here {
+                out.push_str("    here = item_cells[item];\n");
+            }
+            if self.uses.index || self.faults {
+                out.push_str("    here_index = cell_index(here);\n");
+            }
+        }
+        let number = if self.kind == FunctionKind::Cells { "here" } else { "item" };
+        for buffer in self.glossary.buffers.iter().filter(|buffer| buffer.used.centre) {
+            let (variable, number) = match buffer.used.of {
+                Of::Subject => (self.glossary.subject.as_ref(), number),
+                Of::Companion => (self.glossary.companion.as_ref(), "here"),
+            };
+            if let Some(variable) = variable {
+                let field = names::field(buffer.field);
+                let _ = writeln!(out, "    {variable}.{field} = {};", buffer.read(number));
+            }
+        }
+        let name = self.glossary.functions.first().map_or("", String::as_str);
+        if self.kind == FunctionKind::Migration {
+            let _ = writeln!(out, "    destinations[item] = {name}();");
+        } else {
+            let _ = writeln!(out, "    {name}();");
+        }
+        if let Some(variable) = &self.glossary.subject {
+            for buffer in self.glossary.buffers.iter().filter(|buffer| buffer.used.write) {
+                let value = format!("{variable}.{}", names::field(buffer.field));
+                out.push_str(&buffer.store(number, &value));
+            }
+        }
+        out.push_str("}\n");
+        out
+    }
+
+    /// Of the faults in a workgroup the first is recorded; of all workgroups the first cell or item is remembered. So
+    /// the result does not depend on the order in which invocations run.
+    fn with_faults(&self, guard: &str, over: &str, argument: &str) -> String {
+        let order = if self.kind == FunctionKind::Cells { "linear_index(here_index)" } else { "this_item" };
+        format!(
+            "    if local == 0u {{
+        atomicStore(&first_fault, 0xffffffffu);
+    }}
+    workgroupBarrier();
+    if faults.stopped == 0u && {guard} {{
+        process_{over}({argument});
+    }}
+    if has_fault {{
+        atomicMin(&first_fault, {order});
+    }}
+    workgroupBarrier();
+    if has_fault && atomicLoad(&first_fault) == {order} {{
+        let number: u32 = (workgroup_id.z * workgroups.y + workgroup_id.y) * workgroups.x + workgroup_id.x;
+        faults.records[number] = reported_fault;
+        atomicMin(&faults.first, {order});
+    }}
+"
+        )
+    }
+}

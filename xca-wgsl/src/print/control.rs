@@ -1,0 +1,252 @@
+//! Branches and loops. `match` becomes a chain of `if`: in a `switch`, WGSL's `break` would mean the switch.
+
+use super::expression::is_simple;
+use super::text::{Level, Text};
+use super::{Target, Writer};
+use crate::error::Problem;
+use crate::types::Type;
+use xca_core::ScalarType;
+use xca_core::ir::{Arm, Block, Expression, Literal, Pattern, Statement};
+
+impl Writer<'_, '_> {
+    pub(super) fn if_into(
+        &mut self,
+        condition: &Expression,
+        then: &Block,
+        otherwise: Option<&Block>,
+        target: Target<'_>,
+    ) -> Result<(), Problem> {
+        let mut text = self.expression(condition)?;
+        self.line(&format!("if {} {{", text.plain()));
+        self.inside(|writer| writer.block_into(then, target))?;
+        let mut rest = otherwise;
+        let mut depth = 0;
+        while let Some(block) = rest {
+            let next = match lone_if(block) {
+                Some((condition, then, otherwise)) => {
+                    if self.hoists(condition) {
+                        self.line("} else {");
+                        self.indent += 1;
+                        self.shared.names.open();
+                        depth += 1;
+                        text = self.expression(condition)?;
+                        self.line(&format!("if {} {{", text.plain()));
+                    } else {
+                        text = self.expression(condition)?;
+                        self.line(&format!("}} else if {} {{", text.plain()));
+                    }
+                    self.inside(|writer| writer.block_into(then, target))?;
+                    otherwise
+                }
+                None => {
+                    self.line("} else {");
+                    self.inside(|writer| writer.block_into(block, target))?;
+                    None
+                }
+            };
+            rest = next;
+        }
+        self.line("}");
+        self.close(depth);
+        Ok(())
+    }
+
+    fn close(&mut self, depth: usize) {
+        for _ in 0..depth {
+            self.shared.names.close();
+            self.indent -= 1;
+            self.line("}");
+        }
+    }
+
+    pub(super) fn match_into(&mut self, value: &Expression, arms: &[Arm], target: Target<'_>) -> Result<(), Problem> {
+        let type_ = self.type_of(value);
+        if type_ != Type::Bool && (type_.is_float() || !matches!(type_, Type::Scalar(_))) {
+            return Err(Problem::unsupported("`match`", "only integers and bool are matched"));
+        }
+        let text = self.expression(value)?;
+        let matched = if is_simple(value) && self.stable(value) { text } else { self.keep("matched", &type_, &text) };
+        let mut depth = 0;
+        let mut open = false;
+        for (position, arm) in arms.iter().enumerate() {
+            // Rust has checked that the arms leave nothing out.
+            let last = position + 1 == arms.len();
+            let mut condition = if last && arm.guard.is_none() { None } else { self.patterns(arm, &matched)? };
+            if let Some(guard) = &arm.guard {
+                if self.hoists(guard) {
+                    if open {
+                        self.line("} else {");
+                        self.indent += 1;
+                        self.shared.names.open();
+                        depth += 1;
+                        open = false;
+                    }
+                    condition = Some(self.guarded(condition, guard)?);
+                } else {
+                    let guard = self.expression(guard)?;
+                    condition = Some(match condition {
+                        Some(condition) => Text::joined(&condition, "&&", &guard, Level::And),
+                        None => guard,
+                    });
+                }
+            }
+            let opening = match (&condition, open) {
+                (Some(condition), false) => format!("if {} {{", condition.plain()),
+                (Some(condition), true) => format!("}} else if {} {{", condition.plain()),
+                (None, false) => "{".to_owned(),
+                (None, true) => "} else {".to_owned(),
+            };
+            self.line(&opening);
+            open = true;
+            self.inside(|writer| writer.block_into(&arm.body, target))?;
+            if condition.is_none() {
+                break;
+            }
+        }
+        if open {
+            self.line("}");
+        }
+        self.close(depth);
+        Ok(())
+    }
+
+    /// A guard that needs statements is computed only where the pattern fits.
+    fn guarded(&mut self, condition: Option<Text>, guard: &Expression) -> Result<Text, Problem> {
+        let Some(condition) = condition else { return self.expression(guard) };
+        let name = self.shared.names.local("condition");
+        self.line(&format!("var {name}: bool = {};", condition.plain()));
+        self.line(&format!("if {name} {{"));
+        self.inside(|writer| {
+            let guard = writer.expression(guard)?;
+            writer.line(&format!("{name} = {};", guard.plain()));
+            Ok(())
+        })?;
+        self.line("}");
+        Ok(Text::primary(name))
+    }
+
+    /// The condition under which one of the patterns fits; nothing where one of them is `_`.
+    fn patterns(&mut self, arm: &Arm, matched: &Text) -> Result<Option<Text>, Problem> {
+        let mut any: Option<Text> = None;
+        for pattern in &arm.patterns {
+            let one = match pattern {
+                Pattern::Any => return Ok(None),
+                Pattern::Value(Expression::Literal(Literal::Bool(true))) => matched.clone(),
+                Pattern::Value(Expression::Literal(Literal::Bool(false))) => matched.inverted("!"),
+                Pattern::Value(value) => {
+                    let value = self.expression(value)?;
+                    Text::joined(matched, "==", &value, Level::Relational)
+                }
+                Pattern::Range(from, to) => {
+                    let (from, to) = (self.expression(from)?, self.expression(to)?);
+                    let above = Text::joined(matched, ">=", &from, Level::Relational);
+                    let below = Text::joined(matched, "<=", &to, Level::Relational);
+                    Text::joined(&above, "&&", &below, Level::And)
+                }
+            };
+            any = Some(match any {
+                Some(before) => Text::joined(&before, "||", &one, Level::Or),
+                None => one,
+            });
+        }
+        Ok(any)
+    }
+
+    /// The body of a loop, without its braces.
+    pub(super) fn loop_body(&mut self, flag: Option<String>, body: &Block) -> Result<(), Problem> {
+        self.loops.push(flag);
+        let result = self.inside(|writer| writer.block_into(body, Target::Nowhere));
+        self.loops.pop();
+        result
+    }
+
+    pub(super) fn while_(&mut self, condition: &Expression, body: &Block) -> Result<(), Problem> {
+        if self.hoists(condition) {
+            self.line("loop {");
+            self.inside(|writer| {
+                let text = writer.expression(condition)?;
+                writer.line(&format!("if {} {{", text.inverted("!").plain()));
+                writer.line("    break;");
+                writer.line("}");
+                writer.indent -= 1;
+                let result = writer.loop_body(None, body);
+                writer.indent += 1;
+                result
+            })?;
+        } else {
+            let text = self.expression(condition)?;
+            self.line(&format!("while {} {{", text.plain()));
+            self.loop_body(None, body)?;
+        }
+        self.line("}");
+        Ok(())
+    }
+
+    pub(super) fn for_range(
+        &mut self,
+        statement: &Statement,
+        from: &Expression,
+        to: &Expression,
+        inclusive: bool,
+        body: &Block,
+    ) -> Result<(), Problem> {
+        let Statement::ForRange { variable, .. } = statement else { return Ok(()) };
+        let number = self.analysis.bound(statement)?;
+        let type_ = self.analysis.locals[number.0].type_.clone();
+        let one = self.one(&type_)?;
+        let texts = self.operands(&[from, to])?;
+        let [from, to_text] = [texts[0].clone(), texts[1].clone()];
+        let end = self.end(to, to_text);
+        self.note_neighbour(statement, to, inclusive)?;
+        self.shared.names.open();
+        let local = self.shared.names.local(variable);
+        self.locals.insert(number, local.clone());
+        let name = type_.wgsl();
+        if inclusive && !below_largest(to, &type_) {
+            // The end may be the largest number of its type, beyond which counting would begin again.
+            let more = self.shared.names.local("more");
+            self.line(&format!("var {local}: {name} = {};", from.plain()));
+            self.line(&format!("var {more}: bool = {local} <= {end};"));
+            self.line("loop {");
+            self.line(&format!("    if !{more} {{"));
+            self.line("        break;");
+            self.line("    }");
+            self.loop_body(None, body)?;
+            self.line("    continuing {");
+            self.line(&format!("        {more} = {local} != {end};"));
+            self.line(&format!("        {local} += {one};"));
+            self.line("    }");
+        } else {
+            let sign = if inclusive { "<=" } else { "<" };
+            let from = from.plain();
+            self.line(&format!("for (var {local}: {name} = {from}; {local} {sign} {end}; {local} += {one}) {{"));
+            self.loop_body(None, body)?;
+        }
+        self.line("}");
+        self.shared.names.close();
+        Ok(())
+    }
+}
+
+/// A block that is nothing but an `if`: it continues a chain.
+fn lone_if(block: &Block) -> Option<(&Expression, &Block, Option<&Block>)> {
+    let only = match (block.statements.as_slice(), &block.value) {
+        ([], Some(value)) => &**value,
+        ([Statement::Expression(value)], None) => value,
+        _ => return None,
+    };
+    match only {
+        Expression::If { condition, then, otherwise } => Some((condition, then, otherwise.as_ref())),
+        _ => None,
+    }
+}
+
+/// Whether the end of a range is a literal below the largest number of its type. A `u8` has room above it.
+fn below_largest(to: &Expression, type_: &Type) -> bool {
+    let largest = match type_ {
+        Type::Scalar(ScalarType::U8) => return true,
+        Type::Scalar(ScalarType::I32) => u64::from(i32::MAX.unsigned_abs()),
+        _ => u64::from(u32::MAX),
+    };
+    matches!(to, Expression::Literal(Literal::Integer(value, _)) if *value < largest)
+}

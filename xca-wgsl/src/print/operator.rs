@@ -1,0 +1,174 @@
+//! Operators, with the results that Rust gives.
+
+use super::Writer;
+use super::text::{Level, Text};
+use crate::error::Problem;
+use crate::types::{self, Type};
+use xca_core::ScalarType;
+use xca_core::ir::{BinaryOperator, Expression};
+
+impl Writer<'_, '_> {
+    pub(super) fn binary(
+        &mut self,
+        operator: BinaryOperator,
+        left: &Expression,
+        right: &Expression,
+    ) -> Result<Text, Problem> {
+        let mut texts = self.operands(&[left, right])?;
+        let (left_type, right_type) = (self.type_of(left), self.type_of(right));
+        if self.overflows(operator, left, right) {
+            texts[0] = self.keep("operand", &left_type, &texts[0]);
+        }
+        self.combined(operator, (&texts[0], &left_type), (&texts[1], &right_type))
+    }
+
+    /// `left operator right`.
+    pub(super) fn combined(
+        &mut self,
+        operator: BinaryOperator,
+        (left, left_type): (&Text, &Type),
+        (right, right_type): (&Text, &Type),
+    ) -> Result<Text, Problem> {
+        // A vector with a number gives a vector.
+        let type_ = if right_type.lanes() > 1 { right_type } else { left_type };
+        Ok(match operator {
+            BinaryOperator::Add => self.wrapped(Text::joined(left, "+", right, Level::Additive), type_),
+            BinaryOperator::Subtract => self.wrapped(Text::joined(left, "-", right, Level::Additive), type_),
+            BinaryOperator::Multiply => self.wrapped(Text::joined(left, "*", right, Level::Multiplicative), type_),
+            BinaryOperator::Divide => Text::joined(left, "/", right, Level::Multiplicative),
+            BinaryOperator::Remainder if type_.is_float() => {
+                return Err(Problem::unsupported(
+                    "`%` of floats",
+                    "engines disagree about it; write `a - b * (a / b).trunc()`, or use integers",
+                ));
+            }
+            BinaryOperator::Remainder => Text::joined(left, "%", right, Level::Multiplicative),
+            BinaryOperator::BitAnd => Text::joined(left, "&", right, Level::Bitwise),
+            BinaryOperator::BitOr => Text::joined(left, "|", right, Level::Bitwise),
+            BinaryOperator::BitXor if *left_type == Type::Bool => Text::joined(left, "!=", right, Level::Relational),
+            BinaryOperator::BitXor => Text::joined(left, "^", right, Level::Bitwise),
+            BinaryOperator::ShiftLeft => self.wrapped(shift(left, "<<", right, left_type, right_type), left_type),
+            BinaryOperator::ShiftRight => shift(left, ">>", right, left_type, right_type),
+            BinaryOperator::Equal if type_.lanes() > 1 => {
+                Text::primary(format!("all({})", Text::joined(left, "==", right, Level::Relational).plain()))
+            }
+            BinaryOperator::NotEqual if type_.lanes() > 1 => {
+                Text::primary(format!("any({})", Text::joined(left, "!=", right, Level::Relational).plain()))
+            }
+            BinaryOperator::Equal | BinaryOperator::NotEqual if matches!(type_, Type::Array(..)) => {
+                return Err(Problem::unsupported("a comparison of arrays", "compare their elements"));
+            }
+            BinaryOperator::Equal => Text::joined(left, "==", right, Level::Relational),
+            BinaryOperator::NotEqual => Text::joined(left, "!=", right, Level::Relational),
+            BinaryOperator::Less
+            | BinaryOperator::LessEqual
+            | BinaryOperator::Greater
+            | BinaryOperator::GreaterEqual => {
+                if !matches!(type_, Type::Scalar(_)) {
+                    return Err(Problem::unsupported("an order comparison", "only numbers have an order"));
+                }
+                let sign = match operator {
+                    BinaryOperator::Less => "<",
+                    BinaryOperator::LessEqual => "<=",
+                    BinaryOperator::Greater => ">",
+                    _ => ">=",
+                };
+                Text::joined(left, sign, right, Level::Relational)
+            }
+            BinaryOperator::And => Text::joined(left, "&&", right, Level::And),
+            BinaryOperator::Or => Text::joined(left, "||", right, Level::Or),
+        })
+    }
+
+    /// `&&` and `||`: the right-hand side is computed only where it is needed.
+    pub(super) fn logical(
+        &mut self,
+        operator: BinaryOperator,
+        left: &Expression,
+        right: &Expression,
+    ) -> Result<Text, Problem> {
+        let left = self.expression(left)?;
+        if !self.hoists(right) {
+            let right = self.expression(right)?;
+            return self.combined(operator, (&left, &Type::Bool), (&right, &Type::Bool));
+        }
+        let name = self.shared.names.local("condition");
+        self.line(&format!("var {name}: bool = {};", left.plain()));
+        let sign = if operator == BinaryOperator::And { "" } else { "!" };
+        self.line(&format!("if {sign}{name} {{"));
+        self.inside(|writer| {
+            let right = writer.expression(right)?;
+            writer.line(&format!("{name} = {};", right.plain()));
+            Ok(())
+        })?;
+        self.line("}");
+        Ok(Text::primary(name))
+    }
+
+    /// Keeps a `u8` below 256.
+    pub(super) fn wrapped(&self, value: Text, type_: &Type) -> Text {
+        if !type_.is_u8() {
+            return value;
+        }
+        let mask = match type_.lanes() {
+            1 => "0xffu".to_owned(),
+            lanes => format!("vec{lanes}<u32>(0xffu)"),
+        };
+        Text::joined(&value, "&", &Text::primary(mask), Level::Bitwise)
+    }
+
+    /// Whether naga would compute the value while it reads the shader, and refuse it because it is not finite.
+    fn overflows(&self, operator: BinaryOperator, left: &Expression, right: &Expression) -> bool {
+        let type_ = self.type_of(left);
+        let precision = self.shared.options.precision;
+        let single = match type_ {
+            Type::Scalar(scalar) if types::is_float(scalar) => !types::is_f64(scalar, precision),
+            _ => return false,
+        };
+        let (Some(left), Some(right)) = (constant_value(left), constant_value(right)) else { return false };
+        let Some(value) = arithmetic(operator, left, right) else { return false };
+        if single { !(value as f32).is_finite() } else { !value.is_finite() }
+    }
+}
+
+/// Rust takes the number of places modulo the width in release builds.
+fn shift(left: &Text, sign: &str, right: &Text, left_type: &Type, right_type: &Type) -> Text {
+    let last = if left_type.is_u8() { 7 } else { 31 };
+    let literal = right.plain().trim_end_matches(['u', 'i']).parse::<u32>().ok();
+    let places = match literal {
+        Some(places) if places <= last => Text::primary(format!("{places}u")),
+        _ => {
+            let unsigned = match right_type.scalar() {
+                Some(ScalarType::I32) => Text::primary(format!("u32({})", right.plain())),
+                _ => right.clone(),
+            };
+            Text::joined(&unsigned, "&", &Text::primary(format!("{last}u")), Level::Bitwise)
+        }
+    };
+    Text::joined(left, sign, &places, Level::Shift)
+}
+
+/// About what a float is that is known before the run.
+pub(super) fn constant_value(value: &Expression) -> Option<f64> {
+    use xca_core::ir::{Constant, Literal, UnaryOperator};
+    match value {
+        Expression::Literal(Literal::Float(digits, _)) => digits.parse().ok(),
+        Expression::Constant { value: Constant::F32(value), .. } => Some((*value).into()),
+        Expression::Constant { value: Constant::Real(value), .. } => Some(*value),
+        Expression::Unary(UnaryOperator::Negate, operand) => Some(-constant_value(operand)?),
+        Expression::Binary(operator, left, right) => {
+            arithmetic(*operator, constant_value(left)?, constant_value(right)?)
+        }
+        _ => None,
+    }
+}
+
+fn arithmetic(operator: BinaryOperator, left: f64, right: f64) -> Option<f64> {
+    match operator {
+        BinaryOperator::Add => Some(left + right),
+        BinaryOperator::Subtract => Some(left - right),
+        BinaryOperator::Multiply => Some(left * right),
+        BinaryOperator::Divide => Some(left / right),
+        _ => None,
+    }
+}

@@ -1,0 +1,266 @@
+//! Statements.
+
+use super::expression::is_simple;
+use super::text::{Level, Text};
+use super::{Target, Writer};
+use crate::error::Problem;
+use crate::types::Type;
+use crate::visit;
+use xca_core::ir::{BinaryOperator, Block, Builtin, Expression, Place, PlaceRoot, Projection, Statement};
+use xca_core::ScalarType;
+
+impl Writer<'_, '_> {
+    /// Writes the statements of a block, and its value to where it belongs.
+    pub(super) fn block_into(&mut self, block: &Block, target: Target<'_>) -> Result<(), Problem> {
+        for statement in &block.statements {
+            self.statement(statement)?;
+        }
+        match &block.value {
+            Some(value) => self.value_into(value, target),
+            None => Ok(()),
+        }
+    }
+
+    /// Writes what computes a value and puts it where it belongs.
+    pub(super) fn value_into(&mut self, value: &Expression, target: Target<'_>) -> Result<(), Problem> {
+        let target = if *self.analysis.type_of(value) == Type::Unit { Target::Nowhere } else { target };
+        match value {
+            Expression::If { condition, then, otherwise } => {
+                self.if_into(condition, then, otherwise.as_ref(), target)
+            }
+            Expression::Match { value, arms } => self.match_into(value, arms, target),
+            Expression::Block(Block { statements, value: Some(inner) }) if statements.is_empty() => {
+                self.value_into(inner, target)
+            }
+            Expression::Block(block) => {
+                self.line("{");
+                self.inside(|writer| writer.block_into(block, target))?;
+                self.line("}");
+                Ok(())
+            }
+            other => {
+                let text = self.expression(other)?;
+                match target {
+                    Target::Nowhere => self.line(&format!("_ = {};", text.plain())),
+                    Target::Variable(name) => self.line(&format!("{name} = {};", text.plain())),
+                    Target::Return => self.line(&format!("return {};", text.plain())),
+                }
+                Ok(())
+            }
+        }
+    }
+
+    fn statement(&mut self, statement: &Statement) -> Result<(), Problem> {
+        match statement {
+            Statement::Let { name, mutable, value, .. } => self.let_(statement, name, *mutable, value),
+            Statement::LetNeighbour { name, index } => {
+                let number = self.neighbour(index)?;
+                let local = self.shared.names.local(name);
+                self.line(&format!("let {local}: u32 = {};", number.plain()));
+                self.locals.insert(self.analysis.bound(statement)?, local);
+                Ok(())
+            }
+            Statement::Assign { place, operator, value } => self.assign(place, *operator, value),
+            Statement::Expression(value) => self.value_into(value, Target::Nowhere),
+            Statement::While { condition, body } => self.while_(condition, body),
+            Statement::Loop { body } => {
+                self.line("loop {");
+                self.loop_body(None, body)?;
+                self.line("}");
+                Ok(())
+            }
+            Statement::ForRange { from, to, inclusive, body, .. } => {
+                self.for_range(statement, from, to, *inclusive, body)
+            }
+            Statement::ForOthers { reach, radius, body, .. } => self.for_others(statement, *reach, radius.as_ref(), body),
+            Statement::ForItems { body, .. } => self.for_items(statement, body),
+            Statement::Break => {
+                if let Some(Some(flag)) = self.loops.last() {
+                    let ended = format!("{flag} = true;");
+                    self.line(&ended);
+                }
+                self.line("break;");
+                Ok(())
+            }
+            Statement::Continue => {
+                self.line("continue;");
+                Ok(())
+            }
+            Statement::Return(None) => {
+                self.line("return;");
+                Ok(())
+            }
+            Statement::Return(Some(value)) => self.value_into(value, Target::Return),
+            Statement::Fault { code, value } => {
+                let texts = self.operands(&[code, value])?;
+                self.line(&format!("report_fault({});", super::expression::list(&texts)));
+                Ok(())
+            }
+        }
+    }
+
+    fn let_(&mut self, statement: &Statement, name: &str, mutable: bool, value: &Expression) -> Result<(), Problem> {
+        let number = self.analysis.bound(statement)?;
+        let type_ = self.analysis.locals[number.0].type_.clone();
+        self.check_type(&type_)?;
+        if type_ == Type::Unit {
+            return self.value_into(value, Target::Nowhere);
+        }
+        let spread = match value {
+            Expression::Match { .. } | Expression::Block(_) => true,
+            Expression::If { .. } => self.hoists(value),
+            _ => false,
+        };
+        let local;
+        if spread {
+            local = self.shared.names.local(name);
+            self.line(&format!("var {local}: {};", type_.wgsl()));
+            self.value_into(value, Target::Variable(&local))?;
+        } else {
+            let text = self.expression(value)?;
+            // An array in a variable can be indexed cheaply.
+            let keyword = if mutable || matches!(type_, Type::Array(..)) { "var" } else { "let" };
+            local = self.shared.names.local(name);
+            self.line(&format!("{keyword} {local}: {} = {};", type_.wgsl(), text.plain()));
+        }
+        self.locals.insert(number, local);
+        Ok(())
+    }
+
+    fn assign(
+        &mut self,
+        place: &Place,
+        operator: Option<BinaryOperator>,
+        value: &Expression,
+    ) -> Result<(), Problem> {
+        let type_ = self.analysis.type_of_place(place).clone();
+        let Some(operator) = operator else {
+            if place.path.is_empty() && matches!(value, Expression::If { .. } | Expression::Match { .. }) && self.hoists(value)
+            {
+                // Each branch assigns.
+                let target = self.place(place)?;
+                return self.value_into(value, Target::Variable(&target));
+            }
+            let text = self.expression(value)?;
+            let target = self.place(place)?;
+            self.line(&format!("{target} = {};", text.plain()));
+            return Ok(());
+        };
+        let target = self.place(place)?;
+        let mut before = Text::primary(target.clone());
+        if self.hoists(value) {
+            before = self.keep("operand", &type_, &before);
+        }
+        let text = self.expression(value)?;
+        let value_type = self.type_of(value);
+        let short = match operator {
+            BinaryOperator::Add => Some("+="),
+            BinaryOperator::Subtract => Some("-="),
+            BinaryOperator::Multiply => Some("*="),
+            BinaryOperator::Divide => Some("/="),
+            _ => None,
+        };
+        let result = self.combined(operator, (&before, &type_), (&text, &value_type))?;
+        match short {
+            Some(short) if before.plain() == target && !type_.is_u8() => {
+                self.line(&format!("{target} {short} {};", text.plain()));
+            }
+            _ => self.line(&format!("{target} = {};", result.plain())),
+        }
+        Ok(())
+    }
+
+    fn place(&mut self, place: &Place) -> Result<String, Problem> {
+        let mut text = match &place.root {
+            PlaceRoot::Local(_) => self.local(self.analysis.place_root(place)?)?,
+            PlaceRoot::Own(name) => self.own(name)?,
+        };
+        for projection in &place.path {
+            match projection {
+                Projection::Component(lane) => {
+                    text.push('.');
+                    text.push_str(self.lane(*lane)?);
+                }
+                Projection::Element(index) => {
+                    let mut number = self.expression(index)?;
+                    if !is_simple(index) {
+                        let type_ = self.type_of(index);
+                        number = self.keep("index", &type_, &number);
+                    }
+                    text = format!("{text}[{}]", number.plain());
+                }
+            }
+        }
+        Ok(text)
+    }
+
+    /// The number of the cell that is the neighbour with this index.
+    pub(super) fn neighbour(&mut self, index: &Expression) -> Result<Text, Problem> {
+        let known = match index {
+            Expression::Local(_) => self.neighbours.contains(&self.analysis.local(index)?),
+            Expression::Literal(xca_core::ir::Literal::Integer(number, _)) => {
+                self.shared.options.neighbourhood_size.is_some_and(|size| *number < u64::from(size))
+            }
+            _ => false,
+        };
+        let text = self.expression(index)?;
+        let routine = if known {
+            "neighbour_at"
+        } else {
+            self.shared.routines.checked_neighbours = true;
+            "checked_neighbour_at"
+        };
+        Ok(Text::primary(format!("{routine}({})", text.plain())))
+    }
+
+    /// A value that a loop compares with again and again: computed once.
+    pub(super) fn end(&mut self, value: &Expression, text: Text) -> String {
+        let cheap = is_simple(value) && self.stable(value);
+        if cheap {
+            return text.at_least(Level::Additive);
+        }
+        let type_ = self.type_of(value);
+        self.keep("end", &type_, &text).plain().to_owned()
+    }
+
+    /// The literal one of an integer type.
+    pub(super) fn one(&self, type_: &Type) -> Result<&'static str, Problem> {
+        match type_ {
+            Type::Scalar(ScalarType::I32) => Ok("1i"),
+            Type::Scalar(ScalarType::U8 | ScalarType::U32) => Ok("1u"),
+            _ => Err(Problem::unsupported("a range", "its ends are integers")),
+        }
+    }
+
+    /// Remembers that a variable is the index of an existing neighbour.
+    pub(super) fn note_neighbour(&mut self, statement: &Statement, to: &Expression, inclusive: bool) -> Result<(), Problem> {
+        if !inclusive && matches!(to, Expression::Builtin(Builtin::Neighbours, _)) {
+            self.neighbours.insert(self.analysis.bound(statement)?);
+        }
+        Ok(())
+    }
+}
+
+/// Whether WGSL sees that every way through the block ends in a `return`.
+pub(super) fn ends_in_return(block: &Block) -> bool {
+    match (&block.value, block.statements.last()) {
+        (Some(value), _) => expression_ends_in_return(value),
+        (None, Some(Statement::Return(Some(value)))) => expression_ends_in_return(value),
+        (None, Some(Statement::Expression(value))) => {
+            visit::expression_diverges(value) && expression_ends_in_return(value)
+        }
+        _ => false,
+    }
+}
+
+fn expression_ends_in_return(value: &Expression) -> bool {
+    match value {
+        Expression::If { then, otherwise: Some(otherwise), .. } => ends_in_return(then) && ends_in_return(otherwise),
+        Expression::Match { arms, .. } => {
+            arms.last().is_some_and(|arm| arm.guard.is_none()) && arms.iter().all(|arm| ends_in_return(&arm.body))
+        }
+        Expression::If { .. } => false,
+        Expression::Block(block) => ends_in_return(block),
+        _ => true,
+    }
+}

@@ -1,0 +1,154 @@
+//! Small functions that a shader brings along where its process needs them.
+
+use crate::literal;
+use crate::types::{self, Type};
+use std::collections::BTreeMap;
+use xca_core::{Precision, ScalarType};
+
+/// The routines of a module, by name.
+#[derive(Debug, Default)]
+pub(crate) struct Routines {
+    texts: BTreeMap<String, String>,
+    /// A search goes the shorter way round toroidal axes.
+    pub(crate) nearest_image: bool,
+    /// The index of a neighbour may lie beyond the neighbourhood.
+    pub(crate) checked_neighbours: bool,
+    pub(crate) cell_containing: bool,
+}
+
+impl Routines {
+    pub(crate) fn texts(&self) -> impl Iterator<Item = &String> {
+        self.texts.values()
+    }
+
+    fn need(&mut self, name: String, text: impl FnOnce(&str) -> String) -> String {
+        self.texts.entry(name.clone()).or_insert_with(|| text(&name));
+        name
+    }
+
+    /// An infinite number, which WGSL cannot write down.
+    pub(crate) fn need_infinity(&mut self, scalar: &str) {
+        self.need(format!("infinity_{scalar}"), |_| literal::infinity_routine(scalar));
+    }
+
+    /// `minimum` or `maximum` of floats: `if b < a { b } else { a }`, so that NaN and signed zeros are the same everywhere.
+    pub(crate) fn need_least(&mut self, word: &str, type_: &Type) -> String {
+        let name = format!("{word}_{}", type_.word());
+        let condition = if word == "minimum" { "b < a" } else { "a < b" };
+        let type_ = type_.wgsl();
+        self.need(name, |name| {
+            format!("fn {name}(a: {type_}, b: {type_}) -> {type_} {{\n    return select(a, b, {condition});\n}}\n")
+        })
+    }
+
+    /// The scalar product, added from the first lane to the last.
+    pub(crate) fn need_dot(&mut self, type_: &Type) -> String {
+        let lanes = &["a.x * b.x", "a.y * b.y", "a.z * b.z", "a.w * b.w"][..usize::from(type_.lanes().min(4))];
+        let sum = masked(&lanes.join(" + "), type_);
+        let scalar = type_.scalar().map_or("u32", types::scalar_name);
+        let vector = type_.wgsl();
+        self.need(format!("dot_{}", type_.word()), |name| {
+            format!("fn {name}(a: {vector}, b: {vector}) -> {scalar} {{\n    return {sum};\n}}\n")
+        })
+    }
+
+    pub(crate) fn need_cross(&mut self, type_: &Type) -> String {
+        let lanes = ["a.y * b.z - a.z * b.y", "a.z * b.x - a.x * b.z", "a.x * b.y - a.y * b.x"];
+        let lanes = lanes.map(|lane| masked(lane, type_)).join(", ");
+        let vector = type_.wgsl();
+        self.need(format!("cross_{}", type_.word()), |name| {
+            format!("fn {name}(a: {vector}, b: {vector}) -> {vector} {{\n    return {vector}({lanes});\n}}\n")
+        })
+    }
+
+    pub(crate) fn need_length(&mut self, type_: &Type) -> String {
+        let dot = self.need_dot(type_);
+        let scalar = type_.scalar().map_or("f32", types::scalar_name);
+        let vector = type_.wgsl();
+        self.need(format!("length_{}", type_.word()), |name| {
+            format!("fn {name}(a: {vector}) -> {scalar} {{\n    return sqrt({dot}(a, a));\n}}\n")
+        })
+    }
+
+    /// `as` from a float to an integer: the nearest number of the type, and 0 for NaN.
+    pub(crate) fn need_saturation(&mut self, from: ScalarType, to: ScalarType) -> String {
+        let (low, least, high, largest) = match to {
+            ScalarType::I32 => ("-2147483648.0", "i32(-2147483648)", "2147483648.0", "2147483647i"),
+            ScalarType::U8 => ("0.0", "0u", "256.0", "255u"),
+            _ => ("0.0", "0u", "4294967296.0", "4294967295u"),
+        };
+        let (source, target) = (types::scalar_name(from), types::scalar_name(to));
+        let word = if to == ScalarType::U8 { "u8" } else { target };
+        self.need(format!("saturate_{word}_from_{}", source.to_lowercase()), |name| {
+            format!(
+                "fn {name}(value: {source}) -> {target} {{\n    \
+                     let low: {source} = {source}({low});\n    \
+                     let high: {source} = {source}({high});\n    \
+                     if value > low && value < high {{\n        \
+                         return {target}(value);\n    \
+                     }} else if value >= high {{\n        \
+                         return {largest};\n    \
+                     }} else if value <= low {{\n        \
+                         return {least};\n    \
+                     }}\n    \
+                     return {target}(0);\n}}\n"
+            )
+        })
+    }
+}
+
+fn masked(text: &str, type_: &Type) -> String {
+    if type_.is_u8() { format!("({text}) & 0xffu") } else { text.to_owned() }
+}
+
+/// Philox 4x32-10 and what is made of its words. `owner` is the counter's first word, `mark` is added to the third.
+pub(crate) fn random(owner: &str, mark: &str, precision: Precision) -> String {
+    let uniform = match precision {
+        Precision::F32 => "f32(words.x >> 8u) * 5.9604645e-8f".to_owned(),
+        Precision::F64 => {
+            "(f64(words.x >> 5u) * 67108864.0lf + f64(words.y >> 6u)) * 1.1102230246251565e-16lf".to_owned()
+        }
+    };
+    format!(
+        "// The upper half of a product of 64 bits.
+fn multiply_high(a: u32, b: u32) -> u32 {{
+    let low = a & 0xffffu;
+    let high = a >> 16u;
+    let middle = high * (b & 0xffffu) + ((low * (b & 0xffffu)) >> 16u);
+    let carry = low * (b >> 16u) + (middle & 0xffffu);
+    return high * (b >> 16u) + (middle >> 16u) + (carry >> 16u);
+}}
+
+// Philox 4x32-10 (Salmon and others, SC11).
+fn philox(counter: vec4<u32>, key: vec2<u32>) -> vec4<u32> {{
+    var words = counter;
+    var round_key = key;
+    for (var round_number: u32 = 0u; round_number < 10u; round_number += 1u) {{
+        let first_high = multiply_high(0xd2511f53u, words.x);
+        let second_high = multiply_high(0xcd9e8d57u, words.z);
+        words = vec4<u32>(
+            second_high ^ words.y ^ round_key.x,
+            0xcd9e8d57u * words.z,
+            first_high ^ words.w ^ round_key.y,
+            0xd2511f53u * words.x,
+        );
+        round_key += vec2<u32>(0x9e3779b9u, 0xbb67ae85u);
+    }}
+    return words;
+}}
+
+fn random_words(draw: u32) -> vec4<u32> {{
+    return philox(vec4<u32>({owner}, moment.step.x, moment.step.y ^ {mark}, draw), space.seed);
+}}
+
+fn random_bits(draw: u32) -> u32 {{
+    return random_words(draw).x;
+}}
+
+fn random_real(draw: u32) -> Real {{
+    let words = random_words(draw);
+    return {uniform};
+}}
+"
+    )
+}

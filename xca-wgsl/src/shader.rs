@@ -1,0 +1,144 @@
+//! What the user of this crate gives and gets.
+
+use crate::error::Error;
+use crate::layout::Layout;
+use crate::module;
+use crate::program::Program;
+use xca_core::kernel::Of;
+use xca_core::{Precision, ValueType, ir};
+
+/// What a shader is written for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Options {
+    /// What `Real` stands for.
+    pub precision: Precision,
+    /// The number of cells in the neighbourhood with the central one; where it is not given, the shader reads it from the
+    /// description of the space.
+    pub neighbourhood_size: Option<u32>,
+    /// The size of a workgroup along x, y and z; of a process over items the product.
+    pub workgroup_size: [u32; 3],
+    /// Which axes are toroidal: searches for near items go the shorter way round them.
+    pub toroidal: [bool; 3],
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            precision: Precision::default(),
+            neighbourhood_size: None,
+            workgroup_size: [64, 1, 1],
+            toroidal: [false; 3],
+        }
+    }
+}
+
+/// A process as a module of WGSL.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Shader {
+    /// The text.
+    pub source: String,
+    /// The name of the entry point.
+    pub entry_point: String,
+    /// The buffers that it uses, all in group 0, in the order of their numbers.
+    pub bindings: Vec<Binding>,
+    /// What one invocation works on.
+    pub dispatch: Dispatch,
+    /// Whether the module uses 64-bit floats.
+    pub needs_f64: bool,
+}
+
+/// What the invocations of a shader run over. Invocations beyond the end do nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dispatch {
+    /// The cells: one invocation for each, along x, y and z, in workgroups of this size.
+    Cells([u32; 3]),
+    /// The items: one invocation for each, in workgroups of this many. Where one dimension does not hold all workgroups, they go
+    /// on along y: workgroup `(x, y)` is number `x + y * (workgroups along x)`.
+    Items(u32),
+}
+
+/// A buffer of a shader.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Binding {
+    /// The number in group 0.
+    pub number: u32,
+    /// The name in the source.
+    pub name: String,
+    /// How the shader uses it.
+    pub access: BindingAccess,
+    /// What it holds.
+    pub content: Content,
+}
+
+/// How a shader uses a buffer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BindingAccess {
+    /// A uniform buffer.
+    Uniform,
+    /// A storage buffer that is read.
+    Read,
+    /// A storage buffer that is read and written.
+    ReadWrite,
+}
+
+/// What a buffer holds. Cells are numbered with their halo, as the cell at `(x, y, z)` is number
+/// `(x + halo.x) + (y + halo.y) * row + (z + halo.z) * layer`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Content {
+    /// What is known of the space: `extents`, the number of cells of the neighbourhood, `halo`, `row`, `layer`, `seed` (low word, high
+    /// word), `side`.
+    Space(Layout),
+    /// What changes with the step: `step` (low word, high word) and the number of items of the population.
+    Moment(Layout),
+    /// The parameters.
+    Parameters(Layout),
+    /// `i32` for each cell of the neighbourhood: the difference of its number from that of the central cell.
+    NeighbourOffsets,
+    /// A substate of all cells, or of all items: a value for each, lane beside lane without padding, a `u8` as a `u32`.
+    Substate {
+        /// Of the process's subject or of its companion.
+        of: Of,
+        /// The number of the field in the struct of substates.
+        field: usize,
+        /// What it holds.
+        value_type: ValueType,
+        /// Which state.
+        state: State,
+    },
+    /// `u32` for each cell: its first item.
+    ItemStarts,
+    /// `u32` for each cell: one past its last item.
+    ItemEnds,
+    /// `u32` for each item: its label.
+    ItemLabels,
+    /// `u32` for each item: the number of its cell.
+    ItemCells,
+    /// `u32` for each item: where a migration sends it, the linear index of a cell (without halo) or one of
+    /// `xca_core::kernel::{STAY, OUTSIDE, NOWHERE}`.
+    Destinations,
+    /// Faults: at 0 a `u32`, the linear index of the first cell (of a process over items: the first item) with a fault, which is
+    /// `u32::MAX` before; at 4 a `u32` that makes the shader do nothing where it is not zero, so that the state at a fault stays;
+    /// from 8 on a record for each workgroup, numbered with x running fastest, which holds the first fault in it. A record
+    /// that no fault was written to is not touched.
+    Faults(Layout),
+}
+
+/// Which state a buffer with a substate shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum State {
+    /// That from before the process; only read.
+    Before,
+    /// That from after the process, where the other is still read: the buffers are exchanged afterwards.
+    After,
+    /// Both: written in place.
+    Both,
+}
+
+/// Writes a process as WGSL.
+///
+/// # Errors
+/// Where something in the process, or in a helper that it calls, cannot be written in WGSL; the error names it.
+pub fn shader(process: &ir::Function, options: &Options) -> Result<Shader, Error> {
+    let program = Program::collect(process)?;
+    module::write(&program, options)
+}
