@@ -46,6 +46,11 @@ impl Layout {
     /// The padded number of a row's first cell.
     pub(crate) fn first(&self, row: usize) -> usize {
         let [y, z] = self.row(row);
+        self.first_at(y, z)
+    }
+
+    /// The padded number of the first cell of the row with these indices.
+    pub(crate) fn first_at(&self, y: usize, z: usize) -> usize {
         ((z + self.reach[2]) * self.padded[1] + y + self.reach[1]) * self.padded[0] + self.reach[0]
     }
 

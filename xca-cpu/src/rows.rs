@@ -204,9 +204,7 @@ fn memory(
     };
     let (read, write) = match next {
         _ if !access.write => (current.as_ptr(), std::ptr::null_mut()),
-        Some(next) if doubled.contains(&substate) => {
-            (current.as_ptr(), next.as_mut_ptr())
-        }
+        Some(next) if doubled.contains(&substate) => (current.as_ptr(), next.as_mut_ptr()),
         _ => {
             let write = current.as_mut_ptr();
             (write.cast_const(), write)
@@ -225,95 +223,101 @@ struct Pass<'a> {
 }
 
 impl Pass<'_> {
+    /// Runs all processes over a block of rows, one row after the other.
     fn block(&self, model: &Model, rows: Range<usize>) -> Found {
         let mut found = Found::default();
-        let scratch = Scratch::default();
-        let mut entries = Vec::new();
-        let mut answers = Vec::new();
-        for row in rows {
-            for prepared in &self.prepared {
-                let population = prepared.population.and_then(|group| match &self.groups[group] {
-                    Group::Population(population) => Some(population),
-                    Group::Cells(_) => None,
-                });
-                let own = population.map_or((0, 0), |population| population.row(row));
-                let over_items = prepared.process.kind != ProcessKind::Cells;
-                if over_items && own.0 == own.1 {
-                    continue;
-                }
-                if prepared.process.kind == ProcessKind::Migration {
-                    answers.clear();
-                    answers.resize(own.1 - own.0, STAY);
-                }
-                let run =
-                    || self.run_row(prepared, row, population, own, &mut entries, &mut answers, &scratch);
-                match catch_unwind(AssertUnwindSafe(run)) {
-                    Ok(None) => {}
-                    Ok(Some(fault)) => {
-                        found.keep(prepared.index, fault.cell, reported(model, prepared.process, fault))
-                    }
-                    Err(panic) => {
-                        let cell = (row * self.layout.width()) as u32;
-                        found.keep(prepared.index, cell, Fault::panicked(prepared.process.name, &*panic));
-                        return found;
-                    }
-                }
-                if let (ProcessKind::Migration, Some(population)) = (prepared.process.kind, population) {
-                    self.collect_movers(population, row, &answers, &mut found.movers);
-                }
-            }
+        // Where a panic would come from.
+        let now = std::cell::Cell::new((0, rows.start));
+        let run = AssertUnwindSafe(|| self.rows(model, rows, &now, &mut found));
+        if let Err(panic) = catch_unwind(run) {
+            let (number, row) = now.get();
+            let prepared = &self.prepared[number];
+            let cell = (row * self.layout.width()) as u32;
+            found.keep(prepared.index, cell, Fault::panicked(prepared.process.name, &*panic));
         }
         found
     }
 
-    #[expect(clippy::too_many_arguments, reason = "the lists are kept from row to row")]
+    fn rows(
+        &self,
+        model: &Model,
+        rows: Range<usize>,
+        now: &std::cell::Cell<(usize, usize)>,
+        found: &mut Found,
+    ) {
+        let mut work = Work { entries: Vec::new(), answers: Vec::new(), scratch: Scratch::default() };
+        let populations: Vec<Option<&Population>> =
+            self.prepared.iter().map(|prepared| self.population(prepared)).collect();
+        for row in rows {
+            let [y, z] = self.layout.row(row);
+            let first = self.layout.first_at(y, z);
+            for (number, (prepared, population)) in self.prepared.iter().zip(&populations).enumerate() {
+                now.set((number, row));
+                let own = population.map_or((0, 0), |population| population.row(row));
+                if prepared.process.kind != ProcessKind::Cells && own.0 == own.1 {
+                    continue;
+                }
+                if prepared.process.kind == ProcessKind::Migration {
+                    work.answers.clear();
+                    work.answers.resize(own.1 - own.0, STAY);
+                }
+                let cells =
+                    Cells { first, origin: [0, y as u32, z as u32], length: self.layout.width(), own };
+                if let Some(fault) = self.run_row(prepared, &cells, *population, &mut work) {
+                    found.keep(prepared.index, fault.cell, reported(model, prepared.process, fault));
+                }
+                if let (ProcessKind::Migration, Some(population)) = (prepared.process.kind, population) {
+                    self.collect_movers(population, row, &work.answers, &mut found.movers);
+                }
+            }
+        }
+    }
+
+    fn population(&self, prepared: &Prepared<'_>) -> Option<&Population> {
+        match &self.groups[prepared.population?] {
+            Group::Population(population) => Some(population),
+            Group::Cells(_) => None,
+        }
+    }
+
     fn run_row(
         &self,
         prepared: &Prepared<'_>,
-        row: usize,
+        cells: &Cells,
         population: Option<&Population>,
-        own: (usize, usize),
-        entries: &mut Vec<Entry>,
-        answers: &mut [u32],
-        scratch: &Scratch,
+        work: &mut Work,
     ) -> Option<RowFault> {
-        let [y, z] = self.layout.row(row).map(|index| index as u32);
-        let width = self.layout.width();
         if self.parity != Parity::Column || !prepared.process.local_interaction {
-            let frame = &self.frames[if self.parity == Parity::Row { y as usize % 2 } else { 0 }];
-            let cells = Cells { first: self.layout.first(row), origin: [0, y, z], length: width, own };
-            return self.run_cells(prepared, frame, &cells, population, entries, answers, scratch);
+            let frame =
+                &self.frames[if self.parity == Parity::Row { cells.origin[1] as usize % 2 } else { 0 }];
+            return self.run_cells(prepared, frame, cells, population, 0, work);
         }
         // The neighbourhood changes from cell to cell: each is a row of its own.
         let mut first_fault = None;
-        for x in 0..width {
-            let first = self.layout.first(row) + x;
-            let range = population.map_or((0, 0), |population| {
+        for x in 0..cells.length {
+            let first = cells.first + x;
+            let own = population.map_or((0, 0), |population| {
                 (population.starts[first] as usize, population.ends[first] as usize)
             });
-            let cells = Cells { first, origin: [x as u32, y, z], length: 1, own: range };
-            let part =
-                if answers.is_empty() { &mut [][..] } else { &mut answers[range.0 - own.0..range.1 - own.0] };
+            let cell = Cells { first, origin: [x as u32, cells.origin[1], cells.origin[2]], length: 1, own };
             let fault =
-                self.run_cells(prepared, &self.frames[x % 2], &cells, population, entries, part, scratch);
+                self.run_cells(prepared, &self.frames[x % 2], &cell, population, own.0 - cells.own.0, work);
             first_fault = first_fault.or(fault);
         }
         first_fault
     }
 
-    #[expect(clippy::too_many_arguments, reason = "the lists are kept from row to row")]
     fn run_cells(
         &self,
         prepared: &Prepared<'_>,
         frame: &Frame<'_>,
         cells: &Cells,
         population: Option<&Population>,
-        entries: &mut Vec<Entry>,
-        answers: &mut [u32],
-        scratch: &Scratch,
+        first_answer: usize,
+        work: &mut Work,
     ) -> Option<RowFault> {
-        entries.clear();
-        entries.extend(prepared.memory.iter().map(|memory| {
+        work.entries.clear();
+        work.entries.extend(prepared.memory.iter().map(|memory| {
             let (read, write) = if memory.of_items { (0, cells.own.0) } else { (cells.first, cells.first) };
             Entry {
                 read: memory.read.wrapping_add(read * memory.size),
@@ -326,7 +330,9 @@ impl Pass<'_> {
             labels: &population.items.labels,
             own: cells.own,
         });
-        let destinations = (prepared.process.kind == ProcessKind::Migration).then_some(answers);
+        let migrates = prepared.process.kind == ProcessKind::Migration;
+        let destinations =
+            migrates.then(|| &mut work.answers[first_answer..first_answer + cells.own.1 - cells.own.0]);
         // SAFETY:
         // - `entries` follow the process's accesses, in buffers that are aligned for every scalar and hold values of the schema's types.
         // - Planes have a halo as wide as the neighbourhood, and the offsets are made from the same layout, so that all of them can be
@@ -335,8 +341,9 @@ impl Pass<'_> {
         // - A process that reads a substate elsewhere and writes it writes to the second buffer; no process of a stage writes what another of
         //   it reads elsewhere (`stages`). So nothing readable is written meanwhile, by this row or by another.
         // - `starts` and `ends` are padded like planes and hold ranges of items; those of a row's cells are the row's own items.
-        let row =
-            unsafe { Row::new(frame, entries, items, destinations, scratch, cells.origin, cells.length) };
+        let row = unsafe {
+            Row::new(frame, &work.entries, items, destinations, &work.scratch, cells.origin, cells.length)
+        };
         (prepared.kernel)(&row);
         row.first_fault()
     }
@@ -355,6 +362,14 @@ impl Pass<'_> {
             }
         }
     }
+}
+
+/// Lists that are kept from row to row.
+struct Work {
+    entries: Vec<Entry>,
+    /// A migration's answers for the items of a row.
+    answers: Vec<u32>,
+    scratch: Scratch,
 }
 
 /// The cells that a kernel is given.

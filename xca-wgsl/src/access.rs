@@ -51,10 +51,6 @@ impl Uses {
         Ok(uses)
     }
 
-    pub(crate) fn substate(&self, of: Of, field: usize) -> Option<&Use> {
-        self.substates.iter().find(|used| used.of == of && used.field == field)
-    }
-
     fn add(&mut self, function: &Function) -> Result<(), Problem> {
         let roles = Roles::of(function);
         let kind = function.kind;

@@ -1,7 +1,7 @@
 //! The entry point: which cell or item an invocation works on, loading, storing, faults.
 
 use crate::access::Uses;
-use crate::module::Glossary;
+use crate::glossary::Glossary;
 use crate::names;
 use crate::shader::Options;
 use std::fmt::Write as _;
@@ -14,10 +14,6 @@ pub(crate) struct Entry<'a> {
     pub(crate) uses: &'a Uses,
     pub(crate) glossary: &'a Glossary,
     pub(crate) options: &'a Options,
-    /// Whether the process can report a fault.
-    pub(crate) faults: bool,
-    /// Whether the process has to know its cell.
-    pub(crate) here: bool,
 }
 
 /// How a fault is kept until the process has ended.
@@ -43,10 +39,10 @@ impl Entry<'_> {
             _ => ((x * y * z).to_string(), "item < moment.items".to_owned()),
         };
         let mut arguments = vec!["@builtin(global_invocation_id) id: vec3<u32>"];
-        if self.kind != FunctionKind::Cells || self.faults {
+        if self.kind != FunctionKind::Cells || self.uses.faults {
             arguments.push("@builtin(num_workgroups) workgroups: vec3<u32>");
         }
-        if self.faults {
+        if self.uses.faults {
             arguments.push("@builtin(workgroup_id) workgroup_id: vec3<u32>");
             arguments.push("@builtin(local_invocation_index) local: u32");
         }
@@ -59,13 +55,19 @@ impl Entry<'_> {
             let _ = writeln!(out, "    let item: u32 = id.x + id.y * workgroups.x * {size}u;");
         }
         let argument = if self.kind == FunctionKind::Cells { "id" } else { "item" };
-        if self.faults {
+        if self.uses.faults {
             out.push_str(&self.with_faults(&guard, over, argument));
         } else {
             let _ = writeln!(out, "    if {guard} {{\n        process_{over}({argument});\n    }}");
         }
         out.push_str("}\n");
         out
+    }
+
+    /// Whether the process has to know the cell of its item.
+    fn knows_cell(&self) -> bool {
+        let companion = self.uses.substates.iter().any(|used| used.of == Of::Companion);
+        companion || self.uses.neighbourhood || self.uses.ranges || self.uses.index
     }
 
     /// The process for one cell or item: load, run, store.
@@ -75,15 +77,15 @@ impl Entry<'_> {
         let _ = writeln!(out, "fn process_{over}({argument}) {{");
         if self.kind == FunctionKind::Cells {
             out.push_str("    here = storage_index(id);\n");
-            if self.uses.index || self.faults {
+            if self.uses.index {
                 out.push_str("    here_index = vec3<i32>(id);\n");
             }
         } else {
             out.push_str("    this_item = item;\n");
-            if self.here {
+            if self.knows_cell() {
                 out.push_str("    here = item_cells[item];\n");
             }
-            if self.uses.index || self.faults {
+            if self.uses.index {
                 out.push_str("    here_index = cell_index(here);\n");
             }
         }

@@ -21,8 +21,10 @@
 //! `%` of floats, NaN as a constant, empty arrays, comparisons of whole arrays, order comparisons of `bool`, recursion.
 
 mod access;
+mod declarations;
 mod entry;
 mod error;
+mod glossary;
 mod inference;
 mod layout;
 mod literal;

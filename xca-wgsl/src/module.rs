@@ -1,95 +1,143 @@
 //! Puts a module together.
 
-use crate::access::{Use, Uses};
+use crate::access::Uses;
+use crate::declarations::Declarations;
 use crate::entry::{self, Entry};
 use crate::error::{Error, Problem};
-use crate::inference::constant_type;
-use crate::layout::{FAULT, Layout, MOMENT, SPACE};
-use crate::names::{self, Names};
-use crate::print::{self, Shared, constant_text};
-use crate::program::{Program, Roles};
+use crate::glossary::Glossary;
+use crate::names::Names;
+use crate::print::{self, Shared};
+use crate::program::Program;
 use crate::routine::{self, Routines};
-use crate::shader::{Binding, BindingAccess, Content, Dispatch, Options, Shader, State};
+use crate::shader::{Dispatch, Options, Shader};
 use crate::space;
-use crate::types::{self, Type};
-use crate::visit::{self, Node};
-use std::collections::HashMap;
 use std::fmt::Write as _;
-use xca_core::ir::{Constant, Expression, FunctionKind};
-use xca_core::kernel::Of;
-use xca_core::{Precision, Schema, ValueType};
+use xca_core::Precision;
+use xca_core::ir::FunctionKind;
 
-/// What things are called in a module.
-pub(crate) struct Glossary {
-    /// The functions of the program.
-    pub(crate) functions: Vec<String>,
-    /// The variable with the own substates.
-    pub(crate) subject: Option<String>,
-    /// The variable with the substates of the item's cell.
-    pub(crate) companion: Option<String>,
-    pub(crate) parameters: String,
-    /// The number of cells in the neighbourhood.
-    pub(crate) neighbours: String,
-    pub(crate) buffers: Vec<Buffer>,
-    constants: HashMap<(String, String), String>,
+/// Writes the module.
+pub(crate) fn write(program: &Program, options: &Options) -> Result<Shader, Error> {
+    check(options).map_err(|problem| program.error(0, problem))?;
+    let mut uses = Uses::of(program).map_err(|problem| program.error(0, problem))?;
+    let mut names = Names::default();
+    let glossary = Glossary::of(program, &uses, options, &mut names)?;
+    let mut routines = Routines::default();
+    let mut functions = Vec::new();
+    // Callees before callers, for the reader.
+    for number in (0..program.functions.len()).rev() {
+        let mut shared = Shared {
+            program,
+            options,
+            glossary: &glossary,
+            names: &mut names,
+            routines: &mut routines,
+        };
+        let text = print::function(&mut shared, number).map_err(|problem| program.error(number, problem))?;
+        functions.push(text);
+    }
+    let kind = program.process().kind;
+    uses.faults |= routines.checked_neighbours;
+    uses.index |= uses.faults;
+    let over_cells = kind == FunctionKind::Cells;
+    let entry = Entry { kind, uses: &uses, glossary: &glossary, options };
+    let mut body = Vec::new();
+    body.extend(glossary.declarations.iter().cloned());
+    body.extend(provided(&uses, &routines, &glossary, options, over_cells));
+    body.extend(glossary.buffers.iter().filter_map(|buffer| buffer.reader_text()));
+    body.extend(routines.texts().cloned());
+    if uses.faults {
+        body.push(entry::report_fault(kind));
+    }
+    if uses.random {
+        let (owner, mark) = if over_cells {
+            ("linear_index(here_index)", "0u")
+        } else {
+            ("item_labels[this_item]", "0x80000000u")
+        };
+        body.push(routine::random(owner, mark, options.precision));
+    }
+    body.extend(functions);
+    body.push(entry.text());
+    let body = body.join("\n");
+    let declarations = Declarations::of(program, &uses, &glossary, options, &body, &mut names);
+    let mut source = String::new();
+    let process = program.process();
+    let _ = writeln!(source, "// {}::{}, Real = {}", process.module, process.name, options.precision);
+    source.push('\n');
+    source.push_str(&declarations.text);
+    source.push_str(&body);
+    let [x, y, z] = options.workgroup_size;
+    Ok(Shader {
+        needs_f64: mentions(&source_without_comment(&source), "f64"),
+        source,
+        entry_point: "main".to_owned(),
+        bindings: declarations.bindings,
+        dispatch: if over_cells { Dispatch::Cells([x, y, z]) } else { Dispatch::Items(x * y * z) },
+    })
 }
 
-/// A substate in memory.
-pub(crate) struct Buffer {
-    pub(crate) used: Use,
-    pub(crate) field: &'static str,
-    value_type: ValueType,
-    now: String,
-    next: Option<String>,
-    /// The routine that reads a vector.
-    reader: Option<String>,
+fn source_without_comment(source: &str) -> String {
+    source.lines().filter(|line| !line.starts_with("//")).collect::<Vec<_>>().join("\n")
 }
 
-impl Buffer {
-    /// The value of a cell or item as it was before the process.
-    pub(crate) fn read(&self, number: &str) -> String {
-        match &self.reader {
-            Some(reader) => format!("{reader}({number})"),
-            None => format!("{}[{number}]", self.now),
-        }
+fn check(options: &Options) -> Result<(), Problem> {
+    let [x, y, z] = options.workgroup_size;
+    let size = x.checked_mul(y).and_then(|area| area.checked_mul(z));
+    if !matches!(size, Some(1..)) {
+        return Err(Problem::Options(format!("a workgroup of {x} × {y} × {z} invocations is not possible")));
     }
-
-    /// The statements that store a value, indented once.
-    pub(crate) fn store(&self, number: &str, value: &str) -> String {
-        let target = self.next.as_ref().unwrap_or(&self.now);
-        let lanes = self.value_type.lanes;
-        if lanes == 1 {
-            return format!("    {target}[{number}] = {value};\n");
-        }
-        (0..lanes)
-            .map(|lane| {
-                let component = ["x", "y", "z", "w"][usize::from(lane.min(3))];
-                format!("    {target}[{lanes}u * {number} + {lane}u] = {value}.{component};\n")
-            })
-            .collect()
+    if options.neighbourhood_size == Some(0) {
+        return Err(Problem::Options("a neighbourhood has at least the central cell".to_owned()));
     }
-
-    fn reader_text(&self) -> Option<String> {
-        let reader = self.reader.as_ref()?;
-        let lanes = self.value_type.lanes;
-        let type_ = Type::of_value(self.value_type).wgsl();
-        let values: Vec<String> =
-            (0..lanes).map(|lane| format!("{}[{lanes}u * number + {lane}u]", self.now)).collect();
-        Some(format!("fn {reader}(number: u32) -> {type_} {{\n    return {type_}({});\n}}\n", values.join(", ")))
-    }
+    Ok(())
 }
 
-impl Glossary {
-    /// The text that reads a substate of another cell or item.
-    pub(crate) fn read(&self, of: Of, field: &str, number: &str) -> Result<String, Problem> {
-        self.buffers
-            .iter()
-            .find(|buffer| buffer.used.of == of && buffer.field == field)
-            .map(|buffer| buffer.read(number))
-            .ok_or_else(|| Problem::unknown("substate", field))
+/// The functions that stand for what an engine provides.
+fn provided(
+    uses: &Uses,
+    routines: &Routines,
+    glossary: &Glossary,
+    options: &Options,
+    over_cells: bool,
+) -> Vec<String> {
+    let mut texts = Vec::new();
+    if over_cells {
+        texts.push(space::STORAGE_INDEX.to_owned());
+    } else if uses.index {
+        texts.push(space::CELL_INDEX.to_owned());
     }
+    if uses.faults || (uses.random && over_cells) || routines.cell_containing {
+        texts.push(space::LINEAR_INDEX.to_owned());
+    }
+    if uses.neighbourhood {
+        texts.push(space::NEIGHBOUR_AT.to_owned());
+    }
+    if routines.checked_neighbours {
+        texts.push(space::checked_neighbour_at(&glossary.neighbours));
+    }
+    if routines.nearest_image {
+        texts.push(space::nearest_image(options.toroidal, options.precision));
+    }
+    if routines.cell_containing {
+        texts.push(space::cell_containing());
+    }
+    texts
+}
 
-    pub(crate) fn constant(&self, name: &str, value: &Constant) -> Option<&str> {
-        self.constants.get(&(name.to_owned(), format!("{value:?}"))).map(String::as_str)
+/// Whether the text contains the word.
+pub(crate) fn mentions(text: &str, word: &str) -> bool {
+    let is_part = |c: char| c == '_' || c.is_alphanumeric();
+    text.match_indices(word).any(|(start, _)| {
+        let before = text[..start].chars().next_back();
+        let after = text[start + word.len()..].chars().next();
+        !before.is_some_and(is_part) && !after.is_some_and(is_part)
+    })
+}
+
+/// The precision that `Real` has, as WGSL calls it.
+pub(crate) fn real(precision: Precision) -> &'static str {
+    match precision {
+        Precision::F32 => "f32",
+        Precision::F64 => "f64",
     }
 }

@@ -67,14 +67,6 @@ impl Type {
             other => other.wgsl(),
         }
     }
-
-    /// Whether the shader needs 64-bit floats for it.
-    pub(crate) fn needs_f64(&self, precision: Precision) -> bool {
-        match self {
-            Self::Array(element, _) => element.needs_f64(precision),
-            other => other.scalar().is_some_and(|scalar| is_f64(scalar, precision)),
-        }
-    }
 }
 
 impl From<&ir::Type> for Type {
@@ -115,14 +107,12 @@ pub(crate) fn is_f64(scalar: ScalarType, precision: Precision) -> bool {
 #[cfg(test)]
 mod tests {
     use super::Type;
-    use xca_core::{Precision, ScalarType, ir};
+    use xca_core::{ScalarType, ir};
 
     #[test]
     fn names() {
         let table = Type::from(&ir::Type::Array(Box::new(ir::Type::Vector(ScalarType::Real, 3)), 4));
         assert_eq!(table.wgsl(), "array<vec3<Real>, 4>");
-        assert!(table.needs_f64(Precision::F64));
-        assert!(!table.needs_f64(Precision::F32));
         assert_eq!(Type::Scalar(ScalarType::U8).wgsl(), "u32");
         assert_eq!(Type::Vector(ScalarType::I32, 2).word(), "vec2_i32");
     }

@@ -22,7 +22,7 @@ impl<'a> Inference<'a> {
             Expression::Local(name) => {
                 let number = self.look_up(name)?;
                 self.uses.insert(&raw const *value, number);
-                self.locals[number.0].1
+                self.locals[number.0].0
             }
             Expression::Constant { name, value } => {
                 let type_ = constant(name, value)?;

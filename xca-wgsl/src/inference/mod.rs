@@ -12,6 +12,7 @@ mod table;
 use crate::error::Problem;
 use crate::program::{Program, Roles};
 use crate::types::Type;
+pub(crate) use expressions::constant as constant_type;
 use operators::Waiting;
 use std::collections::HashMap;
 use table::{Table, Term, Variable};
@@ -25,7 +26,6 @@ pub(crate) struct LocalNumber(pub(crate) usize);
 /// A variable of the source.
 #[derive(Debug)]
 pub(crate) struct Local {
-    pub(crate) name: &'static str,
     pub(crate) type_: Type,
     pub(crate) mutable: bool,
 }
@@ -83,7 +83,7 @@ struct Inference<'a> {
     over_cells: bool,
     table: Table,
     scopes: Vec<HashMap<&'static str, LocalNumber>>,
-    locals: Vec<(&'static str, Variable, bool)>,
+    locals: Vec<(Variable, bool)>,
     waiting: Vec<Waiting>,
     indices: Vec<Variable>,
     result: Variable,
@@ -137,7 +137,7 @@ impl<'a> Inference<'a> {
 
     fn finish(self, arguments: Vec<Option<LocalNumber>>) -> Analysis {
         let table = &self.table;
-        let local = |(name, variable, mutable)| Local { name, type_: table.resolve(variable), mutable };
+        let local = |(variable, mutable)| Local { type_: table.resolve(variable), mutable };
         Analysis {
             types: self.types.iter().map(|(key, variable)| (*key, table.resolve(*variable))).collect(),
             place_types: self.place_types.iter().map(|(key, variable)| (*key, table.resolve(*variable))).collect(),
@@ -152,7 +152,7 @@ impl<'a> Inference<'a> {
 
     fn bind(&mut self, name: &'static str, variable: Variable, mutable: bool) -> LocalNumber {
         let number = LocalNumber(self.locals.len());
-        self.locals.push((name, variable, mutable));
+        self.locals.push((variable, mutable));
         if let Some(scope) = self.scopes.last_mut() {
             scope.insert(name, number);
         }

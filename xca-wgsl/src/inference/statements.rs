@@ -116,7 +116,7 @@ impl<'a> Inference<'a> {
             PlaceRoot::Local(name) => {
                 let number = self.look_up(name)?;
                 self.place_roots.insert(&raw const *place, number);
-                self.locals[number.0].1
+                self.locals[number.0].0
             }
             PlaceRoot::Own(name) => self.field(self.roles.subject, "substate", name)?,
         };

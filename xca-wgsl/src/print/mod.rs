@@ -10,10 +10,9 @@ mod search;
 mod statement;
 mod text;
 
-use crate::access::Uses;
 use crate::error::Problem;
 use crate::inference::{Analysis, LocalNumber};
-use crate::module::Glossary;
+use crate::glossary::Glossary;
 use crate::names::Names;
 use crate::program::{Program, Roles};
 use crate::routine::Routines;
@@ -31,7 +30,6 @@ pub(crate) struct Shared<'a> {
     pub(crate) program: &'a Program,
     pub(crate) options: &'a Options,
     pub(crate) glossary: &'a Glossary,
-    pub(crate) uses: &'a Uses,
     pub(crate) names: &'a mut Names,
     pub(crate) routines: &'a mut Routines,
 }

@@ -1,0 +1,195 @@
+//! Heat and Life on the CPU engine against loops written by hand with rayon.
+
+use crate::timing::{Times, interleaved};
+use rayon::prelude::*;
+use std::error::Error;
+use xca_core::prelude::*;
+use xca_cpu::Cpu;
+
+#[derive(Substates, Clone, Copy)]
+struct Heat {
+    temperature: Real,
+}
+
+#[derive(Parameters, Clone, Debug)]
+struct Conduction {
+    alpha: Real,
+}
+
+#[elementary_process]
+fn diffuse(cell: &mut Cell<Heat>, p: &Conduction) {
+    let mut flux = 0.0;
+    for n in 1..cell.neighbours() {
+        flux += cell.neighbour(n).temperature - cell.temperature;
+    }
+    cell.temperature += p.alpha * flux;
+}
+
+#[derive(Substates, Clone, Copy)]
+struct Life {
+    alive: u8,
+}
+
+#[elementary_process]
+fn evolve(cell: &mut Cell<Life>) {
+    let mut count = 0;
+    for n in 1..cell.neighbours() {
+        count += cell.neighbour(n).alive;
+    }
+    cell.alive = if count == 3 || (count == 2 && cell.alive == 1) { 1 } else { 0 };
+}
+
+const ALPHA: f64 = 0.1;
+
+/// A step of heat, written by hand: planes with a halo of one, the row as the inner loop.
+fn heat_by_hand(size: usize, old: &[f64], new: &mut [f64]) {
+    let line = size + 2;
+    let layer = line * line;
+    new.par_chunks_mut(layer).enumerate().skip(1).take(size).for_each(|(z, new)| {
+        for y in 1..=size {
+            let at = z * layer + y * line + 1;
+            let centre = &old[at..at + size];
+            let sides = [at - layer, at - line, at - 1, at + 1, at + line, at + layer].map(|at| &old[at..at + size]);
+            let out = &mut new[y * line + 1..y * line + 1 + size];
+            for x in 0..size {
+                let mut flux = 0.0;
+                for side in sides {
+                    flux += side[x] - centre[x];
+                }
+                out[x] = centre[x] + ALPHA * flux;
+            }
+        }
+    });
+}
+
+/// A step of Life on a torus, written by hand in the same way; the halo is filled first.
+fn life_by_hand(size: usize, old: &mut [u8], new: &mut [u8]) {
+    let line = size + 2;
+    for y in 1..=size {
+        old[y * line] = old[y * line + size];
+        old[y * line + size + 1] = old[y * line + 1];
+    }
+    old.copy_within(size * line..(size + 1) * line, 0);
+    old.copy_within(line..2 * line, (size + 1) * line);
+    let old = &*old;
+    new.par_chunks_mut(line).enumerate().skip(1).take(size).for_each(|(y, new)| {
+        let out = &mut new[1..1 + size];
+        let row = |y: usize, x: usize| &old[y * line + x..y * line + x + size];
+        let (a, b, c) = (row(y - 1, 0), row(y - 1, 1), row(y - 1, 2));
+        let (d, here, e) = (row(y, 0), row(y, 1), row(y, 2));
+        let (f, g, h) = (row(y + 1, 0), row(y + 1, 1), row(y + 1, 2));
+        for x in 0..size {
+            let count = a[x] + b[x] + c[x] + d[x] + e[x] + f[x] + g[x] + h[x];
+            out[x] = u8::from((count == 3) | ((count == 2) & (here[x] == 1)));
+        }
+    });
+}
+
+/// A comparison of the engine with the loop by hand.
+#[derive(Debug)]
+pub(crate) struct Comparison {
+    /// The model and its size.
+    pub(crate) name: String,
+    /// The number of cells.
+    pub(crate) cells: usize,
+    /// Seconds a step of the engine.
+    pub(crate) engine: Times,
+    /// Seconds a step of the loop by hand.
+    pub(crate) by_hand: Times,
+}
+
+/// Heat in a cube of `size` cells along each side, in f64.
+pub(crate) fn heat(size: usize, threads: usize, rounds: usize, steps: usize) -> Result<Comparison, Box<dyn Error>> {
+    let start = |[x, y, z]: [usize; 3]| ((x * 31 + y * 17 + z * 7) % 101) as f64;
+    let model = Model::builder("heat")
+        .extents([size; 3])
+        .neighbourhood(Neighbourhood::von_neumann(1))
+        .substates::<Heat>()
+        .parameters(Conduction { alpha: ALPHA })
+        .process(diffuse)
+        .fill(move |cell| Heat { temperature: start(cell) })
+        .build()?;
+    let mut simulation = Simulation::new(&model, &Cpu::with_threads(threads)?, RunOptions::default())?;
+    let line = size + 2;
+    let mut old = vec![0.0; line * line * line];
+    for z in 0..size {
+        for y in 0..size {
+            for x in 0..size {
+                old[((z + 1) * line + y + 1) * line + x + 1] = start([x, y, z]);
+            }
+        }
+    }
+    let mut new = old.clone();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+    let mut failure = None;
+    let times = interleaved(
+        rounds,
+        &mut [
+            &mut || failure = simulation.run(steps as u64).err().or(failure.take()),
+            &mut || {
+                pool.install(|| {
+                    for _ in 0..steps {
+                        heat_by_hand(size, &old, &mut new);
+                        std::mem::swap(&mut old, &mut new);
+                    }
+                });
+            },
+        ],
+    );
+    failure.map_or(Ok(()), Err)?;
+    let cell = size / 2;
+    let by_hand = old[((cell + 1) * line + cell + 1) * line + cell + 1];
+    if simulation.state().get(Heat::TEMPERATURE, [cell; 3])? != by_hand {
+        return Err("the engine and the loop by hand differ".into());
+    }
+    comparison(format!("heat {size}^3, f64"), size * size * size, steps, times)
+}
+
+/// Life on a square torus of `size` cells along each side.
+pub(crate) fn life(size: usize, threads: usize, rounds: usize, steps: usize) -> Result<Comparison, Box<dyn Error>> {
+    let start = |[x, y, _]: [usize; 3]| u8::from((x * 2_654_435_761 + y * 40_503) % 97 < 30);
+    let model = Model::builder("life")
+        .extents([size, size, 1])
+        .neighbourhood(Neighbourhood::moore_2d(1))
+        .boundaries([Boundary::Toroidal, Boundary::Toroidal, Boundary::Flat])
+        .substates::<Life>()
+        .process(evolve)
+        .fill(move |cell| Life { alive: start(cell) })
+        .build()?;
+    let mut simulation = Simulation::new(&model, &Cpu::with_threads(threads)?, RunOptions::default())?;
+    let line = size + 2;
+    let mut old = vec![0_u8; line * line];
+    for y in 0..size {
+        for x in 0..size {
+            old[(y + 1) * line + x + 1] = start([x, y, 0]);
+        }
+    }
+    let mut new = old.clone();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+    let mut failure = None;
+    let times = interleaved(
+        rounds,
+        &mut [
+            &mut || failure = simulation.run(steps as u64).err().or(failure.take()),
+            &mut || {
+                pool.install(|| {
+                    for _ in 0..steps {
+                        life_by_hand(size, &mut old, &mut new);
+                        std::mem::swap(&mut old, &mut new);
+                    }
+                });
+            },
+        ],
+    );
+    failure.map_or(Ok(()), Err)?;
+    let alive: i64 = old.chunks(line).skip(1).take(size).flat_map(|row| &row[1..=size]).map(|&cell| i64::from(cell)).sum();
+    if simulation.state().sum(Life::ALIVE)? != alive {
+        return Err("the engine and the loop by hand differ".into());
+    }
+    comparison(format!("life {size}^2"), size * size, steps, times)
+}
+
+fn comparison(name: String, cells: usize, steps: usize, times: Vec<Times>) -> Result<Comparison, Box<dyn Error>> {
+    let [engine, by_hand] = <[Times; 2]>::try_from(times).map_err(|_| "two contenders")?;
+    Ok(Comparison { name, cells, engine: engine.per(steps), by_hand: by_hand.per(steps) })
+}

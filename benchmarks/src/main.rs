@@ -1,0 +1,55 @@
+//! What the engines cost. `cargo run --release -p xca-benchmarks -- --help` lists the benchmarks.
+#![allow(clippy::print_stdout, reason = "printing is what this program does")]
+
+mod dense;
+mod timing;
+
+use clap::{Parser, Subcommand};
+use std::error::Error;
+
+/// What the engines of xca cost on this machine.
+#[derive(Parser, Debug)]
+struct Arguments {
+    /// How many threads the CPU engine uses.
+    #[arg(long, default_value_t = 2)]
+    threads: usize,
+    /// How many rounds count.
+    #[arg(long, default_value_t = 9)]
+    rounds: usize,
+    #[command(subcommand)]
+    benchmark: Benchmark,
+}
+
+#[derive(Subcommand, Debug)]
+enum Benchmark {
+    /// Heat 256^3 and Life 4096^2 against loops written by hand with rayon.
+    Dense,
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments = Arguments::parse();
+    match arguments.benchmark {
+        Benchmark::Dense => {
+            for comparison in [
+                dense::heat(256, arguments.threads, arguments.rounds, 10)?,
+                dense::life(4096, arguments.threads, arguments.rounds, 20)?,
+            ] {
+                let (low, high) = comparison.engine.spread();
+                let (hand_low, hand_high) = comparison.by_hand.spread();
+                println!(
+                    "{}: engine {:.2} ms a step ({:.2} to {:.2}), by hand {:.2} ms ({:.2} to {:.2}), ratio {:.3}; {:.0} million cells a second",
+                    comparison.name,
+                    comparison.engine.median() * 1e3,
+                    low * 1e3,
+                    high * 1e3,
+                    comparison.by_hand.median() * 1e3,
+                    hand_low * 1e3,
+                    hand_high * 1e3,
+                    comparison.engine.median() / comparison.by_hand.median(),
+                    comparison.cells as f64 / comparison.engine.median() / 1e6,
+                );
+            }
+        }
+    }
+    Ok(())
+}

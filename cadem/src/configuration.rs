@@ -1,0 +1,178 @@
+//! Everything that makes a run, but the particles.
+
+use crate::error::CademError;
+use crate::material::Material;
+use crate::time_step::{Integrator, TimeStep};
+use crate::walls::{Opening, Walls};
+use crate::{Case, Particle, initial};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
+use xca_core::{ModelError, Parameters};
+
+/// A CADEM system: space, material, walls, and how it is integrated. [`Case`] has ready-made ones.
+///
+/// Read from a file, what is not given is as in [`Case::Illustration`], and a name that is none of these is an error.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Configuration {
+    /// The number of cells along x, y, z.
+    pub cells: [usize; 3],
+    /// The cell side p_c, in m; at least two radii, so that all contacts are found in 27 cells.
+    pub cell_side: f64,
+    /// The contact stiffness k_n, in N/m.
+    pub stiffness: f64,
+    /// The contact damping eta, in kg/s.
+    pub damping: f64,
+    /// The mass of a particle, in kg.
+    pub mass: f64,
+    /// The radius of a particle p_r, in m.
+    pub radius: f64,
+    /// The acceleration of gravity along -z, in m/s^2.
+    pub gravity: f64,
+    /// The number of steps of a whole run.
+    pub steps: u64,
+    /// How walls act.
+    pub walls: Walls,
+    /// How velocity and position advance.
+    pub integrator: Integrator,
+    /// The slots of a cell N, BOUNDARY slots among them; [`Configuration::default_slots`] unless given. The paper has 11.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slots: Option<usize>,
+    /// The seed of the authors' initial placement; theirs is 1.
+    pub seed: u32,
+    /// Whether particles may overlap at the start, as in the final state of another run.
+    pub allow_overlaps: bool,
+    /// How the time step is chosen.
+    pub time_step: TimeStep,
+    /// Holes in the walls.
+    pub openings: Vec<Opening>,
+}
+
+impl Default for Configuration {
+    /// [`Case::Illustration`].
+    fn default() -> Self {
+        Case::Illustration.configuration()
+    }
+}
+
+impl Configuration {
+    /// The parameters of the processes.
+    pub fn material(&self) -> Material {
+        Material {
+            stiffness: self.stiffness,
+            damping: self.damping,
+            mass: self.mass,
+            radius: self.radius,
+            gravity: self.gravity,
+            time_step: self.time_step.seconds(self.mass, self.stiffness),
+        }
+    }
+
+    /// The same system with these parameters. A time step that is not the present one becomes [`TimeStep::Seconds`].
+    #[must_use]
+    pub fn with_material(&self, material: &Material) -> Self {
+        let Material { stiffness, damping, mass, radius, gravity, time_step } = *material;
+        let mut changed = Self { stiffness, damping, mass, radius, gravity, ..self.clone() };
+        if time_step != self.material().time_step {
+            changed.time_step = TimeStep::Seconds(time_step);
+        }
+        changed
+    }
+
+    /// Sets a parameter by name: one of [`Material`]'s. A time step that follows from mass and stiffness keeps following them; `time_step`
+    /// sets it in s.
+    ///
+    /// ```
+    /// let mut configuration = cadem::Case::Illustration.configuration();
+    /// configuration.set("stiffness", "2000")?;
+    /// assert_eq!(configuration.material().time_step, 0.1 * (1e-4_f64 / 2000.0).sqrt());
+    /// configuration.set("time_step", "1e-5")?;
+    /// assert_eq!(configuration.time_step, cadem::TimeStep::Seconds(1e-5));
+    /// # Ok::<(), cadem::CademError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Where no parameter has the name, or the text is no number.
+    pub fn set(&mut self, name: &str, text: &str) -> Result<(), CademError> {
+        let mut material = self.material();
+        material.set(name, text)?;
+        *self = self.with_material(&material);
+        Ok(())
+    }
+
+    /// The sides of the domain along x, y, z, in m. Its lower corner is the origin.
+    pub fn sides(&self) -> [f64; 3] {
+        self.cells.map(|cells| cells as f64 * self.cell_side)
+    }
+
+    /// The slots of a cell.
+    pub fn slots(&self) -> usize {
+        self.slots.unwrap_or_else(|| self.default_slots())
+    }
+
+    /// Kepler's bound on the particles in a cell, floor(0.74 p_c^3 / (4/3 pi p_r^3)): the paper's N (section II.C), 11 with its numbers.
+    pub fn kepler_bound(&self) -> usize {
+        (0.74 * self.cell_side.powi(3) / (4.0 / 3.0 * PI * self.radius.powi(3))) as usize
+    }
+
+    /// The slots of a cell unless they are given: twice Kepler's bound, and one for each domain face that a cell can touch.
+    ///
+    /// The bound counts whole spheres, while a cell holds all whose centres are in it; and soft spheres overlap. The paper's benchmark comes to
+    /// 16 particles in a cell. In narrow cells, which the bound is worst for, there is room for a centre near each of the eight corners.
+    pub fn default_slots(&self) -> usize {
+        self.kepler_bound().saturating_mul(2).max(8).saturating_add(self.most_faces_of_a_cell())
+    }
+
+    /// The authors' initial state ([`initial::authors_placement`]) in this domain, with this seed.
+    ///
+    /// # Errors
+    /// Where no particles can be placed in such a domain.
+    pub fn authors_particles(&self) -> Result<Vec<Particle>, CademError> {
+        let placed = initial::authors_placement(self.cells, self.cell_side, self.radius, self.seed)?;
+        Ok(placed.into_iter().map(Particle::from).collect())
+    }
+
+    /// Checks that the system makes sense. [`crate::model()`] does it too.
+    ///
+    /// # Errors
+    /// The first mistake that is found; its message says what to change.
+    pub fn check(&self) -> Result<(), CademError> {
+        let material = self.material();
+        let positive = [
+            ("cell_side", self.cell_side, "m"),
+            ("stiffness", self.stiffness, "N/m"),
+            ("mass", self.mass, "kg"),
+            ("radius", self.radius, "m"),
+            ("time_step", material.time_step, "s"),
+        ];
+        for (name, value, unit) in positive {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(CademError::NotPositive { name, value, unit });
+            }
+        }
+        if !(self.damping.is_finite() && self.damping >= 0.0) {
+            return Err(CademError::NegativeDamping { value: self.damping });
+        }
+        if !self.gravity.is_finite() {
+            return Err(CademError::Gravity { value: self.gravity });
+        }
+        if self.cell_side < 2.0 * self.radius {
+            return Err(CademError::NarrowCells { cell_side: self.cell_side, radius: self.radius });
+        }
+        let extents = self.cells;
+        if extents.contains(&0) {
+            return Err(CademError::NoCells { extents });
+        }
+        let limit = u64::from(FIRST_BOUNDARY_LABEL);
+        let cells = extents.iter().try_fold(1_u64, |cells, &extent| cells.checked_mul(extent as u64));
+        if cells.is_none_or(|cells| cells >= limit) {
+            return Err(ModelError::TooManyCells { extents, limit }.into());
+        }
+        self.check_openings()?;
+        let (slots, faces) = (self.slots(), self.most_boundary_slots());
+        if slots <= faces {
+            return Err(CademError::FewSlots { slots, faces });
+        }
+        Ok(())
+    }
+}
