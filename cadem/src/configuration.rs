@@ -7,7 +7,7 @@ use crate::walls::{Opening, Walls};
 use crate::{Case, Particle, initial};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
-use xca_core::{ModelError, Parameters};
+use xca_core::Parameters;
 
 /// A CADEM system: space, material, walls, and how it is integrated. [`Case`] has ready-made ones.
 ///
@@ -159,20 +159,10 @@ impl Configuration {
         if self.cell_side < 2.0 * self.radius {
             return Err(CademError::NarrowCells { cell_side: self.cell_side, radius: self.radius });
         }
-        let extents = self.cells;
-        if extents.contains(&0) {
-            return Err(CademError::NoCells { extents });
-        }
-        let limit = u64::from(FIRST_BOUNDARY_LABEL);
-        let cells = extents.iter().try_fold(1_u64, |cells, &extent| cells.checked_mul(extent as u64));
-        if cells.is_none_or(|cells| cells >= limit) {
-            return Err(ModelError::TooManyCells { extents, limit }.into());
+        if self.cells.contains(&0) {
+            return Err(CademError::NoCells { cells: self.cells });
         }
         self.check_openings()?;
-        let (slots, faces) = (self.slots(), self.most_boundary_slots());
-        if slots <= faces {
-            return Err(CademError::FewSlots { slots, faces });
-        }
-        Ok(())
+        self.check_boundary_slots()
     }
 }

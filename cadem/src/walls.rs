@@ -4,6 +4,7 @@ use crate::configuration::Configuration;
 use crate::error::CademError;
 use crate::substates::{BOUNDARY, Dem, FIRST_BOUNDARY_LABEL};
 use serde::{Deserialize, Serialize};
+use std::collections::HashMap;
 use std::fmt;
 use xca_core::{Boundary, Item, Vector3};
 
@@ -172,6 +173,30 @@ impl Configuration {
         Ok(())
     }
 
+    /// Checks that there are enough labels for the BOUNDARY slots, and enough slots in each cell.
+    pub(crate) fn check_boundary_slots(&self) -> Result<(), CademError> {
+        let area = |face: Face| {
+            face.along().iter().fold(1_u64, |n, &axis| n.saturating_mul(self.cells[axis] as u64))
+        };
+        let wanted = Face::ALL.into_iter().fold(0_u64, |n, face| n.saturating_add(area(face)));
+        let limit = u64::from(u32::MAX - FIRST_BOUNDARY_LABEL);
+        if wanted > limit {
+            return Err(CademError::ManyBoundarySlots { cells: self.cells, wanted, limit });
+        }
+        let slots = self.slots();
+        if slots >= self.most_faces_of_a_cell() {
+            return Ok(());
+        }
+        let mut counts: HashMap<[usize; 3], usize> = HashMap::new();
+        for item in self.boundary_slots() {
+            *counts.entry(item.cell).or_default() += 1;
+        }
+        match counts.into_iter().find(|(_, count)| *count > slots) {
+            Some((cell, faces)) => Err(CademError::FewSlots { slots, cell, faces }),
+            None => Ok(()),
+        }
+    }
+
     /// Where the wall on this face stands along the face's axis, in m, whether or not it has openings.
     pub fn wall(&self, face: Face) -> f64 {
         let inset = self.walls.inset(self.radius);
@@ -186,7 +211,8 @@ impl Configuration {
     /// The BOUNDARY slots: one for each domain face that an outermost cell touches, except in openings. The point that a slot carries is the
     /// centre of its cell, moved onto the wall.
     pub(crate) fn boundary_slots(&self) -> impl Iterator<Item = Item<Dem>> + '_ {
-        let cells = Face::ALL.into_iter().flat_map(|face| self.closed_cells(face).map(move |cell| (face, cell)));
+        let cells =
+            Face::ALL.into_iter().flat_map(|face| self.closed_cells(face).map(move |cell| (face, cell)));
         cells.zip(FIRST_BOUNDARY_LABEL..).map(|((face, cell), label)| {
             let mut point = cell.map(|index| (index as f64 + 0.5) * self.cell_side);
             point[face.axis()] = self.wall(face);

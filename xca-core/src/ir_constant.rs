@@ -7,7 +7,7 @@ use crate::vector::{Vector2, Vector3, Vector4};
 #[diagnostic::on_unimplemented(
     message = "a constant of type `{Self}` cannot be used in a process",
     label = "used in a process",
-    note = "a process can use constants of type bool, u8, i32, u32, f32, f64 and Real, vectors and arrays of these"
+    note = "a process can use constants of type bool, u8, i32, u32, usize, f32, f64 and Real, vectors and arrays of these"
 )]
 pub trait ConstantValue {
     /// The value as data.
@@ -25,6 +25,13 @@ macro_rules! scalar {
 }
 
 scalar!(bool Bool, u8 U8, i32 I32, u32 U32, f32 F32, f64 Real);
+
+/// A number of elements or an index.
+impl ConstantValue for usize {
+    fn constant(&self) -> Constant {
+        Constant::U32(u32::try_from(*self).unwrap_or(u32::MAX))
+    }
+}
 
 macro_rules! vector {
     ($($type:ident $($lane:ident)+),+) => {$(
@@ -55,6 +62,7 @@ mod tests {
         assert_eq!(true.constant(), Constant::Bool(true));
         assert_eq!(7_u8.constant(), Constant::U8(7));
         assert_eq!((-7_i32).constant(), Constant::I32(-7));
+        assert_eq!(7_usize.constant(), Constant::U32(7));
         assert_eq!(0.5_f32.constant(), Constant::F32(0.5));
         assert_eq!(0.1_f64.constant(), Constant::Real(0.1));
         let directions = [Vector2::new(1_i32, 0), Vector2::new(0, -1)];

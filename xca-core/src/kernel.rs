@@ -14,9 +14,17 @@ use crate::value::Float;
 use crate::vector::Vector3;
 use bytemuck::Pod;
 use std::any::{Any, TypeId};
-use std::cell::{Cell, RefCell};
+use std::cell::Cell;
 use std::marker::PhantomData;
 use std::ops::Range;
+
+mod constants;
+mod search;
+mod space;
+
+pub use constants::{KernelConstant, Ordered, constant};
+pub use search::{CellFilter, Found, Scratch, reach};
+pub use space::NativeSpace;
 
 /// A migration's answer: the item stays where it is.
 pub const STAY: u32 = u32::MAX;
@@ -90,6 +98,8 @@ pub struct Frame<'a> {
     pub parameters: &'a (dyn Any + Send + Sync),
     /// The distance in elements from a cell to each cell of its neighbourhood, index 0 being the cell itself.
     pub offsets: &'a [isize],
+    /// Which cells a search can leave out; nothing to look at all of them.
+    pub filter: Option<&'a CellFilter>,
 }
 
 /// Where the items of a row's cells and of their neighbours are.
@@ -116,26 +126,6 @@ pub struct RowFault {
     pub code: u32,
     /// The value.
     pub value: f64,
-}
-
-/// Lists that searches fill, kept from row to row.
-#[derive(Debug, Default)]
-pub struct Scratch {
-    free: RefCell<Vec<Vec<u32>>>,
-}
-
-/// A list borrowed from a [`Scratch`].
-#[derive(Debug)]
-pub struct Found<'a> {
-    /// The numbers of the items.
-    pub items: Vec<u32>,
-    scratch: &'a Scratch,
-}
-
-impl Drop for Found<'_> {
-    fn drop(&mut self) {
-        self.scratch.free.borrow_mut().push(std::mem::take(&mut self.items));
-    }
 }
 
 /// A row of cells as a kernel sees it.
@@ -220,7 +210,7 @@ impl<'a> Row<'a> {
     /// The space.
     #[inline(always)]
     pub fn space<R: Float>(&self) -> NativeSpace<'a, R> {
-        NativeSpace { frame: self.frame, real: PhantomData }
+        NativeSpace::new(self.frame)
     }
 
     /// The neighbourhood: of exactly `K` cells, or of any number where `K` is 0.
@@ -297,86 +287,6 @@ impl<'a> Row<'a> {
         self.items.map_or(0, |items| items.labels[item])
     }
 
-    /// A list for the results of searches.
-    pub fn found(&self) -> Found<'a> {
-        let items = self.scratch.free.borrow_mut().pop().unwrap_or_default();
-        Found { items, scratch: self.scratch }
-    }
-
-    /// Fills the list with the items of the reached cells of the neighbourhood, without the item itself.
-    #[inline]
-    pub fn others<const REACH: u8>(&self, x: usize, item: usize, found: &mut Vec<u32>) {
-        found.clear();
-        for range in self.reached::<REACH>(x) {
-            found.extend(range.filter(|&other| other != item).map(|other| other as u32));
-        }
-    }
-
-    /// Fills the list with those items of the reached cells whose position is nearer to `position` than `radius`, without the
-    /// item itself.
-    #[inline]
-    pub fn others_within<R: Float, const REACH: u8>(
-        &self,
-        x: usize,
-        item: usize,
-        position: Vector3<R>,
-        radius: R,
-        positions: &[Vector3<R>],
-        found: &mut Vec<u32>,
-    ) {
-        found.clear();
-        let reach = radius * radius;
-        let nearest_image = self.frame.toroidal.contains(&true);
-        for range in self.reached::<REACH>(x) {
-            let first = range.start;
-            found.reserve(range.len());
-            for (index, other) in positions[range].iter().enumerate() {
-                let mut separation = position - *other;
-                if nearest_image {
-                    separation = self.nearest_image(separation);
-                }
-                let near =
-                    separation.x * separation.x + separation.y * separation.y + separation.z * separation.z
-                        < reach;
-                let number = first + index;
-                if near && number != item {
-                    found.push(number as u32);
-                }
-            }
-        }
-    }
-
-    /// The separation by the shorter way round each toroidal axis.
-    #[inline]
-    fn nearest_image<R: Float>(&self, separation: Vector3<R>) -> Vector3<R> {
-        let along = |value: R, axis: usize| {
-            if !self.frame.toroidal[axis] {
-                return value;
-            }
-            let period = R::from_f64(f64::from(self.frame.extents[axis])) * R::from_f64(self.frame.side);
-            let half = R::from_f64(0.5) * period;
-            if value > half {
-                value - period
-            } else if value < R::default() - half {
-                value + period
-            } else {
-                value
-            }
-        };
-        Vector3::new(along(separation.x, 0), along(separation.y, 1), along(separation.z, 2))
-    }
-
-    /// The ranges of items in the reached cells in order of the neighbour index, joined where one continues the other.
-    #[inline(always)]
-    fn reached<const REACH: u8>(&self, x: usize) -> Reached<'_, 'a> {
-        let (next, end) = match REACH {
-            reach::CELL => (0, 1),
-            reach::NEIGHBOURS => (1, self.frame.offsets.len()),
-            _ => (0, self.frame.offsets.len()),
-        };
-        Reached { row: self, x, next, end }
-    }
-
     /// Records a fault of an item or cell of the row; the first one stays.
     #[cold]
     pub fn report<R: Float>(&self, x: usize, label: Option<u32>, code: u32, value: R) {
@@ -432,47 +342,6 @@ impl<'a> Row<'a> {
     }
 }
 
-/// Where a search looks; the constants are those of the macros.
-pub mod reach {
-    /// The own cell.
-    pub const CELL: u8 = 0;
-    /// The neighbours.
-    pub const NEIGHBOURS: u8 = 1;
-    /// Both.
-    pub const ALL: u8 = 2;
-}
-
-struct Reached<'r, 'a> {
-    row: &'r Row<'a>,
-    x: usize,
-    next: usize,
-    end: usize,
-}
-
-impl Iterator for Reached<'_, '_> {
-    type Item = Range<usize>;
-
-    #[inline(always)]
-    fn next(&mut self) -> Option<Range<usize>> {
-        let mut joined: Range<usize> = 0..0;
-        while self.next < self.end {
-            let range = self.row.items_at(self.x, self.row.frame.offsets[self.next]);
-            if range.is_empty() {
-                self.next += 1;
-            } else if joined.is_empty() {
-                joined = range;
-                self.next += 1;
-            } else if joined.end == range.start {
-                joined.end = range.end;
-                self.next += 1;
-            } else {
-                break;
-            }
-        }
-        (!joined.is_empty()).then_some(joined)
-    }
-}
-
 /// The neighbourhood of a row's cells: `K` offsets known to the compiler by number, or any number where `K` is 0.
 #[derive(Debug, Clone, Copy)]
 pub struct Offsets<'a, const K: usize> {
@@ -516,138 +385,4 @@ impl<T: Pod> CellRead<'_, T> {
         // SAFETY: `Row::new`: readable at every cell of the row and at all offsets from there.
         unsafe { *self.first.offset(x as isize + offset) }
     }
-}
-
-/// The cellular space in a kernel.
-#[derive(Debug, Clone, Copy)]
-pub struct NativeSpace<'a, R> {
-    frame: &'a Frame<'a>,
-    real: PhantomData<R>,
-}
-
-impl<R: Float> NativeSpace<'_, R> {
-    /// The side of a cell in metres.
-    #[inline(always)]
-    pub fn side(&self) -> R {
-        R::from_f64(self.frame.side)
-    }
-
-    /// The number of cells along x, y, z.
-    #[inline(always)]
-    pub fn extents(&self) -> Vector3<i32> {
-        let [x, y, z] = self.frame.extents;
-        Vector3::new(x as i32, y as i32, z as i32)
-    }
-
-    /// The low 32 bits of the number of the step.
-    #[inline(always)]
-    pub fn step(&self) -> u32 {
-        self.frame.step as u32
-    }
-
-    /// The answer of a migration that sends an item to where its position is.
-    #[inline(always)]
-    pub fn cell_containing(&self, position: Vector3<R>) -> u32 {
-        let side = self.side();
-        let [width, height, depth] = self.frame.extents;
-        let (Some(x), Some(y), Some(z)) = (
-            R::cell_number(position.x, side),
-            R::cell_number(position.y, side),
-            R::cell_number(position.z, side),
-        ) else {
-            return if position.x == position.x && position.y == position.y && position.z == position.z {
-                OUTSIDE
-            } else {
-                NOWHERE
-            };
-        };
-        let inside = |number: i64, extent: u32| number >= 0 && number < i64::from(extent);
-        if inside(x, width) && inside(y, height) && inside(z, depth) {
-            (z as u32 * height + y as u32) * width + x as u32
-        } else {
-            OUTSIDE
-        }
-    }
-}
-
-/// Comparisons that give the same bits on every engine, whatever a processor's own minimum does with NaN and signed zeros.
-pub trait Ordered: Copy + PartialOrd {
-    /// `if other < self { other } else { self }`
-    #[inline(always)]
-    fn ordered_min(self, other: Self) -> Self {
-        if other < self { other } else { self }
-    }
-
-    /// `if self < other { other } else { self }`
-    #[inline(always)]
-    fn ordered_max(self, other: Self) -> Self {
-        if self < other { other } else { self }
-    }
-
-    /// `self.max(low).min(high)`
-    #[inline(always)]
-    fn ordered_clamp(self, low: Self, high: Self) -> Self {
-        self.ordered_max(low).ordered_min(high)
-    }
-}
-
-impl<T: Copy + PartialOrd> Ordered for T {}
-
-/// A constant of the user's code as a kernel of precision `R` sees it: `f64`, which is `Real` there, becomes `R`.
-pub trait KernelConstant<R> {
-    /// The type in the kernel.
-    type Native;
-
-    /// Converts it.
-    fn native(self) -> Self::Native;
-}
-
-macro_rules! same_constant {
-    ($($type:ident)*) => {$(
-        impl<R> KernelConstant<R> for $type {
-            type Native = $type;
-            #[inline(always)]
-            fn native(self) -> $type {
-                self
-            }
-        }
-    )*};
-}
-
-same_constant!(bool u8 i32 u32 usize f32);
-
-impl<R: Float> KernelConstant<R> for f64 {
-    type Native = R;
-    #[inline(always)]
-    fn native(self) -> R {
-        R::from_f64(self)
-    }
-}
-
-impl<R, T: KernelConstant<R>, const N: usize> KernelConstant<R> for [T; N] {
-    type Native = [T::Native; N];
-    #[inline(always)]
-    fn native(self) -> Self::Native {
-        self.map(T::native)
-    }
-}
-
-macro_rules! vector_constant {
-    ($($vector:ident { $($lane:ident),+ })*) => {$(
-        impl<R, T: KernelConstant<R>> KernelConstant<R> for crate::vector::$vector<T> {
-            type Native = crate::vector::$vector<T::Native>;
-            #[inline(always)]
-            fn native(self) -> Self::Native {
-                crate::vector::$vector::new($(self.$lane.native()),+)
-            }
-        }
-    )*};
-}
-
-vector_constant!(Vector2 { x, y } Vector3 { x, y, z } Vector4 { x, y, z, w });
-
-/// Converts a constant of the user's code; called by what the macros write.
-#[inline(always)]
-pub fn constant<R, T: KernelConstant<R>>(value: T) -> T::Native {
-    value.native()
 }

@@ -12,6 +12,7 @@ mod layout;
 mod migration;
 mod population;
 mod rows;
+mod slack;
 mod stages;
 
 use execution::CpuExecution;

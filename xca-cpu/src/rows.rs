@@ -7,12 +7,14 @@
 use crate::dense::Plane;
 use crate::layout::Layout;
 use crate::population::Population;
+use crate::slack::{largest, slack as slack_of};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use xca_core::engine::{Fault, StepContext, SubstateId};
 use xca_core::kernel::{
-    Access, BEYOND_NEIGHBOURHOOD, Entry, Frame, Row, RowFault, RowItems, RowKernel, STAY, Scratch,
+    Access, BEYOND_NEIGHBOURHOOD, CellFilter, Entry, Frame, Of, Row, RowFault, RowItems, RowKernel, STAY,
+    Scratch,
 };
 use xca_core::{Boundary, Model, Parity, Precision, Process, ProcessKind};
 
@@ -87,6 +89,7 @@ pub(crate) fn run(
     let prepared: Vec<Prepared<'_>> =
         processes.map(|index| prepare(model, groups, index, precision, &doubled)).collect();
     let offsets = layout.offsets(geometry);
+    let filter = filter(model, layout, groups, &prepared);
     let frames: [Frame<'_>; 2] = std::array::from_fn(|odd| Frame {
         extents: geometry.extents().map(|extent| extent as u32),
         side: geometry.side(),
@@ -95,6 +98,7 @@ pub(crate) fn run(
         seed: context.seed,
         parameters: context.parameters,
         offsets: &offsets[odd],
+        filter: filter.as_ref(),
     });
     let pass = Pass { layout, parity: geometry.neighbourhood().parity(), frames, prepared, groups };
     let rows = layout.rows();
@@ -126,6 +130,29 @@ pub(crate) fn run(
         }
     }
     Ok(movers)
+}
+
+/// Which cells searches can leave out, where a process of the pass searches.
+fn filter(model: &Model, layout: &Layout, groups: &[Group], prepared: &[Prepared<'_>]) -> Option<CellFilter> {
+    let position = |process: &Process| {
+        let field = process.subject.schema.position?;
+        let reads = process
+            .access
+            .iter()
+            .any(|access| access.of == Of::Subject && access.others && access.field == field);
+        reads.then_some(field)
+    };
+    let mut slack: f64 = 0.0;
+    let mut searched = false;
+    for prepared in prepared.iter().filter(|prepared| prepared.process.kind == ProcessKind::Items) {
+        if let (Some(field), Some(number)) = (position(prepared.process), prepared.population)
+            && let Group::Population(population) = &groups[number]
+        {
+            slack = largest(slack, slack_of(population, field, layout, model.geometry()));
+            searched = true;
+        }
+    }
+    if searched { CellFilter::new(model.geometry().neighbourhood())?.with_slack(slack) } else { None }
 }
 
 /// Fills halos that will be read and makes second buffers; gives the substates that the pass writes to a second buffer.

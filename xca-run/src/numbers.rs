@@ -38,7 +38,8 @@ pub(crate) struct Ticks {
 /// About `wanted` round numbers (steps of 1, 2 or 5 times a power of ten) between `low` and `high`.
 pub(crate) fn ticks(low: f64, high: f64, wanted: usize) -> Ticks {
     let span = high - low;
-    if !(span.is_finite() && span > 0.0 && span > 1e-12 * low.abs().max(high.abs())) {
+    // Spans that the arithmetic below cannot divide count as none.
+    if !(span.is_finite() && span > 1e-300 && span > 1e-12 * low.abs().max(high.abs())) {
         return Ticks { marks: vec![(low, significant(low, 4))], exponent: 0 };
     }
     let largest = low.abs().max(high.abs());
@@ -121,5 +122,9 @@ mod tests {
         assert_eq!(labels(2.5, 2.5), (vec!["2.5".to_owned()], 0));
         assert_eq!(labels(f64::NAN, 1.0).0.len(), 1);
         assert_eq!(labels(1.0, 0.0).0.len(), 1);
+        assert_eq!(labels(0.0, 5e-324).0.len(), 1);
+        assert_eq!(labels(f64::MIN, f64::MAX).0.len(), 1);
+        assert!(labels(0.0, 1e-299).0.len() > 3);
+        assert!(labels(1.0, 1.0 + 1e-11).0.len() < 12);
     }
 }

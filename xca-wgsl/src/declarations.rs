@@ -83,8 +83,11 @@ impl Writer<'_> {
     fn provided(&mut self) {
         let precision = self.options.precision;
         if self.mentions("space") {
-            self.structure("Space", SPACE);
-            self.buffer("space", "Space", BindingAccess::Uniform, Content::Space(Layout::of(SPACE, precision)));
+            // Without the side no floats are needed.
+            let fields = if self.mentions("side") { &SPACE[..] } else { &SPACE[..SPACE.len() - 1] };
+            self.structure("Space", fields.iter().copied());
+            let layout = Layout::of(fields.iter().copied(), precision);
+            self.buffer("space", "Space", BindingAccess::Uniform, Content::Space(layout));
         }
         if self.mentions("moment") {
             self.structure("Moment", MOMENT);

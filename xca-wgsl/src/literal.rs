@@ -91,8 +91,8 @@ mod tests {
         let tenth = Literal::Float("0.1", None);
         assert_eq!(literal(&tenth, &real, Precision::F32).unwrap(), "0.1f");
         assert_eq!(literal(&tenth, &real, Precision::F64).unwrap(), "0.1lf");
-        let long = Literal::Float("1.118033988749894848e-5", None);
-        assert_eq!(literal(&long, &real, Precision::F64).unwrap(), "1.118033988749895e-5lf");
+        let long = Literal::Float("0.30000000000000004000", None);
+        assert_eq!(literal(&long, &real, Precision::F64).unwrap(), "0.30000000000000004lf");
         assert_eq!(float(1e300, ScalarType::Real, Precision::F32).unwrap(), "infinity_f32()");
         assert_eq!(float(f64::NEG_INFINITY, ScalarType::F64, Precision::F32).unwrap(), "-infinity_f64()");
         assert!(float(f64::NAN, ScalarType::F64, Precision::F32).is_err());

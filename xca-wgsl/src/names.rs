@@ -1,7 +1,7 @@
 //! Names: those of the model where WGSL allows them, and no two the same where both are seen.
 
-/// Words that a WGSL program cannot use as names, and the built-in functions and types that the shader needs.
-const RESERVED: &str = "
+/// Words that a WGSL program cannot use as names.
+const KEYWORDS: &str = "
 alias break case const const_assert continue continuing default diagnostic discard else enable false fn for if let loop
 override requires return struct switch true var while
 NULL Self abstract active alignas alignof as asm asm_fragment async attribute auto await become cast catch class co_await
@@ -14,6 +14,10 @@ partition pass patch pixelfragment precise precision premerge priv protected pub
 reinterpret_cast require resource restrict self set shared sizeof smooth snorm static static_assert static_cast std
 subroutine super target template this thread_local throw trait try type typedef typeid typename typeof union unless
 unorm unsafe unsized use using varying virtual volatile wgsl where with writeonly yield
+";
+
+/// Names that WGSL gives a meaning, which a model's name would hide.
+const PREDECLARED: &str = "
 bool f16 f32 f64 i32 i64 u32 u64 array atomic ptr sampler vec2 vec3 vec4 vec2i vec3i vec4i vec2u vec3u vec4u vec2f vec3f vec4f
 vec2h vec3h vec4h mat2x2 mat2x3 mat2x4 mat3x2 mat3x3 mat3x4 mat4x2 mat4x3 mat4x4 binding_array
 function private workgroup uniform storage read write read_write
@@ -89,7 +93,7 @@ impl Names {
     }
 
     fn is_free(&self, name: &str) -> bool {
-        let taken = RESERVED.split_whitespace().chain(OWN.split_whitespace()).any(|word| word == name)
+        let taken = [KEYWORDS, PREDECLARED, OWN].iter().any(|words| contains(words, name))
             || self.module.iter().chain(self.scopes.iter().flatten()).any(|known| known == name);
         !taken && !is_routine(name)
     }
@@ -101,10 +105,14 @@ fn is_routine(name: &str) -> bool {
     !numbered && (PREFIXES.iter().any(|prefix| name.starts_with(prefix)) || name.ends_with("_at"))
 }
 
+fn contains(words: &str, name: &str) -> bool {
+    words.split_whitespace().any(|word| word == name)
+}
+
 /// A field of a struct: fields are only seen after a dot, so that keywords alone are in the way.
 pub(crate) fn field(name: &str) -> String {
     let name = cleaned(name);
-    if RESERVED.split_whitespace().any(|word| word == name) { format!("{name}_") } else { name }
+    if contains(KEYWORDS, &name) { format!("{name}_") } else { name }
 }
 
 /// An identifier of WGSL: no `r#`, not only `_`, not two at the beginning.

@@ -40,6 +40,7 @@ impl ReferenceExecution {
             seed: context.seed,
             parameters: context.parameters,
             offsets: &offsets,
+            filter: None,
         };
         let kernel = process.kernel(self.precision);
         let scratch = Scratch::default();

@@ -9,7 +9,7 @@ use syn::{BinOp, Error, GenericArgument, Ident, LitFloat, LitInt, PathArguments,
 
 /// The types that a process can use, for messages.
 const SUPPORTED: &str = "a process can use bool, u8, i32, u32, f32, f64, Real, \
-                         Vector2, Vector3 and Vector4 of a number, and arrays [T; N] of these";
+                         Vector2, Vector3 and Vector4 of a number, arrays [T; N] of these, and usize as an index";
 
 /// A name without `r#`.
 pub(super) fn text(name: &Ident) -> String {
@@ -61,7 +61,7 @@ fn suffix(suffix: &str, span: Span) -> Result<TokenStream> {
     let scalar = scalar(suffix).ok_or_else(|| {
         Error::new(
             span,
-            format!("numbers of a process are u8, i32, u32, f32 or f64; `{suffix}` is none of these"),
+            format!("numbers of a process are u8, i32, u32, usize, f32 or f64; `{suffix}` is none of these"),
         )
     })?;
     Ok(quote!(::core::option::Option::Some(#scalar)))
@@ -71,7 +71,8 @@ fn scalar(name: &str) -> Option<TokenStream> {
     let variant = match name {
         "u8" => quote!(U8),
         "i32" => quote!(I32),
-        "u32" => quote!(U32),
+        // An index; numbers of elements fit into 32 bits on every engine.
+        "u32" | "usize" => quote!(U32),
         "f32" => quote!(F32),
         "f64" => quote!(F64),
         "Real" => quote!(Real),

@@ -4,7 +4,7 @@
 //! Numbers have 17 significant digits (`f64`) or 9 (`f32`), in scientific notation, which is what it takes for every
 //! value to be read back as the same bits. Units are those of the model, for all of ours SI.
 //!
-//! [`write`] makes such a file, [`read()`] takes one, by hand or from a run, with errors that say the line.
+//! [`write()`] makes such a file, [`read()`] takes one, by hand or from a run, with errors that say the line.
 
 mod error;
 mod lines;

@@ -24,6 +24,7 @@
 //! # }
 //! ```
 
+mod averaging;
 mod canvas;
 mod colour;
 mod depth;

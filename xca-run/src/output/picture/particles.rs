@@ -258,6 +258,20 @@ mod tests {
     }
 
     #[test]
+    fn a_particle_that_has_passed_the_eye_is_not_seen() {
+        let mut viewed = picture(&[], &[]);
+        viewed.viewpoint = Viewpoint { azimuth: -90.0, elevation: 0.0 };
+        let empty = viewed.render().unwrap();
+        for y in [-3.0, -5.0, -50.0] {
+            let passed = [[0.5, y, 0.5]];
+            let rendered = ParticlePicture { positions: &passed, colour: None, ..viewed.clone() };
+            let scalar = Scalar { values: &[1.0], ..viewed.colour.unwrap() };
+            let rendered = ParticlePicture { colour: Some(scalar), ..rendered }.render().unwrap();
+            assert!(rendered == empty, "{y}");
+        }
+    }
+
+    #[test]
     fn what_cannot_be_drawn_is_said() {
         let error = |change: fn(&mut ParticlePicture<'_>)| {
             let mut picture = picture(&[[0.5; 3]], &[1.0]);

@@ -8,6 +8,8 @@ use super::view::{Camera, along, unit};
 
 /// Samples a pixel, each way.
 const SAMPLES: usize = 2;
+/// The least depth at which spheres are drawn; the box begins at more than 2.
+const NEAREST: f32 = 1.5;
 
 /// What there is to see, in a space where the box has its centre at the origin and a diagonal of 1.
 pub(super) struct Scene<'a> {
@@ -30,7 +32,11 @@ impl Scene<'_> {
         let eye = self.camera.magnified(SAMPLES as f32);
         let mut buffer = DepthBuffer::new(canvas.width() * SAMPLES, canvas.height() * SAMPLES);
         for (owner, &sphere) in (0..).zip(self.spheres) {
-            buffer.draw(self.disc(&eye, sphere), owner);
+            let disc = self.disc(&eye, sphere);
+            // What has left the box towards the eye, or beyond it, would cover everything.
+            if disc.depth > NEAREST {
+                buffer.draw(disc, owner);
+            }
         }
         let light = Light::new(&self.camera, self.spheres, self.radius);
         let lit = Lit { scene: self, eye, buffer, light };
@@ -193,6 +199,8 @@ impl Lit<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Picture;
+    use super::super::view::sub;
     use super::*;
 
     #[test]
@@ -202,5 +210,64 @@ mod tests {
         assert_eq!(depth_on_line(a, b, [200.0, 5.0]), 3.0);
         // Half way on the screen is nearer than half way in space.
         assert!((depth_on_line(a, b, [50.0, 0.0]) - 1.5).abs() < 1e-6);
+    }
+
+    /// A cube with at most one sphere, seen from the default viewpoint on 300 by 300 pixels.
+    fn drawn(spheres: &[[f32; 3]]) -> (Camera, Picture) {
+        let corner = [1.0 / 12.0_f32.sqrt(); 3];
+        let corners = [corner, corner.map(|x| -x)];
+        let camera = Camera::fit(Default::default(), &corners, [100.0; 2], [200.0; 2]).unwrap();
+        let mut canvas = Canvas::new(300, 300, [1.0; 3]);
+        let palette = [[0.8, 0.1, 0.1]];
+        let eye = camera.clone();
+        Scene { camera, spheres, radius: 0.12, colours: &[0], palette: &palette, corner }.draw(&mut canvas);
+        (eye, canvas.into_picture())
+    }
+
+    /// How much darker the middle of an edge along z is than what lies on either side of it.
+    fn edge(spheres: &[[f32; 3]], x: f32, y: f32) -> i32 {
+        let (camera, picture) = drawn(spheres);
+        let half = 1.0 / 12.0_f32.sqrt();
+        let [px, py, _] = camera.project([x * half, y * half, 0.0]).map(|v| v as usize);
+        let light = |x: usize| picture.pixel(x, py).iter().map(|&c| i32::from(c)).sum::<i32>();
+        (light(px - 4) + light(px + 4)) / 2 - (px - 1..=px + 1).map(light).min().unwrap()
+    }
+
+    #[test]
+    fn spheres_hide_the_edges_behind_them_and_no_others() {
+        // The far edge, and the near one.
+        assert!(edge(&[], -1.0, 1.0) > 60);
+        assert!(edge(&[], 1.0, -1.0) > 60);
+        let (camera, _) = drawn(&[]);
+        let half = 1.0 / 12.0_f32.sqrt();
+        let towards = |target: [f32; 3], share: f32| along(target, share, sub(camera.eye, target));
+        assert!(edge(&[towards([-half, half, 0.0], 0.1)], -1.0, 1.0) < 40);
+        assert!(edge(&[towards([half, -half, 0.0], -0.1)], 1.0, -1.0) > 60);
+    }
+
+    #[test]
+    fn the_ground_is_grey_below_the_box_and_fades_into_the_paper() {
+        let (camera, picture) = drawn(&[]);
+        let half = 1.0 / 12.0_f32.sqrt();
+        let at = |x: f32, y: f32| {
+            let [px, py, _] = camera.project([x, y, -half]).map(|v| v as usize);
+            picture.pixel(px, py)[0]
+        };
+        assert!(at(0.0, 0.0) < 240);
+        assert!(at(0.0, 0.0) < at(half + 0.08, 0.0) && at(half + 0.08, 0.0) < 255);
+        assert_eq!(at(half + 0.5, 0.0), 255);
+        assert_eq!(picture.pixel(0, 0), [255; 3]);
+    }
+
+    #[test]
+    fn a_sphere_throws_its_shadow_on_the_ground() {
+        let (_, bare) = drawn(&[]);
+        let (_, shaded) = drawn(&[[0.0; 3]]);
+        let darker = |i: &usize| {
+            let (before, after) = (bare.pixel(i % 300, i / 300), shaded.pixel(i % 300, i / 300));
+            // Grey, so not the sphere itself.
+            after[0].saturating_add(25) < before[0] && after[0].abs_diff(after[2]) < 12
+        };
+        assert!((0..300 * 300).filter(darker).count() > 100);
     }
 }

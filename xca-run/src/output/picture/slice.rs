@@ -1,5 +1,6 @@
 //! Pictures of dense substates, one layer at a time.
 
+use super::averaging::Share;
 use super::canvas::{Canvas, Strokes};
 use super::colour::{category, encode};
 use super::legend::{FAINT_INK, INK, Scalar, draw_bar, draw_title};
@@ -174,42 +175,6 @@ impl<'a> SlicePicture<'a> {
 /// Linear RGB of cells without a value.
 const GREY: [f32; 3] = [0.35, 0.35, 0.35];
 
-/// The cells that a pixel shows along one axis.
-struct Share {
-    first: usize,
-    last: usize,
-    /// What it has of the first and the last; of those between it has the whole.
-    of_first: f64,
-    of_last: f64,
-}
-
-impl Share {
-    fn new(pixel: usize, pixels: usize, cells: usize) -> Self {
-        if cells <= pixels {
-            let cell = (pixel * cells / pixels).min(cells - 1);
-            return Self { first: cell, last: cell, of_first: 1.0, of_last: 1.0 };
-        }
-        let size = cells as f64 / pixels as f64;
-        let (from, to) = (pixel as f64 * size, (pixel + 1) as f64 * size);
-        let first = (from as usize).min(cells - 1);
-        let last = ((to.ceil() as usize).max(1) - 1).clamp(first, cells - 1);
-        Self { first, last, of_first: first as f64 + 1.0 - from, of_last: to - last as f64 }
-    }
-
-    fn cells(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
-        (self.first..=self.last).map(|cell| {
-            let share = if cell == self.first {
-                self.of_first
-            } else if cell == self.last {
-                self.of_last
-            } else {
-                1.0
-            };
-            (cell, share)
-        })
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -253,19 +218,19 @@ mod tests {
     }
 
     #[test]
-    fn the_shares_of_all_pixels_are_all_cells() {
-        for (pixels, cells) in [(400, 1001), (7, 8), (1, 5), (333, 4096)] {
-            let mut found = vec![0.0; cells];
-            for share in (0..pixels).map(|pixel| Share::new(pixel, pixels, cells)) {
-                let mut sum = 0.0;
-                for (cell, part) in share.cells() {
-                    found[cell] += part;
-                    sum += part;
-                }
-                assert!((sum - cells as f64 / pixels as f64).abs() < 1e-9, "{pixels} {cells}");
-            }
-            assert!(found.iter().all(|sum| (sum - 1.0).abs() < 1e-9), "{pixels} {cells}");
-        }
+    fn a_cell_that_two_pixels_share_counts_by_halves() {
+        // Three cells to two pixels: the first shows (0 + 0 / 2) / 1.5, the second (0 / 2 + 1) / 1.5.
+        let values: Vec<f64> = (0..300).map(|i| f64::from(i % 3 / 2)).collect();
+        let mut slice = SlicePicture::new(300, 1, Scalar::new("t", &values));
+        slice.pixels = 200;
+        let picture = slice.render().unwrap();
+        let at = |x: usize| picture.pixel(LEFT + 60 + x, TOP + 119);
+        assert!(
+            near(at(100), colour(0.0)) && near(at(101), colour(2.0 / 3.0)),
+            "{:?} {:?}",
+            at(100),
+            at(101)
+        );
     }
 
     #[test]

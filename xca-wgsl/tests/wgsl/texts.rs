@@ -1,8 +1,7 @@
 //! What shaders look like.
 
-mod common;
 
-use common::{function, written, written_with};
+use crate::common::{function, written, written_with};
 use xca_core::prelude::*;
 use xca_wgsl::{BindingAccess, Content, Dispatch, Options, State};
 
@@ -26,7 +25,7 @@ fn diffuse(cell: &mut Cell<Heat>, p: &Conduction) {
 }
 
 const HEAT: &str = "\
-// texts::diffuse, Real = f64
+// wgsl::texts::diffuse, Real = f64
 
 alias Real = f64;
 
@@ -37,7 +36,6 @@ struct Space {
     row: u32,
     seed: vec2<u32>,
     layer: u32,
-    side: Real,
 }
 
 struct Conduction {

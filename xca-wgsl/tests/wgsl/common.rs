@@ -1,16 +1,16 @@
 //! Writes processes as WGSL and has naga read and check them.
-#![allow(dead_code, reason = "each test program uses its part")]
+
 
 use xca_core::{ElementaryProcess, Precision};
 use xca_wgsl::{Error, Options, Shader, shader};
 
 /// Writes the process for one precision; naga must accept it.
-pub fn written<P: ElementaryProcess>(precision: Precision) -> Shader {
+pub(crate) fn written<P: ElementaryProcess>(precision: Precision) -> Shader {
     written_with::<P>(&Options { precision, ..Options::default() })
 }
 
 /// Writes the process with these options; naga must accept it.
-pub fn written_with<P: ElementaryProcess>(options: &Options) -> Shader {
+pub(crate) fn written_with<P: ElementaryProcess>(options: &Options) -> Shader {
     let process = P::process();
     match shader(&(process.body)(), options) {
         Ok(shader) => {
@@ -22,7 +22,7 @@ pub fn written_with<P: ElementaryProcess>(options: &Options) -> Shader {
 }
 
 /// Writes the process for both precisions, with and without a known neighbourhood.
-pub fn accepted<P: ElementaryProcess>() {
+pub(crate) fn accepted<P: ElementaryProcess>() {
     for precision in [Precision::F32, Precision::F64] {
         for neighbourhood_size in [None, Some(7)] {
             for toroidal in [[false; 3], [true, false, true]] {
@@ -34,13 +34,13 @@ pub fn accepted<P: ElementaryProcess>() {
 }
 
 /// The error that writing the process gives.
-pub fn refused<P: ElementaryProcess>() -> Error {
+pub(crate) fn refused<P: ElementaryProcess>() -> Error {
     let process = P::process();
     shader(&(process.body)(), &Options::default()).expect_err("must be refused")
 }
 
 /// The module as naga reads it.
-pub fn validate(shader: &Shader) -> naga::Module {
+pub(crate) fn validate(shader: &Shader) -> naga::Module {
     let source = &shader.source;
     let module = match naga::front::wgsl::parse_str(source) {
         Ok(module) => module,
@@ -63,7 +63,7 @@ fn numbered(source: &str) -> String {
 }
 
 /// The lines of the function with this name.
-pub fn function(shader: &Shader, name: &str) -> String {
+pub(crate) fn function(shader: &Shader, name: &str) -> String {
     let start = format!("fn {name}(");
     let lines = shader.source.lines().skip_while(|line| !line.starts_with(&start));
     let mut text = String::new();

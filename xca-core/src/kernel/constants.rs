@@ -1,0 +1,85 @@
+//! Comparisons and constants as kernels have them.
+
+use crate::value::Float;
+
+/// Comparisons that give the same bits on every engine, whatever a processor's own minimum does with NaN and signed zeros.
+pub trait Ordered: Copy + PartialOrd {
+    /// `if other < self { other } else { self }`
+    #[inline(always)]
+    fn ordered_min(self, other: Self) -> Self {
+        if other < self { other } else { self }
+    }
+
+    /// `if self < other { other } else { self }`
+    #[inline(always)]
+    fn ordered_max(self, other: Self) -> Self {
+        if self < other { other } else { self }
+    }
+
+    /// `self.max(low).min(high)`
+    #[inline(always)]
+    fn ordered_clamp(self, low: Self, high: Self) -> Self {
+        self.ordered_max(low).ordered_min(high)
+    }
+}
+
+impl<T: Copy + PartialOrd> Ordered for T {}
+
+/// A constant of the user's code as a kernel of precision `R` sees it: `f64`, which is `Real` there, becomes `R`.
+pub trait KernelConstant<R> {
+    /// The type in the kernel.
+    type Native;
+
+    /// Converts it.
+    fn native(self) -> Self::Native;
+}
+
+macro_rules! same_constant {
+    ($($type:ident)*) => {$(
+        impl<R> KernelConstant<R> for $type {
+            type Native = $type;
+            #[inline(always)]
+            fn native(self) -> $type {
+                self
+            }
+        }
+    )*};
+}
+
+same_constant!(bool u8 i32 u32 usize f32);
+
+impl<R: Float> KernelConstant<R> for f64 {
+    type Native = R;
+    #[inline(always)]
+    fn native(self) -> R {
+        R::from_f64(self)
+    }
+}
+
+impl<R, T: KernelConstant<R>, const N: usize> KernelConstant<R> for [T; N] {
+    type Native = [T::Native; N];
+    #[inline(always)]
+    fn native(self) -> Self::Native {
+        self.map(T::native)
+    }
+}
+
+macro_rules! vector_constant {
+    ($($vector:ident { $($lane:ident),+ })*) => {$(
+        impl<R, T: KernelConstant<R>> KernelConstant<R> for crate::vector::$vector<T> {
+            type Native = crate::vector::$vector<T::Native>;
+            #[inline(always)]
+            fn native(self) -> Self::Native {
+                crate::vector::$vector::new($(self.$lane.native()),+)
+            }
+        }
+    )*};
+}
+
+vector_constant!(Vector2 { x, y } Vector3 { x, y, z } Vector4 { x, y, z, w });
+
+/// Converts a constant of the user's code; called by what the macros write.
+#[inline(always)]
+pub fn constant<R, T: KernelConstant<R>>(value: T) -> T::Native {
+    value.native()
+}

@@ -1,0 +1,60 @@
+//! Hosts write buffers by the layouts that come with a shader: they must be those of WGSL.
+
+use crate::common::{validate, written};
+use xca_core::prelude::*;
+use xca_wgsl::{Content, Layout};
+
+#[derive(Substates, Clone, Copy, Debug, PartialEq)]
+struct State {
+    value: Real,
+}
+
+#[derive(Parameters, Clone, Debug)]
+struct Mixed {
+    first: f32,
+    direction: Vector3<Real>,
+    count: u32,
+    pair: Vector2<f64>,
+    grid: Vector3<i32>,
+    r#loop: Real,
+    last: Vector4<f32>,
+    end: i32,
+}
+
+#[elementary_process]
+fn everything(cell: &mut Cell<State>, p: &Mixed, space: &Space) {
+    cell.value = p.direction.x * p.r#loop * cell.random(space.step()) + space.side();
+    if p.end == 3 {
+        cell.fault(1, cell.value);
+    }
+}
+
+#[test]
+fn layouts_are_those_of_wgsl() {
+    for precision in [Precision::F32, Precision::F64] {
+        let shader = written::<everything>(precision);
+        let module = validate(&shader);
+        let mut checked = 0;
+        for binding in &shader.bindings {
+            let (structure, layout): (&str, &Layout) = match &binding.content {
+                Content::Space(layout) => ("Space", layout),
+                Content::Moment(layout) => ("Moment", layout),
+                Content::Parameters(layout) => ("Mixed", layout),
+                Content::Faults(layout) => ("Fault", layout),
+                _ => continue,
+            };
+            checked += 1;
+            let (_, type_) =
+                module.types.iter().find(|(_, type_)| type_.name.as_deref() == Some(structure)).unwrap();
+            let naga::TypeInner::Struct { members, span } = &type_.inner else { panic!("{structure} is no struct") };
+            assert_eq!(layout.size, *span, "{structure}");
+            let offsets: Vec<u32> = layout.fields.iter().map(|field| field.offset).collect();
+            assert_eq!(offsets, members.iter().map(|member| member.offset).collect::<Vec<_>>(), "{structure}");
+        }
+        assert_eq!(checked, 4);
+        let (_, faults) =
+            module.types.iter().find(|(_, type_)| type_.name.as_deref() == Some("Faults")).unwrap();
+        let naga::TypeInner::Struct { members, .. } = &faults.inner else { panic!("Faults is no struct") };
+        assert_eq!(members.iter().map(|member| member.offset).collect::<Vec<_>>(), [0, 4, 8]);
+    }
+}

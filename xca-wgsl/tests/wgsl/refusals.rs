@@ -1,0 +1,64 @@
+//! What cannot be written is refused with the process, the place and the reason.
+
+use crate::common::refused;
+use xca_core::prelude::*;
+
+#[derive(Substates, Clone, Copy, Debug, PartialEq)]
+struct State {
+    value: Real,
+    count: i32,
+}
+
+#[elementary_process]
+fn remainder(cell: &mut Cell<State>) {
+    cell.value = cell.value % 2.0;
+}
+
+#[test]
+fn remainder_of_floats() {
+    assert_eq!(
+        refused::<remainder>().to_string(),
+        "the process `remainder` cannot be written in WGSL: `%` of floats: engines disagree about it; \
+         write `a - b * (a / b).trunc()`, or use integers"
+    );
+}
+
+const NOTHING: Real = Real::NAN;
+
+#[helper]
+fn nothing(x: Real) -> Real {
+    x + NOTHING
+}
+
+#[elementary_process]
+fn not_a_number(cell: &mut Cell<State>) {
+    cell.value = nothing(cell.value);
+}
+
+#[test]
+fn a_problem_in_a_helper_names_it() {
+    assert_eq!(
+        refused::<not_a_number>().to_string(),
+        "the process `not_a_number` cannot be written in WGSL: in `nothing`: NaN as a constant: WGSL cannot write it; \
+         report a fault instead"
+    );
+}
+
+#[helper]
+fn factorial(n: i32) -> i32 {
+    if n < 2 { 1 } else { n * factorial(n - 1) }
+}
+
+#[elementary_process]
+fn recursive(cell: &mut Cell<State>) {
+    cell.count = factorial(cell.count);
+}
+
+#[test]
+fn recursion() {
+    assert_eq!(
+        refused::<recursive>().to_string(),
+        "the process `recursive` cannot be written in WGSL: in `factorial`: the helper `factorial` calls itself, which WGSL \
+         forbids; write a loop"
+    );
+}
