@@ -49,7 +49,8 @@ fn heat_by_hand(size: usize, old: &[f64], new: &mut [f64]) {
         for y in 1..=size {
             let at = z * layer + y * line + 1;
             let centre = &old[at..at + size];
-            let sides = [at - layer, at - line, at - 1, at + 1, at + line, at + layer].map(|at| &old[at..at + size]);
+            let sides =
+                [at - layer, at - line, at - 1, at + 1, at + line, at + layer].map(|at| &old[at..at + size]);
             let out = &mut new[y * line + 1..y * line + 1 + size];
             for x in 0..size {
                 let mut flux = 0.0;
@@ -99,7 +100,12 @@ pub(crate) struct Comparison {
 }
 
 /// Heat in a cube of `size` cells along each side, in f64.
-pub(crate) fn heat(size: usize, threads: usize, rounds: usize, steps: usize) -> Result<Comparison, Box<dyn Error>> {
+pub(crate) fn heat(
+    size: usize,
+    threads: usize,
+    rounds: usize,
+    steps: usize,
+) -> Result<Comparison, Box<dyn Error>> {
     let start = |[x, y, z]: [usize; 3]| ((x * 31 + y * 17 + z * 7) % 101) as f64;
     let model = Model::builder("heat")
         .extents([size; 3])
@@ -124,17 +130,14 @@ pub(crate) fn heat(size: usize, threads: usize, rounds: usize, steps: usize) -> 
     let mut failure = None;
     let times = interleaved(
         rounds,
-        &mut [
-            &mut || failure = simulation.run(steps as u64).err().or(failure.take()),
-            &mut || {
-                pool.install(|| {
-                    for _ in 0..steps {
-                        heat_by_hand(size, &old, &mut new);
-                        std::mem::swap(&mut old, &mut new);
-                    }
-                });
-            },
-        ],
+        &mut [&mut || failure = simulation.run(steps as u64).err().or(failure.take()), &mut || {
+            pool.install(|| {
+                for _ in 0..steps {
+                    heat_by_hand(size, &old, &mut new);
+                    std::mem::swap(&mut old, &mut new);
+                }
+            });
+        }],
     );
     failure.map_or(Ok(()), Err)?;
     let cell = size / 2;
@@ -146,7 +149,12 @@ pub(crate) fn heat(size: usize, threads: usize, rounds: usize, steps: usize) -> 
 }
 
 /// Life on a square torus of `size` cells along each side.
-pub(crate) fn life(size: usize, threads: usize, rounds: usize, steps: usize) -> Result<Comparison, Box<dyn Error>> {
+pub(crate) fn life(
+    size: usize,
+    threads: usize,
+    rounds: usize,
+    steps: usize,
+) -> Result<Comparison, Box<dyn Error>> {
     let start = |[x, y, _]: [usize; 3]| u8::from((x * 2_654_435_761 + y * 40_503) % 97 < 30);
     let model = Model::builder("life")
         .extents([size, size, 1])
@@ -169,27 +177,30 @@ pub(crate) fn life(size: usize, threads: usize, rounds: usize, steps: usize) -> 
     let mut failure = None;
     let times = interleaved(
         rounds,
-        &mut [
-            &mut || failure = simulation.run(steps as u64).err().or(failure.take()),
-            &mut || {
-                pool.install(|| {
-                    for _ in 0..steps {
-                        life_by_hand(size, &mut old, &mut new);
-                        std::mem::swap(&mut old, &mut new);
-                    }
-                });
-            },
-        ],
+        &mut [&mut || failure = simulation.run(steps as u64).err().or(failure.take()), &mut || {
+            pool.install(|| {
+                for _ in 0..steps {
+                    life_by_hand(size, &mut old, &mut new);
+                    std::mem::swap(&mut old, &mut new);
+                }
+            });
+        }],
     );
     failure.map_or(Ok(()), Err)?;
-    let alive: i64 = old.chunks(line).skip(1).take(size).flat_map(|row| &row[1..=size]).map(|&cell| i64::from(cell)).sum();
+    let alive: i64 =
+        old.chunks(line).skip(1).take(size).flat_map(|row| &row[1..=size]).map(|&cell| i64::from(cell)).sum();
     if simulation.state().sum(Life::ALIVE)? != alive {
         return Err("the engine and the loop by hand differ".into());
     }
     comparison(format!("life {size}^2"), size * size, steps, times)
 }
 
-fn comparison(name: String, cells: usize, steps: usize, times: Vec<Times>) -> Result<Comparison, Box<dyn Error>> {
+fn comparison(
+    name: String,
+    cells: usize,
+    steps: usize,
+    times: Vec<Times>,
+) -> Result<Comparison, Box<dyn Error>> {
     let [engine, by_hand] = <[Times; 2]>::try_from(times).map_err(|_| "two contenders")?;
     Ok(Comparison { name, cells, engine: engine.per(steps), by_hand: by_hand.per(steps) })
 }

@@ -2,6 +2,7 @@
 #![allow(clippy::print_stdout, reason = "printing is what this program does")]
 
 mod dense;
+mod particles;
 mod timing;
 
 use clap::{Parser, Subcommand};
@@ -24,6 +25,18 @@ struct Arguments {
 enum Benchmark {
     /// Heat 256^3 and Life 4096^2 against loops written by hand with rayon.
     Dense,
+    /// CADEM at the start: a step's time, and the cost of a particle for systems of different size.
+    Particles {
+        /// The cells along each side of the cubes: 50, 100 and 200 hold some 40,000, 316,000 and 2,500,000 particles.
+        #[arg(long, value_delimiter = ',', default_values_t = [50, 100, 200])]
+        cells: Vec<usize>,
+        /// How many steps to do before the steps that are timed.
+        #[arg(long, default_value_t = 0)]
+        after: u64,
+        /// How many steps are timed.
+        #[arg(long, default_value_t = 40)]
+        steps: usize,
+    },
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -47,6 +60,24 @@ fn main() -> Result<(), Box<dyn Error>> {
                     hand_high * 1e3,
                     comparison.engine.median() / comparison.by_hand.median(),
                     comparison.cells as f64 / comparison.engine.median() / 1e6,
+                );
+            }
+        }
+        Benchmark::Particles { cells, after, steps } => {
+            for cells in cells {
+                let mut simulation = particles::simulation(cells, arguments.threads)?;
+                simulation.run(after)?;
+                let cost = particles::cost(&mut simulation, steps)?;
+                let [median, low, high] = cost.seconds;
+                println!(
+                    "cadem, {} particles in {cells}^3 cells, after {} steps: {:.2} ms a step ({:.2} to {:.2}), {:.1} ns a particle; state {:.1} MB",
+                    cost.particles,
+                    cost.step,
+                    median * 1e3,
+                    low * 1e3,
+                    high * 1e3,
+                    median * 1e9 / cost.particles as f64,
+                    cost.memory as f64 / 1e6,
                 );
             }
         }

@@ -199,9 +199,14 @@ macro_rules! float {
 
             #[inline(always)]
             fn cell_number(coordinate: Self, side: Self) -> Option<i64> {
-                let number = (coordinate / side).floor();
+                let quotient = coordinate / side;
                 // 2^31: far beyond any space, and exact in both types.
-                (number.abs() < 2_147_483_648.0).then_some(number as i64)
+                if !(quotient.abs() < 2_147_483_648.0) {
+                    return None;
+                }
+                // The floor without a call of the mathematical library: cut off, and one less where that went up.
+                let cut = quotient as i32;
+                Some(i64::from(cut) - i64::from(cut as $type > quotient))
             }
         }
     };

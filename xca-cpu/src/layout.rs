@@ -28,6 +28,11 @@ impl Layout {
         self.padded.iter().product()
     }
 
+    /// The offsets from a cell to the next one along y and along z.
+    pub(crate) fn steps(&self) -> [isize; 2] {
+        [self.padded[0] as isize, (self.padded[0] * self.padded[1]) as isize]
+    }
+
     /// The number of rows of the space.
     pub(crate) fn rows(&self) -> usize {
         self.extents[1] * self.extents[2]

@@ -152,7 +152,7 @@ fn filter(model: &Model, layout: &Layout, groups: &[Group], prepared: &[Prepared
             searched = true;
         }
     }
-    if searched { CellFilter::new(model.geometry().neighbourhood())?.with_slack(slack) } else { None }
+    if searched { CellFilter::new(model.geometry().neighbourhood(), layout.steps(), slack) } else { None }
 }
 
 /// Fills halos that will be read and makes second buffers; gives the substates that the pass writes to a second buffer.

@@ -40,11 +40,15 @@ fn of_row(
     let mut slack = 0.0;
     for x in 0..layout.width() {
         let low = [x, y, z].map(|index| index as f64 * side);
+        let high = low.map(|low| low + side);
         for item in population.starts[padded + x]..population.ends[padded + x] {
             let position = position(item as usize);
             for axis in 0..3 {
-                slack = largest(slack, low[axis] - position[axis]);
-                slack = largest(slack, position[axis] - (low[axis] + side));
+                // Written so that NaN, too, is not inside; nearly every item is, and a branch that is not taken costs little.
+                if !(position[axis] >= low[axis] - slack && position[axis] <= high[axis] + slack) {
+                    slack = largest(slack, low[axis] - position[axis]);
+                    slack = largest(slack, position[axis] - high[axis]);
+                }
             }
         }
     }

@@ -1,7 +1,7 @@
 //! What a process uses: substates, and what the engine provides.
 
 use crate::error::Problem;
-use crate::program::{Program, Roles};
+use crate::program::{Program, Roles, field_number};
 use crate::visit::{self, Node};
 use xca_core::Schema;
 use xca_core::ir::{Builtin, Expression, Function, FunctionKind, PlaceRoot, Reach, Statement};
@@ -68,13 +68,21 @@ impl Uses {
         problem.map_or(Ok(()), Err)
     }
 
-    fn statement(&mut self, statement: &Statement, roles: &Roles<'_>, kind: FunctionKind) -> Result<(), Problem> {
+    fn statement(
+        &mut self,
+        statement: &Statement,
+        roles: &Roles<'_>,
+        kind: FunctionKind,
+    ) -> Result<(), Problem> {
         match statement {
             Statement::LetNeighbour { .. } => self.neighbourhood = true,
             Statement::Assign { place, .. } => {
                 if let PlaceRoot::Own(name) = &place.root {
                     if !matches!(kind, FunctionKind::Cells | FunctionKind::Items) {
-                        return Err(Problem::unsupported(format!("an assignment to `{name}`"), "only processes write"));
+                        return Err(Problem::unsupported(
+                            format!("an assignment to `{name}`"),
+                            "only processes write",
+                        ));
                     }
                     let used = self.entry(Of::Subject, roles.subject, name)?;
                     used.centre = true;
@@ -101,7 +109,12 @@ impl Uses {
         Ok(())
     }
 
-    fn expression(&mut self, value: &Expression, roles: &Roles<'_>, kind: FunctionKind) -> Result<(), Problem> {
+    fn expression(
+        &mut self,
+        value: &Expression,
+        roles: &Roles<'_>,
+        kind: FunctionKind,
+    ) -> Result<(), Problem> {
         match value {
             Expression::Own(name) => self.entry(Of::Subject, roles.subject, name)?.centre = true,
             Expression::CellOfItem(name) => self.entry(Of::Companion, roles.companion, name)?.centre = true,
@@ -109,7 +122,9 @@ impl Uses {
                 self.neighbourhood = true;
                 self.entry(Of::Subject, roles.subject, field)?.others = true;
             }
-            Expression::NamedNeighbour { field, .. } => self.entry(Of::Subject, roles.subject, field)?.others = true,
+            Expression::NamedNeighbour { field, .. } => {
+                self.entry(Of::Subject, roles.subject, field)?.others = true;
+            }
             Expression::Other { field, .. } => {
                 let (of, group) = match kind {
                     FunctionKind::Cells => (Of::Companion, roles.companion),
@@ -138,8 +153,9 @@ impl Uses {
         group: Option<(&str, &'static Schema)>,
         name: &str,
     ) -> Result<&mut Use, Problem> {
-        let (field, _) =
-            group.and_then(|(_, schema)| schema.field(name)).ok_or_else(|| Problem::unknown("substate", name))?;
+        let field = group
+            .and_then(|(_, schema)| field_number(schema, name))
+            .ok_or_else(|| Problem::unknown("substate", name))?;
         let known = self.substates.iter().position(|used| used.of == of && used.field == field);
         let index = known.unwrap_or_else(|| {
             self.substates.push(Use { of, field, centre: false, others: false, write: false });
@@ -154,5 +170,7 @@ pub(crate) fn position(subject: Option<(&str, &'static Schema)>) -> Result<&'sta
     subject
         .and_then(|(_, schema)| schema.position.and_then(|field| schema.fields.get(field)))
         .map(|field| field.name)
-        .ok_or_else(|| Problem::unsupported("a search within a radius", "no substate is marked `#[position]`"))
+        .ok_or_else(|| {
+            Problem::unsupported("a search within a radius", "no substate is marked `#[position]`")
+        })
 }

@@ -9,8 +9,8 @@ use crate::program::{Program, Roles};
 use crate::shader::{Binding, BindingAccess, Content, Options, State};
 use crate::types::{self, Type};
 use std::fmt::Write as _;
+use xca_core::ValueType;
 use xca_core::kernel::Of;
-use xca_core::{Schema, ValueType};
 
 /// The text, and the buffers for the engine.
 pub(crate) struct Declarations {
@@ -64,7 +64,8 @@ impl Writer<'_> {
     fn structure<'f>(&mut self, name: &str, fields: impl IntoIterator<Item = (&'f str, ValueType)>) {
         let _ = writeln!(self.structs, "struct {name} {{");
         for (field, value_type) in fields {
-            let _ = writeln!(self.structs, "    {}: {},", names::field(field), Type::of_value(value_type).wgsl());
+            let _ =
+                writeln!(self.structs, "    {}: {},", names::field(field), Type::of_value(value_type).wgsl());
         }
         self.structs.push_str("}\n\n");
     }
@@ -91,7 +92,12 @@ impl Writer<'_> {
         }
         if self.mentions("moment") {
             self.structure("Moment", MOMENT);
-            self.buffer("moment", "Moment", BindingAccess::Read, Content::Moment(Layout::of(MOMENT, precision)));
+            self.buffer(
+                "moment",
+                "Moment",
+                BindingAccess::Read,
+                Content::Moment(Layout::of(MOMENT, precision)),
+            );
         }
         if self.mentions("neighbour_offsets") {
             self.buffer("neighbour_offsets", "array<i32>", BindingAccess::Read, Content::NeighbourOffsets);
@@ -117,7 +123,9 @@ impl Writer<'_> {
                     self.buffer(&buffer.now, &type_, BindingAccess::Read, content(State::Before));
                     self.buffer(next, &type_, BindingAccess::ReadWrite, content(State::After));
                 }
-                None if used.write => self.buffer(&buffer.now, &type_, BindingAccess::ReadWrite, content(State::Both)),
+                None if used.write => {
+                    self.buffer(&buffer.now, &type_, BindingAccess::ReadWrite, content(State::Both));
+                }
                 None => self.buffer(&buffer.now, &type_, BindingAccess::Read, content(State::Before)),
             }
         }
@@ -136,13 +144,18 @@ impl Writer<'_> {
             }
         }
         if self.mentions("destinations") {
-            self.buffer("destinations", "array<Destination>", BindingAccess::ReadWrite, Content::Destinations);
+            self.buffer(
+                "destinations",
+                "array<Destination>",
+                BindingAccess::ReadWrite,
+                Content::Destinations,
+            );
         }
     }
 
     /// The variables with the own substates, and with those of the item's cell.
     fn own(&mut self, roles: &Roles<'_>, glossary: &Glossary, names: &mut Names) {
-        let groups: [(Of, Option<(&str, &'static Schema)>, &Option<String>); 2] = [
+        let groups = [
             (Of::Subject, roles.subject, &glossary.subject),
             (Of::Companion, roles.companion, &glossary.companion),
         ];

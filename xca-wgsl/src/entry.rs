@@ -35,7 +35,9 @@ impl Entry<'_> {
     pub(crate) fn text(&self) -> String {
         let [x, y, z] = self.options.workgroup_size;
         let (size, guard) = match self.kind {
-            FunctionKind::Cells => (format!("{x}, {y}, {z}"), "all(id < vec3<u32>(space.extents))".to_owned()),
+            FunctionKind::Cells => {
+                (format!("{x}, {y}, {z}"), "all(id < vec3<u32>(space.extents))".to_owned())
+            }
             _ => ((x * y * z).to_string(), "item < moment.items".to_owned()),
         };
         let mut arguments = vec!["@builtin(global_invocation_id) id: vec3<u32>"];

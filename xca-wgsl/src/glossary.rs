@@ -5,7 +5,7 @@ use crate::error::{Error, Problem};
 use crate::inference::constant_type;
 use crate::names::Names;
 use crate::print::constant_text;
-use crate::program::{Program, Roles};
+use crate::program::{Program, Roles, bare};
 use crate::shader::Options;
 use crate::types::Type;
 use crate::visit::{self, Node};
@@ -73,14 +73,23 @@ impl Buffer {
         let type_ = Type::of_value(self.value_type).wgsl();
         let values: Vec<String> =
             (0..lanes).map(|lane| format!("{}[{lanes}u * number + {lane}u]", self.now)).collect();
-        Some(format!("fn {reader}(number: u32) -> {type_} {{\n    return {type_}({});\n}}\n", values.join(", ")))
+        Some(format!(
+            "fn {reader}(number: u32) -> {type_} {{\n    return {type_}({});\n}}\n",
+            values.join(", ")
+        ))
     }
 }
 
 impl Glossary {
-    pub(crate) fn of(program: &Program, uses: &Uses, options: &Options, names: &mut Names) -> Result<Self, Error> {
+    pub(crate) fn of(
+        program: &Program,
+        uses: &Uses,
+        options: &Options,
+        names: &mut Names,
+    ) -> Result<Self, Error> {
         let roles = Roles::of(program.process());
-        let neighbours = options.neighbourhood_size.map_or("space.neighbours".to_owned(), |size| format!("{size}u"));
+        let neighbours =
+            options.neighbourhood_size.map_or("space.neighbours".to_owned(), |size| format!("{size}u"));
         let has = |of| uses.substates.iter().any(|used| used.of == of && used.centre);
         let subject = roles.subject.filter(|_| has(Of::Subject)).map(|(name, _)| names.module(name));
         let companion = roles.companion.filter(|_| has(Of::Companion)).map(|(name, _)| names.module(name));
@@ -108,7 +117,9 @@ impl Glossary {
                 true
             });
             for (name, value) in constants {
-                glossary.add_constant(name, value, options, names).map_err(|problem| program.error(number, problem))?;
+                glossary
+                    .add_constant(name, value, options, names)
+                    .map_err(|problem| program.error(number, problem))?;
             }
         }
         Ok(glossary)
@@ -120,10 +131,17 @@ impl Glossary {
             Of::Companion => roles.companion,
         };
         let Some(field) = group.and_then(|(_, schema)| schema.fields.get(used.field)) else { return };
-        let now = names.module(&format!("{}_now", field.name));
-        let next = used.doubled().then(|| names.module(&format!("{}_next", field.name)));
-        let reader = (field.value_type.lanes > 1).then(|| names.routine(&format!("{}_at", field.name)));
-        self.buffers.push(Buffer { used, field: field.name, value_type: field.value_type, now, next, reader });
+        let now = names.module(&format!("{}_now", bare(field.name)));
+        let next = used.doubled().then(|| names.module(&format!("{}_next", bare(field.name))));
+        let reader = (field.value_type.lanes > 1).then(|| names.routine(&format!("{}_at", bare(field.name))));
+        self.buffers.push(Buffer {
+            used,
+            field: field.name,
+            value_type: field.value_type,
+            now,
+            next,
+            reader,
+        });
     }
 
     /// Gives a constant a name of its own, except where WGSL does not take its value as a constant.
@@ -152,7 +170,7 @@ impl Glossary {
     pub(crate) fn read(&self, of: Of, field: &str, number: &str) -> Result<String, Problem> {
         self.buffers
             .iter()
-            .find(|buffer| buffer.used.of == of && buffer.field == field)
+            .find(|buffer| buffer.used.of == of && bare(buffer.field) == bare(field))
             .map(|buffer| buffer.read(number))
             .ok_or_else(|| Problem::unknown("substate", field))
     }

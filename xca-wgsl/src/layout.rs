@@ -1,6 +1,6 @@
 //! Where the fields of a buffer that is a struct lie.
 
-use xca_core::{Precision, Schema, ScalarType, StoredScalar, ValueType};
+use xca_core::{Precision, ScalarType, Schema, StoredScalar, ValueType};
 
 /// The layout of a struct in a buffer.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -24,7 +24,10 @@ pub struct FieldLayout {
 
 impl Layout {
     /// The layout that WGSL gives to these fields.
-    pub(crate) fn of<'a>(fields: impl IntoIterator<Item = (&'a str, ValueType)>, precision: Precision) -> Self {
+    pub(crate) fn of<'a>(
+        fields: impl IntoIterator<Item = (&'a str, ValueType)>,
+        precision: Precision,
+    ) -> Self {
         let mut layout = Self { size: 0, fields: Vec::new() };
         let mut end = 0;
         let mut largest = 4;

@@ -20,6 +20,8 @@
 //! # What is refused
 //! `%` of floats, NaN as a constant, empty arrays, comparisons of whole arrays, order comparisons of `bool`, recursion.
 
+#![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
+
 mod access;
 mod declarations;
 mod entry;

@@ -24,7 +24,8 @@ fn unreadable(digits: &str) -> Problem {
 
 /// An integer of this type.
 pub(crate) fn integer(value: i128, scalar: ScalarType) -> Result<String, Problem> {
-    let too_large = || Problem::unsupported(format!("the literal `{value}`"), format!("it does not fit into {scalar}"));
+    let too_large =
+        || Problem::unsupported(format!("the literal `{value}`"), format!("it does not fit into {scalar}"));
     match scalar {
         ScalarType::U8 => u8::try_from(value).map(|value| format!("{value}u")).map_err(|_| too_large()),
         ScalarType::U32 => u32::try_from(value).map(|value| format!("{value}u")).map_err(|_| too_large()),
@@ -34,9 +35,10 @@ pub(crate) fn integer(value: i128, scalar: ScalarType) -> Result<String, Problem
             Ok(value) => Ok(format!("{value}i")),
             Err(_) => Err(too_large()),
         },
-        ScalarType::F32 | ScalarType::F64 | ScalarType::Real => {
-            Err(Problem::unsupported(format!("the literal `{value}`"), "an integer stands where a float is needed"))
-        }
+        ScalarType::F32 | ScalarType::F64 | ScalarType::Real => Err(Problem::unsupported(
+            format!("the literal `{value}`"),
+            "an integer stands where a float is needed",
+        )),
     }
 }
 

@@ -4,7 +4,7 @@ use crate::access::Uses;
 use crate::declarations::Declarations;
 use crate::entry::{self, Entry};
 use crate::error::{Error, Problem};
-use crate::glossary::Glossary;
+use crate::glossary::{Buffer, Glossary};
 use crate::names::Names;
 use crate::print::{self, Shared};
 use crate::program::Program;
@@ -12,8 +12,8 @@ use crate::routine::{self, Routines};
 use crate::shader::{Dispatch, Options, Shader};
 use crate::space;
 use std::fmt::Write as _;
-use xca_core::Precision;
 use xca_core::ir::FunctionKind;
+use xca_core::{Parity, Precision};
 
 /// Writes the module.
 pub(crate) fn write(program: &Program, options: &Options) -> Result<Shader, Error> {
@@ -25,25 +25,20 @@ pub(crate) fn write(program: &Program, options: &Options) -> Result<Shader, Erro
     let mut functions = Vec::new();
     // Callees before callers, for the reader.
     for number in (0..program.functions.len()).rev() {
-        let mut shared = Shared {
-            program,
-            options,
-            glossary: &glossary,
-            names: &mut names,
-            routines: &mut routines,
-        };
+        let mut shared =
+            Shared { program, options, glossary: &glossary, names: &mut names, routines: &mut routines };
         let text = print::function(&mut shared, number).map_err(|problem| program.error(number, problem))?;
         functions.push(text);
     }
     let kind = program.process().kind;
     uses.faults |= routines.checked_neighbours;
-    uses.index |= uses.faults;
+    uses.index |= uses.faults || (uses.neighbourhood && options.parity != Parity::None);
     let over_cells = kind == FunctionKind::Cells;
     let entry = Entry { kind, uses: &uses, glossary: &glossary, options };
     let mut body = Vec::new();
     body.extend(glossary.declarations.iter().cloned());
     body.extend(provided(&uses, &routines, &glossary, options, over_cells));
-    body.extend(glossary.buffers.iter().filter_map(|buffer| buffer.reader_text()));
+    body.extend(glossary.buffers.iter().filter_map(Buffer::reader_text));
     body.extend(routines.texts().cloned());
     if uses.faults {
         body.push(entry::report_fault(kind));
@@ -110,7 +105,7 @@ fn provided(
         texts.push(space::LINEAR_INDEX.to_owned());
     }
     if uses.neighbourhood {
-        texts.push(space::NEIGHBOUR_AT.to_owned());
+        texts.push(space::neighbour_at(options.parity, &glossary.neighbours));
     }
     if routines.checked_neighbours {
         texts.push(space::checked_neighbour_at(&glossary.neighbours));

@@ -55,7 +55,11 @@ impl Names {
 
     /// The name of a routine, which no variable of a model takes.
     pub(crate) fn routine(&mut self, wanted: &str) -> String {
-        let name = if self.module.iter().any(|known| known == wanted) { self.free(wanted) } else { wanted.to_owned() };
+        let name = if self.module.iter().any(|known| known == wanted) {
+            self.free(wanted)
+        } else {
+            wanted.to_owned()
+        };
         self.module.push(name.clone());
         name
     }
@@ -101,7 +105,8 @@ impl Names {
 
 /// Whether the name looks like a routine's; numbered ones do not.
 fn is_routine(name: &str) -> bool {
-    let numbered = name.rsplit('_').next().is_some_and(|end| !end.is_empty() && end.chars().all(|c| c.is_ascii_digit()));
+    let numbered =
+        name.rsplit('_').next().is_some_and(|end| !end.is_empty() && end.chars().all(|c| c.is_ascii_digit()));
     !numbered && (PREFIXES.iter().any(|prefix| name.starts_with(prefix)) || name.ends_with("_at"))
 }
 
@@ -117,7 +122,7 @@ pub(crate) fn field(name: &str) -> String {
 
 /// An identifier of WGSL: no `r#`, not only `_`, not two at the beginning.
 fn cleaned(name: &str) -> String {
-    let name = name.strip_prefix("r#").unwrap_or(name);
+    let name = crate::program::bare(name);
     let bare = name.trim_start_matches('_');
     match (bare.is_empty(), name.starts_with("__")) {
         (true, _) => "unused".to_owned(),

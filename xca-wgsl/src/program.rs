@@ -6,10 +6,10 @@ use std::collections::HashMap;
 use xca_core::Schema;
 use xca_core::ir::{Expression, Function, FunctionKind, Role};
 
-/// The process (number 0) and the helpers, callees after callers. Functions are boxed: what is known about a part of a
-/// body is kept by its address.
+/// The process (number 0) and the helpers, callees after callers. Once collected they do not move:
+/// what is known about a part of a body is kept by its address.
 pub(crate) struct Program {
-    pub(crate) functions: Vec<Box<Function>>,
+    pub(crate) functions: Vec<Function>,
     by_address: HashMap<usize, usize>,
 }
 
@@ -18,7 +18,7 @@ impl Program {
         if process.kind == FunctionKind::Helper {
             return Err(error(process.name, process.name, Problem::NotAProcess));
         }
-        let mut program = Self { functions: vec![Box::new(process.clone())], by_address: HashMap::new() };
+        let mut program = Self { functions: vec![process.clone()], by_address: HashMap::new() };
         program.add_callees(0)?;
         program.check_recursion()?;
         Ok(program)
@@ -55,11 +55,12 @@ impl Program {
             }
             let (name, kind) = (helper.name, helper.kind);
             if kind != FunctionKind::Helper {
-                let problem = Problem::unsupported(format!("a call of `{name}`"), "only helpers can be called");
+                let problem =
+                    Problem::unsupported(format!("a call of `{name}`"), "only helpers can be called");
                 return Err(self.error(caller, problem));
             }
             let number = self.functions.len();
-            self.functions.push(Box::new(helper));
+            self.functions.push(helper);
             self.by_address.insert(call as usize, number);
             self.add_callees(number)?;
         }
@@ -134,4 +135,14 @@ impl<'a> Roles<'a> {
         }
         roles
     }
+}
+
+/// The number of the field with this name, raw identifiers being the same as plain ones.
+pub(crate) fn field_number(schema: &Schema, name: &str) -> Option<usize> {
+    schema.fields.iter().position(|field| bare(field.name) == bare(name))
+}
+
+/// A name without `r#`.
+pub(crate) fn bare(name: &str) -> &str {
+    name.strip_prefix("r#").unwrap_or(name)
 }

@@ -37,13 +37,16 @@ impl Routines {
         let condition = if word == "minimum" { "b < a" } else { "a < b" };
         let type_ = type_.wgsl();
         self.need(name, |name| {
-            format!("fn {name}(a: {type_}, b: {type_}) -> {type_} {{\n    return select(a, b, {condition});\n}}\n")
+            format!(
+                "fn {name}(a: {type_}, b: {type_}) -> {type_} {{\n    return select(a, b, {condition});\n}}\n"
+            )
         })
     }
 
     /// The scalar product, added from the first lane to the last.
     pub(crate) fn need_dot(&mut self, type_: &Type) -> String {
-        let lanes = &["a.x * b.x", "a.y * b.y", "a.z * b.z", "a.w * b.w"][..usize::from(type_.lanes().min(4))];
+        let lanes =
+            &["a.x * b.x", "a.y * b.y", "a.z * b.z", "a.w * b.w"][..usize::from(type_.lanes().min(4))];
         let sum = masked(&lanes.join(" + "), type_);
         let scalar = type_.scalar().map_or("u32", types::scalar_name);
         let vector = type_.wgsl();

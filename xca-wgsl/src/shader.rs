@@ -5,7 +5,7 @@ use crate::layout::Layout;
 use crate::module;
 use crate::program::Program;
 use xca_core::kernel::Of;
-use xca_core::{Precision, ValueType, ir};
+use xca_core::{Parity, Precision, ValueType, ir};
 
 /// What a shader is written for.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -19,6 +19,8 @@ pub struct Options {
     pub workgroup_size: [u32; 3],
     /// Which axes are toroidal: searches for near items go the shorter way round them.
     pub toroidal: [bool; 3],
+    /// Whether cells in odd rows or columns have another neighbourhood than those in even ones.
+    pub parity: Parity,
 }
 
 impl Default for Options {
@@ -28,6 +30,7 @@ impl Default for Options {
             neighbourhood_size: None,
             workgroup_size: [64, 1, 1],
             toroidal: [false; 3],
+            parity: Parity::None,
         }
     }
 }
@@ -92,7 +95,8 @@ pub enum Content {
     Moment(Layout),
     /// The parameters.
     Parameters(Layout),
-    /// `i32` for each cell of the neighbourhood: the difference of its number from that of the central cell.
+    /// `i32` for each cell of the neighbourhood: the difference of its number from that of the central cell. Where rows or columns
+    /// differ ([`Options::parity`]), first those of even, then those of odd ones.
     NeighbourOffsets,
     /// A substate of all cells, or of all items: a value for each, lane beside lane without padding, a `u8` as a `u32`.
     Substate {

@@ -1,6 +1,6 @@
 //! Where things are: cells, neighbours, positions.
 
-use xca_core::Precision;
+use xca_core::{Parity, Precision};
 use xca_core::kernel::{BEYOND_NEIGHBOURHOOD, NOWHERE, OUTSIDE};
 
 /// The number of a cell among the stored ones, from its indices.
@@ -25,10 +25,19 @@ pub(crate) const LINEAR_INDEX: &str = "fn linear_index(index: vec3<i32>) -> u32 
 ";
 
 /// The number of a neighbour among the stored cells.
-pub(crate) const NEIGHBOUR_AT: &str = "fn neighbour_at(index: u32) -> u32 {
-    return u32(i32(here) + neighbour_offsets[index]);
+pub(crate) fn neighbour_at(parity: Parity, neighbours: &str) -> String {
+    let odd = match parity {
+        Parity::None => String::new(),
+        Parity::Row => format!(" + (u32(here_index.y) & 1u) * {neighbours}"),
+        Parity::Column => format!(" + (u32(here_index.x) & 1u) * {neighbours}"),
+    };
+    format!(
+        "fn neighbour_at(index: u32) -> u32 {{
+    return u32(i32(here) + neighbour_offsets[index{odd}]);
+}}
+"
+    )
 }
-";
 
 /// The same where the index may be too large: a fault, and the cell itself is read.
 pub(crate) fn checked_neighbour_at(neighbours: &str) -> String {

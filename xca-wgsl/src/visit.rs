@@ -140,8 +140,7 @@ pub(crate) fn expression<'a>(value: &'a Expression, see: &mut dyn FnMut(Node<'a>
 
 /// Whether control never reaches the end of the block.
 pub(crate) fn diverges(block: &Block) -> bool {
-    block.statements.iter().any(statement_diverges)
-        || block.value.as_deref().is_some_and(expression_diverges)
+    block.statements.iter().any(statement_diverges) || block.value.as_deref().is_some_and(expression_diverges)
 }
 
 fn statement_diverges(statement: &Statement) -> bool {

@@ -40,66 +40,69 @@ impl Drop for Found<'_> {
     }
 }
 
-/// Says which cells of a neighbourhood can hold items within a radius of a position.
+/// Says which cells of a neighbourhood can hold items within a radius of a position, and where their items lie together.
 ///
 /// Where every item is at most `slack` metres outside its cell, a cell whose box is further from the position than radius and slack
-/// holds none. For a radius of half a cell side that leaves 8 of 27 cells on average.
+/// holds none. For a radius of half a cell side that leaves 8 of 27 cells, whose items lie in 4 strips of a row each.
 #[derive(Debug, Clone)]
 pub struct CellFilter {
-    /// For each axis and displacement, from the most negative on, the neighbours with that displacement, one bit each.
-    displaced: [Vec<u64>; 3],
-    reach: [usize; 3],
+    displacements: Vec<[i32; 3]>,
+    reach: [i32; 3],
+    /// For a neighbourhood that is a whole box: the offsets of a step along y and along z.
+    steps: Option<[isize; 2]>,
     slack: f64,
 }
 
+/// The displacements, from the lowest to the highest along each axis, of the cells that a sphere can touch.
+#[derive(Clone, Copy)]
+struct Touched {
+    low: [i32; 3],
+    high: [i32; 3],
+}
+
 impl CellFilter {
-    /// For a neighbourhood of at most 64 cells that is the same for all cells.
-    pub fn new(neighbourhood: &Neighbourhood) -> Option<Self> {
-        if neighbourhood.size() > 64 || neighbourhood.parity() != Parity::None {
+    /// For a neighbourhood that is the same for all cells, and items at most so far outside their cells, in metres; nothing where that
+    /// is no number.
+    ///
+    /// `steps` are the offsets from a cell to the next one along y and along z. An engine that gives this filter stores the items of each
+    /// row of the space together, in the order of its cells.
+    pub fn new(neighbourhood: &Neighbourhood, steps: [isize; 2], slack: f64) -> Option<Self> {
+        if !slack.is_finite() || neighbourhood.parity() != Parity::None {
             return None;
         }
         let reach = neighbourhood.reach();
-        let mut displaced = reach.map(|reach| vec![0; 2 * reach + 1]);
-        for (number, displacement) in neighbourhood.displacements([0; 3]).iter().enumerate() {
-            for axis in 0..3 {
-                let place = (displacement[axis] + reach[axis] as i32) as usize;
-                displaced[axis][place] |= 1 << number;
-            }
-        }
-        Some(Self { displaced, reach, slack: 0.0 })
+        let size = reach.iter().map(|reach| 2 * reach + 1).product::<usize>();
+        let displacements = neighbourhood.displacements([0; 3]).to_vec();
+        // The centre comes first; the others as in a box, if all of it is there.
+        let ordered = displacements[1..].is_sorted_by_key(|[x, y, z]| [*z, *y, *x]);
+        let steps = (displacements.len() == size && ordered).then_some(steps);
+        Some(Self { displacements, reach: reach.map(|reach| reach as i32), steps, slack })
     }
 
-    /// With items at most so far outside their cells, in metres; nothing where that is no number.
-    #[must_use]
-    pub fn with_slack(mut self, slack: f64) -> Option<Self> {
-        self.slack = slack;
-        slack.is_finite().then_some(self)
-    }
-
-    /// The neighbours, one bit each, that a sphere around a position in the cell with these indices can touch.
+    /// What a sphere around a position in the cell with these indices can touch.
     #[inline(always)]
-    fn touched(&self, cell: [u32; 3], side: f64, position: [f64; 3], radius: f64) -> u64 {
+    fn touched(&self, cell: [u32; 3], side: f64, position: [f64; 3], radius: f64) -> Touched {
         // Rounding can put an item that lies on a face into the cell on either side of it, and the comparison of distances
         // rounds as well; a thousandth of a cell is more than both, in f32 up to some thousand cells along an axis.
         let radius = radius.abs() + self.slack + 1e-3 * side;
-        let mut touched = u64::MAX;
+        let mut touched = Touched { low: [0; 3], high: [0; 3] };
         for axis in 0..3 {
-            let reach = self.reach[axis];
-            let low = f64::from(cell[axis]) * side;
-            let (below, above) = (position[axis] - radius, position[axis] + radius);
-            let mut along = self.displaced[axis][reach];
-            for step in 0..reach {
-                let distance = step as f64 * side;
-                if below < low - distance {
-                    along |= self.displaced[axis][reach - 1 - step];
-                }
-                if above >= low + side + distance {
-                    along |= self.displaced[axis][reach + 1 + step];
-                }
+            let first = f64::from(cell[axis]) * side;
+            let (below, above) =
+                (first - (position[axis] - radius), (position[axis] + radius) - (first + side));
+            for step in 0..self.reach[axis] {
+                let distance = f64::from(step) * side;
+                touched.low[axis] -= i32::from(below > distance);
+                touched.high[axis] += i32::from(above >= distance);
             }
-            touched &= along;
         }
         touched
+    }
+}
+
+impl Touched {
+    fn contains(&self, displacement: [i32; 3]) -> bool {
+        (0..3).all(|axis| (self.low[axis]..=self.high[axis]).contains(&displacement[axis]))
     }
 }
 
@@ -136,7 +139,8 @@ impl<'a> Row<'a> {
             Some(filter) if REACH != reach::CELL => {
                 let [first, y, z] = self.origin;
                 let place = [position.x, position.y, position.z].map(Float::to_f64);
-                Some(filter.touched([first + x as u32, y, z], self.frame.side, place, radius.to_f64()))
+                let cell = [first + x as u32, y, z];
+                Some((filter, filter.touched(cell, self.frame.side, place, radius.to_f64())))
             }
             _ => None,
         };
@@ -157,43 +161,73 @@ impl<'a> Row<'a> {
     /// Hands over the ranges of items in the reached cells (of those touched, where that is known) in order of the neighbour index, joined
     /// where one continues the other.
     #[inline(always)]
-    fn ranges<const REACH: u8>(&self, x: usize, touched: Option<u64>, mut each: impl FnMut(Range<usize>)) {
+    fn ranges<const REACH: u8>(
+        &self,
+        x: usize,
+        touched: Option<(&CellFilter, Touched)>,
+        mut each: impl FnMut(Range<usize>),
+    ) {
+        if REACH != reach::NEIGHBOURS {
+            each(self.items_at(x, 0));
+        }
+        if REACH == reach::CELL {
+            return;
+        }
+        let Some((filter, touched)) = touched else {
+            return self.joined(x, |_| true, each);
+        };
+        let margin = filter.reach[0] as usize;
+        let place = self.origin[0] as usize + x;
+        match filter.steps {
+            Some(steps) if place >= margin && place + margin < self.frame.extents[0] as usize => {
+                self.strips(x, steps, touched, each);
+            }
+            _ => self.joined(x, |number| touched.contains(filter.displacements[number]), each),
+        }
+    }
+
+    /// The neighbours of a whole box, away from the halo along x: the touched cells of a row lie together.
+    #[inline(always)]
+    fn strips(
+        &self,
+        x: usize,
+        [line, layer]: [isize; 2],
+        touched: Touched,
+        mut each: impl FnMut(Range<usize>),
+    ) {
+        let (low, high) = (touched.low[0] as isize, touched.high[0] as isize);
+        for z in touched.low[2]..=touched.high[2] {
+            for y in touched.low[1]..=touched.high[1] {
+                let row = z as isize * layer + y as isize * line;
+                if row != 0 {
+                    each(self.items_at(x, row + low).start..self.items_at(x, row + high).end);
+                } else {
+                    // Around the own cell, which is not a neighbour of itself.
+                    let own = self.items_at(x, 0);
+                    each(self.items_at(x, low).start..own.start);
+                    each(own.end..self.items_at(x, high).end);
+                }
+            }
+        }
+    }
+
+    /// The neighbours one by one, those that are wanted.
+    #[inline]
+    fn joined(&self, x: usize, wanted: impl Fn(usize) -> bool, mut each: impl FnMut(Range<usize>)) {
         let mut joined = 0..0;
-        let mut add = |number: usize| {
-            let range = self.items_at(x, self.frame.offsets[number]);
-            if range.is_empty() {
-                return;
+        for (number, offset) in self.frame.offsets.iter().enumerate().skip(1) {
+            let range = self.items_at(x, *offset);
+            if range.is_empty() || !wanted(number) {
+                continue;
             }
             if joined.end == range.start && !joined.is_empty() {
                 joined.end = range.end;
-                return;
-            }
-            let before = std::mem::replace(&mut joined, range);
-            if !before.is_empty() {
+            } else {
+                let before = std::mem::replace(&mut joined, range);
                 each(before);
             }
-        };
-        let size = self.frame.offsets.len();
-        match (REACH, touched) {
-            (reach::CELL, _) => add(0),
-            (_, Some(mut touched)) => {
-                if REACH == reach::NEIGHBOURS {
-                    touched &= !1;
-                }
-                while touched != 0 {
-                    let number = touched.trailing_zeros() as usize;
-                    touched &= touched - 1;
-                    if number < size {
-                        add(number);
-                    }
-                }
-            }
-            (reach::NEIGHBOURS, None) => (1..size).for_each(add),
-            (_, None) => (0..size).for_each(add),
         }
-        if !joined.is_empty() {
-            each(joined);
-        }
+        each(joined);
     }
 
     /// The separation by the shorter way round each toroidal axis.
@@ -234,6 +268,10 @@ fn keep<R: Float>(
     found: &mut Vec<u32>,
     near: impl Fn(Vector3<R>) -> bool,
 ) {
+    // An empty range may lie anywhere.
+    if range.is_empty() {
+        return;
+    }
     found.reserve(range.len());
     let first = range.start;
     let mut length = found.len();

@@ -71,7 +71,9 @@ impl<'a> Inference<'a> {
             }
             Expression::Cast(operand, target) => self.cast(operand, &Type::from(target))?,
             Expression::Call { function, arguments } => self.call(*function, arguments)?,
-            Expression::Method { method, receiver, arguments } => self.method(*method, receiver, arguments)?,
+            Expression::Method { method, receiver, arguments } => {
+                self.method(*method, receiver, arguments)?
+            }
             Expression::Component(operand, lane) => {
                 let of = self.expression(operand)?;
                 self.component(of, *lane)?
@@ -194,7 +196,10 @@ impl<'a> Inference<'a> {
                 }
                 (Role::Parameters(schema), Expression::Parameters) => {
                     if self.roles.parameters.is_none_or(|(_, own)| own != *schema) {
-                        return Err(Problem::unsupported(construct, "it takes other parameters than the process"));
+                        return Err(Problem::unsupported(
+                            construct,
+                            "it takes other parameters than the process",
+                        ));
                     }
                 }
                 (Role::Space, Expression::Space) => {}
@@ -259,7 +264,6 @@ impl<'a> Inference<'a> {
         }
         Ok(result)
     }
-
 }
 
 fn lanes(count: usize) -> Result<u8, Problem> {
@@ -267,7 +271,9 @@ fn lanes(count: usize) -> Result<u8, Problem> {
         2 => Ok(2),
         3 => Ok(3),
         4 => Ok(4),
-        other => Err(Problem::unsupported(format!("a vector of {other} components"), "vectors have 2, 3 or 4")),
+        other => {
+            Err(Problem::unsupported(format!("a vector of {other} components"), "vectors have 2, 3 or 4"))
+        }
     }
 }
 

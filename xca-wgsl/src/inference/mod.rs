@@ -10,7 +10,7 @@ mod statements;
 mod table;
 
 use crate::error::Problem;
-use crate::program::{Program, Roles};
+use crate::program::{Program, Roles, field_number};
 use crate::types::Type;
 pub(crate) use expressions::constant as constant_type;
 use operators::Waiting;
@@ -140,7 +140,11 @@ impl<'a> Inference<'a> {
         let local = |(variable, mutable)| Local { type_: table.resolve(variable), mutable };
         Analysis {
             types: self.types.iter().map(|(key, variable)| (*key, table.resolve(*variable))).collect(),
-            place_types: self.place_types.iter().map(|(key, variable)| (*key, table.resolve(*variable))).collect(),
+            place_types: self
+                .place_types
+                .iter()
+                .map(|(key, variable)| (*key, table.resolve(*variable)))
+                .collect(),
             uses: self.uses,
             place_roots: self.place_roots,
             bindings: self.bindings,
@@ -179,9 +183,14 @@ impl<'a> Inference<'a> {
     }
 
     /// The type of a field of a struct of substates or parameters.
-    fn field(&mut self, of: Option<(&str, &'static Schema)>, kind: &'static str, name: &str) -> Result<Variable, Problem> {
+    fn field(
+        &mut self,
+        of: Option<(&str, &'static Schema)>,
+        kind: &'static str,
+        name: &str,
+    ) -> Result<Variable, Problem> {
         let (_, schema) = of.ok_or_else(|| Problem::unknown(kind, name))?;
-        let (_, field) = schema.field(name).ok_or_else(|| Problem::unknown(kind, name))?;
-        Ok(self.table.known(&Type::of_value(field.value_type)))
+        let number = field_number(schema, name).ok_or_else(|| Problem::unknown(kind, name))?;
+        Ok(self.table.known(&Type::of_value(schema.fields[number].value_type)))
     }
 }

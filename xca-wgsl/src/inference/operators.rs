@@ -8,11 +8,25 @@ use xca_core::ir::BinaryOperator;
 
 /// A demand that waits until a type is known.
 pub(super) enum Waiting {
-    Arithmetic { left: Variable, right: Variable, result: Variable },
-    Component { of: Variable, lane: u8, result: Variable },
-    Element { of: Variable, result: Variable },
+    Arithmetic {
+        left: Variable,
+        right: Variable,
+        result: Variable,
+    },
+    Component {
+        of: Variable,
+        lane: u8,
+        result: Variable,
+    },
+    Element {
+        of: Variable,
+        result: Variable,
+    },
     /// The scalar of a number or vector.
-    ScalarOf { of: Variable, result: Variable },
+    ScalarOf {
+        of: Variable,
+        result: Variable,
+    },
 }
 
 impl Inference<'_> {
@@ -138,7 +152,13 @@ impl Inference<'_> {
         }
     }
 
-    fn arithmetic(&mut self, left: Variable, right: Variable, result: Variable, force: bool) -> Result<bool, Problem> {
+    fn arithmetic(
+        &mut self,
+        left: Variable,
+        right: Variable,
+        result: Variable,
+        force: bool,
+    ) -> Result<bool, Problem> {
         let construct = "an operator";
         let (left_term, right_term) = (self.table.term(left), self.table.term(right));
         match (left_term, right_term) {

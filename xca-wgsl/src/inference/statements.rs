@@ -96,7 +96,12 @@ impl<'a> Inference<'a> {
         Ok(())
     }
 
-    fn items(&mut self, statement: &'a Statement, variable: &'static str, body: &'a Block) -> Result<(), Problem> {
+    fn items(
+        &mut self,
+        statement: &'a Statement,
+        variable: &'static str,
+        body: &'a Block,
+    ) -> Result<(), Problem> {
         self.scoped(|inference| {
             inference.bind_number(statement, variable);
             inference.block(body).map(|_| ())
@@ -134,7 +139,12 @@ impl<'a> Inference<'a> {
     }
 
     /// An expression that must have this type.
-    pub(super) fn expect(&mut self, value: &'a Expression, scalar: ScalarType, construct: &str) -> Result<(), Problem> {
+    pub(super) fn expect(
+        &mut self,
+        value: &'a Expression,
+        scalar: ScalarType,
+        construct: &str,
+    ) -> Result<(), Problem> {
         let found = self.expression(value)?;
         let expected = self.scalar(scalar);
         self.table.unify(expected, found, construct)

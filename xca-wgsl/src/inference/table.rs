@@ -81,7 +81,12 @@ impl Table {
     }
 
     /// Makes two types one.
-    pub(super) fn unify(&mut self, expected: Variable, found: Variable, construct: &str) -> Result<(), Problem> {
+    pub(super) fn unify(
+        &mut self,
+        expected: Variable,
+        found: Variable,
+        construct: &str,
+    ) -> Result<(), Problem> {
         let ((left, left_term), (right, right_term)) = (self.root(expected), self.root(found));
         if left == right {
             return Ok(());
@@ -90,7 +95,9 @@ impl Table {
             (Term::Any, other) | (other, Term::Any) => other,
             (Term::Integer, Term::Integer) => Term::Integer,
             (Term::Float, Term::Float) => Term::Float,
-            (Term::Integer, Term::Scalar(scalar)) | (Term::Scalar(scalar), Term::Integer) if !is_float(scalar) => {
+            (Term::Integer, Term::Scalar(scalar)) | (Term::Scalar(scalar), Term::Integer)
+                if !is_float(scalar) =>
+            {
                 Term::Scalar(scalar)
             }
             (Term::Float, Term::Scalar(scalar)) | (Term::Scalar(scalar), Term::Float) if is_float(scalar) => {

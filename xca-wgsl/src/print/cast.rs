@@ -22,7 +22,7 @@ impl Writer<'_, '_> {
                 let text = self.expression(operand)?;
                 Ok(call(types::scalar_name(to), &text))
             }
-            Type::Scalar(from) if types::is_float(from) => self.from_float(operand, from, to),
+            Type::Scalar(from) if types::is_float(from) => self.float_cast(operand, from, to),
             Type::Scalar(from) => {
                 let text = self.expression(operand)?;
                 Ok(from_integer(&text, from, to))
@@ -31,7 +31,12 @@ impl Writer<'_, '_> {
         }
     }
 
-    fn from_float(&mut self, operand: &Expression, from: ScalarType, to: ScalarType) -> Result<Text, Problem> {
+    fn float_cast(
+        &mut self,
+        operand: &Expression,
+        from: ScalarType,
+        to: ScalarType,
+    ) -> Result<Text, Problem> {
         let precision = self.shared.options.precision;
         let same = types::is_float(to) && types::is_f64(from, precision) == types::is_f64(to, precision);
         if !types::is_float(to) {
@@ -43,7 +48,9 @@ impl Writer<'_, '_> {
             return self.expression(operand);
         }
         // naga cannot narrow a constant, so that it is rounded here.
-        if let (Some(value), Expression::Literal(_) | Expression::Constant { .. }) = (constant_value(operand), operand) {
+        if let (Some(value), Expression::Literal(_) | Expression::Constant { .. }) =
+            (constant_value(operand), operand)
+        {
             return Ok(Text::number(literal::float(value, to, precision)?));
         }
         let mut text = self.expression(operand)?;

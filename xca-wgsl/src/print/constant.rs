@@ -32,7 +32,10 @@ pub(crate) fn constant_text(name: &str, value: &Constant, precision: Precision) 
                 .iter()
                 .map(|element| {
                     if constant_type(name, element)? != element_type(&type_) {
-                        return Err(Problem::unsupported(format!("the constant `{name}`"), "its elements differ in type"));
+                        return Err(Problem::unsupported(
+                            format!("the constant `{name}`"),
+                            "its elements differ in type",
+                        ));
                     }
                     constant_text(name, element, precision)
                 })

@@ -59,19 +59,31 @@ impl Writer<'_, '_> {
         }
     }
 
-    pub(super) fn match_into(&mut self, value: &Expression, arms: &[Arm], target: Target<'_>) -> Result<(), Problem> {
+    pub(super) fn match_into(
+        &mut self,
+        value: &Expression,
+        arms: &[Arm],
+        target: Target<'_>,
+    ) -> Result<(), Problem> {
         let type_ = self.type_of(value);
         if type_ != Type::Bool && (type_.is_float() || !matches!(type_, Type::Scalar(_))) {
             return Err(Problem::unsupported("`match`", "only integers and bool are matched"));
         }
         let text = self.expression(value)?;
-        let matched = if is_simple(value) && self.stable(value) { text } else { self.keep("matched", &type_, &text) };
+        let guards_change_it =
+            arms.iter().any(|arm| arm.guard.as_ref().is_some_and(|guard| self.hoists(guard)));
+        let matched = if is_simple(value) && (self.stable(value) || !guards_change_it) {
+            text
+        } else {
+            self.keep("matched", &type_, &text)
+        };
         let mut depth = 0;
         let mut open = false;
         for (position, arm) in arms.iter().enumerate() {
             // Rust has checked that the arms leave nothing out.
             let last = position + 1 == arms.len();
-            let mut condition = if last && arm.guard.is_none() { None } else { self.patterns(arm, &matched)? };
+            let mut condition =
+                if last && arm.guard.is_none() { None } else { self.patterns(arm, &matched)? };
             if let Some(guard) = &arm.guard {
                 if self.hoists(guard) {
                     if open {
@@ -219,7 +231,9 @@ impl Writer<'_, '_> {
         } else {
             let sign = if inclusive { "<=" } else { "<" };
             let from = from.plain();
-            self.line(&format!("for (var {local}: {name} = {from}; {local} {sign} {end}; {local} += {one}) {{"));
+            self.line(&format!(
+                "for (var {local}: {name} = {from}; {local} {sign} {end}; {local} += {one}) {{"
+            ));
             self.loop_body(None, body)?;
         }
         self.line("}");

@@ -52,9 +52,10 @@ impl Writer<'_, '_> {
                 let variable = &self.shared.glossary.parameters;
                 Ok(Text::primary(format!("{variable}.{}", names::field(name))))
             }
-            Expression::Parameters | Expression::Space => {
-                Err(Problem::unsupported("the parameters or the space as a value", "they can only be passed on to a helper"))
-            }
+            Expression::Parameters | Expression::Space => Err(Problem::unsupported(
+                "the parameters or the space as a value",
+                "they can only be passed on to a helper",
+            )),
             Expression::Builtin(builtin, arguments) => self.builtin(*builtin, arguments),
             Expression::Unary(operator, operand) => self.unary(*operator, operand),
             Expression::Binary(operator @ (BinaryOperator::And | BinaryOperator::Or), left, right) => {
@@ -199,7 +200,8 @@ impl Writer<'_, '_> {
     }
 
     pub(super) fn own(&self, name: &str) -> Result<String, Problem> {
-        let variable = self.shared.glossary.subject.as_ref().ok_or_else(|| Problem::unknown("substate", name))?;
+        let variable =
+            self.shared.glossary.subject.as_ref().ok_or_else(|| Problem::unknown("substate", name))?;
         Ok(format!("{variable}.{}", names::field(name)))
     }
 
@@ -211,8 +213,11 @@ impl Writer<'_, '_> {
 
     fn unary(&mut self, operator: UnaryOperator, operand: &Expression) -> Result<Text, Problem> {
         let type_ = self.type_of(operand);
-        if let (UnaryOperator::Negate, Expression::Literal(xca_core::ir::Literal::Integer(value, _)), Type::Scalar(scalar)) =
-            (operator, operand, &type_)
+        if let (
+            UnaryOperator::Negate,
+            Expression::Literal(xca_core::ir::Literal::Integer(value, _)),
+            Type::Scalar(scalar),
+        ) = (operator, operand, &type_)
         {
             return Ok(Text::number(literal::integer(-i128::from(*value), *scalar)?));
         }
@@ -269,7 +274,10 @@ impl Writer<'_, '_> {
     }
 
     pub(super) fn lane(&self, lane: u8) -> Result<&'static str, Problem> {
-        LANES.get(usize::from(lane)).copied().ok_or_else(|| Problem::unsupported("a component", "there are x, y, z and w"))
+        LANES
+            .get(usize::from(lane))
+            .copied()
+            .ok_or_else(|| Problem::unsupported("a component", "there are x, y, z and w"))
     }
 }
 
@@ -290,7 +298,10 @@ pub(super) fn is_simple(value: &Expression) -> bool {
         | Expression::Own(_)
         | Expression::CellOfItem(_)
         | Expression::Parameter(_)
-        | Expression::Builtin(Builtin::Neighbours | Builtin::Side | Builtin::Extents | Builtin::Stay | Builtin::Outside, _) => true,
+        | Expression::Builtin(
+            Builtin::Neighbours | Builtin::Side | Builtin::Extents | Builtin::Stay | Builtin::Outside,
+            _,
+        ) => true,
         Expression::Unary(_, operand) | Expression::Component(operand, _) => is_simple(operand),
         _ => false,
     }

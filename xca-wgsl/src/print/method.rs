@@ -20,7 +20,10 @@ impl Writer<'_, '_> {
         let mut values = vec![receiver];
         values.extend(arguments);
         if values.len() != operand_count(method) {
-            return Err(Problem::unsupported(format!("`{}`", name(method)), "the number of arguments is wrong"));
+            return Err(Problem::unsupported(
+                format!("`{}`", name(method)),
+                "the number of arguments is wrong",
+            ));
         }
         self.check_receiver(method, &type_)?;
         let mut texts = self.operands(&values)?;
@@ -108,7 +111,10 @@ impl Writer<'_, '_> {
         if fits {
             return Ok(());
         }
-        Err(Problem::unsupported(format!("`{}` of {}", name(method), type_.wgsl()), "this type has no such method"))
+        Err(Problem::unsupported(
+            format!("`{}` of {}", name(method), type_.wgsl()),
+            "this type has no such method",
+        ))
     }
 }
 

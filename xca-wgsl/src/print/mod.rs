@@ -11,8 +11,8 @@ mod statement;
 mod text;
 
 use crate::error::Problem;
-use crate::inference::{Analysis, LocalNumber};
 use crate::glossary::Glossary;
+use crate::inference::{Analysis, LocalNumber};
 use crate::names::Names;
 use crate::program::{Program, Roles};
 use crate::routine::Routines;
@@ -61,7 +61,7 @@ enum Target<'t> {
 /// The text of a function of the program: the body, apart from the entry point.
 pub(crate) fn function(shared: &mut Shared<'_>, number: usize) -> Result<String, Problem> {
     let program = shared.program;
-    let function = &*program.functions[number];
+    let function = &program.functions[number];
     let analysis = Analysis::of(program, number)?;
     shared.names.open();
     let writer = Writer {
@@ -139,7 +139,10 @@ impl Writer<'_, '_> {
     }
 
     fn local(&self, number: LocalNumber) -> Result<String, Problem> {
-        self.locals.get(&number).cloned().ok_or_else(|| Problem::unsupported("a variable", "it has no name here"))
+        self.locals
+            .get(&number)
+            .cloned()
+            .ok_or_else(|| Problem::unsupported("a variable", "it has no name here"))
     }
 
     fn check_type(&self, type_: &Type) -> Result<(), Problem> {

@@ -34,7 +34,9 @@ impl Writer<'_, '_> {
         Ok(match operator {
             BinaryOperator::Add => self.wrapped(Text::joined(left, "+", right, Level::Additive), type_),
             BinaryOperator::Subtract => self.wrapped(Text::joined(left, "-", right, Level::Additive), type_),
-            BinaryOperator::Multiply => self.wrapped(Text::joined(left, "*", right, Level::Multiplicative), type_),
+            BinaryOperator::Multiply => {
+                self.wrapped(Text::joined(left, "*", right, Level::Multiplicative), type_)
+            }
             BinaryOperator::Divide => Text::joined(left, "/", right, Level::Multiplicative),
             BinaryOperator::Remainder if type_.is_float() => {
                 return Err(Problem::unsupported(
@@ -45,9 +47,13 @@ impl Writer<'_, '_> {
             BinaryOperator::Remainder => Text::joined(left, "%", right, Level::Multiplicative),
             BinaryOperator::BitAnd => Text::joined(left, "&", right, Level::Bitwise),
             BinaryOperator::BitOr => Text::joined(left, "|", right, Level::Bitwise),
-            BinaryOperator::BitXor if *left_type == Type::Bool => Text::joined(left, "!=", right, Level::Relational),
+            BinaryOperator::BitXor if *left_type == Type::Bool => {
+                Text::joined(left, "!=", right, Level::Relational)
+            }
             BinaryOperator::BitXor => Text::joined(left, "^", right, Level::Bitwise),
-            BinaryOperator::ShiftLeft => self.wrapped(shift(left, "<<", right, left_type, right_type), left_type),
+            BinaryOperator::ShiftLeft => {
+                self.wrapped(shift(left, "<<", right, left_type, right_type), left_type)
+            }
             BinaryOperator::ShiftRight => shift(left, ">>", right, left_type, right_type),
             BinaryOperator::Equal if type_.lanes() > 1 => {
                 Text::primary(format!("all({})", Text::joined(left, "==", right, Level::Relational).plain()))

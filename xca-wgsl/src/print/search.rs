@@ -43,7 +43,9 @@ impl Writer<'_, '_> {
         let neighbour = self.shared.names.local("neighbour");
         let first = if reach == Reach::All { 0 } else { 1 };
         let count = self.shared.glossary.neighbours.clone();
-        self.line(&format!("for (var {neighbour}: u32 = {first}u; {neighbour} < {count}; {neighbour} += 1u) {{"));
+        self.line(&format!(
+            "for (var {neighbour}: u32 = {first}u; {neighbour} < {count}; {neighbour} += 1u) {{"
+        ));
         self.inside(|writer| {
             let there = writer.shared.names.local("there");
             writer.line(&format!("let {there}: u32 = neighbour_at({neighbour});"));

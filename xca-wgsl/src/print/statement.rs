@@ -6,8 +6,8 @@ use super::{Target, Writer};
 use crate::error::Problem;
 use crate::types::Type;
 use crate::visit;
-use xca_core::ir::{BinaryOperator, Block, Builtin, Expression, Place, PlaceRoot, Projection, Statement};
 use xca_core::ScalarType;
+use xca_core::ir::{BinaryOperator, Block, Builtin, Expression, Place, PlaceRoot, Projection, Statement};
 
 impl Writer<'_, '_> {
     /// Writes the statements of a block, and its value to where it belongs.
@@ -72,7 +72,9 @@ impl Writer<'_, '_> {
             Statement::ForRange { from, to, inclusive, body, .. } => {
                 self.for_range(statement, from, to, *inclusive, body)
             }
-            Statement::ForOthers { reach, radius, body, .. } => self.for_others(statement, *reach, radius.as_ref(), body),
+            Statement::ForOthers { reach, radius, body, .. } => {
+                self.for_others(statement, *reach, radius.as_ref(), body)
+            }
             Statement::ForItems { body, .. } => self.for_items(statement, body),
             Statement::Break => {
                 if let Some(Some(flag)) = self.loops.last() {
@@ -99,7 +101,13 @@ impl Writer<'_, '_> {
         }
     }
 
-    fn let_(&mut self, statement: &Statement, name: &str, mutable: bool, value: &Expression) -> Result<(), Problem> {
+    fn let_(
+        &mut self,
+        statement: &Statement,
+        name: &str,
+        mutable: bool,
+        value: &Expression,
+    ) -> Result<(), Problem> {
         let number = self.analysis.bound(statement)?;
         let type_ = self.analysis.locals[number.0].type_.clone();
         self.check_type(&type_)?;
@@ -135,7 +143,9 @@ impl Writer<'_, '_> {
     ) -> Result<(), Problem> {
         let type_ = self.analysis.type_of_place(place).clone();
         let Some(operator) = operator else {
-            if place.path.is_empty() && matches!(value, Expression::If { .. } | Expression::Match { .. }) && self.hoists(value)
+            if place.path.is_empty()
+                && matches!(value, Expression::If { .. } | Expression::Match { .. })
+                && self.hoists(value)
             {
                 // Each branch assigns.
                 let target = self.place(place)?;
@@ -233,7 +243,12 @@ impl Writer<'_, '_> {
     }
 
     /// Remembers that a variable is the index of an existing neighbour.
-    pub(super) fn note_neighbour(&mut self, statement: &Statement, to: &Expression, inclusive: bool) -> Result<(), Problem> {
+    pub(super) fn note_neighbour(
+        &mut self,
+        statement: &Statement,
+        to: &Expression,
+        inclusive: bool,
+    ) -> Result<(), Problem> {
         if !inclusive && matches!(to, Expression::Builtin(Builtin::Neighbours, _)) {
             self.neighbours.insert(self.analysis.bound(statement)?);
         }
@@ -255,9 +270,12 @@ pub(super) fn ends_in_return(block: &Block) -> bool {
 
 fn expression_ends_in_return(value: &Expression) -> bool {
     match value {
-        Expression::If { then, otherwise: Some(otherwise), .. } => ends_in_return(then) && ends_in_return(otherwise),
+        Expression::If { then, otherwise: Some(otherwise), .. } => {
+            ends_in_return(then) && ends_in_return(otherwise)
+        }
         Expression::Match { arms, .. } => {
-            arms.last().is_some_and(|arm| arm.guard.is_none()) && arms.iter().all(|arm| ends_in_return(&arm.body))
+            arms.last().is_some_and(|arm| arm.guard.is_none())
+                && arms.iter().all(|arm| ends_in_return(&arm.body))
         }
         Expression::If { .. } => false,
         Expression::Block(block) => ends_in_return(block),

@@ -54,7 +54,11 @@ impl Text {
 
     /// To the right of an operator, where a leading minus sign gets parentheses too.
     pub(super) fn right_of(&self, least: Level) -> String {
-        if self.level < least || self.text.starts_with('-') { format!("({})", self.text) } else { self.text.clone() }
+        if self.level < least || self.text.starts_with('-') {
+            format!("({})", self.text)
+        } else {
+            self.text.clone()
+        }
     }
 
     /// `left operator right` of one level, grouped from the left.

@@ -1,6 +1,5 @@
 //! Writes processes as WGSL and has naga read and check them.
 
-
 use xca_core::{ElementaryProcess, Precision};
 use xca_wgsl::{Error, Options, Shader, shader};
 

@@ -46,10 +46,16 @@ fn layouts_are_those_of_wgsl() {
             checked += 1;
             let (_, type_) =
                 module.types.iter().find(|(_, type_)| type_.name.as_deref() == Some(structure)).unwrap();
-            let naga::TypeInner::Struct { members, span } = &type_.inner else { panic!("{structure} is no struct") };
+            let naga::TypeInner::Struct { members, span } = &type_.inner else {
+                panic!("{structure} is no struct")
+            };
             assert_eq!(layout.size, *span, "{structure}");
             let offsets: Vec<u32> = layout.fields.iter().map(|field| field.offset).collect();
-            assert_eq!(offsets, members.iter().map(|member| member.offset).collect::<Vec<_>>(), "{structure}");
+            assert_eq!(
+                offsets,
+                members.iter().map(|member| member.offset).collect::<Vec<_>>(),
+                "{structure}"
+            );
         }
         assert_eq!(checked, 4);
         let (_, faults) =

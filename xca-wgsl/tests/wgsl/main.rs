@@ -1,5 +1,7 @@
 //! Real processes, written as WGSL and checked by naga.
 
+#![allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should")]
+
 mod common;
 mod items;
 mod layouts;

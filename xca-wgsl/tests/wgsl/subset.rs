@@ -55,8 +55,14 @@ fn u8_wraps() {
     accepted::<bytes>();
     let text = function(&written::<bytes>(Precision::F64), "bytes");
     assert!(text.contains("    n = (n + cell.byte) & 0xffu;\n"), "{text}");
-    assert!(text.contains("    n = ((n * 3u) - 1u) & 0xffu;\n") || text.contains("& 0xffu) - 1u) & 0xffu;\n"), "{text}");
-    assert!(text.contains("    n = n ^ (~cell.byte & 0xffu);\n") || text.contains("n ^ ((~cell.byte) & 0xffu)"), "{text}");
+    assert!(
+        text.contains("    n = ((n * 3u) - 1u) & 0xffu;\n") || text.contains("& 0xffu) - 1u) & 0xffu;\n"),
+        "{text}"
+    );
+    assert!(
+        text.contains("    n = n ^ (~cell.byte & 0xffu);\n") || text.contains("n ^ ((~cell.byte) & 0xffu)"),
+        "{text}"
+    );
     assert!(text.contains("(cell.byte << (cell.unsigned_ & 7u))") || text.contains("& 7u"), "{text}");
 }
 
@@ -238,7 +244,10 @@ fn loops(cell: &mut Cell<State>) {
     for byte in 250..=255 {
         n ^= byte;
     }
-    while { total += 1; total < 5 } {
+    while {
+        total += 1;
+        total < 5
+    } {
         n += 1;
     }
     for _ in 0..2 {
@@ -277,16 +286,28 @@ fn branches(cell: &mut Cell<State>, p: &Settings) {
         }
     };
     let mut x = 1;
-    let sum = x + {
-        x = 5;
-        x
-    } + if cell.real > 0.0 { x += 1; x } else { 2 };
-    let both = cell.signed > 0 && { x += 1; x > 3 } || PERIODIC ^ (cell.byte < 3);
+    let sum =
+        x + {
+            x = 5;
+            x
+        } + if cell.real > 0.0 {
+            x += 1;
+            x
+        } else {
+            2
+        };
+    let both = cell.signed > 0 && {
+        x += 1;
+        x > 3
+    } || PERIODIC ^ (cell.byte < 3);
     cell.signed = a + sum + both as i32;
     cell.real = if both { p.scale } else { 0.0 };
     cell.byte = if x > 2 {
         1
-    } else if { x -= 1; x == 0 } {
+    } else if {
+        x -= 1;
+        x == 0
+    } {
         2
     } else {
         3
@@ -296,7 +317,10 @@ fn branches(cell: &mut Cell<State>, p: &Settings) {
         false => {}
     }
     let unit = match x {
-        1 => { cell.byte = 7; 1.5 }
+        1 => {
+            cell.byte = 7;
+            1.5
+        }
         _ => 2.5,
     };
     cell.real += unit;
@@ -374,7 +398,7 @@ mod elsewhere {
     use xca_core::prelude::*;
 
     #[helper]
-    pub fn square(x: i32) -> i32 {
+    pub(super) fn square(x: i32) -> i32 {
         x * x
     }
 }

@@ -1,6 +1,5 @@
 //! What shaders look like.
 
-
 use crate::common::{function, written, written_with};
 use xca_core::prelude::*;
 use xca_wgsl::{BindingAccess, Content, Dispatch, Options, State};
