@@ -7,7 +7,7 @@ mod cadem_support;
 use cadem::{Configuration, Face, Integrator, Particle, TimeStep, Walls};
 use cadem_support::{TestResult, close, only_wall, start, weightless};
 use xca_tests::brute_force;
-use xca_tests::restitution::Collision;
+use xca_tests::restitution::{Collision, Spread};
 
 /// The speed of approach, in m/s.
 const SPEED: f64 = 0.1;
@@ -80,10 +80,12 @@ impl Bench {
         }
         self.collide(particles, |particles| {
             let pairs = particles.chunks_exact(2);
-            pairs.map(|pair| {
-                let distance = pair[1].position[0] - pair[0].position[0];
-                (2.0 * radius - distance, pair[1].velocity[0] - pair[0].velocity[0])
-            }).collect()
+            pairs
+                .map(|pair| {
+                    let distance = pair[1].position[0] - pair[0].position[0];
+                    (2.0 * radius - distance, pair[1].velocity[0] - pair[0].velocity[0])
+                })
+                .collect()
         })
     }
 
@@ -131,19 +133,96 @@ impl Bench {
     }
 }
 
+/// The restitution that the integrator's recurrence alone gives, with the same phases: no cells, no slots, no contact search.
+fn expected(collision: Option<Collision>, integrator: Integrator, bench: &Bench) -> Spread {
+    let integrator = match integrator {
+        Integrator::SemiImplicit => brute_force::Integrator::SymplecticEuler,
+        Integrator::Explicit => brute_force::Integrator::ExplicitEuler,
+    };
+    let phases = (bench.rows * bench.rows) as u32;
+    let time_step = bench.configuration.material().time_step;
+    collision
+        .and_then(|collision| collision.spread_of_restitution(integrator, time_step, phases))
+        .expect("these collisions bounce")
+}
+
+fn agrees(seen: &Seen, expected: Spread) {
+    close(seen.mean, expected.mean, 1e-11);
+    close(seen.least, expected.least, 1e-10);
+    close(seen.most, expected.most, 1e-10);
+}
+
+fn of_particles() -> Option<Collision> {
+    Collision::of_particles(8000.0, 0.0015, 1e-4)
+}
+
+fn with_wall(times: f64) -> Option<Collision> {
+    Collision::with_wall(times * 8000.0, times * 0.0015, 1e-4)
+}
+
 #[test]
-fn explore() -> TestResult {
-    for rows in [10, 20, 40] {
-        println!("{rows} {:?}", Bench::new(rows).particles_on_particles()?);
-        println!("{rows} {:?}", Bench::new(rows).with_wall(Walls::Single).particles_on_wall()?);
-        println!("{rows} {:?}", Bench::new(rows).with_wall(Walls::PerSlot).particles_on_wall()?);
-        for parts in [2.0, 4.0] {
-            println!("{rows} {parts} {:?}", Bench::new(rows).with_time_step_divided_by(parts).particles_on_particles()?);
-        }
+fn two_particles() -> TestResult {
+    let bench = Bench::new(20);
+    let seen = bench.particles_on_particles()?;
+    agrees(&seen, expected(of_particles(), Integrator::SemiImplicit, &bench));
+    // The numbers of cadem.md, which are means over another set of phases.
+    close(seen.mean, 0.996_290, 6e-6);
+    close(seen.least, 0.994_498, 5e-5);
+    close(seen.most, 0.997_909, 5e-6);
+    // 2.483649e-4 s are 22.214 steps.
+    close(seen.steps_in_contact, 22.2, 0.05);
+    close(seen.overlap / 7.890_993e-5, 1.0, 3e-3);
+    Ok(())
+}
+
+#[test]
+fn a_particle_and_a_wall() -> TestResult {
+    let bench = Bench::new(20).with_wall(Walls::Single);
+    let seen = bench.particles_on_wall()?;
+    agrees(&seen, expected(with_wall(1.0), Integrator::SemiImplicit, &bench));
+    close(seen.mean, 0.997_375, 6e-6);
+    close(seen.least, 0.996_097, 5e-5);
+    close(seen.most, 0.998_634, 5e-6);
+    close(seen.steps_in_contact, 31.4, 0.05);
+    close(seen.overlap / 1.116_563e-4, 1.0, 3e-3);
+    Ok(())
+}
+
+#[test]
+fn a_wall_of_the_authors_program_acts_nine_times() -> TestResult {
+    let bench = Bench::new(20).with_wall(Walls::PerSlot);
+    agrees(&bench.particles_on_wall()?, expected(with_wall(9.0), Integrator::SemiImplicit, &bench));
+    Ok(())
+}
+
+#[test]
+fn the_printed_integrator_gains_energy() -> TestResult {
+    let bench = Bench::new(20).with_integrator(Integrator::Explicit);
+    let seen = bench.particles_on_particles()?;
+    agrees(&seen, expected(of_particles(), Integrator::Explicit, &bench));
+    close(seen.mean, 1.2432, 5e-5);
+    let bench = bench.with_wall(Walls::Single);
+    let seen = bench.particles_on_wall()?;
+    agrees(&seen, expected(with_wall(1.0), Integrator::Explicit, &bench));
+    close(seen.mean, 1.1667, 5e-5);
+    Ok(())
+}
+
+/// The error of the mean restitution falls with the square of the time step, and so does that of the largest overlap.
+#[test]
+fn converges_with_second_order() -> TestResult {
+    let exact = of_particles().map(|collision| collision.restitution()).unwrap_or_default();
+    close(exact, 0.996_281_458, 1e-9);
+    let mut errors = Vec::new();
+    for parts in [1.0, 2.0, 4.0] {
+        let seen = Bench::new(20).with_time_step_divided_by(parts).particles_on_particles()?;
+        errors.push([seen.mean - exact, seen.overlap / 7.890_993e-5 - 1.0].map(f64::abs));
     }
-    println!("{:?}", Bench::new(20).with_integrator(Integrator::Explicit).particles_on_particles()?);
-    println!("{:?}", Bench::new(20).with_integrator(Integrator::Explicit).with_wall(Walls::Single).particles_on_wall()?);
-    let c = Collision::of_particles(8000.0, 0.0015, 1e-4).unwrap();
-    println!("{:?}", c.spread_of_restitution(brute_force::Integrator::SymplecticEuler, Bench::new(2).configuration.material().time_step, 400));
+    for (error, bound) in errors.iter().zip([4.5e-6, 1.15e-6, 2.6e-7]) {
+        assert!(error[0] < bound, "{errors:?}");
+    }
+    for pair in errors.windows(2) {
+        assert!((0..2).all(|which| pair[0][which] > 3.5 * pair[1][which]), "{errors:?}");
+    }
     Ok(())
 }

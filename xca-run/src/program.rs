@@ -1,0 +1,215 @@
+//! What a model's program is made of.
+
+use crate::set_up::SetUp;
+use std::fmt;
+use std::str::FromStr;
+use xca_core::{ParameterError, Parameters, Precision, philox};
+
+/// Any error. Its causes are shown below it, each on a line of its own.
+pub type Failure = Box<dyn std::error::Error + Send + Sync>;
+
+/// A model's program: a struct whose fields are the options that only this model has.
+///
+/// [`crate::main()`] makes a whole program of it. The options that all models share (`--engine`, `--steps`, `--set`, `--out`, …)
+/// come with it; a field must not be named like one of them.
+///
+/// ```no_run
+/// use xca_run::prelude::*;
+///
+/// #[derive(Substates, Clone)]
+/// struct Fire {
+///     burning: u8,
+/// }
+///
+/// #[elementary_process]
+/// fn spread(cell: &mut Cell<Fire>) {
+///     for n in 1..cell.neighbours() {
+///         cell.burning = cell.burning.max(cell.neighbour(n).burning);
+///     }
+/// }
+///
+/// #[derive(Args)]
+/// struct Forest {
+///     /// Cells along each side.
+///     #[arg(long, default_value_t = 200)]
+///     size: usize,
+/// }
+///
+/// impl Program for Forest {
+///     const NAME: &'static str = "forest";
+///     const ABOUT: &'static str = "A fire in a forest";
+///
+///     fn set_up(&self, _given: &Given) -> Result<SetUp, Failure> {
+///         let middle = [self.size / 2, self.size / 2, 0];
+///         let model = Model::builder("forest")
+///             .extents([self.size, self.size, 1])
+///             .neighbourhood(Neighbourhood::von_neumann_2d(1))
+///             .substates::<Fire>()
+///             .process(spread)
+///             .fill(move |cell| Fire { burning: u8::from(cell == middle) })
+///             .build()?;
+///         Ok(SetUp::new(model, 100))
+///     }
+/// }
+///
+/// fn main() -> ExitCode {
+///     xca_run::main::<Forest>()
+/// }
+/// ```
+pub trait Program: clap::Args {
+    /// The name of the program, and of the folder below `out` that its runs write to unless they are told another.
+    const NAME: &'static str;
+
+    /// One line that says what the model is.
+    const ABOUT: &'static str;
+
+    /// The version.
+    const VERSION: &'static str = env!("CARGO_PKG_VERSION");
+
+    /// Command lines to try, for `--help`: the arguments of `run`, one example a line.
+    const EXAMPLES: &'static str = "--steps 500 --engine reference";
+
+    /// Makes the model, and says how long it is run and what is shown of it.
+    ///
+    /// # Errors
+    /// Where the options make no sense. The program then ends with exit code 2.
+    fn set_up(&self, given: &Given) -> Result<SetUp, Failure>;
+}
+
+/// What the command line says for every model, as far as it bears on the model itself.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Given {
+    /// The seed of random numbers.
+    pub seed: u64,
+    /// What `Real` is.
+    pub precision: Precision,
+    /// The number of steps, if it is given.
+    pub steps: Option<u64>,
+    /// The parameters that are given by `--set`, in the order of the command line.
+    pub parameters: Vec<Assignment>,
+}
+
+impl Given {
+    /// Parameters with what `--set` says of them. For a set-up that computes something from its parameters; all others leave it
+    /// to the frame, which sets the parameters of the model once it is made.
+    ///
+    /// # Errors
+    /// Where no parameter has a name that was given, or a text is no value of its type.
+    pub fn applied_to<P: Parameters>(&self, mut parameters: P) -> Result<P, ParameterError> {
+        for Assignment { name, value } in &self.parameters {
+            parameters.set(name, value)?;
+        }
+        Ok(parameters)
+    }
+
+    /// Random numbers for the initial state, as the seed makes them.
+    pub fn random(&self) -> InitialRandom {
+        InitialRandom { seed: self.seed }
+    }
+}
+
+/// Random numbers for an initial state: each a function of the seed, a cell and the number of the draw.
+///
+/// ```
+/// let given = xca_run::Given { seed: 7, ..Default::default() };
+/// let random = given.random();
+/// let number = random.number([3, 4, 0], 0);
+/// assert!((0.0..1.0).contains(&number));
+/// assert_eq!(number, random.number([3, 4, 0], 0));
+/// assert_ne!(number, random.number([4, 3, 0], 0));
+/// ```
+#[derive(Debug, Clone, Copy)]
+pub struct InitialRandom {
+    seed: u64,
+}
+
+impl InitialRandom {
+    /// A number in [0, 1), with 32 random bits.
+    pub fn number(self, cell: [usize; 3], draw: u32) -> f64 {
+        let [x, y, z] = cell.map(|index| index as u32);
+        // Processes have the plain seed as their key; the initial state has another, so that no process sees its numbers again.
+        let key = [self.seed as u32 ^ 0x696e_6974, (self.seed >> 32) as u32 ^ 0x6961_6c21];
+        f64::from(philox([x, y, z, draw], key)[0]) / 4_294_967_296.0
+    }
+}
+
+/// A parameter and its value, `name=value` on the command line.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Assignment {
+    /// The name of the parameter.
+    pub name: String,
+    /// The text of the value.
+    pub value: String,
+}
+
+/// A text that is not of the form `name=value`.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("it must be of the form NAME=VALUE, such as alpha=0.1")]
+pub struct NoAssignment;
+
+impl FromStr for Assignment {
+    type Err = NoAssignment;
+
+    fn from_str(text: &str) -> Result<Self, NoAssignment> {
+        match text.split_once('=').map(|(name, value)| (name.trim(), value.trim())) {
+            Some((name, value)) if !name.is_empty() && !value.is_empty() => {
+                Ok(Self { name: name.to_owned(), value: value.to_owned() })
+            }
+            _ => Err(NoAssignment),
+        }
+    }
+}
+
+impl fmt::Display for Assignment {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}={}", self.name, self.value)
+    }
+}
+
+/// A quantity that a run reports: a number that the whole state has.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Observable {
+    /// Its name, such as `kinetic energy`.
+    pub name: String,
+    /// Its unit, such as `J`; empty for a number.
+    pub unit: String,
+    /// Its value.
+    pub value: f64,
+}
+
+impl Observable {
+    /// A quantity with its unit.
+    pub fn new(name: impl Into<String>, unit: impl Into<String>, value: f64) -> Self {
+        Self { name: name.into(), unit: unit.into(), value }
+    }
+
+    /// A number without a unit.
+    pub fn number(name: impl Into<String>, value: f64) -> Self {
+        Self::new(name, "", value)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn assignments_are_names_and_values() {
+        let assignment: Assignment = " wind = 1, 2 ".parse().unwrap();
+        assert_eq!((assignment.name.as_str(), assignment.value.as_str()), ("wind", "1, 2"));
+        assert_eq!(assignment.to_string(), "wind=1, 2");
+        for text in ["wind", "=1", "wind=", ""] {
+            assert_eq!(text.parse::<Assignment>(), Err(NoAssignment), "{text}");
+        }
+    }
+
+    #[test]
+    fn random_numbers_of_the_initial_state_are_spread_evenly() {
+        let random = Given { seed: 1, ..Given::default() }.random();
+        let below =
+            (0..100_usize).flat_map(|x| (0..100).map(move |y| [x, y, 0])).filter(|&cell| random.number(cell, 0) < 0.3);
+        let below = below.count();
+        // Three standard deviations are 137.
+        assert!((2863..=3137).contains(&below), "{below}");
+    }
+}

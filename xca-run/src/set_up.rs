@@ -1,0 +1,97 @@
+//! A model with what its program shows of it.
+
+use crate::program::{Failure, Observable};
+use crate::view::{AnyView, CellView, ItemView};
+use serde::Serialize;
+use std::fmt;
+use std::path::PathBuf;
+use xca_core::{Model, State, Substates};
+
+type Observe = dyn Fn(&State<'_>) -> Result<Vec<Observable>, Failure> + Send + Sync;
+
+/// A model, how long it is run, and what is shown and saved of it.
+///
+/// What is not said has a default that follows from the model's substates: the least, mean and largest value of each are observed,
+/// every population and all substates of cells are saved, and the first of them is drawn.
+pub struct SetUp {
+    pub(crate) model: Model,
+    pub(crate) steps: u64,
+    pub(crate) time_step: Option<f64>,
+    pub(crate) observe: Option<Box<Observe>>,
+    pub(crate) views: Vec<AnyView>,
+    pub(crate) inputs: Vec<PathBuf>,
+    pub(crate) notes: serde_json::Map<String, serde_json::Value>,
+}
+
+impl SetUp {
+    /// A model that is run for so many steps, unless the command line says otherwise.
+    pub fn new(model: Model, steps: u64) -> Self {
+        Self {
+            model,
+            steps,
+            time_step: None,
+            observe: None,
+            views: Vec::new(),
+            inputs: Vec::new(),
+            notes: serde_json::Map::new(),
+        }
+    }
+
+    /// How many seconds a step is. Without it, time is counted in steps.
+    #[must_use]
+    pub fn time_step(mut self, seconds: f64) -> Self {
+        self.time_step = Some(seconds);
+        self
+    }
+
+    /// What is measured before the first step, every so many steps and after the last: always the same quantities in the same order.
+    #[must_use]
+    pub fn observables(
+        mut self,
+        observe: impl Fn(&State<'_>) -> Result<Vec<Observable>, Failure> + Send + Sync + 'static,
+    ) -> Self {
+        self.observe = Some(Box::new(observe));
+        self
+    }
+
+    /// How the items of a population are saved and drawn.
+    #[must_use]
+    pub fn items<S: Substates>(mut self, view: ItemView<S>) -> Self {
+        self.views.push(AnyView::Items(view.into_any()));
+        self
+    }
+
+    /// How substates of cells are saved and drawn.
+    #[must_use]
+    pub fn cells<S: Substates>(mut self, view: CellView<S>) -> Self {
+        self.views.push(AnyView::Cells(view.into_any()));
+        self
+    }
+
+    /// A file that the set-up has read. A run never replaces it.
+    #[must_use]
+    pub fn input(mut self, path: impl Into<PathBuf>) -> Self {
+        self.inputs.push(path.into());
+        self
+    }
+
+    /// Something that `run.json` should tell beside the options and the parameters.
+    ///
+    /// # Errors
+    /// Where the value cannot be written as JSON.
+    pub fn note(mut self, name: &str, value: impl Serialize) -> Result<Self, Failure> {
+        self.notes.insert(name.to_owned(), serde_json::to_value(value)?);
+        Ok(self)
+    }
+}
+
+impl fmt::Debug for SetUp {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("SetUp")
+            .field("model", &self.model.name())
+            .field("steps", &self.steps)
+            .field("time_step", &self.time_step)
+            .field("views", &self.views)
+            .finish_non_exhaustive()
+    }
+}
