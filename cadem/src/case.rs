@@ -86,3 +86,6 @@ impl FromStr for Case {
             .ok_or_else(|| CademError::UnknownCase { name: name.to_owned() })
     }
 }
+
+#[cfg(test)]
+mod tests;

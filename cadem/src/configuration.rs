@@ -166,3 +166,6 @@ impl Configuration {
         self.check_boundary_slots()
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -170,3 +170,6 @@ impl Configuration {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

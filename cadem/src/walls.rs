@@ -4,6 +4,7 @@ use crate::configuration::Configuration;
 use crate::error::CademError;
 use crate::substates::{BOUNDARY, Dem, FIRST_BOUNDARY_LABEL};
 use serde::{Deserialize, Serialize};
+use std::cmp::Reverse;
 use std::collections::HashMap;
 use std::fmt;
 use xca_core::{Boundary, Item, Vector3};
@@ -191,9 +192,10 @@ impl Configuration {
         for item in self.boundary_slots() {
             *counts.entry(item.cell).or_default() += 1;
         }
-        match counts.into_iter().find(|(_, count)| *count > slots) {
-            Some((cell, faces)) => Err(CademError::FewSlots { slots, cell, faces }),
-            None => Ok(()),
+        // The fullest cell, the first one of several.
+        match counts.into_iter().max_by_key(|(cell, count)| (*count, Reverse(*cell))) {
+            Some((cell, faces)) if faces > slots => Err(CademError::FewSlots { slots, cell, faces }),
+            _ => Ok(()),
         }
     }
 
@@ -248,3 +250,6 @@ impl Configuration {
             })
     }
 }
+
+#[cfg(test)]
+mod tests;

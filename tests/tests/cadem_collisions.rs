@@ -208,6 +208,16 @@ fn the_printed_integrator_gains_energy() -> TestResult {
     Ok(())
 }
 
+/// With no damping the phase gives or takes some energy; on the average over the phases none.
+#[test]
+fn without_damping_nothing_is_lost_on_the_average() -> TestResult {
+    let mut bench = Bench::new(20);
+    bench.configuration.damping = 0.0;
+    close(bench.particles_on_particles()?.mean, 1.0, 1e-5);
+    close(bench.with_wall(Walls::Single).particles_on_wall()?.mean, 1.0, 1e-5);
+    Ok(())
+}
+
 /// The error of the mean restitution falls with the square of the time step, and so does that of the largest overlap.
 #[test]
 fn converges_with_second_order() -> TestResult {

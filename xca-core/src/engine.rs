@@ -5,6 +5,7 @@ use crate::reduction::{Reduced, Reduction};
 use crate::value::Precision;
 use std::any::Any;
 use std::fmt;
+use std::sync::Arc;
 
 /// A way to run models: a value that a program chooses, and that a model never names.
 pub trait Engine: fmt::Debug + Send + Sync {
@@ -46,6 +47,14 @@ pub enum StartError {
         /// Why.
         reason: String,
     },
+}
+
+/// Threads that wait for work.
+///
+/// A run of many steps moves to one of them as a whole; else each step would have to wake them and to wait for them to fall asleep.
+pub trait Workers: Send + Sync {
+    /// Does the work on one of the threads, and waits for it.
+    fn run(&self, work: &mut (dyn FnMut() + Send));
 }
 
 /// A substate of a model: the number of its group, and of the field in the group.
@@ -126,6 +135,11 @@ pub trait Execution: Send {
 
     /// The bytes that the state takes.
     fn memory(&self) -> usize;
+
+    /// The engine's own threads, if it has any.
+    fn workers(&self) -> Option<Arc<dyn Workers>> {
+        None
+    }
 }
 
 /// What stops a run within a step.

@@ -3,6 +3,8 @@
 // The macros name this crate by its outer name, also in its own tests and documentation.
 extern crate self as xca_core;
 
+#[doc(hidden)]
+pub mod checks;
 pub mod engine;
 mod geometry;
 pub mod ir;

@@ -27,6 +27,11 @@ use std::sync::Arc;
 /// assert_eq!(error.to_string(), "no parameter is called `beta`; Conduction has alpha, wind");
 /// # Ok::<(), ParameterError>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no struct of parameters",
+    label = "its fields are not parameters",
+    note = "write `#[derive(Parameters, Clone, Debug)]` above the struct `{Self}`"
+)]
 pub trait Parameters: Clone + fmt::Debug + Send + Sync + 'static {
     /// The fields.
     const SCHEMA: &'static Schema;

@@ -188,6 +188,13 @@ impl Simulation {
     /// # Errors
     /// As [`Self::step`].
     pub fn run(&mut self, steps: u64) -> Result<Outcome, RunError> {
+        let Some(workers) = self.execution.workers() else { return self.run_here(steps) };
+        let mut result = Ok(Outcome::StepsDone);
+        workers.run(&mut || result = self.run_here(steps));
+        result
+    }
+
+    fn run_here(&mut self, steps: u64) -> Result<Outcome, RunError> {
         for _ in 0..steps {
             if self.stop.is_some() {
                 break;

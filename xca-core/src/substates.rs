@@ -26,6 +26,11 @@ use std::marker::PhantomData;
 /// Fields are of type `u8`, `i32`, `u32`, `f32`, `f64`, `Real`, or `Vector2`, `Vector3`, `Vector4` of one of these.
 /// For each field there is a constant in capitals, a [`Substate`], by which the host names it. In a struct for the items
 /// of a population one field of type `Vector3<Real>` may be marked `#[position]`: searches for near items use it.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no struct of substates",
+    label = "its fields are not substates",
+    note = "write `#[derive(Substates, Clone, Copy)]` above the struct `{Self}`"
+)]
 pub trait Substates: Clone + Send + Sync + 'static {
     /// The fields.
     const SCHEMA: &'static Schema;

@@ -3,6 +3,7 @@
 //! These types exist for the compiler and the reader: the macros check a process against them and then replace them by
 //! kernels. No value of them can be made, so nothing here can be called from ordinary code.
 
+use crate::substates::Substates;
 use crate::value::Real;
 use crate::vector::Vector3;
 use std::convert::Infallible;
@@ -14,12 +15,12 @@ use std::ops::{Deref, DerefMut};
 /// Its substates are its fields: `cell.temperature` reads, `cell.temperature = …` writes. Reading shows what the process has
 /// already written. Only the central cell can be written.
 #[derive(Debug)]
-pub struct Cell<S> {
+pub struct Cell<S: Substates> {
     never: Infallible,
     substates: PhantomData<S>,
 }
 
-impl<S: 'static> Cell<S> {
+impl<S: Substates> Cell<S> {
     /// The number of cells in the neighbourhood, with the central one: neighbours are `1..cell.neighbours()`.
     pub fn neighbours(&self) -> u32 {
         match self.never {}
@@ -52,7 +53,7 @@ impl<S: 'static> Cell<S> {
     }
 }
 
-impl<S> Deref for Cell<S> {
+impl<S: Substates> Deref for Cell<S> {
     type Target = S;
 
     fn deref(&self) -> &S {
@@ -60,7 +61,7 @@ impl<S> Deref for Cell<S> {
     }
 }
 
-impl<S> DerefMut for Cell<S> {
+impl<S: Substates> DerefMut for Cell<S> {
     fn deref_mut(&mut self) -> &mut S {
         match self.never {}
     }
@@ -68,12 +69,12 @@ impl<S> DerefMut for Cell<S> {
 
 /// An item of a population, in a process that runs once for each occupied slot. Its substates are its fields.
 #[derive(Debug)]
-pub struct Slot<S> {
+pub struct Slot<S: Substates> {
     never: Infallible,
     substates: PhantomData<S>,
 }
 
-impl<S: 'static> Slot<S> {
+impl<S: Substates> Slot<S> {
     /// The item's label, which it keeps for its life.
     pub fn label(&self) -> u32 {
         match self.never {}
@@ -131,7 +132,7 @@ impl<S: 'static> Slot<S> {
     }
 }
 
-impl<S> Deref for Slot<S> {
+impl<S: Substates> Deref for Slot<S> {
     type Target = S;
 
     fn deref(&self) -> &S {
@@ -139,7 +140,7 @@ impl<S> Deref for Slot<S> {
     }
 }
 
-impl<S> DerefMut for Slot<S> {
+impl<S: Substates> DerefMut for Slot<S> {
     fn deref_mut(&mut self) -> &mut S {
         match self.never {}
     }
@@ -147,12 +148,12 @@ impl<S> DerefMut for Slot<S> {
 
 /// All items of the central cell, by label: `for item in slots { … }` in a process over cells.
 #[derive(Debug)]
-pub struct Slots<S> {
+pub struct Slots<S: Substates> {
     never: Infallible,
     substates: PhantomData<S>,
 }
 
-impl<S: 'static> IntoIterator for &Slots<S> {
+impl<S: Substates> IntoIterator for &Slots<S> {
     type Item = &'static Other<S>;
     type IntoIter = Others<S>;
 
@@ -163,19 +164,19 @@ impl<S: 'static> IntoIterator for &Slots<S> {
 
 /// Another item; its substates are its fields, and it cannot be written.
 #[derive(Debug)]
-pub struct Other<S> {
+pub struct Other<S: Substates> {
     never: Infallible,
     substates: PhantomData<S>,
 }
 
-impl<S> Other<S> {
+impl<S: Substates> Other<S> {
     /// The item's label.
     pub fn label(&self) -> u32 {
         match self.never {}
     }
 }
 
-impl<S> Deref for Other<S> {
+impl<S: Substates> Deref for Other<S> {
     type Target = S;
 
     fn deref(&self) -> &S {
@@ -185,12 +186,12 @@ impl<S> Deref for Other<S> {
 
 /// Other items, to be used in a `for`.
 #[derive(Debug)]
-pub struct Others<S> {
+pub struct Others<S: Substates> {
     never: Infallible,
     items: PhantomData<S>,
 }
 
-impl<S: 'static> Iterator for Others<S> {
+impl<S: Substates> Iterator for Others<S> {
     type Item = &'static Other<S>;
 
     fn next(&mut self) -> Option<&'static Other<S>> {

@@ -89,6 +89,7 @@ impl Plane {
 fn fill(buffer: &mut Buffer, size: usize, layout: &Layout, outside: Option<&[u8]>) {
     let bytes = buffer.bytes_mut();
     layout.fill_halo(|target, source, count| match (source, outside) {
+        (Some(source), _) if count == 1 => copy_one(bytes, size, source, target),
         (Some(source), _) => bytes.copy_within(source * size..(source + count) * size, target * size),
         (None, Some(outside)) => {
             for value in bytes[target * size..(target + count) * size].chunks_exact_mut(size) {
@@ -97,4 +98,19 @@ fn fill(buffer: &mut Buffer, size: usize, layout: &Layout, outside: Option<&[u8]
         }
         (None, None) => {}
     });
+}
+
+/// Copies one value. Along x the halo is made of single values, for which a call to the system's copy would cost more than the values.
+fn copy_one(bytes: &mut [u8], size: usize, source: usize, target: usize) {
+    match size {
+        1 => bytes[target] = bytes[source],
+        4 => copy_chunk::<4>(bytes, source, target),
+        8 => copy_chunk::<8>(bytes, source, target),
+        _ => bytes.copy_within(source * size..(source + 1) * size, target * size),
+    }
+}
+
+fn copy_chunk<const SIZE: usize>(bytes: &mut [u8], source: usize, target: usize) {
+    let (chunks, _) = bytes.as_chunks_mut::<SIZE>();
+    chunks[target] = chunks[source];
 }

@@ -9,7 +9,7 @@ use crate::stages::{Stage, is_doubled, stages};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Arc;
-use xca_core::engine::{Execution, Fault, Population as Items, StartError, StepContext, SubstateId};
+use xca_core::engine::{Execution, Fault, Population as Items, StartError, StepContext, SubstateId, Workers};
 use xca_core::model::{Group as Definition, GroupKind};
 use xca_core::reduction::{ITEMS_IN_BLOCK, Reduced, Reduction, reduce_values};
 use xca_core::{Model, Precision, ProcessKind};
@@ -215,6 +215,10 @@ impl Execution for CpuExecution {
         results
     }
 
+    fn workers(&self) -> Option<Arc<dyn Workers>> {
+        Some(Arc::new(Pool(Arc::clone(&self.pool))))
+    }
+
     fn memory(&self) -> usize {
         self.groups
             .iter()
@@ -223,5 +227,14 @@ impl Execution for CpuExecution {
                 Group::Population(population) => population.memory(),
             })
             .sum()
+    }
+}
+
+/// The engine's threads.
+struct Pool(Arc<rayon::ThreadPool>);
+
+impl Workers for Pool {
+    fn run(&self, work: &mut (dyn FnMut() + Send)) {
+        self.0.install(work);
     }
 }

@@ -152,7 +152,14 @@ fn filter(model: &Model, layout: &Layout, groups: &[Group], prepared: &[Prepared
             searched = true;
         }
     }
-    if searched { CellFilter::new(model.geometry().neighbourhood(), layout.steps(), slack) } else { None }
+    let geometry = model.geometry();
+    // Round a torus, an item outside its cell may be near to others on the far side, where a sphere around it does not reach. A slack that is
+    // but a rounding is within the filter's own margin.
+    let far_side = geometry.boundaries().contains(&Boundary::Toroidal) && slack > 1e-4 * geometry.side();
+    if !searched || far_side {
+        return None;
+    }
+    CellFilter::new(geometry.neighbourhood(), layout.steps(), slack)
 }
 
 /// Fills halos that will be read and makes second buffers; gives the substates that the pass writes to a second buffer.

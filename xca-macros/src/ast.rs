@@ -16,6 +16,26 @@ pub(crate) struct Function {
     /// The type of the result as written; `None` for processes.
     pub(crate) result: Option<Type>,
     pub(crate) body: Block,
+    pub(crate) mentions: Mentions,
+}
+
+/// What of the user's other code a body mentions.
+#[derive(Default)]
+pub(crate) struct Mentions {
+    pub(crate) calls: Vec<Call>,
+    pub(crate) constants: Vec<Path>,
+    /// Constants in patterns.
+    pub(crate) patterns: Vec<Path>,
+    /// The first search within a radius, at its method's name.
+    pub(crate) search: Option<Span>,
+}
+
+/// A helper that is called.
+pub(crate) struct Call {
+    /// The path that the user wrote.
+    pub(crate) function: Path,
+    /// The name by which the generated code calls it.
+    pub(crate) alias: Ident,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -117,6 +137,7 @@ pub(crate) enum Expression {
     Unary(syn::UnOp, Box<Expression>),
     Binary(syn::BinOp, Box<Expression>, Box<Expression>),
     Cast(Box<Expression>, Type),
+    /// The function is the alias of one of [`Mentions::calls`].
     Call {
         function: Path,
         arguments: Vec<Expression>,

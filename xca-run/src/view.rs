@@ -3,6 +3,7 @@
 use crate::output::picture::ColourMap;
 use std::any::TypeId;
 use std::marker::PhantomData;
+use xca_core::model::GroupKind;
 use xca_core::{HostValue, Model, Substate, Substates};
 
 /// How the items of a population are saved and drawn.
@@ -61,15 +62,7 @@ pub(crate) struct AnyCellView {
 impl<S: Substates> ItemView<S> {
     /// A view of the items of `S`, whose files begin with this name.
     pub fn named(name: impl Into<String>) -> Self {
-        let view = AnyItemView {
-            group: TypeId::of::<S>(),
-            name: name.into(),
-            only: None,
-            columns: Vec::new(),
-            radius: None,
-            colour: None,
-        };
-        Self { view, of: PhantomData }
+        Self { view: AnyItemView::plain(TypeId::of::<S>(), name.into()), of: PhantomData }
     }
 
     /// Shows only the items where a substate has this value.
@@ -116,16 +109,7 @@ impl<S: Substates> ItemView<S> {
 impl<S: Substates> CellView<S> {
     /// A view of the substates `S`, whose files begin with this name.
     pub fn named(name: impl Into<String>) -> Self {
-        let view = AnyCellView {
-            group: TypeId::of::<S>(),
-            name: name.into(),
-            drawn: None,
-            layer: None,
-            range: None,
-            map: None,
-            kinds: Vec::new(),
-        };
-        Self { view, of: PhantomData }
+        Self { view: AnyCellView::plain(TypeId::of::<S>(), name.into()), of: PhantomData }
     }
 
     /// Draws a substate: a number, or the length of a vector.
@@ -166,6 +150,18 @@ impl<S: Substates> CellView<S> {
 
     pub(crate) fn into_any(self) -> AnyCellView {
         self.view
+    }
+}
+
+impl AnyItemView {
+    fn plain(group: TypeId, name: String) -> Self {
+        Self { group, name, only: None, columns: Vec::new(), radius: None, colour: None }
+    }
+}
+
+impl AnyCellView {
+    fn plain(group: TypeId, name: String) -> Self {
+        Self { group, name, drawn: None, layer: None, range: None, map: None, kinds: Vec::new() }
     }
 }
 
@@ -213,7 +209,6 @@ pub enum ViewError {
 
 /// The given views, with the number of the group that each shows, and after them plain views of what no one shows.
 pub(crate) fn complete(model: &Model, given: Vec<AnyView>) -> Result<Vec<(usize, AnyView)>, ViewError> {
-    use xca_core::model::GroupKind;
     let mut views = Vec::new();
     for view in given {
         let found = model.group_number(view.group());
@@ -238,29 +233,11 @@ pub(crate) fn complete(model: &Model, given: Vec<AnyView>) -> Result<Vec<(usize,
     for (number, group) in model.groups().iter().enumerate() {
         if views.iter().all(|(shown, _)| *shown != number) {
             let name = group.schema().name.to_lowercase();
-            let group_type = group.type_id();
-            views.push((
-                number,
-                match group.kind() {
-                    GroupKind::Population { .. } => AnyView::Items(AnyItemView {
-                        group: group_type,
-                        name,
-                        only: None,
-                        columns: Vec::new(),
-                        radius: None,
-                        colour: None,
-                    }),
-                    GroupKind::Cells { .. } => AnyView::Cells(AnyCellView {
-                        group: group_type,
-                        name,
-                        drawn: None,
-                        layer: None,
-                        range: None,
-                        map: None,
-                        kinds: Vec::new(),
-                    }),
-                },
-            ));
+            let view = match group.kind() {
+                GroupKind::Population { .. } => AnyView::Items(AnyItemView::plain(group.type_id(), name)),
+                GroupKind::Cells { .. } => AnyView::Cells(AnyCellView::plain(group.type_id(), name)),
+            };
+            views.push((number, view));
         }
     }
     for (number, (_, view)) in views.iter().enumerate() {

@@ -1,14 +1,18 @@
 //! Which name stands for what, while a body is read.
 
-use crate::ast::{Argument, FunctionKind, Role};
+use super::similar::similar;
+use crate::ast::{Argument, Call, FunctionKind, Mentions, Role};
 use std::collections::HashMap;
-use syn::{Error, Ident, Result};
+use syn::ext::IdentExt;
+use syn::{Error, Ident, Path, Result};
 
 /// What a name stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Binding {
-    /// A variable or value argument.
+    /// A variable.
     Value,
+    /// An argument of a helper, which is a value too.
+    Argument,
     /// The cell or item that the process runs for.
     Subject,
     /// The cell of the item.
@@ -23,15 +27,24 @@ pub(super) enum Binding {
     Other,
 }
 
+impl Binding {
+    pub(super) fn is_value(self) -> bool {
+        matches!(self, Self::Value | Self::Argument)
+    }
+}
+
 pub(super) struct Scope {
     pub(super) kind: FunctionKind,
+    /// The name of the function.
+    pub(super) function: Ident,
+    pub(super) mentions: Mentions,
     levels: Vec<HashMap<String, Binding>>,
     loops: usize,
     errors: Option<Error>,
 }
 
 impl Scope {
-    pub(super) fn new(kind: FunctionKind, arguments: &[Argument]) -> Self {
+    pub(super) fn new(kind: FunctionKind, function: Ident, arguments: &[Argument]) -> Self {
         let names = arguments.iter().enumerate().map(|(position, argument)| {
             let binding = match argument.role {
                 Role::Cell(_) | Role::Slot(_) if position == 0 => Binding::Subject,
@@ -39,22 +52,39 @@ impl Scope {
                 Role::Slots(_) => Binding::Slots,
                 Role::Parameters(_) => Binding::Parameters,
                 Role::Space => Binding::Space,
-                Role::Value(_) => Binding::Value,
+                Role::Value(_) => Binding::Argument,
             };
-            (argument.name.to_string(), binding)
+            (argument.name.unraw().to_string(), binding)
         });
-        Self { kind, levels: vec![names.collect()], loops: 0, errors: None }
+        Self {
+            kind,
+            function,
+            mentions: Mentions::default(),
+            levels: vec![names.collect()],
+            loops: 0,
+            errors: None,
+        }
+    }
+
+    pub(super) fn over_cells(&self) -> bool {
+        self.kind == FunctionKind::Cells
     }
 
     pub(super) fn bind(&mut self, name: &Ident, binding: Binding) {
         if let Some(level) = self.levels.last_mut() {
-            level.insert(name.to_string(), binding);
+            level.insert(name.unraw().to_string(), binding);
         }
     }
 
     pub(super) fn binding(&self, name: &Ident) -> Option<Binding> {
-        let name = name.to_string();
+        let name = name.unraw().to_string();
         self.levels.iter().rev().find_map(|level| level.get(&name).copied())
+    }
+
+    /// A name that is bound and much like this one.
+    pub(super) fn similar_name(&self, name: &Ident) -> Option<String> {
+        let bound = self.levels.iter().flat_map(HashMap::keys).map(String::as_str);
+        similar(&name.to_string(), bound)
     }
 
     /// Reads something in a scope of its own.
@@ -75,6 +105,19 @@ impl Scope {
 
     pub(super) fn inside_loop(&self) -> bool {
         self.loops > 0
+    }
+
+    /// The alias of a helper that is called.
+    pub(super) fn alias(&mut self, function: &Path) -> Ident {
+        if let Some(known) = self.mentions.calls.iter().find(|call| call.function == *function) {
+            return known.alias.clone();
+        }
+        let words: Vec<String> =
+            function.segments.iter().map(|segment| segment.ident.unraw().to_string()).collect();
+        let span = function.segments.last().map_or_else(proc_macro2::Span::call_site, |last| last.ident.span());
+        let alias = Ident::new(&format!("__xca_helper_{}", words.join("__")), span);
+        self.mentions.calls.push(Call { function: function.clone(), alias: alias.clone() });
+        alias
     }
 
     /// Keeps an error and goes on, so that one compilation shows them all.

@@ -1,0 +1,146 @@
+use crate::*;
+
+fn table1() -> Configuration {
+    Case::Table1.configuration()
+}
+
+fn refused(configuration: Configuration) -> String {
+    let error = configuration.check().expect_err("it makes no sense");
+    let same = model(&configuration, Vec::new()).expect_err("it makes no sense");
+    assert_eq!(error.to_string(), same.to_string());
+    error.to_string()
+}
+
+#[test]
+fn values_that_make_no_sense() {
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert_eq!(
+            refused(Configuration { stiffness: bad, ..table1() }),
+            format!("stiffness is {bad} N/m; it must be positive and finite")
+        );
+        assert!(refused(Configuration { mass: bad, ..table1() }).starts_with("mass is"));
+        assert!(refused(Configuration { radius: bad, ..table1() }).starts_with("radius is"));
+        assert!(refused(Configuration { cell_side: bad, ..table1() }).starts_with("cell_side is"));
+        for time_step in [TimeStep::Seconds(bad), TimeStep::Fraction(bad)] {
+            assert!(refused(Configuration { time_step, ..table1() }).starts_with("time_step is"));
+        }
+    }
+    assert!(
+        refused(Configuration { time_step: TimeStep::Subdivisions(0.0), ..table1() })
+            .starts_with("time_step")
+    );
+    assert_eq!(
+        refused(Configuration { damping: -0.1, ..table1() }),
+        "damping is -0.1 kg/s; it must be finite, and 0 or positive"
+    );
+    assert!(refused(Configuration { gravity: f64::NAN, ..table1() }).starts_with("gravity is"));
+    for fine in [Configuration { damping: 0.0, ..table1() }, Configuration { gravity: 0.0, ..table1() }] {
+        assert_eq!(fine.check(), Ok(()));
+    }
+}
+
+#[test]
+fn spaces_that_make_no_sense() {
+    assert_eq!(
+        refused(Configuration { radius: 0.001_001, ..table1() }),
+        "the cell side is 0.002 m, less than two radii of 0.001001 m: contacts could reach beyond the neighbours; use larger cells"
+    );
+    assert_eq!(Configuration { radius: 0.001, ..table1() }.check(), Ok(()));
+    assert!(refused(Configuration { cells: [3, 0, 3], ..table1() }).contains("[3, 0, 3] cells"));
+    for cells in [[40_000; 3], [usize::MAX; 3]] {
+        assert!(refused(Configuration { cells, ..table1() }).contains("BOUNDARY slots; labels for"));
+    }
+    // Sizes that only the framework knows to be too large, or too small for a torus.
+    let error = model(&Configuration { cells: [2000; 3], ..table1() }, Vec::new()).expect_err("too large");
+    assert!(error.to_string().contains("too large"), "{error}");
+    let torus = Configuration { cells: [20, 2, 20], walls: Walls::PerSlot, ..table1() };
+    let error = model(&torus, Vec::new()).expect_err("too narrow");
+    assert!(error.to_string().contains("too far for 2 cells with a toroidal boundary"), "{error}");
+}
+
+#[test]
+fn slots_hold_at_least_the_walls() {
+    let with = |slots| Configuration { slots: Some(slots), ..table1() };
+    assert_eq!(with(11).slots(), 11);
+    assert_eq!(with(3).check(), Ok(()));
+    let message = refused(Configuration { cells: [1, 4, 4], ..with(2) });
+    assert_eq!(
+        message,
+        "2 slots do not hold the 4 BOUNDARY slots of cell [0, 0, 0]; give the cells more slots"
+    );
+    let open = Configuration { openings: Opening::all_faces(), ..with(1) };
+    assert_eq!(open.check(), Ok(()));
+    // Narrow cells, for which Kepler's bound is 1, and a tube.
+    let narrow = Configuration { radius: 0.001, cells: [1, 1, 4], ..table1() };
+    assert_eq!((narrow.kepler_bound(), narrow.slots()), (1, 8 + 5));
+}
+
+#[test]
+fn parameters_have_names() {
+    let mut configuration = table1();
+    let error = configuration.set("viscosity", "1").expect_err("no such parameter");
+    assert_eq!(
+        error.to_string(),
+        "no parameter is called `viscosity`; Material has stiffness, damping, mass, radius, gravity, time_step"
+    );
+    assert!(configuration.set("mass", "heavy").is_err());
+    assert_eq!(configuration, table1());
+    configuration.time_step = TimeStep::Subdivisions(20.0);
+    for (name, value) in [("mass", "2e-4"), ("radius", "0.0004"), ("damping", "0"), ("gravity", "1.62")] {
+        configuration.set(name, value).expect("it has this parameter");
+    }
+    let expected = Configuration {
+        mass: 2e-4,
+        radius: 0.0004,
+        damping: 0.0,
+        gravity: 1.62,
+        time_step: TimeStep::Subdivisions(20.0),
+        ..table1()
+    };
+    assert_eq!(configuration, expected);
+}
+
+#[test]
+fn goes_through_a_file() {
+    let configuration = Configuration {
+        openings: vec![
+            Opening::whole(Face::ZHigh),
+            Opening { face: Face::ZLow, cells: Some(Rectangle { first: [8, 8], last: [11, 11] }) },
+        ],
+        slots: Some(11),
+        ..Case::Published.configuration()
+    };
+    let text = toml::to_string(&configuration).expect("it can be written");
+    assert_eq!(toml::from_str(&text), Ok(configuration));
+    let text = "
+        cells = [4, 4, 8]
+        walls = 'per-slot'
+        integrator = 'explicit'
+        time_step = { subdivisions = 50 }
+        openings = [{ face = 'z-low', cells = { first = [1, 1], last = [2, 2] } }]
+    ";
+    let expected = Configuration {
+        cells: [4, 4, 8],
+        walls: Walls::PerSlot,
+        integrator: Integrator::Explicit,
+        time_step: TimeStep::Subdivisions(50.0),
+        openings: vec![Opening { face: Face::ZLow, cells: Some(Rectangle { first: [1, 1], last: [2, 2] }) }],
+        ..Case::Illustration.configuration()
+    };
+    assert_eq!(toml::from_str(text), Ok(expected));
+}
+
+#[test]
+fn a_file_with_an_unknown_name_is_refused() {
+    for (text, known) in [
+        ("stifness = 1.0", "stiffness"),
+        ("walls = 'double'", "`single` or `per-slot`"),
+        ("integrator = 'verlet'", "`semi-implicit` or `explicit`"),
+        ("time_step = { hours = 1.0 }", "`fraction`, `subdivisions`, `seconds`"),
+        ("openings = [{ face = 'top' }]", "`z-high`"),
+        ("openings = [{ face = 'z-low', size = 3 }]", "`cells`"),
+    ] {
+        let error = toml::from_str::<Configuration>(text).expect_err("unknown").to_string();
+        assert!(error.contains(known), "{error}");
+    }
+}

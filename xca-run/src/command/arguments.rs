@@ -1,0 +1,82 @@
+//! The options that every model's program has.
+
+use crate::engines::{EngineName, MOST_THREADS};
+use crate::program::{Assignment, Given};
+use clap::Args;
+use std::path::PathBuf;
+use xca_core::Precision;
+
+/// What bears on the model itself.
+#[derive(Args, Debug, Clone)]
+pub(crate) struct ModelArguments {
+    /// What `Real` is: f32 or f64
+    #[arg(long, value_name = "TYPE", default_value_t = Precision::F64)]
+    precision: Precision,
+
+    /// The seed of random numbers
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+
+    /// Set a parameter of the model; can be given several times
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<Assignment>,
+
+    /// Take options from a TOML file. Its keys are these options; those on the command line win
+    #[arg(long, value_name = "FILE")]
+    pub(crate) config: Option<PathBuf>,
+}
+
+/// What runs the model.
+#[derive(Args, Debug, Clone)]
+pub(crate) struct EngineArguments {
+    /// What runs the model
+    #[arg(long, value_enum, value_name = "ENGINE", default_value_t = EngineName::Cpu)]
+    pub(crate) engine: EngineName,
+
+    /// How many threads the engine uses; one for each core unless it is given
+    #[arg(long, value_name = "N", value_parser = threads)]
+    pub(crate) threads: Option<usize>,
+}
+
+/// How long it is run, and what is written.
+#[derive(Args, Debug, Clone)]
+pub(crate) struct RunArguments {
+    /// How many steps are done; the model says how many unless it is given
+    #[arg(long, value_name = "N")]
+    pub(crate) steps: Option<u64>,
+
+    /// The folder of the files; out/NAME unless it is given. Files of an earlier run there are replaced
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+
+    /// Write observables and a frame every so many steps; 20 times in the run unless it is given
+    #[arg(long, value_name = "N", value_parser = interval)]
+    pub(crate) every: Option<u64>,
+
+    /// Say nothing but errors
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+}
+
+impl ModelArguments {
+    pub(crate) fn given(&self, steps: Option<u64>) -> Given {
+        Given { seed: self.seed, precision: self.precision, steps, parameters: self.set.clone() }
+    }
+}
+
+fn threads(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(0) => Err("0 threads do nothing; give at least 1".to_owned()),
+        Ok(number) if number <= MOST_THREADS => Ok(number),
+        Ok(number) => Err(format!("{number} threads are too many; give at most {MOST_THREADS}")),
+        Err(_) => Err(format!("it must be a whole number from 1 to {MOST_THREADS}")),
+    }
+}
+
+fn interval(text: &str) -> Result<u64, String> {
+    match text.parse() {
+        Ok(0) => Err("every 0 steps never comes; give at least 1".to_owned()),
+        Ok(number) => Ok(number),
+        Err(_) => Err("it must be a whole number of steps, at least 1".to_owned()),
+    }
+}

@@ -1,0 +1,148 @@
+//! Stored bytes as numbers.
+
+use crate::output::vtk::Values;
+use xca_core::{StoredScalar, StoredType};
+
+/// The values of a substate of cells or items.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Plane {
+    numbers: Numbers,
+    lanes: usize,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Numbers {
+    U8(Vec<u8>),
+    I32(Vec<i32>),
+    U32(Vec<u32>),
+    F32(Vec<f32>),
+    F64(Vec<f64>),
+}
+
+fn decoded<T, const N: usize>(chosen: &[&[u8]], from: impl Fn([u8; N]) -> T) -> Vec<T> {
+    let chunks = chosen.iter().flat_map(|bytes| bytes.as_chunks::<N>().0);
+    chunks.map(|bytes| from(*bytes)).collect()
+}
+
+impl Plane {
+    /// All values.
+    pub(crate) fn all(stored: StoredType, bytes: &[u8]) -> Self {
+        Self::decode(stored, &[bytes])
+    }
+
+    /// The values with these numbers, in this order.
+    pub(crate) fn chosen(stored: StoredType, bytes: &[u8], which: &[usize]) -> Self {
+        let size = stored.size();
+        let chosen: Vec<&[u8]> = which.iter().map(|&index| &bytes[index * size..(index + 1) * size]).collect();
+        Self::decode(stored, &chosen)
+    }
+
+    fn decode(stored: StoredType, bytes: &[&[u8]]) -> Self {
+        let numbers = match stored.scalar {
+            StoredScalar::U8 => Numbers::U8(bytes.concat()),
+            StoredScalar::I32 => Numbers::I32(decoded(bytes, i32::from_ne_bytes)),
+            StoredScalar::U32 => Numbers::U32(decoded(bytes, u32::from_ne_bytes)),
+            StoredScalar::F32 => Numbers::F32(decoded(bytes, f32::from_ne_bytes)),
+            StoredScalar::F64 => Numbers::F64(decoded(bytes, f64::from_ne_bytes)),
+        };
+        Self { numbers, lanes: usize::from(stored.lanes) }
+    }
+
+    /// Points.
+    pub(crate) fn points(points: Vec<[f64; 3]>) -> Self {
+        Self { numbers: Numbers::F64(points.into_flattened()), lanes: 3 }
+    }
+
+    /// For a VTK file.
+    pub(crate) fn as_values(&self) -> Values<'_> {
+        let values = match &self.numbers {
+            Numbers::U8(numbers) => Values::from(numbers.as_slice()),
+            Numbers::I32(numbers) => Values::from(numbers.as_slice()),
+            Numbers::U32(numbers) => Values::from(numbers.as_slice()),
+            Numbers::F32(numbers) => Values::from(numbers.as_slice()),
+            Numbers::F64(numbers) => Values::from(numbers.as_slice()),
+        };
+        Values::interleaved(self.lanes, values)
+    }
+
+    fn number(&self, place: usize) -> f64 {
+        match &self.numbers {
+            Numbers::U8(numbers) => numbers[place].into(),
+            Numbers::I32(numbers) => numbers[place].into(),
+            Numbers::U32(numbers) => numbers[place].into(),
+            Numbers::F32(numbers) => numbers[place].into(),
+            Numbers::F64(numbers) => numbers[place],
+        }
+    }
+
+    fn places(&self) -> usize {
+        match &self.numbers {
+            Numbers::U8(numbers) => numbers.len(),
+            Numbers::I32(numbers) => numbers.len(),
+            Numbers::U32(numbers) => numbers.len(),
+            Numbers::F32(numbers) => numbers.len(),
+            Numbers::F64(numbers) => numbers.len(),
+        }
+    }
+
+    /// How many values there are.
+    pub(crate) fn len(&self) -> usize {
+        self.places() / self.lanes
+    }
+
+    /// Whether the numbers are floating.
+    pub(crate) fn is_float(&self) -> bool {
+        matches!(self.numbers, Numbers::F32(_) | Numbers::F64(_))
+    }
+
+    /// One lane of each value; each of these types fits into `f64`.
+    pub(crate) fn lane(&self, lane: usize) -> Vec<f64> {
+        (0..self.len()).map(|index| self.number(index * self.lanes + lane)).collect()
+    }
+
+    /// Each value as one number: scalars as they are, vectors by their length.
+    pub(crate) fn magnitudes(&self) -> Vec<f64> {
+        if self.lanes == 1 {
+            return self.lane(0);
+        }
+        (0..self.len())
+            .map(|index| {
+                let lanes = (0..self.lanes).map(|lane| self.number(index * self.lanes + lane));
+                lanes.map(|lane| lane * lane).sum::<f64>().sqrt()
+            })
+            .collect()
+    }
+
+    /// Values of three lanes as points.
+    pub(crate) fn to_points(&self) -> Vec<[f64; 3]> {
+        (0..self.len()).map(|index| std::array::from_fn(|lane| self.number(index * self.lanes + lane))).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const VECTOR: StoredType = StoredType { scalar: StoredScalar::F32, lanes: 2 };
+
+    #[test]
+    fn bytes_become_numbers() {
+        let bytes: Vec<u8> = [3.0_f32, -4.0, 0.5, 0.0, 1.0, 1.0].iter().flat_map(|x| x.to_ne_bytes()).collect();
+        let plane = Plane::all(VECTOR, &bytes);
+        assert_eq!((plane.len(), plane.is_float()), (3, true));
+        assert_eq!(plane.lane(1), [-4.0, 0.0, 1.0]);
+        assert_eq!(plane.magnitudes()[..2], [5.0, 0.5]);
+        let chosen = Plane::chosen(VECTOR, &bytes, &[2, 0]);
+        assert_eq!(chosen.lane(0), [1.0, 3.0]);
+        assert_eq!((chosen.as_values().len(), chosen.as_values().components()), (2, 2));
+    }
+
+    #[test]
+    fn whole_numbers_stay_what_they_are() {
+        let stored = StoredType { scalar: StoredScalar::U8, lanes: 1 };
+        let plane = Plane::chosen(stored, &[7, 8, 9], &[1, 2]);
+        assert!(!plane.is_float());
+        assert_eq!(plane.magnitudes(), [8.0, 9.0]);
+        assert!(Plane::all(stored, &[]).lane(0).is_empty());
+    }
+}

@@ -1,0 +1,161 @@
+//! `run.json`: everything about a run but its results.
+
+use crate::output::atomic::{WriteError, write_atomically};
+use crate::program::Observable;
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+use std::io::{self, Write as _};
+use std::path::Path;
+use std::time::{SystemTime, UNIX_EPOCH};
+use xca_core::model::GroupKind;
+use xca_core::{AnyParameters, Model, Precision, ScalarType};
+
+/// The report of a run.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct Report {
+    /// The version of the framework; its presence says whose report this is.
+    pub(crate) xca: &'static str,
+    pub(crate) program: &'static str,
+    pub(crate) version: &'static str,
+    pub(crate) command_line: Vec<String>,
+    /// All options of the model, with their defaults.
+    pub(crate) options: Map<String, Value>,
+    /// What the model's program adds.
+    #[serde(flatten)]
+    pub(crate) notes: Map<String, Value>,
+    pub(crate) model: Value,
+    pub(crate) parameters: Map<String, Value>,
+    pub(crate) engine: String,
+    pub(crate) threads: usize,
+    pub(crate) precision: Precision,
+    pub(crate) seed: u64,
+    pub(crate) every: u64,
+    pub(crate) host: Value,
+    pub(crate) started: String,
+    pub(crate) progress: Progress,
+    pub(crate) observables: Vec<Value>,
+    pub(crate) files: Vec<String>,
+}
+
+/// How far a run has come, and what it took.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct Progress {
+    /// `running`, `done`, `stopped`, `interrupted` or `failed`.
+    pub(crate) outcome: &'static str,
+    /// Why it was stopped, or what went wrong.
+    pub(crate) reason: Option<String>,
+    pub(crate) steps: u64,
+    pub(crate) steps_wanted: u64,
+    /// Simulated time, in s where the model knows it.
+    pub(crate) time: f64,
+    pub(crate) time_step: Option<f64>,
+    pub(crate) frames: usize,
+    pub(crate) set_up_seconds: f64,
+    pub(crate) step_seconds: f64,
+    pub(crate) output_seconds: f64,
+    pub(crate) wall_seconds: f64,
+    pub(crate) steps_per_second: Option<f64>,
+    pub(crate) state_bytes: Option<usize>,
+    pub(crate) peak_memory_bytes: Option<u64>,
+}
+
+impl Report {
+    /// Writes the report, in place of the one before.
+    pub(crate) fn write(&self, path: &Path) -> Result<(), WriteError> {
+        write_atomically(path, |file| {
+            serde_json::to_writer_pretty(&mut *file, self).map_err(io::Error::from)?;
+            file.write_all(b"\n")
+        })
+    }
+}
+
+/// The shape of a model.
+pub(crate) fn of_model(model: &Model) -> Value {
+    let geometry = model.geometry();
+    let groups = model.groups().iter().map(|group| {
+        let fields = group.schema().fields.iter().map(|field| {
+            json!({"name": field.name, "type": field.value_type.to_string()})
+        });
+        let mut value = json!({"name": group.schema().name, "substates": fields.collect::<Vec<_>>()});
+        if let GroupKind::Population { slots, may_leave } = group.kind() {
+            value["slots"] = json!(slots);
+            value["items_may_leave"] = json!(may_leave);
+        }
+        value
+    });
+    json!({
+        "name": model.name(),
+        "cells": geometry.extents(),
+        "cell_side": geometry.side(),
+        "boundaries": geometry.boundaries(),
+        "neighbourhood": geometry.neighbourhood().to_string(),
+        "groups": groups.collect::<Vec<_>>(),
+        "processes": model.processes().iter().map(|process| process.name).collect::<Vec<_>>(),
+    })
+}
+
+/// The values of all parameters by name.
+pub(crate) fn of_parameters(parameters: &dyn AnyParameters) -> Map<String, Value> {
+    let fields = parameters.schema().fields.iter().enumerate();
+    fields
+        .map(|(index, field)| {
+            let value = parameters.value_of(index);
+            let is_whole =
+                matches!(field.value_type.scalar, ScalarType::U8 | ScalarType::I32 | ScalarType::U32);
+            let lane = |lane: &f64| if is_whole { json!(*lane as i64) } else { json!(lane) };
+            let lanes: Vec<Value> = value.lanes().iter().map(lane).collect();
+            let value = if let [lane] = lanes.as_slice() { lane.clone() } else { Value::Array(lanes) };
+            (field.name.to_owned(), value)
+        })
+        .collect()
+}
+
+/// Observables with their first and last values.
+pub(crate) fn of_observables(first: &[Observable], last: &[Observable]) -> Vec<Value> {
+    let pairs = first.iter().zip(last);
+    pairs
+        .map(|(first, last)| {
+            json!({"name": first.name, "unit": first.unit, "initial": first.value, "final": last.value})
+        })
+        .collect()
+}
+
+/// The present time, as `2026-11-22T03:11:18Z`.
+pub(crate) fn now() -> String {
+    let seconds = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
+    date(seconds)
+}
+
+/// A time given in seconds since 1970, in the proleptic Gregorian calendar (H. Hinnant's `civil_from_days`).
+fn date(seconds: u64) -> String {
+    let (days, second) = (seconds / 86_400, seconds % 86_400);
+    let shifted = days + 719_468;
+    let (era, day_of_era) = (shifted / 146_097, shifted % 146_097);
+    let year_of_era = (day_of_era - day_of_era / 1460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
+    let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
+    // Years begin in March here, so that the leap day is the last one.
+    let month = (5 * day_of_year + 2) / 153;
+    let day = day_of_year - (153 * month + 2) / 5 + 1;
+    let (year, month) = if month < 10 { (0, month + 3) } else { (1, month - 9) };
+    let year = year + year_of_era + 400 * era;
+    let (hour, minute, second) = (second / 3600, second / 60 % 60, second % 60);
+    format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}Z")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dates_are_those_of_the_calendar() {
+        for (seconds, text) in [
+            (0, "1970-01-01T00:00:00Z"),
+            (951_782_400, "2000-02-29T00:00:00Z"),
+            (951_868_799, "2000-02-29T23:59:59Z"),
+            (1_709_210_096, "2024-02-29T12:34:56Z"),
+            (4_107_542_400, "2100-03-01T00:00:00Z"),
+        ] {
+            assert_eq!(date(seconds), text);
+        }
+    }
+}
