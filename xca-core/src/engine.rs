@@ -1,6 +1,9 @@
 //! What an engine is to a simulation.
 
+use crate::geometry::Geometry;
+use crate::kernel::{BEYOND_NEIGHBOURHOOD, RowFault};
 use crate::model::Model;
+use crate::process::Process;
 use crate::reduction::{Reduced, Reduction};
 use crate::value::Precision;
 use std::any::Any;
@@ -264,6 +267,27 @@ impl fmt::Display for Fault {
 impl std::error::Error for Fault {}
 
 impl Fault {
+    /// A fault that a kernel recorded, as the host sees it.
+    pub fn reported(process: &Process, fault: RowFault, geometry: &Geometry) -> Self {
+        let cell = geometry.indices(fault.cell as usize);
+        if fault.code == BEYOND_NEIGHBOURHOOD {
+            let size = geometry.neighbourhood().size();
+            return Self::BeyondNeighbourhood {
+                process: process.name,
+                cell,
+                index: fault.value as u32,
+                size,
+            };
+        }
+        Self::Reported {
+            process: process.name,
+            cell,
+            label: fault.label,
+            code: fault.code,
+            value: fault.value,
+        }
+    }
+
     /// The fault that a panic of a process's code is.
     pub fn panicked(process: &'static str, panic: &(dyn Any + Send)) -> Self {
         let message = panic

@@ -21,6 +21,7 @@ use std::ops::Range;
 mod constants;
 mod search;
 mod space;
+mod wide;
 
 pub use constants::{KernelConstant, Ordered, constant};
 pub use search::{CellFilter, Found, Scratch, reach};

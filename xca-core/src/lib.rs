@@ -1,4 +1,85 @@
-//! Extended Cellular Automata.
+//! Extended Cellular Automata: write a model once, run it on every engine.
+//!
+//! An Extended Cellular Automaton is a space of cells, each with a state that is made of named *substates*; *parameters* that all cells
+//! share; a *neighbourhood*; *elementary processes* that change the state of all cells at once, one after the other; and *steering*, global
+//! operations between steps (Di Gregorio and Serra, *Future Generation Computer Systems* 16, 1999). Cells can have *slots* that hold
+//! items, particles for example; all items of a kind are a *population*.
+//!
+//! # A model
+//! A fire that spreads through a forest:
+//!
+//! ```
+//! use xca_core::prelude::*;
+//!
+//! #[derive(Substates, Clone, Copy)]
+//! struct Forest {
+//!     tree: u8,
+//!     fuel: Real,
+//! }
+//!
+//! #[derive(Parameters, Clone, Debug)]
+//! struct Fire {
+//!     spread: Real,
+//!     burning_rate: Real,
+//! }
+//!
+//! const GREEN: u8 = 0;
+//! const BURNING: u8 = 1;
+//! const ASH: u8 = 2;
+//!
+//! #[elementary_process]
+//! fn burn(cell: &mut Cell<Forest>, p: &Fire) {
+//!     match cell.tree {
+//!         GREEN => {
+//!             for n in 1..cell.neighbours() {
+//!                 if cell.neighbour(n).tree == BURNING && cell.random(n) < p.spread {
+//!                     cell.tree = BURNING;
+//!                 }
+//!             }
+//!         }
+//!         BURNING => {
+//!             cell.fuel -= p.burning_rate;
+//!             if cell.fuel <= 0.0 {
+//!                 cell.tree = ASH;
+//!             }
+//!         }
+//!         _ => {}
+//!     }
+//! }
+//!
+//! let model = Model::builder("forest fire")
+//!     .extents([64, 64, 1])
+//!     .neighbourhood(Neighbourhood::moore_2d(1))
+//!     .substates::<Forest>()
+//!     .parameters(Fire { spread: 0.3, burning_rate: 0.25 })
+//!     .process(burn)
+//!     .fill(|cell| Forest { tree: if cell == [32, 32, 0] { BURNING } else { GREEN }, fuel: 1.0 })
+//!     .stop_when(Schedule::Every(1), |state| {
+//!         let burning = state.count(Forest::TREE, BURNING)?;
+//!         Ok((burning == 0).then(|| "the fire is out".to_owned()))
+//!     })
+//!     .build()?;
+//!
+//! let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
+//! let outcome = simulation.run(10_000)?;
+//! assert_eq!(outcome, Outcome::Stopped { reason: "the fire is out".to_owned() });
+//! assert!(simulation.state().count(Forest::TREE, ASH)? > 1_000);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! | to | see |
+//! |---|---|
+//! | know what a process can say | [`elementary_process`], [`Cell`], [`Slot`] |
+//! | share code between processes | [`helper`] |
+//! | have items that move from cell to cell | [`ModelBuilder::population`], [`migration`] |
+//! | put a model together | [`ModelBuilder`], [`Neighbourhood`], [`Boundary`] |
+//! | look at a state and change it | [`State`] |
+//! | run | [`Simulation`], [`Reference`], and the crate `xca-cpu` |
+//!
+//! # A step
+//! Processes run in the order in which they were added; each sees the state that the previous one left. A process writes its own cell
+//! only: neighbours show the state from before this process, the own cell what the process has written already. So the result
+//! does not depend on the order of cells, and every engine gives the same bits at any number of threads.
 
 // The macros name this crate by its outer name, also in its own tests and documentation.
 extern crate self as xca_core;

@@ -60,24 +60,6 @@ impl Process {
             Of::Companion => self.companion.unwrap_or(self.subject),
         }
     }
-
-    /// How it uses the subject's field with this number, all accesses taken together.
-    pub fn use_of(&self, of: Of, field: usize) -> (bool, bool, bool) {
-        self.access.iter().filter(|access| access.of == of && access.field == field).fold(
-            (false, false, false),
-            |(centre, others, write), access| {
-                (centre || access.centre, others || access.others, write || access.write)
-            },
-        )
-    }
-
-    /// The names of the substates that it writes.
-    pub fn writes(&self) -> impl Iterator<Item = &'static str> + '_ {
-        self.access
-            .iter()
-            .filter(|access| access.write)
-            .map(|access| self.group(access.of).schema.fields[access.field].name)
-    }
 }
 
 /// A function marked `#[elementary_process]` or `#[migration]`.

@@ -31,6 +31,14 @@ macro_rules! vector {
             }
         }
 
+        impl<T> $name<T> {
+            /// The vector of the results for each lane.
+            #[inline(always)]
+            pub fn map<U>(self, mut each: impl FnMut(T) -> U) -> $name<U> {
+                $name { $first: each(self.$first) $(, $lane: each(self.$lane))+ }
+            }
+        }
+
         impl<T: Copy> $name<T> {
             /// The vector with the same value in each lane.
             #[inline(always)]

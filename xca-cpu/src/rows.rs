@@ -13,8 +13,7 @@ use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use xca_core::engine::{Fault, StepContext, SubstateId};
 use xca_core::kernel::{
-    Access, BEYOND_NEIGHBOURHOOD, CellFilter, Entry, Frame, Of, Row, RowFault, RowItems, RowKernel, STAY,
-    Scratch,
+    Access, CellFilter, Entry, Frame, Of, Row, RowFault, RowItems, RowKernel, STAY, Scratch,
 };
 use xca_core::{Boundary, Model, Parity, Precision, Process, ProcessKind};
 
@@ -298,7 +297,11 @@ impl Pass<'_> {
                 let cells =
                     Cells { first, origin: [0, y as u32, z as u32], length: self.layout.width(), own };
                 if let Some(fault) = self.run_row(prepared, &cells, *population, &mut work) {
-                    found.keep(prepared.index, fault.cell, reported(model, prepared.process, fault));
+                    found.keep(
+                        prepared.index,
+                        fault.cell,
+                        Fault::reported(prepared.process, fault, model.geometry()),
+                    );
                 }
                 if let (ProcessKind::Migration, Some(population)) = (prepared.process.kind, population) {
                     self.collect_movers(population, row, &work.answers, &mut found.movers);
@@ -414,15 +417,4 @@ struct Cells {
     length: usize,
     /// Their items.
     own: (usize, usize),
-}
-
-/// The fault as the host sees it.
-fn reported(model: &Model, process: &Process, fault: RowFault) -> Fault {
-    let geometry = model.geometry();
-    let cell = geometry.indices(fault.cell as usize);
-    if fault.code == BEYOND_NEIGHBOURHOOD {
-        let size = geometry.neighbourhood().size();
-        return Fault::BeyondNeighbourhood { process: process.name, cell, index: fault.value as u32, size };
-    }
-    Fault::Reported { process: process.name, cell, label: fault.label, code: fault.code, value: fault.value }
 }

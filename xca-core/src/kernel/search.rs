@@ -4,8 +4,9 @@
 //! neighbour index, then label. An engine may therefore leave out cells that are too far away ([`CellFilter`]).
 
 use super::Row;
+use super::wide::{self, Wide};
 use crate::neighbourhood::{Neighbourhood, Parity};
-use crate::value::Float;
+use crate::value::{Float, Precision};
 use crate::vector::Vector3;
 use std::cell::RefCell;
 use std::ops::Range;
@@ -51,6 +52,8 @@ pub struct CellFilter {
     /// For a neighbourhood that is a whole box: the offsets of a step along y and along z.
     steps: Option<[isize; 2]>,
     slack: f64,
+    /// The processor's way to look at several items at a time, where it has one.
+    wide: Option<Wide>,
 }
 
 /// The displacements, from the lowest to the highest along each axis, of the cells that a sphere can touch.
@@ -76,7 +79,7 @@ impl CellFilter {
         // The centre comes first; the others as in a box, if all of it is there.
         let ordered = displacements[1..].is_sorted_by_key(|[x, y, z]| [*z, *y, *x]);
         let steps = (displacements.len() == size && ordered).then_some(steps);
-        Some(Self { displacements, reach: reach.map(|reach| reach as i32), steps, slack })
+        Some(Self { displacements, reach: reach.map(|reach| reach as i32), steps, slack, wide: Wide::detect() })
     }
 
     /// What a sphere around a position in the cell with these indices can touch.
@@ -138,7 +141,8 @@ impl<'a> Row<'a> {
         let touched = match self.frame.filter {
             Some(filter) if REACH != reach::CELL => {
                 let [first, y, z] = self.origin;
-                let place = [position.x, position.y, position.z].map(Float::to_f64);
+                let Vector3 { x: across, y: along, z: up } = position.map(Float::to_f64);
+                let place = [across, along, up];
                 let cell = [first + x as u32, y, z];
                 Some((filter, filter.touched(cell, self.frame.side, place, radius.to_f64())))
             }
@@ -151,6 +155,10 @@ impl<'a> Row<'a> {
                     length_squared(self.nearest_image(position - other)) < reach
                 });
             });
+        } else if let (Some((CellFilter { wide: Some(wide), .. }, _)), Precision::F64) = (touched, R::PRECISION) {
+            let (positions, place) = (bytemuck::cast_slice(positions), position.map(Float::to_f64));
+            let sphere = wide::Sphere { centre: place, square: reach.to_f64() };
+            self.ranges::<REACH>(x, touched, |range| wide.keep(range, item, positions, sphere, found));
         } else {
             self.ranges::<REACH>(x, touched, |range| {
                 keep(range, item, positions, found, |other| length_squared(position - other) < reach);
@@ -252,7 +260,7 @@ impl<'a> Row<'a> {
 }
 
 #[inline(always)]
-fn length_squared<R: Float>(vector: Vector3<R>) -> R {
+pub(super) fn length_squared<R: Float>(vector: Vector3<R>) -> R {
     vector.x * vector.x + vector.y * vector.y + vector.z * vector.z
 }
 
@@ -261,7 +269,7 @@ fn length_squared<R: Float>(vector: Vector3<R>) -> R {
 /// Whether an item is near is a toss of a coin for the processor, so there is no branch on it: each number is written, and the
 /// list grows only where it is kept.
 #[inline(always)]
-fn keep<R: Float>(
+pub(super) fn keep<R: Float>(
     range: Range<usize>,
     item: usize,
     positions: &[Vector3<R>],

@@ -6,7 +6,7 @@
 use super::{GroupState, ReferenceExecution, neighbourhood};
 use crate::engine::{Fault, StepContext, SubstateId};
 use crate::geometry::Boundary;
-use crate::kernel::{Access, BEYOND_NEIGHBOURHOOD, Entry, Frame, Row, RowFault, RowItems, Scratch};
+use crate::kernel::{Access, Entry, Frame, Row, RowItems, Scratch};
 use crate::process::{Process, ProcessKind};
 use crate::storage::Buffer;
 
@@ -74,7 +74,7 @@ impl ReferenceExecution {
             }
         }
         if let Some(fault) = first_fault {
-            return Err(reported(process, fault, &geometry));
+            return Err(Fault::reported(process, fault, &geometry));
         }
         for pass in passes {
             if let Some(next) = pass.next {
@@ -132,16 +132,6 @@ impl ReferenceExecution {
         };
         Entry { read, write }
     }
-}
-
-/// The fault as the host sees it.
-pub(super) fn reported(process: &Process, fault: RowFault, geometry: &crate::geometry::Geometry) -> Fault {
-    let cell = geometry.indices(fault.cell as usize);
-    if fault.code == BEYOND_NEIGHBOURHOOD {
-        let size = geometry.neighbourhood().size();
-        return Fault::BeyondNeighbourhood { process: process.name, cell, index: fault.value as u32, size };
-    }
-    Fault::Reported { process: process.name, cell, label: fault.label, code: fault.code, value: fault.value }
 }
 
 impl GroupState {
