@@ -70,3 +70,16 @@ pub fn inward_normal(face: u8) -> Vector3<Real> {
         _ => Vector3::new(0.0, 0.0, -1.0),
     }
 }
+
+/// Whether a place, in units of the cell side, is beyond this face of a domain of so many cells.
+#[helper]
+pub fn is_beyond(face: u8, place: Vector3<Real>, extents: Vector3<i32>) -> bool {
+    match face {
+        0 => place.x < 0.0,
+        1 => place.x >= extents.x as Real,
+        2 => place.y < 0.0,
+        3 => place.y >= extents.y as Real,
+        4 => place.z < 0.0,
+        _ => place.z >= extents.z as Real,
+    }
+}

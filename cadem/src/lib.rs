@@ -56,7 +56,7 @@
 //! # What stops a run
 //! A cell that would hold more than N items; a particle that moves further than the side of a cell in one step, so that it could pass
 //! another unseen ([`processes::TOO_FAST`]); a velocity that is no number ([`processes::NOT_A_NUMBER`]); a particle that leaves the
-//! domain where no [`Opening`] is. No particle is ever dropped. The error names step, cell and particle.
+//! domain where no [`Opening`] is ([`processes::THROUGH_WALL`]). No particle is ever dropped. The error names step, cell and particle.
 //!
 //! # Slips in the paper
 //! - The mass of 1e-4 kg and the radius of 0.0005 m make a density of 190,986 kg/m^3; 2000 kg/m^3 would be a mass of 1.047e-6 kg. It is

@@ -5,13 +5,13 @@
 //! | sigma_1 | [`reset_forces`] |
 //! | sigma_2 | [`inner_contacts`] |
 //! | sigma_3 | [`outer_contacts`], and [`outer_walls`] under the law [`crate::Walls::PerSlot`] |
-//! | sigma_4 | [`accelerate`] and [`displace`]; which comes first is the integrator |
+//! | sigma_4 | [`accelerate`] and [`displace`]; which comes first is the integrator; before the latter [`guard_walls`], where walls have openings |
 //! | sigma_5 | [`reassign`] |
 //!
 //! Each particle computes the force on itself, so that a process writes its own slot only. BOUNDARY slots have no force and do
 //! not move.
 
-use crate::contact::{particle_force, wall_force};
+use crate::contact::{is_beyond, particle_force, wall_force};
 use crate::material::Material;
 use crate::substates::{BOUNDARY, Dem, PARTICLE};
 use xca_core::prelude::*;
@@ -21,6 +21,9 @@ pub const TOO_FAST: u32 = 1;
 
 /// The code of the fault that a velocity is no number.
 pub const NOT_A_NUMBER: u32 = 2;
+
+/// The code of the fault that a particle passes a wall where it has no opening; the value is its speed, in m/s.
+pub const THROUGH_WALL: u32 = 3;
 
 /// sigma_1: the force on a particle becomes its weight.
 #[elementary_process]
@@ -79,6 +82,21 @@ pub fn outer_walls(me: &mut Slot<Dem>, p: &Material) {
 pub fn accelerate(me: &mut Slot<Dem>, p: &Material) {
     if me.id == PARTICLE {
         me.velocity += me.force * (p.time_step / p.mass);
+    }
+}
+
+/// Where walls have openings, so that particles may leave: reports those that [`displace`] would take through a face of the domain that is
+/// closed at their cell ([`THROUGH_WALL`]). It changes nothing.
+#[elementary_process]
+pub fn guard_walls(me: &mut Slot<Dem>, p: &Material, space: &Space) {
+    if me.id != PARTICLE {
+        return;
+    }
+    let position = me.position + me.velocity * p.time_step;
+    for other in me.others_in_cell() {
+        if other.id == BOUNDARY && is_beyond(other.face, position / space.side(), space.extents()) {
+            me.fault(THROUGH_WALL, me.velocity.length());
+        }
     }
 }
 

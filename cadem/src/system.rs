@@ -5,13 +5,13 @@ use crate::error::CademError;
 use crate::material::Material;
 use crate::particles::{Particle, ParticleError};
 use crate::processes::{
-    NOT_A_NUMBER, TOO_FAST, accelerate, displace, inner_contacts, outer_contacts, outer_walls, reassign,
-    reset_forces,
+    NOT_A_NUMBER, THROUGH_WALL, TOO_FAST, accelerate, displace, guard_walls, inner_contacts, outer_contacts,
+    outer_walls, reassign, reset_forces,
 };
 use crate::substates::Dem;
 use crate::time_step::Integrator;
 use crate::walls::Walls;
-use xca_core::{Float, Item, Model, Neighbourhood, Precision, State, SteeringError};
+use xca_core::{Float, Item, Model, ModelBuilder, Neighbourhood, Precision, State, SteeringError};
 
 /// Builds the model of a system that starts from these particles.
 ///
@@ -33,18 +33,22 @@ pub fn model(configuration: &Configuration, particles: Vec<Particle>) -> Result<
         .parameters(material)
         .fault_text(TOO_FAST, "a particle moves further than the side of a cell in one step (the value is its speed in m/s; a smaller time step helps)")
         .fault_text(NOT_A_NUMBER, "the velocity of a particle is no number (two centres at one place, or an unstable time step)")
+        .fault_text(THROUGH_WALL, "a particle passes a wall where it has no opening (the value is its speed in m/s; a smaller time step or stiffer walls help)")
         .process(reset_forces)
         .process(inner_contacts)
         .process(outer_contacts);
-    if !configuration.openings.is_empty() {
-        builder = builder.items_may_leave::<Dem>();
-    }
     if configuration.walls == Walls::PerSlot {
         builder = builder.process(outer_walls);
     }
+    let open = !configuration.openings.is_empty();
+    if open {
+        builder = builder.items_may_leave::<Dem>();
+    }
+    let moved =
+        |builder: ModelBuilder| if open { builder.process(guard_walls) } else { builder }.process(displace);
     builder = match configuration.integrator {
-        Integrator::SemiImplicit => builder.process(accelerate).process(displace),
-        Integrator::Explicit => builder.process(displace).process(accelerate),
+        Integrator::SemiImplicit => moved(builder.process(accelerate)),
+        Integrator::Explicit => moved(builder).process(accelerate),
     };
     let configuration = configuration.clone();
     let initialise = move |state: &mut State<'_>| initialise(state, &configuration, &material, &particles);

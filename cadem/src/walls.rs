@@ -122,7 +122,7 @@ impl fmt::Display for Face {
 }
 
 /// A hole in a wall: a face, or a rectangle of its cells, without BOUNDARY slots. Particles that pass it leave the domain and are
-/// counted.
+/// counted. Under [`Walls::PerSlot`] the pieces of wall around a hole reach one cell into it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Opening {

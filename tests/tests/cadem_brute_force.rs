@@ -86,8 +86,8 @@ fn difference_after(
     let mut largest = 0.0_f64;
     for (particle, (label, position)) in cadem::particles(&simulation.state())?.iter().zip(expected) {
         assert_eq!(particle.label, label);
-        for axis in 0..3 {
-            largest = largest.max((particle.position[axis] - position[axis]).abs());
+        for (found, expected) in particle.position.into_iter().zip(position) {
+            largest = largest.max((found - expected).abs());
         }
     }
     Ok(largest)

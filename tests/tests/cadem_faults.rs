@@ -137,6 +137,24 @@ fn a_particle_shot_through_a_wall_stops_the_run() -> TestResult {
     let (_, fault, message) = fault_of(simulation.run(3).expect_err("out of the box"));
     assert_eq!(fault, Fault::Left { process: "reassign", label: 8, cell: [1, 1, 0] });
     assert!(message.contains("item 8"), "{message}");
+    // Nor where the wall has an opening elsewhere.
+    for walls in Walls::ALL {
+        let hole = Rectangle { first: [0, 0], last: [0, 0] };
+        let openings = vec![Opening { face: Face::ZLow, cells: Some(hole) }];
+        let configuration = Configuration { walls, openings, ..configuration.clone() };
+        let mut simulation =
+            start(&configuration, vec![moving(8, [0.003, 0.003, 0.001], [0.0, 0.0, -170.0])])?;
+        let (step, fault, message) = fault_of(simulation.run(3).expect_err("out of the box"));
+        let Fault::Reported { label: Some(8), code: processes::THROUGH_WALL, value, .. } = fault else {
+            panic!("{fault}")
+        };
+        assert!(step == 1 && (100.0..=170.01).contains(&value), "{message}");
+        // Through the hole it may.
+        let shot = vec![moving(8, [0.001, 0.001, 0.001], [0.0, 0.0, -170.0])];
+        let mut simulation = start(&configuration, shot)?;
+        simulation.run(3)?;
+        assert_eq!(simulation.state().count_left::<Dem>()?, 1);
+    }
     Ok(())
 }
 
