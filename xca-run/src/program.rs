@@ -8,7 +8,8 @@ use xca_core::{ParameterError, Parameters, Precision, philox};
 /// Any error. Its causes are shown below it, each on a line of its own.
 pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 
-/// A model's program: a struct whose fields are the options that only this model has.
+/// A model's program: a struct whose fields are the options that only this model has. A model without such options needs no struct:
+/// see [`crate::main_of`].
 ///
 /// [`crate::main()`] makes a whole program of it. The options that all models share (`--engine`, `--steps`, `--set`, `--out`, …)
 /// come with it; a field must not be named like one of them.
@@ -39,7 +40,7 @@ pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 ///     const NAME: &'static str = "forest";
 ///     const ABOUT: &'static str = "A fire in a forest";
 ///
-///     fn set_up(&self, _given: &Given) -> Result<SetUp, Failure> {
+///     fn set_up(&self, _given: Given) -> Result<SetUp, Failure> {
 ///         let middle = [self.size / 2, self.size / 2, 0];
 ///         let model = Model::builder("forest")
 ///             .extents([self.size, self.size, 1])
@@ -73,7 +74,7 @@ pub trait Program: clap::Args {
     ///
     /// # Errors
     /// Where the options make no sense. The program then ends with exit code 2.
-    fn set_up(&self, given: &Given) -> Result<SetUp, Failure>;
+    fn set_up(&self, given: Given) -> Result<SetUp, Failure>;
 }
 
 /// What the command line says for every model, as far as it bears on the model itself.
@@ -102,30 +103,16 @@ impl Given {
         Ok(parameters)
     }
 
-    /// Random numbers for the initial state, as the seed makes them.
-    pub fn random(&self) -> InitialRandom {
-        InitialRandom { seed: self.seed }
-    }
-}
-
-/// Random numbers for an initial state: each a function of the seed, a cell and the number of the draw.
-///
-/// ```
-/// let given = xca_run::Given { seed: 7, ..Default::default() };
-/// let random = given.random();
-/// let number = random.number([3, 4, 0], 0);
-/// assert!((0.0..1.0).contains(&number));
-/// assert_eq!(number, random.number([3, 4, 0], 0));
-/// assert_ne!(number, random.number([4, 3, 0], 0));
-/// ```
-#[derive(Debug, Clone, Copy)]
-pub struct InitialRandom {
-    seed: u64,
-}
-
-impl InitialRandom {
-    /// A number in [0, 1), with 32 random bits.
-    pub fn number(self, cell: [usize; 3], draw: u32) -> f64 {
+    /// A random number in [0, 1) for the initial state: a function of the seed, the cell and the number of the draw.
+    ///
+    /// ```
+    /// let given = xca_run::Given { seed: 7, ..Default::default() };
+    /// let number = given.random([3, 4, 0], 0);
+    /// assert!((0.0..1.0).contains(&number));
+    /// assert_eq!(number, given.random([3, 4, 0], 0));
+    /// assert_ne!(number, given.random([4, 3, 0], 0));
+    /// ```
+    pub fn random(&self, cell: [usize; 3], draw: u32) -> f64 {
         let [x, y, z] = cell.map(|index| index as u32);
         // Processes have the plain seed as their key; the initial state has another, so that no process sees its numbers again.
         let key = [self.seed as u32 ^ 0x696e_6974, (self.seed >> 32) as u32 ^ 0x6961_6c21];
@@ -205,10 +192,9 @@ mod tests {
 
     #[test]
     fn random_numbers_of_the_initial_state_are_spread_evenly() {
-        let random = Given { seed: 1, ..Given::default() }.random();
-        let below =
-            (0..100_usize).flat_map(|x| (0..100).map(move |y| [x, y, 0])).filter(|&cell| random.number(cell, 0) < 0.3);
-        let below = below.count();
+        let given = Given { seed: 1, ..Given::default() };
+        let cells = (0..100).flat_map(|x| (0..100).map(move |y| [x, y, 0]));
+        let below = cells.filter(|&cell| given.random(cell, 0) < 0.3).count();
         // Three standard deviations are 137.
         assert!((2863..=3137).contains(&below), "{below}");
     }

@@ -6,7 +6,8 @@ mod items;
 mod measure;
 mod values;
 
-pub(crate) use folder::{FolderError, RunFolder};
+pub use folder::FolderError;
+pub(crate) use folder::RunFolder;
 
 use crate::output::atomic::WriteError;
 use crate::output::particle_csv::WriteParticlesError;

@@ -1,5 +1,6 @@
 //! `run.json`: everything about a run but its results.
 
+use crate::machine::cores;
 use crate::output::atomic::{WriteError, write_atomically};
 use crate::program::Observable;
 use serde::Serialize;
@@ -8,7 +9,7 @@ use std::io::{self, Write as _};
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 use xca_core::model::GroupKind;
-use xca_core::{AnyParameters, Model, Precision, ScalarType};
+use xca_core::{AnyParameters, Boundary, Model, Precision, ScalarType};
 
 /// The report of a run.
 #[derive(Debug, Clone, Serialize)]
@@ -23,17 +24,17 @@ pub(crate) struct Report {
     /// What the model's program adds.
     #[serde(flatten)]
     pub(crate) notes: Map<String, Value>,
-    pub(crate) model: Value,
+    pub(crate) model: ModelReport,
     pub(crate) parameters: Map<String, Value>,
     pub(crate) engine: String,
     pub(crate) threads: usize,
     pub(crate) precision: Precision,
     pub(crate) seed: u64,
     pub(crate) every: u64,
-    pub(crate) host: Value,
+    pub(crate) host: Host,
     pub(crate) started: String,
     pub(crate) progress: Progress,
-    pub(crate) observables: Vec<Value>,
+    pub(crate) observables: Vec<ObservableReport>,
     pub(crate) files: Vec<String>,
 }
 
@@ -70,28 +71,72 @@ impl Report {
 }
 
 /// The shape of a model.
-pub(crate) fn of_model(model: &Model) -> Value {
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct ModelReport {
+    name: String,
+    cells: [usize; 3],
+    cell_side: f64,
+    boundaries: [Boundary; 3],
+    neighbourhood: String,
+    groups: Vec<GroupReport>,
+    processes: Vec<&'static str>,
+}
+
+/// Substates that belong together.
+#[derive(Debug, Clone, Serialize)]
+struct GroupReport {
+    name: &'static str,
+    substates: Vec<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    slots: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    items_may_leave: Option<bool>,
+}
+
+/// The machine.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct Host {
+    cores: Option<usize>,
+    system: &'static str,
+    processor: &'static str,
+}
+
+/// A quantity before the first step and after the last.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct ObservableReport {
+    name: String,
+    unit: String,
+    initial: f64,
+    #[serde(rename = "final")]
+    last: f64,
+}
+
+/// The shape of a model.
+pub(crate) fn of_model(model: &Model) -> ModelReport {
     let geometry = model.geometry();
     let groups = model.groups().iter().map(|group| {
-        let fields = group.schema().fields.iter().map(|field| {
-            json!({"name": field.name, "type": field.value_type.to_string()})
-        });
-        let mut value = json!({"name": group.schema().name, "substates": fields.collect::<Vec<_>>()});
-        if let GroupKind::Population { slots, may_leave } = group.kind() {
-            value["slots"] = json!(slots);
-            value["items_may_leave"] = json!(may_leave);
-        }
-        value
+        let (slots, items_may_leave) = match group.kind() {
+            GroupKind::Population { slots, may_leave } => (Some(*slots), Some(*may_leave)),
+            GroupKind::Cells { .. } => (None, None),
+        };
+        let fields = group.schema().fields.iter();
+        let substates = fields.map(|field| format!("{}: {}", field.name, field.value_type)).collect();
+        GroupReport { name: group.schema().name, substates, slots, items_may_leave }
     });
-    json!({
-        "name": model.name(),
-        "cells": geometry.extents(),
-        "cell_side": geometry.side(),
-        "boundaries": geometry.boundaries(),
-        "neighbourhood": geometry.neighbourhood().to_string(),
-        "groups": groups.collect::<Vec<_>>(),
-        "processes": model.processes().iter().map(|process| process.name).collect::<Vec<_>>(),
-    })
+    ModelReport {
+        name: model.name().to_owned(),
+        cells: geometry.extents(),
+        cell_side: geometry.side(),
+        boundaries: geometry.boundaries(),
+        neighbourhood: geometry.neighbourhood().to_string(),
+        groups: groups.collect(),
+        processes: model.processes().iter().map(|process| process.name).collect(),
+    }
+}
+
+/// The machine that this program runs on.
+pub(crate) fn of_host() -> Host {
+    Host { cores: cores(), system: std::env::consts::OS, processor: std::env::consts::ARCH }
 }
 
 /// The values of all parameters by name.
@@ -111,13 +156,14 @@ pub(crate) fn of_parameters(parameters: &dyn AnyParameters) -> Map<String, Value
 }
 
 /// Observables with their first and last values.
-pub(crate) fn of_observables(first: &[Observable], last: &[Observable]) -> Vec<Value> {
-    let pairs = first.iter().zip(last);
-    pairs
-        .map(|(first, last)| {
-            json!({"name": first.name, "unit": first.unit, "initial": first.value, "final": last.value})
-        })
-        .collect()
+pub(crate) fn of_observables(first: &[Observable], last: &[Observable]) -> Vec<ObservableReport> {
+    let pairs = first.iter().zip(last).map(|(first, last)| ObservableReport {
+        name: first.name.clone(),
+        unit: first.unit.clone(),
+        initial: first.value,
+        last: last.value,
+    });
+    pairs.collect()
 }
 
 /// The present time, as `2026-11-22T03:11:18Z`.

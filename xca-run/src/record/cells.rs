@@ -90,8 +90,13 @@ impl<'a> Cells<'a> {
         };
         scalar.range = self.view.range.or(range.map(wider));
         let [columns, rows, layers] = self.geometry.extents();
-        let kinds: Vec<(f64, &str)> =
+        let mut kinds: Vec<(f64, &str)> =
             self.view.kinds.iter().map(|(value, name)| (*value, name.as_str())).collect();
+        let is_plain = kinds.is_empty() && self.view.map.is_none() && self.view.range.is_none();
+        // Cells that are 0 or 1 need no scale.
+        if is_plain && !is_float && values.iter().all(|value| [0.0, 1.0].contains(value)) {
+            kinds = vec![(0.0, "0"), (1.0, "1")];
+        }
         let mut picture = SlicePicture::new(columns, rows, scalar);
         picture.categories = &kinds;
         picture.title = title;

@@ -1,0 +1,30 @@
+//! Conway's Game of Life on a torus, from a random soup.
+use xca_run::prelude::*;
+
+#[derive(Substates, Clone)]
+struct Life {
+    alive: u8,
+}
+
+#[elementary_process]
+fn evolve(cell: &mut Cell<Life>) {
+    let mut count = 0;
+    for n in 1..cell.neighbours() {
+        count += cell.neighbour(n).alive;
+    }
+    cell.alive = if count == 3 || (count == 2 && cell.alive == 1) { 1 } else { 0 };
+}
+
+fn main() -> ExitCode {
+    xca_run::main_of("life", "Conway's Game of Life on a torus", |given| {
+        let model = Model::builder("life")
+            .extents([256, 256, 1])
+            .neighbourhood(Neighbourhood::moore_2d(1))
+            .boundary(Boundary::Toroidal)
+            .substates::<Life>()
+            .process(evolve)
+            .fill(move |cell| Life { alive: u8::from(given.random(cell, 0) < 0.3) })
+            .build()?;
+        Ok(SetUp::new(model, 1000))
+    })
+}

@@ -1,0 +1,158 @@
+//! The command line of a model's program.
+
+mod arguments;
+mod config;
+mod parse;
+mod run;
+
+pub use config::ConfigError;
+
+use crate::interrupt::EXIT_INTERRUPTED;
+use crate::program::{Failure, Given, Program};
+use crate::set_up::SetUp;
+use crate::terminal;
+use clap::{ArgMatches, Command};
+use std::ffi::OsString;
+use std::panic::{self, RefUnwindSafe};
+use std::process::ExitCode;
+use std::sync::{Mutex, PoisonError};
+
+/// What every program's `--help` says of its exit codes.
+const EXIT_CODES: &str = "\
+Exit codes:
+  0    the run is done, or the model stopped it
+  1    the run failed: a fault of the model, or files that could not be written
+  2    the command line, a file or the model makes no sense; nothing was run
+  130  interrupted: the first Ctrl-C (or SIGTERM) ends the run after its current
+       step with all files complete, a second one ends it at once";
+
+/// The exit code of a run that failed.
+const FAILED: u8 = 1;
+/// The exit code of a run that could not begin.
+const REFUSED: u8 = 2;
+
+/// How a command ended that did what it was asked to.
+enum Ended {
+    Done,
+    Interrupted,
+}
+
+/// Why a command did not.
+enum Unable {
+    /// Nothing was run.
+    Refused(Failure),
+    /// The run failed.
+    Failed(Failure),
+    /// The parser of the command line says why, or shows the help that was asked for.
+    CommandLine(clap::Error),
+}
+
+impl Unable {
+    fn refused(error: impl Into<Failure>) -> Self {
+        Self::Refused(error.into())
+    }
+
+    fn failed(error: impl Into<Failure>) -> Self {
+        Self::Failed(error.into())
+    }
+}
+
+/// A program as the command line needs it.
+struct Definition<'a> {
+    name: &'static str,
+    about: &'static str,
+    version: &'static str,
+    examples: &'static str,
+    /// Adds the options of the model.
+    options: fn(Command) -> Command,
+    set_up: &'a SetUpModel<'a>,
+}
+
+type SetUpModel<'a> = dyn Fn(&ArgMatches, Given) -> Result<SetUp, Unable> + RefUnwindSafe + 'a;
+
+/// A whole program: reads the command line, runs the model, reports.
+///
+/// `fn main() -> ExitCode { xca_run::main::<MyModel>() }` is all that a model's program needs beside its model. Errors are shown as one line
+/// and the lines of their causes; the exit codes are those that `--help` lists.
+pub fn main<P: Program>() -> ExitCode {
+    main_with(&Definition {
+        name: P::NAME,
+        about: P::ABOUT,
+        version: P::VERSION,
+        examples: P::EXAMPLES,
+        options: P::augment_args,
+        set_up: &|matches, given| {
+            let program = P::from_arg_matches(matches).map_err(Unable::CommandLine)?;
+            program.set_up(given).map_err(Unable::Refused)
+        },
+    })
+}
+
+/// As [`main()`], of a model that has no options of its own: its name, a line about it, and how it is made.
+pub fn main_of(
+    name: &'static str,
+    about: &'static str,
+    set_up: impl Fn(Given) -> Result<SetUp, Failure> + RefUnwindSafe,
+) -> ExitCode {
+    main_with(&Definition {
+        name,
+        about,
+        version: env!("CARGO_PKG_VERSION"),
+        examples: "--steps 500 --engine reference",
+        options: std::convert::identity,
+        set_up: &|_, given| set_up(given).map_err(Unable::Refused),
+    })
+}
+
+fn main_with(definition: &Definition<'_>) -> ExitCode {
+    let arguments: Vec<OsString> = std::env::args_os().collect();
+    let panics = Panics::caught();
+    match panic::catch_unwind(|| parse::invocation(definition, &arguments).and_then(run::run)) {
+        Ok(Ok(Ended::Done)) => ExitCode::SUCCESS,
+        Ok(Ok(Ended::Interrupted)) => ExitCode::from(EXIT_INTERRUPTED),
+        Ok(Err(Unable::Refused(error))) => {
+            terminal::complain(&*error);
+            ExitCode::from(REFUSED)
+        }
+        Ok(Err(Unable::Failed(error))) => {
+            terminal::complain(&*error);
+            ExitCode::from(FAILED)
+        }
+        Ok(Err(Unable::CommandLine(error))) => {
+            // That no one reads the help to its end is no error.
+            let _ = error.print();
+            if error.use_stderr() { ExitCode::from(REFUSED) } else { ExitCode::SUCCESS }
+        }
+        Err(_) => {
+            terminal::remark(&format!("error: {}", panics.last()));
+            ExitCode::from(FAILED)
+        }
+    }
+}
+
+/// The last panic's message. A panic is a mistake in the program; its user should read a sentence, not a trace, unless he asks for one.
+struct Panics;
+
+static LAST_PANIC: Mutex<Option<String>> = Mutex::new(None);
+
+impl Panics {
+    /// From now on panics are kept, not shown. With `RUST_BACKTRACE` they are shown as always.
+    fn caught() -> Self {
+        if std::env::var_os("RUST_BACKTRACE").is_none() {
+            panic::set_hook(Box::new(|info| {
+                let payload = info.payload();
+                let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
+                let text = text.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_default();
+                let place = info.location().map(|place| format!(" ({}:{})", place.file(), place.line()));
+                let text = format!("{text}{}", place.unwrap_or_default());
+                *LAST_PANIC.lock().unwrap_or_else(PoisonError::into_inner) = Some(text);
+            }));
+        }
+        Self
+    }
+
+    fn last(&self) -> String {
+        let last = LAST_PANIC.lock().unwrap_or_else(PoisonError::into_inner).take();
+        format!("a mistake in the program: {}", last.as_deref().unwrap_or("see above"))
+    }
+}

@@ -1,0 +1,292 @@
+//! The subcommand `run`.
+
+use super::parse::Invocation;
+use super::{Ended, Unable};
+use crate::interrupt::Interrupt;
+use crate::machine::{check_memory, peak_memory};
+use crate::numbers::significant;
+use crate::program::Given;
+use crate::progress::{self, Diagnostic};
+use crate::record::{Recorder, RunFolder};
+use crate::report::{self, Report};
+use crate::set_up::SetUp;
+use crate::terminal;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+use xca_core::{Engine, Model, RunError, RunOptions, Simulation};
+
+/// How many times in a run something is written, unless the command line says how often.
+const OUTPUTS: u64 = 20;
+
+/// Runs the model of a program.
+pub(super) fn run(invocation: Invocation<'_>) -> Result<Ended, Unable> {
+    let begin = Instant::now();
+    let engine = invocation.engine.engine.with_threads(invocation.engine.threads).map_err(Unable::refused)?;
+    let given = invocation.model.given(invocation.run.steps);
+    let set_up = set_up(&invocation, &given)?;
+    let steps = given.steps.unwrap_or(set_up.steps);
+    let recorder = Recorder::new(set_up).map_err(Unable::refused)?;
+    let path =
+        invocation.run.out.clone().unwrap_or_else(|| PathBuf::from("out").join(invocation.definition.name));
+    let folder = RunFolder::prepare(&path, &recorder.files(), &recorder.set_up().inputs);
+    let folder = folder.map_err(Unable::refused)?;
+    let options = RunOptions { precision: given.precision, seed: given.seed };
+    let simulation = Simulation::new(recorder.model(), &*engine, options).map_err(not_started)?;
+    let every = invocation.run.every.unwrap_or((steps / OUTPUTS).max(1));
+    let report = first_report(&invocation, &recorder, &*engine, steps, every);
+    let run = Run {
+        simulation,
+        recorder,
+        report,
+        folder,
+        every,
+        quiet: invocation.run.quiet,
+        set_up: begin.elapsed(),
+        stepping: Duration::ZERO,
+        begin,
+    };
+    run.to_end()
+}
+
+/// The model with its parameters set.
+fn set_up(invocation: &Invocation<'_>, given: &Given) -> Result<SetUp, Unable> {
+    let mut set_up = invocation.set_up(given.clone())?;
+    for parameter in &given.parameters {
+        set_up.model.set_parameter(&parameter.name, &parameter.value).map_err(Unable::refused)?;
+    }
+    let engine = invocation.engine.engine;
+    let memory = engine.least_memory(&set_up.model, given.precision);
+    check_memory(memory, &format!("this model on the {engine} engine")).map_err(Unable::refused)?;
+    Ok(set_up)
+}
+
+/// An initial state that cannot be made is a mistake in what was given.
+fn not_started(error: RunError) -> Unable {
+    match error {
+        RunError::Steering { step: 0, source } => Unable::Refused(source),
+        other => Unable::refused(other),
+    }
+}
+
+fn first_report(
+    invocation: &Invocation<'_>,
+    recorder: &Recorder,
+    engine: &dyn Engine,
+    steps: u64,
+    every: u64,
+) -> Report {
+    let set_up = recorder.set_up();
+    let given = invocation.model.given(None);
+    Report {
+        xca: env!("CARGO_PKG_VERSION"),
+        program: invocation.definition.name,
+        version: invocation.definition.version,
+        command_line: invocation.command_line.clone(),
+        options: invocation.options.clone(),
+        notes: set_up.notes.clone(),
+        model: report::of_model(&set_up.model),
+        parameters: report::of_parameters(set_up.model.parameters()),
+        engine: engine.name().to_owned(),
+        threads: engine.threads(),
+        precision: given.precision,
+        seed: given.seed,
+        every,
+        host: report::of_host(),
+        started: report::now(),
+        progress: report::Progress {
+            outcome: "running",
+            reason: None,
+            steps: 0,
+            steps_wanted: steps,
+            time: 0.0,
+            time_step: set_up.time_step,
+            frames: 0,
+            set_up_seconds: 0.0,
+            step_seconds: 0.0,
+            output_seconds: 0.0,
+            wall_seconds: 0.0,
+            steps_per_second: None,
+            state_bytes: None,
+            peak_memory_bytes: None,
+        },
+        observables: Vec::new(),
+        files: recorder.files(),
+    }
+}
+
+/// A run under way.
+struct Run {
+    simulation: Simulation,
+    recorder: Recorder,
+    report: Report,
+    folder: RunFolder,
+    every: u64,
+    quiet: bool,
+    begin: Instant,
+    set_up: Duration,
+    stepping: Duration,
+}
+
+impl Run {
+    fn to_end(mut self) -> Result<Ended, Unable> {
+        let interrupt = Interrupt::install().map_err(Unable::failed)?;
+        self.say(&self.headline());
+        self.report.write(&self.folder.report()).map_err(Unable::failed)?;
+        let result = self.steps(&interrupt);
+        if let Err(Unable::Failed(error)) = &result {
+            self.report.progress.outcome = "failed";
+            self.report.progress.reason = Some(error.to_string());
+        }
+        self.complete_report();
+        // The first error is the one to tell.
+        let written = self.report.write(&self.folder.report()).map_err(Unable::failed);
+        let ended = result?;
+        written?;
+        self.say(&self.summary());
+        Ok(ended)
+    }
+
+    /// Records the initial state, does the steps, and records the final state.
+    fn steps(&mut self, interrupt: &Interrupt) -> Result<Ended, Unable> {
+        let wanted = self.report.progress.steps_wanted;
+        self.recorder.begin(self.folder.clone(), &mut self.simulation).map_err(Unable::failed)?;
+        let line = if self.quiet { progress::Progress::hidden() } else { progress::Progress::new(Some(wanted)) };
+        let mut batch = Batch::default();
+        while self.simulation.step_number() < wanted
+            && self.simulation.stop_reason().is_none()
+            && !interrupt.is_raised()
+        {
+            let done = self.simulation.step_number();
+            let next_output = (done / self.every + 1).saturating_mul(self.every).min(wanted);
+            let begin = Instant::now();
+            let result = self.simulation.run(batch.steps.min(next_output - done));
+            self.stepping += begin.elapsed();
+            batch.adapt(begin.elapsed());
+            if result.is_err() {
+                line.finish();
+            }
+            result.map_err(Unable::failed)?;
+            let done = self.simulation.step_number();
+            line.at(done);
+            if done.is_multiple_of(self.every) {
+                self.recorder.record(&mut self.simulation).map_err(Unable::failed)?;
+            }
+        }
+        line.finish();
+        self.simulation.finish().map_err(Unable::failed)?;
+        self.recorder.finish(&mut self.simulation).map_err(Unable::failed)?;
+        let done = self.simulation.step_number();
+        let progress = &mut self.report.progress;
+        if let Some(reason) = self.simulation.stop_reason() {
+            progress.outcome = "stopped";
+            progress.reason = Some(reason.to_owned());
+        } else if done < wanted {
+            progress.outcome = "interrupted";
+            return Ok(Ended::Interrupted);
+        } else {
+            progress.outcome = "done";
+        }
+        Ok(Ended::Done)
+    }
+
+    fn complete_report(&mut self) {
+        let (frames, first, last) = self.recorder.results();
+        self.report.observables = report::of_observables(first, last);
+        let steps = self.simulation.step_number();
+        let progress = &mut self.report.progress;
+        progress.steps = steps;
+        progress.time = self.recorder.time(steps);
+        progress.frames = frames;
+        progress.set_up_seconds = self.set_up.as_secs_f64();
+        progress.step_seconds = self.stepping.as_secs_f64();
+        progress.wall_seconds = self.begin.elapsed().as_secs_f64();
+        progress.output_seconds = progress.wall_seconds - progress.set_up_seconds - progress.step_seconds;
+        progress.steps_per_second = (steps > 0).then(|| steps as f64 / progress.step_seconds.max(1e-9));
+        progress.state_bytes = Some(self.simulation.memory());
+        progress.peak_memory_bytes = peak_memory();
+    }
+
+    fn say(&self, text: &str) {
+        if !self.quiet {
+            terminal::say(text);
+        }
+    }
+
+    fn headline(&self) -> String {
+        let Report { engine, threads, precision, progress, .. } = &self.report;
+        let threads = match threads {
+            1 => "1 thread".to_owned(),
+            threads => format!("{threads} threads"),
+        };
+        let time_step = progress.time_step.map(|seconds| format!(" of {} s", significant(seconds, 4)));
+        format!(
+            "{}, {}, {engine} engine with {threads}, {precision}, {} steps{}",
+            self.recorder.model().name(),
+            cells(self.recorder.model()),
+            progress.steps_wanted,
+            time_step.unwrap_or_default(),
+        )
+    }
+
+    fn summary(&self) -> String {
+        let (frames, first, last) = self.recorder.results();
+        let pairs = first.iter().zip(last);
+        let diagnostics: Vec<Diagnostic> = pairs
+            .map(|(first, last)| Diagnostic {
+                name: first.name.clone(),
+                unit: first.unit.clone(),
+                initial: Some(first.value),
+                last: Some(last.value),
+            })
+            .collect();
+        let progress = &self.report.progress;
+        let end = match (progress.outcome, &progress.reason) {
+            ("interrupted", _) => format!("interrupted after {} of {} steps", progress.steps, progress.steps_wanted),
+            (_, Some(reason)) => format!("stopped after {} steps: {reason}", progress.steps),
+            _ => format!("{} steps", progress.steps),
+        };
+        let time = progress.time_step.map(|_| format!(", {} s simulated", significant(progress.time, 6)));
+        let rate = progress.steps_per_second.map(|rate| format!(", {}", progress::rate_text(rate)));
+        let wall = progress::duration_text(Duration::from_secs_f64(progress.wall_seconds));
+        let plain = self.report.files.iter().filter(|file| !file.contains('*')).map(String::as_str);
+        let files: Vec<&str> = plain.chain(["run.json"]).collect();
+        format!(
+            "\n{}\n\n{end}{} in {wall}{}\n{}: {}; {frames} frames",
+            progress::summary(&diagnostics),
+            time.unwrap_or_default(),
+            rate.unwrap_or_default(),
+            self.folder.top.path().display(),
+            files.join(", "),
+        )
+    }
+}
+
+/// How many steps are done at a time: an engine with threads does many faster than one by one, but Ctrl-C and the line that shows how far
+/// the run has come must not wait for long.
+struct Batch {
+    steps: u64,
+}
+
+impl Default for Batch {
+    fn default() -> Self {
+        Self { steps: 1 }
+    }
+}
+
+impl Batch {
+    fn adapt(&mut self, took: Duration) {
+        match took.as_millis() {
+            0..20 => self.steps = self.steps.saturating_mul(2),
+            20..80 => {}
+            _ => self.steps = (self.steps / 2).max(1),
+        }
+    }
+}
+
+/// The number of cells along each axis that has more than one.
+fn cells(model: &Model) -> String {
+    match model.geometry().extents() {
+        [x, y, 1] => format!("{x} x {y} cells"),
+        [x, y, z] => format!("{x} x {y} x {z} cells"),
+    }
+}
