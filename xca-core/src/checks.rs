@@ -67,3 +67,14 @@ impl PatternConstant for usize {}
 
 /// Checks that a constant can stand in a pattern.
 pub const fn pattern<T: PatternConstant>(_constant: &T) {}
+
+/// A struct of substates with a position.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no position, by which a search within a radius finds items",
+    label = "this search needs positions",
+    note = "write `#[position]` above the field of `{Self}` that is the position, a `Vector3<Real>`"
+)]
+pub trait HasPosition {}
+
+/// Checks that items have a position.
+pub const fn position<S: HasPosition>() {}

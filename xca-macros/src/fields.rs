@@ -1,7 +1,8 @@
 //! `derive(Substates)` and `derive(Parameters)`.
 
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Literal, Span, TokenStream};
 use quote::{format_ident, quote};
+use syn::ext::IdentExt;
 use syn::spanned::Spanned;
 use syn::{
     Data, DeriveInput, Error, Fields, GenericArgument, Ident, PathArguments, Result, Type, Visibility,
@@ -28,6 +29,12 @@ pub(crate) fn name_number(name: &str) -> Literal {
     Literal::u64_suffixed(hash)
 }
 
+/// Whether the word is a type of values, not a struct of the user.
+pub(crate) fn is_value_type(word: &str) -> bool {
+    SCALARS.iter().any(|(scalar, _)| *scalar == word)
+        || ["Vector2", "Vector3", "Vector4", "bool", "usize", "str", "String", "Vec"].contains(&word)
+}
+
 /// The name under which the position is found.
 pub(crate) const POSITION: &str = "#position";
 
@@ -35,25 +42,31 @@ fn fields(item: &DeriveInput) -> Result<Vec<Field>> {
     if !item.generics.params.is_empty() {
         return Err(Error::new_spanned(
             &item.generics,
-            "this struct cannot be generic; write `Real` for the floating type",
+            "this struct cannot be generic; write `Real` for the floating type, which the run chooses",
         ));
     }
-    let Data::Struct(data) = &item.data else {
-        return Err(Error::new_spanned(&item.ident, "derive this for a struct whose fields are the values"));
-    };
-    let Fields::Named(named) = &data.fields else {
-        return Err(Error::new_spanned(&item.ident, "give the fields names"));
-    };
-    let mut fields = Vec::new();
+    let needed = "derive this for a struct with named fields: `struct Heat { temperature: Real }`";
+    let Data::Struct(data) = &item.data else { return Err(Error::new_spanned(&item.ident, needed)) };
+    let Fields::Named(named) = &data.fields else { return Err(Error::new_spanned(&item.ident, needed)) };
+    let mut fields: Vec<Field> = Vec::new();
     for field in &named.named {
         let Some(name) = field.ident.clone() else { continue };
+        let twin = fields.iter().find(|other| handle(&other.name) == handle(&name));
+        if let Some(twin) = twin {
+            let twin = &twin.name;
+            return Err(Error::new_spanned(
+                &name,
+                format!("`{name}` and `{twin}` are one word in capitals; choose another name"),
+            ));
+        }
         let (scalar, lanes) = value_type(&field.ty)?;
         let position = field.attrs.iter().any(|attribute| attribute.path().is_ident("position"));
         if position && (scalar != "Real" || lanes != 3) {
             return Err(Error::new_spanned(&field.ty, "a position is a `Vector3<Real>`"));
         }
-        if position && fields.iter().any(|field: &Field| field.position) {
-            return Err(Error::new_spanned(&name, "only one field can be the position"));
+        if let (true, Some(other)) = (position, fields.iter().find(|field| field.position)) {
+            let other = &other.name;
+            return Err(Error::new_spanned(&name, format!("`{other}` is the position already; there can be one only")));
         }
         let documentation =
             field.attrs.iter().filter(|attribute| attribute.path().is_ident("doc")).cloned().collect();
@@ -68,9 +81,14 @@ fn fields(item: &DeriveInput) -> Result<Vec<Field>> {
         });
     }
     if fields.is_empty() {
-        return Err(Error::new_spanned(&item.ident, "there is no field"));
+        return Err(Error::new_spanned(&item.ident, needed));
     }
     Ok(fields)
+}
+
+/// The name in capitals, without `r#`.
+fn handle(name: &Ident) -> String {
+    name.unraw().to_string().to_uppercase()
 }
 
 fn value_type(type_: &Type) -> Result<(&'static str, u8)> {
@@ -104,7 +122,7 @@ fn value_type(type_: &Type) -> Result<(&'static str, u8)> {
 fn schema(item: &DeriveInput, fields: &[Field]) -> TokenStream {
     let struct_name = item.ident.to_string();
     let descriptions = fields.iter().map(|field| {
-        let (name, scalar, lanes) = (field.name.to_string(), &field.scalar, field.lanes);
+        let (name, scalar, lanes) = (field.name.unraw().to_string(), &field.scalar, field.lanes);
         quote! {
             ::xca_core::Field {
                 name: #name,
@@ -127,23 +145,29 @@ fn schema(item: &DeriveInput, fields: &[Field]) -> TokenStream {
 
 /// A type of the user with `Real` replaced by another type.
 pub(crate) fn with_real(type_: &Type, real: &TokenStream) -> TokenStream {
-    replace_real(quote!(#type_), real)
+    let mut type_ = type_.clone();
+    syn::visit_mut::visit_type_mut(&mut ReplaceReal(real), &mut type_);
+    ReplaceReal(real).replace(&mut type_);
+    quote!(#type_)
 }
 
-fn replace_real(tokens: TokenStream, real: &TokenStream) -> TokenStream {
-    tokens
-        .into_iter()
-        .flat_map(|token| match token {
-            proc_macro2::TokenTree::Ident(ident) if ident == "Real" => real.clone(),
-            proc_macro2::TokenTree::Group(group) => {
-                let mut replaced =
-                    proc_macro2::Group::new(group.delimiter(), replace_real(group.stream(), real));
-                replaced.set_span(group.span());
-                proc_macro2::TokenTree::Group(replaced).into()
-            }
-            other => other.into(),
-        })
-        .collect()
+struct ReplaceReal<'a>(&'a TokenStream);
+
+impl ReplaceReal<'_> {
+    fn replace(&self, type_: &mut Type) {
+        if let Type::Path(path) = type_
+            && path.path.segments.last().is_some_and(|last| last.ident == "Real")
+        {
+            *type_ = Type::Verbatim(self.0.clone());
+        }
+    }
+}
+
+impl syn::visit_mut::VisitMut for ReplaceReal<'_> {
+    fn visit_type_mut(&mut self, type_: &mut Type) {
+        syn::visit_mut::visit_type_mut(self, type_);
+        self.replace(type_);
+    }
 }
 
 pub(crate) fn substates(item: &DeriveInput) -> Result<TokenStream> {
@@ -155,7 +179,7 @@ pub(crate) fn substates(item: &DeriveInput) -> Result<TokenStream> {
     let mut handles = TokenStream::new();
     for (index, field) in fields.iter().enumerate() {
         let native = with_real(&field.type_, &real);
-        let mut names = vec![field.name.to_string()];
+        let mut names = vec![field.name.unraw().to_string()];
         if field.position {
             names.push(POSITION.to_owned());
         }
@@ -168,9 +192,9 @@ pub(crate) fn substates(item: &DeriveInput) -> Result<TokenStream> {
                 }
             });
         }
-        let handle = format_ident!("{}", field.name.to_string().to_uppercase(), span = field.name.span());
+        let handle = format_ident!("{}", handle(&field.name), span = field.name.span());
         let (visibility, type_, documentation) = (&field.visibility, &field.type_, &field.documentation);
-        let about = format!("The name of the substate `{}` for the host.", field.name);
+        let about = format!("The name of the substate `{}` for the host.", field.name.unraw());
         let about =
             if documentation.is_empty() { quote!(#[doc = #about]) } else { quote!(#(#documentation)*) };
         handles.extend(quote! {
@@ -179,10 +203,15 @@ pub(crate) fn substates(item: &DeriveInput) -> Result<TokenStream> {
             #visibility const #handle: ::xca_core::Substate<#name, #type_> = ::xca_core::Substate::from_index(#index);
         });
     }
+    let position = fields
+        .iter()
+        .any(|field| field.position)
+        .then(|| quote!(#[automatically_derived] impl ::xca_core::checks::HasPosition for #name {}));
     let indices: Vec<usize> = (0..fields.len()).collect();
     let names: Vec<&Ident> = fields.iter().map(|field| &field.name).collect();
     Ok(quote! {
         #named
+        #position
         impl #name {
             #handles
         }
@@ -208,12 +237,14 @@ pub(crate) fn substates(item: &DeriveInput) -> Result<TokenStream> {
 pub(crate) fn parameters(item: &DeriveInput) -> Result<TokenStream> {
     let fields = fields(item)?;
     if let Some(field) = fields.iter().find(|field| field.scalar == "U8") {
-        return Err(Error::new(field.type_.span(), "a parameter is no u8; use u32"));
+        return Err(Error::new(field.type_.span(), "a parameter cannot be a u8; use u32"));
+    }
+    if let Some(field) = fields.iter().find(|field| field.position) {
+        return Err(Error::new_spanned(&field.name, "only a substate of items can be the position"));
     }
     let name = &item.ident;
     let schema = schema(item, &fields);
-    let visibility = &item.vis;
-    let native_name = format_ident!("{}InKernel", name);
+    let native_name = format_ident!("{}InKernel", name, span = Span::call_site());
     let real = quote!(R);
     let names: Vec<&Ident> = fields.iter().map(|field| &field.name).collect();
     let natives: Vec<TokenStream> = fields.iter().map(|field| with_real(&field.type_, &real)).collect();
@@ -231,36 +262,39 @@ pub(crate) fn parameters(item: &DeriveInput) -> Result<TokenStream> {
         .collect();
     let indices: Vec<usize> = (0..fields.len()).collect();
     Ok(quote! {
-        #[doc(hidden)]
-        #[derive(Clone, Copy, Debug)]
-        #[allow(missing_docs, dead_code)]
-        #visibility struct #native_name<R> {
-            #(pub #names: #natives,)*
-            #[allow(non_snake_case)]
-            pub __real: ::core::marker::PhantomData<R>,
-        }
-        impl ::xca_core::Parameters for #name {
-            #schema
-            type Native<R: ::xca_core::Float> = #native_name<R>;
-
-            fn native<R: ::xca_core::Float>(&self) -> #native_name<R> {
-                #native_name { #(#names: #conversions,)* __real: ::core::marker::PhantomData }
+        const _: () = {
+            #[doc(hidden)]
+            #[derive(Clone, Copy, Debug)]
+            #[allow(dead_code)]
+            pub struct #native_name<R> {
+                #(pub #names: #natives,)*
+                __xca_real: ::core::marker::PhantomData<R>,
             }
 
-            fn value(&self, field: usize) -> ::xca_core::ParameterValue {
-                let value_type = <Self as ::xca_core::Parameters>::SCHEMA.fields[field].value_type;
-                match field {
-                    #(#indices => ::xca_core::ParameterValue::new(value_type, self.#names),)*
-                    _ => ::xca_core::ParameterValue::new(value_type, 0.0),
+            #[automatically_derived]
+            impl ::xca_core::Parameters for #name {
+                #schema
+                type Native<R: ::xca_core::Float> = #native_name<R>;
+
+                fn native<R: ::xca_core::Float>(&self) -> #native_name<R> {
+                    #native_name { #(#names: #conversions,)* __xca_real: ::core::marker::PhantomData }
+                }
+
+                fn value(&self, field: usize) -> ::xca_core::ParameterValue {
+                    let value_type = <Self as ::xca_core::Parameters>::SCHEMA.fields[field].value_type;
+                    match field {
+                        #(#indices => ::xca_core::ParameterValue::new(value_type, self.#names),)*
+                        _ => ::xca_core::ParameterValue::new(value_type, 0.0),
+                    }
+                }
+
+                fn set_value(&mut self, field: usize, value: &::xca_core::ParameterValue) {
+                    match field {
+                        #(#indices => self.#names = value.to(),)*
+                        _ => {}
+                    }
                 }
             }
-
-            fn set_value(&mut self, field: usize, value: &::xca_core::ParameterValue) {
-                match field {
-                    #(#indices => self.#names = value.to(),)*
-                    _ => {}
-                }
-            }
-        }
+        };
     })
 }

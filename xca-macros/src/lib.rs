@@ -46,13 +46,19 @@ pub fn parameters(item: TokenStream) -> TokenStream {
 
 fn expand(attribute: TokenStream, item: TokenStream, wanted: Wanted) -> TokenStream {
     let attribute = proc_macro2::TokenStream::from(attribute);
-    let function = syn::parse_macro_input!(item as syn::ItemFn);
+    let function: syn::ItemFn = match syn::parse(item.clone()) {
+        Ok(function) => function,
+        Err(error) => return no_function(item, wanted, &error).into(),
+    };
     let expanded = if attribute.is_empty() {
         parse::function(&function, wanted).and_then(|parsed| native::expand(&parsed, &function))
     } else {
         Err(syn::Error::new_spanned(
             attribute,
-            "this attribute takes no arguments; what the process runs for follows from its first argument",
+            format!(
+                "{} takes no arguments; what the function works on follows from its arguments",
+                wanted.attribute()
+            ),
         ))
     };
     expanded.unwrap_or_else(|error| fallback(&error, &function, wanted)).into()
@@ -63,16 +69,41 @@ fn fallback(error: &syn::Error, function: &syn::ItemFn, wanted: Wanted) -> proc_
     let messages = error.to_compile_error();
     let (visibility, name) = (&function.vis, &function.sig.ident);
     if wanted == Wanted::Helper {
-        return quote::quote! { #messages };
+        // The function for ordinary code, and for processes a type that is unknown to the compiler because of the error.
+        let mut ordinary = function.clone();
+        ordinary.block = Box::new(syn::parse_quote!({ ::core::unreachable!() }));
+        return quote::quote! {
+            #[allow(warnings)]
+            #ordinary
+
+            #[allow(non_camel_case_types, dead_code)]
+            #[doc(hidden)]
+            #visibility type #name = <::xca_core::checks::Checked<{ #messages true }> as ::xca_core::checks::Then<()>>::Type;
+        };
     }
     quote::quote! {
         #messages
+
         #[allow(non_camel_case_types, missing_docs)]
         #visibility struct #name;
+
+        #[automatically_derived]
         impl ::xca_core::ElementaryProcess for #name {
             fn process() -> ::xca_core::Process {
                 ::core::unreachable!()
             }
         }
+    }
+}
+
+/// The message for an item that is no function.
+fn no_function(item: TokenStream, wanted: Wanted, error: &syn::Error) -> proc_macro2::TokenStream {
+    match syn::parse::<syn::Item>(item) {
+        Ok(item) => {
+            let message = format!("{} stands on a function", wanted.attribute());
+            let message = syn::Error::new_spanned(&item, message).to_compile_error();
+            quote::quote! { #message #item }
+        }
+        Err(_) => error.to_compile_error(),
     }
 }

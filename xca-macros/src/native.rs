@@ -1,29 +1,69 @@
-//! The native side: a type for the model to hold, the kernels, and an unchanged copy of the function for the compiler to check.
+//! The native side: a type for the model to hold, the kernels, and a copy of the function for the compiler to check.
 
 mod body;
+mod check;
+mod expressions;
+mod helper;
 mod kernels;
 
-use crate::access::{GroupOf, Uses, groups};
+use crate::access::{Access, GroupOf, Uses, groups};
 use crate::ast::{Function, FunctionKind, Role};
-use crate::fields::{POSITION, name_number, with_real};
+use crate::fields::{POSITION, name_number};
 use proc_macro2::{Ident, Span, TokenStream};
-use quote::{quote, quote_spanned};
-use syn::Result;
+use quote::{format_ident, quote, quote_spanned};
+use syn::ext::IdentExt;
+use syn::spanned::Spanned;
+use syn::{Attribute, Meta, Result, Type};
 
 /// A name of the generated code that no name of the user can meet.
 fn hidden(name: &str, span: Span) -> Ident {
-    Ident::new(name, Span::mixed_site().located_at(span))
+    format_ident!("__xca_{name}", span = Span::mixed_site().located_at(span))
 }
 
 pub(crate) fn expand(function: &Function, original: &syn::ItemFn) -> Result<TokenStream> {
     match function.kind {
-        FunctionKind::Helper => helper(function, original),
+        FunctionKind::Helper => helper::expand(function, original),
         _ => process(function, original),
     }
 }
 
+/// A type of the user, or nothing that the compiler knows where the check of the function has found an error.
+fn checked(type_: &TokenStream) -> TokenStream {
+    let check = check::name();
+    quote!(<::xca_core::checks::Checked<#check> as ::xca_core::checks::Then<#type_>>::Type)
+}
+
+/// A value of the user, likewise.
+fn checked_value(value: &TokenStream) -> TokenStream {
+    let check = check::name();
+    quote!(<::xca_core::checks::Checked<#check> as ::xca_core::checks::Then<_>>::pass(#value))
+}
+
+/// The attributes that everything made from the function needs.
+fn conditions(function: &Function) -> impl Iterator<Item = &Attribute> {
+    function.attributes.iter().filter(|attribute| attribute.path().is_ident("cfg"))
+}
+
+/// The attributes that set lints. What the user expects may come true in one part of what the function becomes and not in another.
+fn lints(attributes: &[Attribute]) -> Vec<Attribute> {
+    let levels = ["allow", "expect", "warn", "deny"];
+    let mut lints: Vec<Attribute> = attributes
+        .iter()
+        .filter(|attribute| levels.iter().any(|word| attribute.path().is_ident(word)))
+        .cloned()
+        .collect();
+    for attribute in &mut lints {
+        if let Meta::List(list) = &mut attribute.meta
+            && list.path.is_ident("expect")
+        {
+            list.path = Ident::new("allow", list.path.span()).into();
+        }
+    }
+    lints
+}
+
 /// `<S as HasSubstate<…>>` for an access.
-fn substate(access: &crate::access::Access, function: &Function) -> TokenStream {
+fn substate(access: &Access, function: &Function) -> TokenStream {
     let (subject, companion) = groups(function);
     let type_ = match access.group {
         GroupOf::Companion => companion,
@@ -31,26 +71,62 @@ fn substate(access: &crate::access::Access, function: &Function) -> TokenStream 
     };
     let key = match access.group {
         GroupOf::Position => name_number(POSITION),
-        _ => name_number(&access.field.to_string()),
+        _ => name_number(&access.field.unraw().to_string()),
     };
+    let type_ = checked(&quote!(#type_));
     let span = access.field.span();
     quote_spanned!(span=> <#type_ as ::xca_core::HasSubstate<#key>>)
+}
+
+/// What a kernel sees of the parameters.
+fn native_parameters(type_: &Type, real: &TokenStream) -> TokenStream {
+    let type_ = checked(&quote!(#type_));
+    quote!(<#type_ as ::xca_core::Parameters>::Native<#real>)
 }
 
 fn process(function: &Function, original: &syn::ItemFn) -> Result<TokenStream> {
     let data = crate::data::function(function)?;
     let uses = Uses::of(function);
     let (name, visibility) = (&function.name, &function.visibility);
-    let documentation: Vec<_> =
-        function.attributes.iter().filter(|attribute| attribute.path().is_ident("doc")).collect();
-    let text = name.to_string();
+    let kept = function.attributes.iter().filter(|attribute| {
+        ["doc", "cfg", "deprecated"].iter().any(|word| attribute.path().is_ident(word))
+    });
+    let lints = lints(&function.attributes);
+    let conditions: Vec<_> = conditions(function).collect();
+    let description = description(function, &uses, &data);
+    let check = check::check(function, original);
+    Ok(quote! {
+        #(#kept)*
+        #(#lints)*
+        #[allow(non_camel_case_types)]
+        #[derive(Clone, Copy, Debug)]
+        #visibility struct #name;
+
+        #(#conditions)*
+        const _: () = {
+            #check
+
+            #[automatically_derived]
+            impl ::xca_core::ElementaryProcess for #name {
+                fn process() -> ::xca_core::Process {
+                    #description
+                }
+            }
+        };
+    })
+}
+
+/// The `xca_core::Process`.
+fn description(function: &Function, uses: &Uses, data: &TokenStream) -> TokenStream {
+    let name = function.name.unraw().to_string();
     let kind = match function.kind {
         FunctionKind::Cells => quote!(Cells),
         FunctionKind::Items => quote!(Items),
         FunctionKind::Migration | FunctionKind::Helper => quote!(Migration),
     };
     let (subject, companion) = groups(function);
-    let group = |type_: &syn::Type| {
+    let group = |type_: &Type| {
+        let type_ = checked(&quote!(#type_));
         quote! {
             ::xca_core::kernel::Group {
                 type_id: ::core::any::TypeId::of::<#type_>,
@@ -58,18 +134,21 @@ fn process(function: &Function, original: &syn::ItemFn) -> Result<TokenStream> {
             }
         }
     };
-    let subject_group = subject.map(group);
-    let companion_group = match companion.map(group) {
+    let subject = subject.map(group);
+    let companion = match companion.map(group) {
         Some(group) => quote!(::core::option::Option::Some(#group)),
         None => quote!(::core::option::Option::None),
     };
     let parameters = match parameters_type(function) {
-        Some(type_) => quote! {
-            ::core::option::Option::Some((
-                ::core::any::TypeId::of::<#type_> as fn() -> ::core::any::TypeId,
-                <#type_ as ::xca_core::Parameters>::SCHEMA,
-            ))
-        },
+        Some(type_) => {
+            let type_ = checked(&quote!(#type_));
+            quote! {
+                ::core::option::Option::Some((
+                    ::core::any::TypeId::of::<#type_> as fn() -> ::core::any::TypeId,
+                    <#type_ as ::xca_core::Parameters>::SCHEMA,
+                ))
+            }
+        }
         None => quote!(::core::option::Option::None),
     };
     let accesses = uses.accesses.iter().map(|access| {
@@ -87,122 +166,28 @@ fn process(function: &Function, original: &syn::ItemFn) -> Result<TokenStream> {
         }
     });
     let neighbours = uses.neighbours;
-    let row_f32 = kernels::row(function, &uses, &quote!(f32), "row_f32");
-    let row_f64 = kernels::row(function, &uses, &quote!(f64), "row_f64");
-    let check = check(original);
-    Ok(quote! {
-        #(#documentation)*
-        #[allow(non_camel_case_types)]
-        #visibility struct #name;
-
-        #check
-
-        #[automatically_derived]
-        impl ::xca_core::ElementaryProcess for #name {
-            fn process() -> ::xca_core::Process {
-                const ACCESS: &[::xca_core::kernel::Access] = &[#(#accesses),*];
-                ::xca_core::Process {
-                    name: #text,
-                    module: ::core::module_path!(),
-                    kind: ::xca_core::ProcessKind::#kind,
-                    subject: #subject_group,
-                    companion: #companion_group,
-                    parameters: #parameters,
-                    local_interaction: #neighbours,
-                    access: ACCESS,
-                    body: || #data,
-                    row_f32: { #row_f32 row_f32 },
-                    row_f64: { #row_f64 row_f64 },
-                }
-            }
+    let [row_f32, row_f64] = [quote!(f32), quote!(f64)].map(|real| kernels::row(function, uses, &real));
+    quote! {
+        const __XCA_ACCESS: &[::xca_core::kernel::Access] = &[#(#accesses),*];
+        ::xca_core::Process {
+            name: #name,
+            module: ::core::module_path!(),
+            kind: ::xca_core::ProcessKind::#kind,
+            subject: #subject,
+            companion: #companion,
+            parameters: #parameters,
+            local_interaction: #neighbours,
+            access: __XCA_ACCESS,
+            body: || #data,
+            row_f32: #row_f32,
+            row_f64: #row_f64,
         }
-    })
+    }
 }
 
-fn parameters_type(function: &Function) -> Option<&syn::Type> {
+fn parameters_type(function: &Function) -> Option<&Type> {
     function.arguments.iter().find_map(|argument| match &argument.role {
         Role::Parameters(type_) => Some(type_),
         _ => None,
-    })
-}
-
-/// The function as the user wrote it, against the vocabulary types: it gives the compiler's own messages and serves editors.
-fn check(original: &syn::ItemFn) -> TokenStream {
-    let mut original = original.clone();
-    original.vis = syn::Visibility::Inherited;
-    original.attrs.retain(|attribute| !attribute.path().is_ident("doc"));
-    syn::visit_mut::visit_block_mut(&mut SpellOut, &mut original.block);
-    quote! {
-        const _: () = {
-            #[allow(dead_code, clippy::all)]
-            #original
-        };
-    }
-}
-
-/// Writes `a += b` as `a = a + b`: the fields of a cell are reached through `DerefMut`, and in a compound assignment of vectors that
-/// would borrow the cell while the right-hand side reads it.
-struct SpellOut;
-
-impl syn::visit_mut::VisitMut for SpellOut {
-    fn visit_expr_mut(&mut self, expression: &mut syn::Expr) {
-        syn::visit_mut::visit_expr_mut(self, expression);
-        let syn::Expr::Binary(binary) = expression else { return };
-        let Some(operator) = crate::parse::plain_operator(&binary.op) else { return };
-        let (left, right) = (&binary.left, &binary.right);
-        let span = syn::spanned::Spanned::span(&binary.op);
-        let sum = quote_spanned!(span=> #left #operator (#right));
-        *expression = syn::Expr::Verbatim(quote_spanned!(span=> #left = #sum));
-    }
-}
-
-fn helper(function: &Function, original: &syn::ItemFn) -> Result<TokenStream> {
-    let data = crate::data::function(function)?;
-    let (name, visibility) = (&function.name, &function.visibility);
-    let natives = [("native_f32", quote!(f32)), ("native_f64", quote!(f64))].map(|(native, real)| {
-        let native = Ident::new(native, name.span());
-        let arguments = function.arguments.iter().map(|argument| {
-            let name = &argument.name;
-            match &argument.role {
-                Role::Parameters(type_) => {
-                    let parameters = hidden("parameters", name.span());
-                    quote!(#parameters: &<#type_ as ::xca_core::Parameters>::Native<#real>)
-                }
-                Role::Value(type_) => {
-                    let type_ = with_real(type_, &real);
-                    quote!(#name: #type_)
-                }
-                _ => {
-                    let space = hidden("space", name.span());
-                    quote!(#space: ::xca_core::kernel::NativeSpace<'_, #real>)
-                }
-            }
-        });
-        let result = function.result.as_ref().map(|type_| with_real(type_, &real));
-        let body = body::Writer::new(function, real.clone()).block(&function.body);
-        quote! {
-            #[doc(hidden)]
-            #[inline(always)]
-            pub fn #native(#(#arguments),*) -> #result #body
-        }
-    });
-    Ok(quote! {
-        #[allow(dead_code)]
-        #original
-
-        #[doc(hidden)]
-        #[allow(non_camel_case_types, missing_docs)]
-        #visibility struct #name {}
-
-        #[allow(warnings, clippy::all)]
-        #[automatically_derived]
-        impl #name {
-            #(#natives)*
-
-            #[doc(hidden)]
-            pub fn body() -> ::xca_core::ir::Function {
-                #data
-            }
-        }
     })
 }

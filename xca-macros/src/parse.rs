@@ -2,26 +2,44 @@
 //!
 //! Everything outside the accepted subset is refused here, at the user's own tokens, with what to write instead.
 
+mod calls;
 mod expressions;
+mod loops;
+mod matches;
+mod places;
+mod refusals;
 mod scope;
 mod signature;
+mod similar;
 mod statements;
 
 use crate::ast::{Function, FunctionKind};
+pub(crate) use places::plain_operator;
 use scope::Scope;
-pub(crate) use statements::plain_operator;
+use syn::{Error, Result};
 
 /// Parses and checks a function of the given kind; for processes the kind (cells or items) follows from the first argument.
-pub(crate) fn function(item: &syn::ItemFn, wanted: Wanted) -> syn::Result<Function> {
+pub(crate) fn function(item: &syn::ItemFn, wanted: Wanted) -> Result<Function> {
     let signature = signature::parse(item, wanted)?;
-    let mut scope = Scope::new(signature.kind, &signature.arguments);
+    let mut scope = Scope::new(signature.kind, item.sig.ident.clone(), &signature.arguments);
     let body = scope.block(&item.block);
     scope.finish()?;
     let body = body?;
-    if let (FunctionKind::Helper | FunctionKind::Migration, None) = (signature.kind, &body.value)
-        && !statements::ends_in_return(&body)
+    let answers = matches!(signature.kind, FunctionKind::Helper | FunctionKind::Migration);
+    if answers && body.value.is_none() && !statements::ends_in_return(&body) {
+        return Err(Error::new_spanned(
+            &item.sig.output,
+            "the function ends without this value; end it with the value, without `;`",
+        ));
+    }
+    if !answers
+        && body.value.is_some()
+        && let Some(last) = item.block.stmts.last()
     {
-        return Err(syn::Error::new_spanned(&item.sig.output, "the function ends without a value"));
+        return Err(Error::new_spanned(
+            last,
+            "an elementary process has no value; assign it to a substate: `cell.substate = …;`",
+        ));
     }
     Ok(Function {
         name: item.sig.ident.clone(),
@@ -31,6 +49,7 @@ pub(crate) fn function(item: &syn::ItemFn, wanted: Wanted) -> syn::Result<Functi
         arguments: signature.arguments,
         result: signature.result,
         body,
+        mentions: scope.mentions,
     })
 }
 
@@ -40,4 +59,15 @@ pub(crate) enum Wanted {
     Process,
     Migration,
     Helper,
+}
+
+impl Wanted {
+    /// The attribute.
+    pub(crate) fn attribute(self) -> &'static str {
+        match self {
+            Self::Process => "#[elementary_process]",
+            Self::Migration => "#[migration]",
+            Self::Helper => "#[helper]",
+        }
+    }
 }

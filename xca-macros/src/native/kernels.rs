@@ -3,8 +3,8 @@
 //! Each substate is an argument of its own of the inner function: that tells the compiler that what is written is apart from
 //! what is read, without which it would not vectorise.
 
-use super::body::{Writer, read_name, write_name};
-use super::{hidden, parameters_type, substate};
+use super::body::{Writer, own_name, read_name, write_name};
+use super::{checked_value, hidden, native_parameters, parameters_type, substate};
 use crate::access::{Access, GroupOf, Uses};
 use crate::ast::{Function, FunctionKind};
 use proc_macro2::{Ident, Span, TokenStream};
@@ -13,9 +13,10 @@ use quote::quote;
 /// Neighbourhood sizes that get a kernel of their own, whose loop over neighbours can be unrolled.
 const UNROLLED: [usize; 4] = [5, 7, 9, 27];
 
-pub(super) fn row(function: &Function, uses: &Uses, real: &TokenStream, name: &str) -> TokenStream {
-    let name = Ident::new(name, Span::call_site());
+/// An expression whose value is the kernel for one precision.
+pub(super) fn row(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
     let span = function.name.span();
+    let name = hidden(&format!("row_{real}"), span);
     let (row, inner) = (hidden("row", span), hidden("inner", span));
     let over_cells = function.kind == FunctionKind::Cells;
     let mut declarations = Vec::new();
@@ -44,7 +45,7 @@ pub(super) fn row(function: &Function, uses: &Uses, real: &TokenStream, name: &s
     let mut take_parameters = TokenStream::new();
     if let Some(type_) = parameters_type(function) {
         let parameters = hidden("parameters", span);
-        let native = quote!(<#type_ as ::xca_core::Parameters>::Native<#real>);
+        let native = native_parameters(type_, real);
         declarations.push(quote!(#parameters: &#native));
         values.push(quote!(#parameters));
         take_parameters = quote!(let ::core::option::Option::Some(#parameters) = #row.parameters::<#native>() else { return; };);
@@ -63,15 +64,20 @@ pub(super) fn row(function: &Function, uses: &Uses, real: &TokenStream, name: &s
     } else {
         quote!(#inner::<0>(#row, #(#values),*))
     };
+    let checked_row = checked_value(&quote!(#row));
     quote! {
-        #[allow(warnings, clippy::all)]
-        fn #name(#row: &::xca_core::kernel::Row<'_>) {
-            #[inline(never)]
-            fn #inner<const #size: usize>(#row: &::xca_core::kernel::Row<'_>, #(#declarations),*) {
-                #work
+        {
+            #[allow(warnings, arithmetic_overflow, overflowing_literals, unconditional_panic, clippy::all)]
+            fn #name(#row: &::xca_core::kernel::Row<'_>) {
+                #[inline(never)]
+                fn #inner<const #size: usize>(#row: &::xca_core::kernel::Row<'_>, #(#declarations),*) {
+                    let #row = #checked_row;
+                    #work
+                }
+                #take_parameters
+                #call
             }
-            #take_parameters
-            #call
+            #name
         }
     }
 }
@@ -94,7 +100,7 @@ fn cells(function: &Function, uses: &Uses, real: &TokenStream, size: &Ident) -> 
     let mut load = TokenStream::new();
     let mut store = TokenStream::new();
     for access in uses.accesses.iter().filter(|access| access.group == GroupOf::Subject) {
-        let own = super::body::own_name(&access.field);
+        let own = own_name(&access.field);
         if access.write {
             let write = write_name(&access.field);
             shorten.extend(quote!(let #write = &mut #write[..#length];));
@@ -128,13 +134,13 @@ fn cells(function: &Function, uses: &Uses, real: &TokenStream, size: &Ident) -> 
 
 fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
     let span = function.name.span();
-    let [row, x, item, first, destinations] =
-        ["row", "x", "item", "first", "destinations"].map(|name| hidden(name, span));
+    let [row, x, item, first, destinations, answer] =
+        ["row", "x", "item", "first", "destinations", "answer"].map(|name| hidden(name, span));
     let space = space(real, span);
     let mut load = TokenStream::new();
     let mut store = TokenStream::new();
     for access in uses.accesses.iter().filter(|access| access.group == GroupOf::Subject) {
-        let own = super::body::own_name(&access.field);
+        let own = own_name(&access.field);
         if access.write {
             let write = write_name(&access.field);
             let old = if access.others {
@@ -156,7 +162,7 @@ fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
     let (take, run) = if function.kind == FunctionKind::Migration {
         (
             quote!(let #destinations = #row.destinations();),
-            quote!(let answer: u32 = 'body: #body; #destinations[#item - #first] = answer;),
+            quote!(let #answer: u32 = 'body: #body; #destinations[#item - #first] = #answer;),
         )
     } else {
         (TokenStream::new(), quote!('body: #body))

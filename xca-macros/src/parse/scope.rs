@@ -2,8 +2,10 @@
 
 use super::similar::similar;
 use crate::ast::{Argument, Call, FunctionKind, Mentions, Role};
+use quote::{format_ident, quote};
 use std::collections::HashMap;
 use syn::ext::IdentExt;
+use syn::spanned::Spanned;
 use syn::{Error, Ident, Path, Result};
 
 /// What a name stands for.
@@ -109,13 +111,15 @@ impl Scope {
 
     /// The alias of a helper that is called.
     pub(super) fn alias(&mut self, function: &Path) -> Ident {
-        if let Some(known) = self.mentions.calls.iter().find(|call| call.function == *function) {
+        let text = quote!(#function).to_string();
+        let same = |call: &&Call| {
+            let function = &call.function;
+            quote!(#function).to_string() == text
+        };
+        if let Some(known) = self.mentions.calls.iter().find(same) {
             return known.alias.clone();
         }
-        let words: Vec<String> =
-            function.segments.iter().map(|segment| segment.ident.unraw().to_string()).collect();
-        let span = function.segments.last().map_or_else(proc_macro2::Span::call_site, |last| last.ident.span());
-        let alias = Ident::new(&format!("__xca_helper_{}", words.join("__")), span);
+        let alias = format_ident!("__xca_helper_{}", self.mentions.calls.len(), span = function.span());
         self.mentions.calls.push(Call { function: function.clone(), alias: alias.clone() });
         alias
     }

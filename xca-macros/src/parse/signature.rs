@@ -3,7 +3,9 @@
 use super::Wanted;
 use crate::ast::{Argument, FunctionKind, Role};
 use syn::spanned::Spanned;
-use syn::{Error, FnArg, GenericArgument, Pat, PathArguments, Result, ReturnType, Type};
+use syn::{
+    Error, FnArg, GenericArgument, Ident, ItemFn, Pat, PathArguments, PathSegment, Result, ReturnType, Type,
+};
 
 pub(super) struct Signature {
     pub(super) kind: FunctionKind,
@@ -11,99 +13,137 @@ pub(super) struct Signature {
     pub(super) result: Option<Type>,
 }
 
-pub(super) fn parse(item: &syn::ItemFn, wanted: Wanted) -> Result<Signature> {
+const PROCESS_TAKES: &str = "the first argument of an elementary process is `cell: &mut Cell<MySubstates>`, or `me: &mut Slot<MySubstates>` \
+                             for a process over the items of a population; then come `&MyParameters` and `&Space`";
+const MIGRATION_TAKES: &str =
+    "the first argument of a migration is `me: &Slot<MySubstates>`; then come `&MyParameters` and `&Space`";
+const HELPER_TAKES: &str =
+    "a helper takes values, `&MyParameters` and `&Space`; pass the substates that it needs as values";
+
+pub(super) fn parse(item: &ItemFn, wanted: Wanted) -> Result<Signature> {
+    refuse_qualifiers(item, wanted)?;
+    refuse_attributes(item, wanted)?;
+    let mut arguments = Vec::new();
+    for (position, input) in item.sig.inputs.iter().enumerate() {
+        arguments.push(argument(input, position, wanted)?);
+    }
+    let kind = kind(item, wanted, &arguments)?;
+    check_roles(kind, &arguments)?;
+    let result = result(item, kind)?;
+    Ok(Signature { kind, arguments, result })
+}
+
+fn refuse_qualifiers(item: &ItemFn, wanted: Wanted) -> Result<()> {
     let signature = &item.sig;
+    let what = wanted.attribute();
     if let Some(token) = &signature.asyncness {
-        return Err(Error::new_spanned(token, "an elementary process cannot be async"));
+        return Err(Error::new_spanned(token, format!("a function marked {what} cannot be async")));
+    }
+    if let syn::Safety::Unsafe(token) = &signature.safety {
+        return Err(Error::new_spanned(token, format!("a function marked {what} cannot be unsafe")));
+    }
+    if let Some(abi) = &signature.abi {
+        return Err(Error::new_spanned(abi, format!("a function marked {what} cannot be extern")));
+    }
+    if let (Some(token), true) = (&signature.constness, wanted != Wanted::Helper) {
+        return Err(Error::new_spanned(token, format!("a function marked {what} cannot be const")));
     }
     if !signature.generics.params.is_empty() || signature.generics.where_clause.is_some() {
         return Err(Error::new_spanned(
             &signature.generics,
-            "a process or helper cannot be generic; write `Real` for the floating type that the run chooses",
+            format!(
+                "a function marked {what} cannot be generic; write `Real` for the floating type, which the run chooses"
+            ),
         ));
     }
-    let mut arguments = Vec::new();
-    for (position, input) in signature.inputs.iter().enumerate() {
-        arguments.push(argument(input, position, wanted)?);
+    Ok(())
+}
+
+/// A process is no function any more: attributes of functions would be lost.
+fn refuse_attributes(item: &ItemFn, wanted: Wanted) -> Result<()> {
+    let kept = ["doc", "cfg", "allow", "expect", "warn", "deny", "deprecated", "rustfmt"];
+    let lost = item.attrs.iter().find(|attribute| {
+        attribute.path().segments.first().is_none_or(|first| !kept.iter().any(|word| first.ident == word))
+    });
+    match lost {
+        Some(attribute) if wanted != Wanted::Helper => Err(Error::new_spanned(
+            attribute,
+            format!("this attribute has no meaning beside {}", wanted.attribute()),
+        )),
+        _ => Ok(()),
     }
-    let kind = kind(item, wanted, &arguments)?;
-    check_companions(kind, &arguments, &signature.ident)?;
-    let result = match (&signature.output, kind) {
-        (ReturnType::Default, FunctionKind::Helper) => {
-            return Err(Error::new_spanned(
-                &signature.ident,
-                "a helper returns a value: add `-> Real` or another type; it cannot change anything by itself",
-            ));
-        }
-        (ReturnType::Default, FunctionKind::Migration) => {
-            return Err(Error::new_spanned(
-                &signature.ident,
-                "a migration returns where the item goes: add `-> Destination`",
-            ));
-        }
+}
+
+fn result(item: &ItemFn, kind: FunctionKind) -> Result<Option<Type>> {
+    let name = &item.sig.ident;
+    match (&item.sig.output, kind) {
+        (ReturnType::Default, FunctionKind::Helper) => Err(Error::new_spanned(
+            name,
+            "a helper returns a value: add `-> Real` or another type; it cannot change anything by itself",
+        )),
+        (ReturnType::Default, FunctionKind::Migration) => Err(Error::new_spanned(
+            name,
+            "a migration returns the cell that the item goes to: add `-> Destination`",
+        )),
         (ReturnType::Type(_, type_), FunctionKind::Migration) => {
             if last_segment(type_).is_none_or(|segment| segment.ident != "Destination") {
                 return Err(Error::new_spanned(type_, "a migration returns `Destination`"));
             }
-            Some((**type_).clone())
+            Ok(Some((**type_).clone()))
         }
-        (ReturnType::Type(_, type_), FunctionKind::Helper) => Some((**type_).clone()),
-        (ReturnType::Default, _) => None,
-        (ReturnType::Type(_, type_), _) => {
-            return Err(Error::new_spanned(
-                type_,
-                "an elementary process returns nothing; it writes the substates of its own cell: `cell.substate = …`",
-            ));
-        }
-    };
-    Ok(Signature { kind, arguments, result })
+        (ReturnType::Type(_, type_), FunctionKind::Helper) => Ok(Some((**type_).clone())),
+        (ReturnType::Default, _) => Ok(None),
+        (ReturnType::Type(_, type_), _) => Err(Error::new_spanned(
+            type_,
+            "an elementary process returns nothing; it writes the substates of its own cell: `cell.substate = …;`",
+        )),
+    }
 }
 
-fn kind(item: &syn::ItemFn, wanted: Wanted, arguments: &[Argument]) -> Result<FunctionKind> {
+fn kind(item: &ItemFn, wanted: Wanted, arguments: &[Argument]) -> Result<FunctionKind> {
     let first = arguments.first().map(|argument| &argument.role);
+    let place = match item.sig.inputs.first() {
+        Some(FnArg::Typed(argument)) => argument.ty.span(),
+        _ => item.sig.ident.span(),
+    };
     match (wanted, first) {
         (Wanted::Helper, _) => Ok(FunctionKind::Helper),
         (Wanted::Process, Some(Role::Cell(_))) => Ok(FunctionKind::Cells),
         (Wanted::Process, Some(Role::Slot(_))) => Ok(FunctionKind::Items),
         (Wanted::Migration, Some(Role::Slot(_))) => Ok(FunctionKind::Migration),
-        (Wanted::Process, _) => Err(Error::new_spanned(
-            &item.sig.ident,
-            "the first argument of an elementary process is `cell: &mut Cell<Substates>`, or `me: &mut Slot<Substates>` for a \
-             process over the items of a population",
-        )),
-        (Wanted::Migration, _) => Err(Error::new_spanned(
-            &item.sig.ident,
-            "the first argument of a migration is `me: &Slot<Substates>`",
-        )),
+        (Wanted::Process, _) => Err(Error::new(place, PROCESS_TAKES)),
+        (Wanted::Migration, _) => Err(Error::new(place, MIGRATION_TAKES)),
     }
 }
 
-fn check_companions(kind: FunctionKind, arguments: &[Argument], name: &syn::Ident) -> Result<()> {
+fn check_roles(kind: FunctionKind, arguments: &[Argument]) -> Result<()> {
     let mut seen: Vec<&'static str> = Vec::new();
-    for (position, argument) in arguments.iter().enumerate() {
-        let (word, fits) = match &argument.role {
-            Role::Cell(_) => {
-                ("Cell", position == 0 || matches!(kind, FunctionKind::Items | FunctionKind::Migration))
-            }
-            Role::Slot(_) => ("Slot", position == 0),
-            Role::Slots(_) => ("Slots", kind == FunctionKind::Cells),
-            Role::Parameters(_) => ("parameters", true),
-            Role::Space => ("Space", true),
+    for (position, Argument { name, role }) in arguments.iter().enumerate() {
+        let over_items = matches!(kind, FunctionKind::Items | FunctionKind::Migration);
+        let (word, fits) = match role {
+            Role::Cell(_) => ("cell", if position == 0 { !over_items } else { over_items }),
+            Role::Slot(_) => ("item", position == 0),
+            Role::Slots(_) => ("set of items", kind == FunctionKind::Cells),
+            Role::Parameters(_) => ("struct of parameters", true),
+            Role::Space => ("space", true),
             Role::Value(_) => continue,
         };
-        if kind == FunctionKind::Helper && !matches!(argument.role, Role::Parameters(_) | Role::Space) {
-            return Err(Error::new_spanned(
-                &argument.name,
-                "a helper takes values, parameters and the space; pass the substates that it needs as values",
-            ));
+        let is_helpers = matches!(role, Role::Parameters(_) | Role::Space);
+        if kind == FunctionKind::Helper && !is_helpers {
+            return Err(Error::new_spanned(name, HELPER_TAKES));
         }
-        if !fits || seen.contains(&word) {
-            return Err(Error::new_spanned(
-                &argument.name,
-                format!(
-                    "`{name}` cannot take this {word} argument here; it takes one cell or item, and at most one each of parameters, space, and companion"
-                ),
-            ));
+        if seen.contains(&word) {
+            return Err(Error::new_spanned(name, format!("there can be one {word} only")));
+        }
+        if !fits {
+            let message = match role {
+                Role::Cell(_) => "a process over cells has one cell; others are its neighbours, `cell.neighbour(n)`",
+                Role::Slots(_) => {
+                    "a process over items takes its cell, `&Cell<…>`; other items are found by `me.others_in_cell()` and its kin"
+                }
+                _ => "an item is the first argument, `me: &mut Slot<…>`; a process over cells takes all items of the cell, `&Slots<…>`",
+            };
+            return Err(Error::new_spanned(name, message));
         }
         seen.push(word);
     }
@@ -112,36 +152,67 @@ fn check_companions(kind: FunctionKind, arguments: &[Argument], name: &syn::Iden
 
 fn argument(input: &FnArg, position: usize, wanted: Wanted) -> Result<Argument> {
     let FnArg::Typed(typed) = input else {
-        return Err(Error::new_spanned(input, "a process is a free function, without `self`"));
+        return Err(Error::new_spanned(
+            input,
+            format!("a function marked {} is a free function, without `self`", wanted.attribute()),
+        ));
     };
     let Pat::Ident(pattern) = &*typed.pat else {
         return Err(Error::new_spanned(&typed.pat, "give the argument a plain name"));
     };
+    let name = pattern.ident.clone();
     if pattern.mutability.is_some() {
         return Err(Error::new_spanned(
             pattern,
-            "an argument cannot be `mut`; start with `let mut copy = argument;`",
+            format!("an argument cannot be `mut`; begin with `let mut {name} = {name};`"),
         ));
     }
-    let name = pattern.ident.clone();
     let role = match &*typed.ty {
-        Type::Reference(reference) => referenced(reference, position, wanted)?,
+        Type::Reference(reference) => referenced(reference, &name, position, wanted)?,
         other if wanted == Wanted::Helper => Role::Value(other.clone()),
-        other => {
-            return Err(Error::new_spanned(
-                other,
-                "a process takes references: `&mut Cell<S>` or `&mut Slot<S>`, then `&Parameters`, `&Space`",
-            ));
-        }
+        other => return Err(Error::new_spanned(other, wanting(other, position, wanted))),
     };
     Ok(Argument { name, role })
 }
 
-fn referenced(reference: &syn::TypeReference, position: usize, wanted: Wanted) -> Result<Role> {
+/// What to write instead of an argument that is no reference.
+fn wanting(type_: &Type, position: usize, wanted: Wanted) -> String {
+    let word = last_segment(type_).map(|segment| segment.ident.to_string()).unwrap_or_default();
+    match word.as_str() {
+        "Cell" | "Slot" if position == 0 && wanted == Wanted::Process => format!("write `&mut {word}<…>`"),
+        "Cell" | "Slot" | "Slots" => format!("write `&{word}<…>`"),
+        "Space" => "write `&Space`".to_owned(),
+        _ if position == 0 && wanted == Wanted::Process => PROCESS_TAKES.to_owned(),
+        _ if position == 0 => MIGRATION_TAKES.to_owned(),
+        "" => "a process takes the cell or item, then `&MyParameters` and `&Space`".to_owned(),
+        _ => format!("parameters come as a reference to their struct: `&{word}`; the struct derives `Parameters`"),
+    }
+}
+
+fn referenced(
+    reference: &syn::TypeReference,
+    name: &Ident,
+    position: usize,
+    wanted: Wanted,
+) -> Result<Role> {
     let Some(segment) = last_segment(&reference.elem) else {
-        return Err(Error::new_spanned(&reference.elem, "expected the name of a struct here"));
+        return Err(Error::new_spanned(
+            &reference.elem,
+            match wanted {
+                Wanted::Helper => HELPER_TAKES,
+                Wanted::Process => PROCESS_TAKES,
+                Wanted::Migration => MIGRATION_TAKES,
+            },
+        ));
     };
     let word = segment.ident.to_string();
+    if crate::fields::is_value_type(&word) {
+        let message = match wanted {
+            Wanted::Helper => format!("values are passed as they are, without `&`: `{name}: {word}`"),
+            _ => format!("`{name}` is no argument of a process; make it a field of the struct of parameters"),
+        };
+        return Err(Error::new_spanned(reference, message));
+    }
     let mutable = reference.mutability.is_some();
     let role = match word.as_str() {
         "Cell" => Role::Cell(type_argument(segment)?),
@@ -150,27 +221,32 @@ fn referenced(reference: &syn::TypeReference, position: usize, wanted: Wanted) -
         "Space" => Role::Space,
         _ => Role::Parameters((*reference.elem).clone()),
     };
-    let wants_mutable =
-        position == 0 && wanted == Wanted::Process && matches!(role, Role::Cell(_) | Role::Slot(_));
-    if wants_mutable && !mutable {
-        return Err(Error::new(
-            reference.span(),
-            format!(
-                "write `&mut {word}<…>`: an elementary process writes the substates of its own {}",
-                word.to_lowercase()
-            ),
-        ));
+    if wanted == Wanted::Helper && !matches!(role, Role::Parameters(_) | Role::Space) {
+        return Err(Error::new_spanned(reference, HELPER_TAKES));
     }
-    if mutable && !wants_mutable {
+    let own = position == 0 && matches!(role, Role::Cell(_) | Role::Slot(_));
+    if own && wanted == Wanted::Process && !mutable {
+        let own = word.to_lowercase().replace("slot", "item");
         return Err(Error::new_spanned(
             reference,
-            "only the cell or item that an elementary process runs for can be written; remove `mut`",
+            format!("write `&mut {word}<…>`: an elementary process writes the substates of its own {own}"),
         ));
+    }
+    if mutable && !(own && wanted == Wanted::Process) {
+        let message = match (&role, wanted) {
+            (_, Wanted::Helper) => HELPER_TAKES,
+            (Role::Parameters(_), _) => "parameters are read only; steering changes them: leave out the `mut`",
+            (_, Wanted::Migration) => {
+                "a migration only says where the item goes and changes nothing: leave out the `mut`"
+            }
+            _ => "only the cell or item that the process runs for can be written: leave out the `mut`",
+        };
+        return Err(Error::new_spanned(reference, message));
     }
     Ok(role)
 }
 
-fn last_segment(type_: &Type) -> Option<&syn::PathSegment> {
+fn last_segment(type_: &Type) -> Option<&PathSegment> {
     match type_ {
         Type::Path(path) if path.qself.is_none() => path.path.segments.last(),
         Type::Group(group) => last_segment(&group.elem),
@@ -179,7 +255,7 @@ fn last_segment(type_: &Type) -> Option<&syn::PathSegment> {
     }
 }
 
-fn type_argument(segment: &syn::PathSegment) -> Result<Type> {
+fn type_argument(segment: &PathSegment) -> Result<Type> {
     if let PathArguments::AngleBracketed(arguments) = &segment.arguments
         && arguments.args.len() == 1
         && let Some(GenericArgument::Type(type_)) = arguments.args.first()

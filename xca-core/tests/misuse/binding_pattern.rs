@@ -1,0 +1,18 @@
+// A pattern binds a name.
+use xca_core::prelude::*;
+
+#[derive(Substates, Clone, Copy)]
+struct Heat {
+    temperature: Real,
+    kind: u8,
+}
+
+#[elementary_process]
+fn process(cell: &mut Cell<Heat>) {
+    match cell.kind {
+        0 => {}
+        other => cell.kind = other - 1,
+    }
+}
+
+fn main() {}

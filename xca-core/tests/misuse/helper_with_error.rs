@@ -1,0 +1,25 @@
+// A helper has an error; the processes that call it have none of their own.
+use xca_core::prelude::*;
+
+#[derive(Substates, Clone, Copy)]
+struct Heat {
+    temperature: Real,
+    kind: u8,
+}
+
+#[helper]
+fn decayed(value: Real) -> Real {
+    value.exp()
+}
+
+#[helper]
+fn doubled(value: Real) -> Real {
+    value * 2
+}
+
+#[elementary_process]
+fn process(cell: &mut Cell<Heat>) {
+    cell.temperature = decayed(cell.temperature) + doubled(cell.temperature);
+}
+
+fn main() {}

@@ -1,0 +1,18 @@
+// A substate of another item is read that does not exist.
+use xca_core::prelude::*;
+
+#[derive(Substates, Clone, Copy)]
+struct Grain {
+    kind: u8,
+    #[position]
+    position: Vector3<Real>,
+}
+
+#[elementary_process]
+fn process(me: &mut Slot<Grain>) {
+    for other in me.others_in_cell() {
+        me.position += other.velocity;
+    }
+}
+
+fn main() {}

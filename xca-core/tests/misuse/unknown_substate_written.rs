@@ -1,0 +1,15 @@
+// A substate is written that does not exist.
+use xca_core::prelude::*;
+
+#[derive(Substates, Clone, Copy)]
+struct Heat {
+    temperature: Real,
+    kind: u8,
+}
+
+#[elementary_process]
+fn process(cell: &mut Cell<Heat>) {
+    cell.temprature = 1.0;
+}
+
+fn main() {}

@@ -1,0 +1,21 @@
+// The argument of a helper is written.
+use xca_core::prelude::*;
+
+#[derive(Substates, Clone, Copy)]
+struct Heat {
+    temperature: Real,
+    kind: u8,
+}
+
+#[helper]
+fn decayed(value: Real) -> Real {
+    value *= 0.5;
+    value
+}
+
+#[elementary_process]
+fn process(cell: &mut Cell<Heat>) {
+    cell.temperature = decayed(cell.temperature);
+}
+
+fn main() {}

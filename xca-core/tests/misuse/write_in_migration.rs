@@ -1,0 +1,17 @@
+// A migration writes a substate.
+use xca_core::prelude::*;
+
+#[derive(Substates, Clone, Copy)]
+struct Grain {
+    kind: u8,
+    #[position]
+    position: Vector3<Real>,
+}
+
+#[migration]
+fn process(me: &Slot<Grain>) {
+    me.kind = 0;
+    Destination::Stay
+}
+
+fn main() {}

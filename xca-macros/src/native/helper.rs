@@ -1,0 +1,74 @@
+//! Helpers: an ordinary function, and one for each precision, found through a type of the same name.
+
+use super::body::Writer;
+use super::{check, checked, conditions, hidden, native_parameters};
+use crate::ast::{Function, Role};
+use crate::fields::with_real;
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+use syn::Result;
+
+pub(super) fn expand(function: &Function, original: &syn::ItemFn) -> Result<TokenStream> {
+    let data = crate::data::function(function)?;
+    let (name, visibility) = (&function.name, &function.visibility);
+    let natives = [quote!(f32), quote!(f64)].map(|real| native(function, &real));
+    let check = check::check(function, original);
+    let conditions: Vec<_> = conditions(function).collect();
+    Ok(quote! {
+        #original
+
+        #(#conditions)*
+        #[doc(hidden)]
+        #[allow(non_camel_case_types, dead_code)]
+        #[derive(Clone, Copy, Debug)]
+        #visibility struct #name {}
+
+        #(#conditions)*
+        const _: () = {
+            #check
+
+            #[automatically_derived]
+            impl ::xca_core::checks::Callable for #name {}
+
+            #[allow(warnings, arithmetic_overflow, overflowing_literals, unconditional_panic, clippy::all)]
+            #[automatically_derived]
+            impl #name {
+                #(#natives)*
+
+                #[doc(hidden)]
+                pub fn body() -> ::xca_core::ir::Function {
+                    #data
+                }
+            }
+        };
+    })
+}
+
+fn native(function: &Function, real: &TokenStream) -> TokenStream {
+    let native = format_ident!("native_{}", real.to_string());
+    let arguments = function.arguments.iter().map(|argument| {
+        let name = &argument.name;
+        match &argument.role {
+            Role::Parameters(type_) => {
+                let parameters = hidden("parameters", name.span());
+                let type_ = native_parameters(type_, real);
+                quote!(#parameters: &#type_)
+            }
+            Role::Value(type_) => {
+                let type_ = checked(&with_real(type_, real));
+                quote!(#name: #type_)
+            }
+            _ => {
+                let space = hidden("space", name.span());
+                quote!(#space: ::xca_core::kernel::NativeSpace<'_, #real>)
+            }
+        }
+    });
+    let result = function.result.as_ref().map(|type_| checked(&with_real(type_, real)));
+    let body = Writer::new(function, real.clone()).block(&function.body);
+    quote! {
+        #[doc(hidden)]
+        #[inline(always)]
+        pub fn #native(#(#arguments),*) -> #result #body
+    }
+}

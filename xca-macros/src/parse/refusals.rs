@@ -1,0 +1,161 @@
+//! What is no part of a process, and what to write instead.
+
+use super::scope::Binding;
+use crate::ast::FunctionKind;
+use syn::{Attribute, Error, Expr, Ident, Result};
+
+/// Why an expression is no part of a process.
+pub(super) fn refused(expression: &Expr) -> Error {
+    let advice = match expression {
+        Expr::Macro(call) => return macro_call(&call.mac),
+        Expr::Closure(_) => {
+            "closures are not part of a process; write the code in place, or as a function marked #[helper]"
+        }
+        Expr::Reference(_) | Expr::RawAddr(_) => {
+            "there are no references in a process: use the value itself, without `&`"
+        }
+        Expr::Tuple(tuple) if tuple.elems.is_empty() => "`()` is not part of a process; write an empty block, `{}`",
+        Expr::Tuple(_) => "tuples are not part of a process; use single variables, a small vector or an array",
+        Expr::Struct(_) => "structs cannot be made in a process; assign the substates one by one: `cell.substate = …`",
+        Expr::Range(_) => "a range stands only in `for i in 0..n` and in patterns",
+        Expr::Let(_) => "`let` in a condition is not part of a process; compare with `==`, or with `match`",
+        Expr::Unsafe(_) => "unsafe code is not part of a process",
+        Expr::Const(_) => "`const` blocks are not part of a process; write a constant beside it",
+        Expr::Try(_) => {
+            "`?` is not part of a process; report an impossible state by `cell.fault(code, value);`"
+        }
+        Expr::Await(_) | Expr::Async(_) => "asynchronous code is not part of a process",
+        Expr::Assign(_) => "an assignment has no value; write it as a statement of its own",
+        Expr::While(_) | Expr::Loop(_) | Expr::ForLoop(_) => {
+            "a loop has no value here; assign the result to a variable within the loop"
+        }
+        Expr::Break(_) | Expr::Continue(_) | Expr::Return(_) => {
+            "this has no value; write it as a statement of its own"
+        }
+        Expr::Block(block) if block.label.is_some() => {
+            "blocks have no labels in a process; use `if`, or a function marked #[helper] with `return`"
+        }
+        Expr::Infer(_) => "give the value; `_` stands only in patterns and in `for _ in 0..n`",
+        _ => "this is not part of the Rust that a process can use",
+    };
+    Error::new_spanned(expression, advice)
+}
+
+pub(super) fn macro_call(call: &syn::Macro) -> Error {
+    let name = call.path.segments.last().map(|segment| segment.ident.to_string()).unwrap_or_default();
+    let advice = match name.as_str() {
+        "assert" | "assert_eq" | "assert_ne" | "debug_assert" | "debug_assert_eq" | "panic" | "todo"
+        | "unreachable" | "unimplemented" => {
+            "a process does not panic; report an impossible state by `cell.fault(code, value);`, which stops the run and names the cell"
+        }
+        "print" | "println" | "eprint" | "eprintln" | "dbg" => {
+            "a process cannot print; write what you want to see into a substate and look at it between steps"
+        }
+        "vec" => "there are no lists in a process; use an array of fixed length: `[0.0; 4]`",
+        "matches" => "write `match` or comparisons instead of `matches!`",
+        _ => "macros cannot be called in a process; write the code in place, or as a function marked #[helper]",
+    };
+    Error::new_spanned(call, advice)
+}
+
+pub(super) fn cannot_write(binding: Binding, kind: FunctionKind) -> &'static str {
+    match binding {
+        Binding::Neighbour => {
+            "a process writes only its own cell, not a neighbour; let each cell compute what it receives, from what it reads of its \
+             neighbours"
+        }
+        Binding::Other if kind == FunctionKind::Cells => {
+            "a process over cells cannot write the items; a process over items can: `fn name(me: &mut Slot<…>, cell: &Cell<…>)`"
+        }
+        Binding::Other => {
+            "a process writes only its own item, not another; let each item compute the effect on itself"
+        }
+        Binding::CellOfItem => {
+            "a process over items cannot write the cell; a process over cells can, and reads the items through `slots: &Slots<…>`"
+        }
+        Binding::Slots => {
+            "a process over cells cannot write the items; a process over items can: `fn name(me: &mut Slot<…>, cell: &Cell<…>)`"
+        }
+        Binding::Parameters => {
+            "parameters are the same in all cells; only steering changes them, between steps"
+        }
+        Binding::Space => "the space cannot be changed",
+        Binding::Subject if kind == FunctionKind::Migration => {
+            "a migration only says where the item goes; change its substates in an elementary process"
+        }
+        Binding::Subject | Binding::Value | Binding::Argument => "this cannot be written in a process",
+    }
+}
+
+pub(super) fn refuse_label(label: Option<&syn::Label>) -> Result<()> {
+    label.map_or(Ok(()), |label| {
+        Err(Error::new_spanned(
+            label,
+            "loops have no labels in a process; use a `bool` variable that ends the outer loop",
+        ))
+    })
+}
+
+/// Attributes that only speak to the compiler or to tools are harmless; others would be lost.
+pub(super) fn refuse_attributes(attributes: &[Attribute]) -> Result<()> {
+    let harmless = ["allow", "expect", "warn", "deny", "doc", "rustfmt"];
+    let refused = attributes.iter().find(|attribute| {
+        attribute.path().segments.first().is_none_or(|first| !harmless.iter().any(|word| first.ident == word))
+    });
+    match refused {
+        Some(attribute) => Err(Error::new_spanned(attribute, "this attribute has no meaning within a process")),
+        None => Ok(()),
+    }
+}
+
+pub(super) fn is_component(name: &Ident) -> bool {
+    name == "x" || name == "y" || name == "z" || name == "w"
+}
+
+pub(super) fn no_component(name: &Ident) -> Error {
+    Error::new_spanned(
+        name,
+        format!("`{name}` is no component: those of a vector are x, y, z and w; numbers have none"),
+    )
+}
+
+/// Why a method of Rust is no method of numbers in a process.
+pub(super) fn method(method: &Ident, known: &[&str]) -> Error {
+    let name = method.to_string();
+    let advice = match name.as_str() {
+        "exp" | "exp2" | "exp_m1" | "ln" | "ln_1p" | "log" | "log2" | "log10" | "powf" | "sin" | "cos" | "tan"
+        | "asin" | "acos" | "atan" | "atan2" | "sin_cos" | "sinh" | "cosh" | "tanh" | "asinh" | "acosh"
+        | "atanh" | "cbrt" | "hypot" => format!(
+            "`{name}` gives other bits on other machines, so a process cannot use it; exact are + - * / sqrt abs floor ceil trunc \
+             min max clamp: write a polynomial or a table of them as a function marked #[helper]"
+        ),
+        "powi" | "pow" => format!("`{name}` is not part of a process; write the product: `x * x * x`"),
+        "round" | "round_ties_even" => {
+            "`round` differs between engines at halves; write `(value + 0.5).floor()`".to_owned()
+        }
+        "mul_add" => "`mul_add` rounds once and differs between engines; write `a * b + c`".to_owned(),
+        "clone" | "to_owned" | "copied" => format!("values are copied by themselves: leave out `.{name}()`"),
+        "into" | "try_into" => format!("`{name}` is not part of a process; cast: `value as Real`, `value as u32`"),
+        "is_nan" => "write `value != value`: only NaN differs from itself".to_owned(),
+        "is_finite" => "write `value - value == 0.0`: only numbers that are finite do that".to_owned(),
+        "signum" => "write `if value < 0.0 { -1.0 } else { 1.0 }`".to_owned(),
+        "copysign" => "write `if sign < 0.0 { -value.abs() } else { value.abs() }`".to_owned(),
+        "recip" => "write `1.0 / value`".to_owned(),
+        "fract" => "write `value - value.trunc()`".to_owned(),
+        "rem_euclid" => "write `let r = a % n;` and `if r < 0 { r + n } else { r }`".to_owned(),
+        "normalize" | "normalized" | "normalise" => "write `vector / vector.length()`".to_owned(),
+        "distance" => "write `(a - b).length()`".to_owned(),
+        "norm" | "magnitude" => "write `vector.length()`".to_owned(),
+        "norm_squared" | "magnitude_squared" => "write `vector.length_squared()`".to_owned(),
+        "len" => "an array has the length that it was made with; write it as a number or a constant".to_owned(),
+        "iter" | "into_iter" | "iter_mut" | "map" | "sum" | "fold" => {
+            "go through an array by index: `for i in 0..3 { … values[i] … }`".to_owned()
+        }
+        "contains" => "compare with `<=` and `<`, or with `match`".to_owned(),
+        _ => match super::similar::similar(&name, known.iter().copied()) {
+            Some(similar) => format!("there is no method `{name}`; did you mean `{similar}`?"),
+            None => format!("`{name}` is not part of a process; numbers and vectors have {}", known.join(", ")),
+        },
+    };
+    Error::new_spanned(method, advice)
+}
