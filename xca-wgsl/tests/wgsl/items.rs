@@ -136,7 +136,7 @@ fn searches(me: &mut Slot<Dem>, cell: &Cell<Field>, space: &Space) {
             if second.velocity.x > 0.0 {
                 break;
             }
-            me.position.x += other.position.x;
+            me.force.x += other.position.x;
         }
         if found > 3 {
             continue;
