@@ -79,13 +79,13 @@ fn a_full_cell_stops_the_run() -> TestResult {
     // 1.5 mm at 0.11 mm a step.
     assert_eq!(step, 14);
     assert_eq!(fault, Fault::CellFull { cell: [1, 1, 1], items: 2, slots: 1 });
-    for part in ["step 14", "[1, 1, 1]", "2 items", "1 slots"] {
+    for part in ["step 14", "[1, 1, 1]", "2 items", "1 slot"] {
         assert!(message.contains(part), "{message}");
     }
     // The same at the start.
     let particles = vec![Particle::at_rest(1, [0.0025; 3]), Particle::at_rest(2, [0.0035; 3])];
     let error = start(&configuration, particles).expect_err("two particles, one slot");
-    assert!(error.to_string().contains("would hold 2 items but has 1 slots"), "{error}");
+    assert!(error.to_string().contains("would hold 2 items, but a cell has 1 slot;"), "{error}");
     Ok(())
 }
 

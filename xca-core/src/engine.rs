@@ -241,7 +241,8 @@ impl fmt::Display for Fault {
             Self::CellFull { cell, items, slots } => {
                 write!(
                     f,
-                    "cell {cell:?} would hold {items} items but has {slots} slots; give the population more slots"
+                    "cell {cell:?} would hold {items} items, but a cell has {slots} slot{}; give the population more slots",
+                    if *slots == 1 { "" } else { "s" }
                 )
             }
             Self::TooFar { process, label, from, to } => {

@@ -51,7 +51,8 @@ impl Interrupt {
             .get_or_init(|| {
                 let interrupt = Self::unconnected();
                 let raised = Arc::clone(&interrupt.raised);
-                ctrlc::try_set_handler(move || on_signal(&raised))
+                // Not `try_set_handler`: a shell that starts a program in the background lets it ignore SIGINT, which is a handler too.
+                ctrlc::set_handler(move || on_signal(&raised))
                     .map_err(|source| InterruptError { source: Arc::new(source) })?;
                 Ok(interrupt)
             })
