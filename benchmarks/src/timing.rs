@@ -18,10 +18,10 @@ impl Times {
     }
 }
 
-/// Runs the contenders in turns: one round to warm up, then `rounds` that count.
+/// Runs the contenders in turns: one round to warm up, then `rounds` that count, at least one.
 pub(crate) fn interleaved(rounds: usize, contenders: &mut [&mut dyn FnMut()]) -> Vec<Times> {
     let mut times = vec![Vec::with_capacity(rounds); contenders.len()];
-    for round in 0..=rounds {
+    for round in 0..=rounds.max(1) {
         for (contender, times) in contenders.iter_mut().zip(&mut times) {
             let start = Instant::now();
             contender();

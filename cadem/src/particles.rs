@@ -75,7 +75,7 @@ pub enum ParticleError {
     #[error("particle {label} at {position:?} m is outside the domain, which reaches from 0 to {sides:?} m")]
     Outside { label: u32, position: [f64; 3], sides: [f64; 3] },
     #[error(
-        "particle {label} at {position:?} m is behind the wall {face}, which this wall law puts at {wall} m; `allow_overlaps` lets it"
+        "particle {label} at {position:?} m is behind the wall {face}, which this wall law puts at {wall} m; `allow_overlaps` (`--allow-overlaps` on the command line) lets it"
     )]
     BehindWall { label: u32, position: [f64; 3], face: Face, wall: f64 },
     #[error("two particles have the label {label}")]
@@ -84,7 +84,7 @@ pub enum ParticleError {
     LargeLabel { label: u32, limit: u32 },
     #[error(
         "particles {label} and {other} overlap: their centres are {distance} m apart, less than two radii, {diameter} m \
-         (in all {pairs} pairs overlap); `allow_overlaps` lets them"
+         (in all {pairs} pairs overlap); `allow_overlaps` (`--allow-overlaps` on the command line) lets them"
     )]
     Overlap { label: u32, other: u32, distance: f64, diameter: f64, pairs: u64 },
 }

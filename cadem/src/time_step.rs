@@ -44,7 +44,7 @@ pub enum Integrator {
     /// The form that the paper prints: v' = v + a dt, x' = x + v dt.
     ///
     /// It gains energy in every contact unless eta > k_n dt, which is 0.0894 kg/s with the paper's numbers, where eta is 0.0015: two
-    /// particles part 1.24 times as fast as they met, and a bouncing ball has 36 % more energy after 0.1 s.
+    /// particles part 1.24 times as fast as they met, and each bounce on a wall adds 36 % to the energy of a ball.
     Explicit,
 }
 

@@ -45,7 +45,8 @@ pub fn particles(path: &Path, configuration: &Configuration) -> Result<Vec<Parti
         })
         .collect();
     configuration.check_particles(&particles).map_err(|particle| {
-        let lines: HashMap<u32, u64> = table.labels.iter().copied().zip(table.lines.iter().copied()).collect();
+        let lines: HashMap<u32, u64> =
+            table.labels.iter().copied().zip(table.lines.iter().copied()).collect();
         let line = |label: u32| lines.get(&label).copied().unwrap_or_default();
         let (label, other) = particle.labels();
         LineError { path: path.to_owned(), line: line(label), other: other.map(line), particle }
@@ -71,7 +72,8 @@ pub fn opening(text: &str) -> Result<Opening, String> {
         Some(Rectangle { first: pair(first)?, last: pair(last)? })
     };
     let cells = cells.map(|cells| {
-        let error = || format!("`{cells}` are no cells; give the first and the last one, such as {name}:8,8:11,11");
+        let error =
+            || format!("`{cells}` are no cells; give the first and the last one, such as {name}:8,8:11,11");
         rectangle(cells).ok_or_else(error)
     });
     Ok(Opening { face, cells: cells.transpose()? })

@@ -1,3 +1,5 @@
+//! What the tests of the whole system share: a plain particle code, and what is known of collisions.
+
 pub mod brute_force;
 pub mod restitution;
 

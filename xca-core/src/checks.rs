@@ -28,14 +28,36 @@ impl<T> Then<T> for Checked<true> {
     }
 }
 
-/// A function that a process can call.
+/// A function that a process can call, with its result.
 #[diagnostic::on_unimplemented(
     message = "a process calls functions that are marked `#[helper]` only",
     label = "this function is not marked",
     note = "write `#[helper]` above the function; ordinary code can call it as before",
     note = "numbers have methods of their own: `a.max(b)` instead of a function `max(a, b)`"
 )]
-pub trait Callable {}
+pub trait Callable<T: Itself> {
+    /// The result itself. What is expected of it says nothing about `T`.
+    fn result(result: T) -> T::Type {
+        result.itself()
+    }
+}
+
+/// Any type.
+pub trait Itself: Sized {
+    /// The same type.
+    type Type;
+
+    /// The same value.
+    fn itself(self) -> Self::Type;
+}
+
+impl<T> Itself for T {
+    type Type = T;
+
+    fn itself(self) -> T {
+        self
+    }
+}
 
 /// Stands for a function that is not marked.
 #[derive(Debug, Clone, Copy)]
@@ -48,8 +70,16 @@ impl PlainFunction {
     }
 }
 
-/// Checks that a process can call the function.
-pub const fn callable<F: Callable>() {}
+/// A result that no function has.
+#[derive(Debug, Clone, Copy)]
+pub struct NoResult<const NUMBER: u8>;
+
+// With two candidates the compiler waits for the type of the result: where that is unknown, another message says why, and none
+// comes from here.
+#[diagnostic::do_not_recommend]
+impl Callable<NoResult<0>> for PlainFunction {}
+#[diagnostic::do_not_recommend]
+impl Callable<NoResult<1>> for PlainFunction {}
 
 /// A type whose constants can stand in a pattern.
 #[diagnostic::on_unimplemented(
@@ -57,16 +87,19 @@ pub const fn callable<F: Callable>() {}
     label = "this constant is neither an integer nor a bool",
     note = "compare floats and vectors with `if`"
 )]
-pub trait PatternConstant {}
+pub trait PatternConstant {
+    /// Does nothing.
+    fn pattern(&self) {}
+}
 
-impl PatternConstant for bool {}
-impl PatternConstant for u8 {}
-impl PatternConstant for i32 {}
-impl PatternConstant for u32 {}
-impl PatternConstant for usize {}
+macro_rules! pattern_constants {
+    ($($type:ident)*) => {$(
+        #[diagnostic::do_not_recommend]
+        impl PatternConstant for $type {}
+    )*};
+}
 
-/// Checks that a constant can stand in a pattern.
-pub const fn pattern<T: PatternConstant>(_constant: &T) {}
+pattern_constants!(bool u8 i32 u32 usize);
 
 /// A struct of substates with a position.
 #[diagnostic::on_unimplemented(
@@ -75,6 +108,3 @@ pub const fn pattern<T: PatternConstant>(_constant: &T) {}
     note = "write `#[position]` above the field of `{Self}` that is the position, a `Vector3<Real>`"
 )]
 pub trait HasPosition {}
-
-/// Checks that items have a position.
-pub const fn position<S: HasPosition>() {}

@@ -127,9 +127,6 @@ pub trait Execution: Send {
     /// How many items have left the space.
     fn left(&self, group: usize) -> u64;
 
-    /// Sets how many items have left the space, when a run is resumed.
-    fn set_left(&mut self, group: usize, left: u64);
-
     /// The most items in one cell.
     fn largest_occupancy(&self, group: usize) -> u32;
 

@@ -163,7 +163,6 @@ impl<'a> Row<'a> {
     /// - `write` is apart from everything readable, except that a substate read at the centre only is the same memory;
     /// - `starts` and `ends` can be read at every cell of the row and at all offsets from there, hold ranges within
     ///   `labels.len()`, and the ranges of the row's cells lie within `own`.
-    #[expect(clippy::too_many_arguments, reason = "called by engines alone, which have all of it at hand")]
     pub unsafe fn new(
         frame: &'a Frame<'a>,
         entries: &'a [Entry],
@@ -232,7 +231,7 @@ impl<'a> Row<'a> {
 
     /// A substate of the row's cells, to be written.
     #[inline(always)]
-    #[expect(clippy::mut_from_ref, reason = "each written entry is asked for once, see the module")]
+    #[allow(clippy::mut_from_ref, reason = "each written entry is asked for once, see the module")]
     pub fn write_cells<T: Pod>(&self, entry: usize) -> &'a mut [T] {
         // SAFETY: `Row::new`: `length` elements, aligned, this row's alone; asked for once.
         unsafe { std::slice::from_raw_parts_mut(self.entries[entry].write.cast(), self.length) }
@@ -248,7 +247,7 @@ impl<'a> Row<'a> {
 
     /// A substate of the row's own items, to be written; element 0 belongs to item [`Self::first_item`].
     #[inline(always)]
-    #[expect(clippy::mut_from_ref, reason = "each written entry is asked for once, see the module")]
+    #[allow(clippy::mut_from_ref, reason = "each written entry is asked for once, see the module")]
     pub fn write_items<T: Pod>(&self, entry: usize) -> &'a mut [T] {
         let (first, end) = self.items.map_or((0, 0), |items| items.own);
         // SAFETY: `Row::new`: the row's own items, aligned, this row's alone; asked for once.

@@ -38,13 +38,16 @@ pub struct Group {
     kind: GroupKind,
 }
 
+/// Writes the value of the field with this number in the type that it is stored in.
+pub type WriteOutside = dyn Fn(usize, Precision, &mut [u8]) + Send + Sync;
+
 /// What a group's substates belong to.
 #[derive(Clone)]
 pub enum GroupKind {
     /// The cells.
     Cells {
-        /// Writes the outside value of the field with this number, for flat boundaries.
-        outside: Arc<dyn Fn(usize, Precision, &mut [u8]) + Send + Sync>,
+        /// Writes the outside value of a field, for flat boundaries.
+        outside: Arc<WriteOutside>,
     },
     /// The items of a population.
     Population {

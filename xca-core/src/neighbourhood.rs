@@ -47,26 +47,26 @@ pub enum NeighbourhoodError {
 
 impl Neighbourhood {
     /// The cells that are at most `radius` steps away along the axes: 7 for radius 1.
-    pub fn von_neumann(radius: u32) -> Self {
+    pub fn von_neumann(radius: u8) -> Self {
         Self::ball(format!("von Neumann, radius {radius}"), radius, radius, |[x, y, z]| {
-            x.unsigned_abs() + y.unsigned_abs() + z.unsigned_abs() <= radius
+            x.unsigned_abs() + y.unsigned_abs() + z.unsigned_abs() <= radius.into()
         })
     }
 
     /// The cube of cells at most `radius` away along each axis: 27 for radius 1.
-    pub fn moore(radius: u32) -> Self {
+    pub fn moore(radius: u8) -> Self {
         Self::ball(format!("Moore, radius {radius}"), radius, radius, |_| true)
     }
 
     /// [`Self::von_neumann`] within one layer: 5 for radius 1.
-    pub fn von_neumann_2d(radius: u32) -> Self {
+    pub fn von_neumann_2d(radius: u8) -> Self {
         Self::ball(format!("von Neumann 2D, radius {radius}"), radius, 0, |[x, y, _]| {
-            x.unsigned_abs() + y.unsigned_abs() <= radius
+            x.unsigned_abs() + y.unsigned_abs() <= radius.into()
         })
     }
 
     /// [`Self::moore`] within one layer: 9 for radius 1.
-    pub fn moore_2d(radius: u32) -> Self {
+    pub fn moore_2d(radius: u8) -> Self {
         Self::ball(format!("Moore 2D, radius {radius}"), radius, 0, |_| true)
     }
 
@@ -116,8 +116,8 @@ impl Neighbourhood {
         Ok(Self { name, displacements: [displacements.clone(), displacements], parity: Parity::None })
     }
 
-    fn ball(name: String, radius: u32, layers: u32, inside: impl Fn([i32; 3]) -> bool) -> Self {
-        let (radius, layers) = (radius as i32, layers as i32);
+    fn ball(name: String, radius: u8, layers: u8, inside: impl Fn([i32; 3]) -> bool) -> Self {
+        let (radius, layers) = (i32::from(radius), i32::from(layers));
         let mut displacements = vec![[0, 0, 0]];
         for z in -layers..=layers {
             for y in -radius..=radius {

@@ -75,6 +75,7 @@ fn find(schema: &'static Schema, name: &str) -> Result<(usize, ValueType), Param
 }
 
 /// The parameters of a model that has none.
+#[diagnostic::do_not_recommend]
 impl Parameters for () {
     const SCHEMA: &'static Schema = &Schema { name: "()", fields: &[], position: None };
     type Native<R: Float> = ();

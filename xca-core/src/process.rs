@@ -2,9 +2,7 @@
 
 use crate::ir;
 use crate::kernel::{Access, Group, Of, RowKernel};
-use crate::schema::Schema;
 use crate::value::Precision;
-use std::any::TypeId;
 
 /// What a process is run for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,8 +28,8 @@ pub struct Process {
     pub subject: Group,
     /// Of a process over items, the substates of their cell; of a process over cells, those of its items.
     pub companion: Option<Group>,
-    /// The type and the fields of the parameters that it takes.
-    pub parameters: Option<(fn() -> TypeId, &'static Schema)>,
+    /// The struct of the parameters that it takes.
+    pub parameters: Option<Group>,
     /// Whether it looks at neighbours.
     pub local_interaction: bool,
     /// How it uses each substate; a substate may stand in two accesses, one of which is the position for a search.

@@ -15,11 +15,11 @@ pub enum Reduction {
     Sum,
     /// The product.
     Product,
-    /// The smallest; a NaN is never smaller.
+    /// The smallest; a NaN only where there is nothing else.
     Minimum,
-    /// The largest; a NaN is never larger.
+    /// The largest; a NaN only where there is nothing else.
     Maximum,
-    /// How many equal this value (given as the stored bytes of one lane).
+    /// How many equal this value, given as the stored bytes of one lane; the two zeros are equal.
     CountEqual(Vec<u8>),
     /// 1 where all are non-zero, else 0.
     LogicalAnd,
@@ -62,8 +62,8 @@ impl Reduced {
             }),
             (Self::Float(a), Self::Float(b)) => Self::Float(match reduction {
                 Reduction::Product => a * b,
-                Reduction::Minimum if b < a => b,
-                Reduction::Maximum if a < b => b,
+                Reduction::Minimum if b < a || a.is_nan() => b,
+                Reduction::Maximum if a < b || a.is_nan() => b,
                 Reduction::Minimum | Reduction::Maximum => a,
                 _ => a + b,
             }),
@@ -105,7 +105,9 @@ fn one(reduction: &Reduction, scalar: StoredScalar, bytes: &[u8]) -> Reduced {
         StoredScalar::F64 => Reduced::Float(bytemuck::pod_read_unaligned(bytes)),
     };
     match reduction {
-        Reduction::CountEqual(wanted) => Reduced::Integer(i64::from(bytes == wanted.as_slice())),
+        Reduction::CountEqual(wanted) => {
+            Reduced::Integer(i64::from(number == one(&Reduction::Sum, scalar, wanted)))
+        }
         Reduction::LogicalAnd | Reduction::LogicalOr | Reduction::LogicalXor => {
             Reduced::Integer(i64::from(number.number() != Some(0.0)))
         }
@@ -190,7 +192,7 @@ mod tests {
         assert_eq!(reduce(Reduction::LogicalAnd), Reduced::Integer(0));
         assert_eq!(reduce(Reduction::LogicalOr), Reduced::Integer(1));
         assert_eq!(reduce(Reduction::LogicalXor), Reduced::Integer(1));
-        assert_eq!(reduce(Reduction::BitAnd), Reduced::Integer(6 & -3 & 0 & 6));
+        assert_eq!(reduce(Reduction::BitAnd), Reduced::Integer(0));
         assert_eq!(reduce(Reduction::BitOr), Reduced::Integer(6 | -3));
         assert_eq!(reduce(Reduction::BitXor), Reduced::Integer(-3));
         assert_eq!(reduce_values(&Reduction::Sum, stored, &[]), [Reduced::Nothing]);
@@ -205,5 +207,16 @@ mod tests {
             reduce_values(&Reduction::Sum, stored, &values),
             [Reduced::Float(3.0), Reduced::Float(30.0)]
         );
+    }
+
+    #[test]
+    fn nan_and_zeros() {
+        let stored = StoredType { scalar: StoredScalar::F64, lanes: 1 };
+        let values: Vec<u8> =
+            [f64::NAN, 0.0, -0.0, 3.0].iter().flat_map(|value| value.to_ne_bytes()).collect();
+        let reduce = |reduction: Reduction| reduce_values(&reduction, stored, &values)[0];
+        assert_eq!(reduce(Reduction::Minimum), Reduced::Float(0.0));
+        assert_eq!(reduce(Reduction::Maximum), Reduced::Float(3.0));
+        assert_eq!(reduce(Reduction::CountEqual(0.0_f64.to_ne_bytes().to_vec())), Reduced::Integer(2));
     }
 }

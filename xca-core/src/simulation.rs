@@ -183,7 +183,7 @@ impl Simulation {
         self.steer(|schedule| schedule.is_due(step))
     }
 
-    /// Does at most so many steps; fewer where a steering operation ends the run.
+    /// Does at most so many steps; fewer where a steering operation ends the run, and none once one has.
     ///
     /// # Errors
     /// As [`Self::step`].

@@ -7,7 +7,7 @@ use crate::parameters::{AnyParameters, ParameterError, ParameterValue, Parameter
 use crate::reduction::{Reduced, Reducible, Reduction};
 use crate::steering::SteeringError;
 use crate::substates::{Substate, Substates};
-use crate::value::{HostValue, Precision};
+use crate::value::{HostValue, Precision, StoredScalar};
 
 /// The state between steps. Values of `Real` pass as `f64`, whatever the precision of the run.
 pub struct State<'a> {
@@ -61,6 +61,11 @@ pub enum StateError {
         /// How many were given.
         given: usize,
     },
+    /// Bit by bit, of floating numbers.
+    #[error(
+        "`{0}` holds floating numbers, whose bits cannot be reduced; use a logical reduction, or a substate of integers"
+    )]
+    BitsOfFloats(&'static str),
     /// Two items with the same label.
     #[error("the label {0} is given to two items")]
     LabelTwice(u32),
@@ -314,13 +319,19 @@ impl State<'_> {
     /// Any reduction of a substate, lane by lane.
     ///
     /// # Errors
-    /// Where the model does not have the substate.
+    /// Where the model does not have the substate, or bits of floating numbers are asked for.
     pub fn reduce<S: Substates, V: HostValue>(
         &self,
         substate: Substate<S, V>,
         reduction: &Reduction,
     ) -> Result<Vec<Reduced>, StateError> {
-        Ok(self.execution.reduce(self.id(substate)?, reduction))
+        let id = self.id(substate)?;
+        let of_bits = matches!(reduction, Reduction::BitAnd | Reduction::BitOr | Reduction::BitXor);
+        let scalar = self.model.stored(id, self.precision).scalar;
+        if of_bits && matches!(scalar, StoredScalar::F32 | StoredScalar::F64) {
+            return Err(StateError::BitsOfFloats(substate.name()));
+        }
+        Ok(self.execution.reduce(id, reduction))
     }
 
     /// The sum of a substate: in `f64`, or in `i64` of integers.

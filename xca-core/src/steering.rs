@@ -13,7 +13,7 @@ pub enum Schedule {
     Every(u64),
     /// After these numbers of steps; 0 is before the first.
     At(Vec<u64>),
-    /// When the run ends.
+    /// When the run is over, which the host says by [`crate::Simulation::finish`].
     End,
 }
 

@@ -201,7 +201,8 @@ macro_rules! float {
             fn cell_number(coordinate: Self, side: Self) -> Option<i64> {
                 let quotient = coordinate / side;
                 // 2^31: far beyond any space, and exact in both types.
-                if !(quotient.abs() < 2_147_483_648.0) {
+                let numbered = quotient.abs() < 2_147_483_648.0;
+                if !numbered {
                     return None;
                 }
                 // The floor without a call of the mathematical library: cut off, and one less where that went up.

@@ -3,7 +3,7 @@
 //! These types exist for the compiler and the reader: the macros check a process against them and then replace them by
 //! kernels. No value of them can be made, so nothing here can be called from ordinary code.
 
-use crate::substates::Substates;
+use crate::checks::HasPosition;
 use crate::value::Real;
 use crate::vector::Vector3;
 use std::convert::Infallible;
@@ -15,12 +15,12 @@ use std::ops::{Deref, DerefMut};
 /// Its substates are its fields: `cell.temperature` reads, `cell.temperature = …` writes. Reading shows what the process has
 /// already written. Only the central cell can be written.
 #[derive(Debug)]
-pub struct Cell<S: Substates> {
+pub struct Cell<S> {
     never: Infallible,
     substates: PhantomData<S>,
 }
 
-impl<S: Substates> Cell<S> {
+impl<S: 'static> Cell<S> {
     /// The number of cells in the neighbourhood, with the central one: neighbours are `1..cell.neighbours()`.
     pub fn neighbours(&self) -> u32 {
         match self.never {}
@@ -53,7 +53,7 @@ impl<S: Substates> Cell<S> {
     }
 }
 
-impl<S: Substates> Deref for Cell<S> {
+impl<S> Deref for Cell<S> {
     type Target = S;
 
     fn deref(&self) -> &S {
@@ -61,7 +61,7 @@ impl<S: Substates> Deref for Cell<S> {
     }
 }
 
-impl<S: Substates> DerefMut for Cell<S> {
+impl<S> DerefMut for Cell<S> {
     fn deref_mut(&mut self) -> &mut S {
         match self.never {}
     }
@@ -69,12 +69,12 @@ impl<S: Substates> DerefMut for Cell<S> {
 
 /// An item of a population, in a process that runs once for each occupied slot. Its substates are its fields.
 #[derive(Debug)]
-pub struct Slot<S: Substates> {
+pub struct Slot<S> {
     never: Infallible,
     substates: PhantomData<S>,
 }
 
-impl<S: Substates> Slot<S> {
+impl<S: 'static> Slot<S> {
     /// The item's label, which it keeps for its life.
     pub fn label(&self) -> u32 {
         match self.never {}
@@ -117,22 +117,31 @@ impl<S: Substates> Slot<S> {
     }
 
     /// Of [`Self::others_in_cell`] those whose position is nearer than the radius; on a toroidal axis by the shorter way.
-    pub fn others_in_cell_within(&self, _radius: Real) -> Others<S> {
+    pub fn others_in_cell_within(&self, _radius: Real) -> Others<S>
+    where
+        S: HasPosition,
+    {
         match self.never {}
     }
 
     /// Of [`Self::others_in_neighbours`] those whose position is nearer than the radius.
-    pub fn others_in_neighbours_within(&self, _radius: Real) -> Others<S> {
+    pub fn others_in_neighbours_within(&self, _radius: Real) -> Others<S>
+    where
+        S: HasPosition,
+    {
         match self.never {}
     }
 
     /// Of [`Self::others`] those whose position is nearer than the radius.
-    pub fn others_within(&self, _radius: Real) -> Others<S> {
+    pub fn others_within(&self, _radius: Real) -> Others<S>
+    where
+        S: HasPosition,
+    {
         match self.never {}
     }
 }
 
-impl<S: Substates> Deref for Slot<S> {
+impl<S> Deref for Slot<S> {
     type Target = S;
 
     fn deref(&self) -> &S {
@@ -140,7 +149,7 @@ impl<S: Substates> Deref for Slot<S> {
     }
 }
 
-impl<S: Substates> DerefMut for Slot<S> {
+impl<S> DerefMut for Slot<S> {
     fn deref_mut(&mut self) -> &mut S {
         match self.never {}
     }
@@ -148,12 +157,12 @@ impl<S: Substates> DerefMut for Slot<S> {
 
 /// All items of the central cell, by label: `for item in slots { … }` in a process over cells.
 #[derive(Debug)]
-pub struct Slots<S: Substates> {
+pub struct Slots<S> {
     never: Infallible,
     substates: PhantomData<S>,
 }
 
-impl<S: Substates> IntoIterator for &Slots<S> {
+impl<S: 'static> IntoIterator for &Slots<S> {
     type Item = &'static Other<S>;
     type IntoIter = Others<S>;
 
@@ -164,19 +173,19 @@ impl<S: Substates> IntoIterator for &Slots<S> {
 
 /// Another item; its substates are its fields, and it cannot be written.
 #[derive(Debug)]
-pub struct Other<S: Substates> {
+pub struct Other<S> {
     never: Infallible,
     substates: PhantomData<S>,
 }
 
-impl<S: Substates> Other<S> {
+impl<S> Other<S> {
     /// The item's label.
     pub fn label(&self) -> u32 {
         match self.never {}
     }
 }
 
-impl<S: Substates> Deref for Other<S> {
+impl<S> Deref for Other<S> {
     type Target = S;
 
     fn deref(&self) -> &S {
@@ -186,12 +195,12 @@ impl<S: Substates> Deref for Other<S> {
 
 /// Other items, to be used in a `for`.
 #[derive(Debug)]
-pub struct Others<S: Substates> {
+pub struct Others<S> {
     never: Infallible,
     items: PhantomData<S>,
 }
 
-impl<S: Substates> Iterator for Others<S> {
+impl<S: 'static> Iterator for Others<S> {
     type Item = &'static Other<S>;
 
     fn next(&mut self) -> Option<&'static Other<S>> {

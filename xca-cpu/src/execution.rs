@@ -176,12 +176,6 @@ impl Execution for CpuExecution {
         }
     }
 
-    fn set_left(&mut self, group: usize, left: u64) {
-        if let Group::Population(population) = &mut self.groups[group] {
-            population.left = left;
-        }
-    }
-
     fn largest_occupancy(&self, group: usize) -> u32 {
         match &self.groups[group] {
             Group::Cells(_) => 0,

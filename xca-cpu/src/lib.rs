@@ -3,7 +3,7 @@
 //! It runs the rows of the cellular space on all cores, with the same bits as the reference engine at any number of threads:
 //! - substates of cells are planes with a halo as wide as the neighbourhood, so that a neighbour is a constant offset;
 //! - populations are compact: items are stored cell after cell, and empty rows cost nothing;
-//! - processes that do not disturb each other run together, row by row ([`stages`]);
+//! - processes that do not disturb each other run together, row by row, while a row is in the processor's cache;
 //! - a substate that is read at the centre only is written in place, any other is written to a second buffer.
 
 mod dense;

@@ -246,7 +246,7 @@ fn copy(
     }
 }
 
-fn split<'a>(mut bytes: &'a mut [u8], lengths: impl Iterator<Item = usize>) -> Vec<&'a mut [u8]> {
+fn split(mut bytes: &mut [u8], lengths: impl Iterator<Item = usize>) -> Vec<&mut [u8]> {
     lengths
         .map(|length| {
             let (part, rest) = std::mem::take(&mut bytes).split_at_mut(length);

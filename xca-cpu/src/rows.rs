@@ -9,6 +9,7 @@ use crate::layout::Layout;
 use crate::population::Population;
 use crate::slack::{largest, slack as slack_of};
 use rayon::prelude::*;
+use std::cell::Cell;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use xca_core::engine::{Fault, StepContext, SubstateId};
@@ -259,33 +260,40 @@ impl Pass<'_> {
     /// Runs all processes over a block of rows, one row after the other.
     fn block(&self, model: &Model, rows: Range<usize>) -> Found {
         let mut found = Found::default();
-        // Where a panic would come from.
-        let now = std::cell::Cell::new((0, rows.start));
-        let run = AssertUnwindSafe(|| self.rows(model, rows, &now, &mut found));
-        if let Err(panic) = catch_unwind(run) {
-            let (number, row) = now.get();
-            let prepared = &self.prepared[number];
-            let cell = (row * self.layout.width()) as u32;
-            found.keep(prepared.index, cell, Fault::panicked(prepared.process.name, &*panic));
+        let now = Now::default();
+        let (mut rows, mut processes) = (rows, self.prepared.len());
+        while let Err(panic) = catch_unwind(AssertUnwindSafe(|| {
+            self.rows(model, rows.clone(), processes, &now, &mut found);
+        })) {
+            let (number, row) = (now.process.get(), now.row.get());
+            let Prepared { process, index, .. } = self.prepared[number];
+            // What the row had reported before comes first.
+            match now.reported.get() {
+                Some(fault) => {
+                    found.keep(index, fault.cell, Fault::reported(process, fault, model.geometry()));
+                }
+                None => {
+                    let cell = (row * self.layout.width()) as u32;
+                    found.keep(index, cell, Fault::panicked(process.name, &*panic));
+                }
+            }
+            // The fault of an earlier process comes first, in whatever row.
+            (rows, processes) = (row + 1..rows.end, number);
         }
         found
     }
 
-    fn rows(
-        &self,
-        model: &Model,
-        rows: Range<usize>,
-        now: &std::cell::Cell<(usize, usize)>,
-        found: &mut Found,
-    ) {
-        let mut work = Work { entries: Vec::new(), answers: Vec::new(), scratch: Scratch::default() };
+    /// Runs the first processes over rows.
+    fn rows(&self, model: &Model, rows: Range<usize>, processes: usize, now: &Now, found: &mut Found) {
+        let mut work = Work { entries: Vec::new(), answers: Vec::new(), scratch: Scratch::default(), now };
         let populations: Vec<Option<&Population>> =
             self.prepared.iter().map(|prepared| self.population(prepared)).collect();
         for row in rows {
             let [y, z] = self.layout.row(row);
             let first = self.layout.first_at(y, z);
-            for (number, (prepared, population)) in self.prepared.iter().zip(&populations).enumerate() {
-                now.set((number, row));
+            let those = self.prepared[..processes].iter().zip(&populations);
+            for (number, (prepared, population)) in those.enumerate() {
+                now.start(number, row);
                 let own = population.map_or((0, 0), |population| population.row(row));
                 if prepared.process.kind != ProcessKind::Cells && own.0 == own.1 {
                     continue;
@@ -296,7 +304,8 @@ impl Pass<'_> {
                 }
                 let cells =
                     Cells { first, origin: [0, y as u32, z as u32], length: self.layout.width(), own };
-                if let Some(fault) = self.run_row(prepared, &cells, *population, &mut work) {
+                self.run_row(prepared, &cells, *population, &mut work);
+                if let Some(fault) = now.reported.get() {
                     found.keep(
                         prepared.index,
                         fault.cell,
@@ -322,26 +331,24 @@ impl Pass<'_> {
         prepared: &Prepared<'_>,
         cells: &Cells,
         population: Option<&Population>,
-        work: &mut Work,
-    ) -> Option<RowFault> {
+        work: &mut Work<'_>,
+    ) {
         if self.parity != Parity::Column || !prepared.process.local_interaction {
             let frame =
                 &self.frames[if self.parity == Parity::Row { cells.origin[1] as usize % 2 } else { 0 }];
             return self.run_cells(prepared, frame, cells, population, 0, work);
         }
         // The neighbourhood changes from cell to cell: each is a row of its own.
-        let mut first_fault = None;
         for x in 0..cells.length {
             let first = cells.first + x;
             let own = population.map_or((0, 0), |population| {
                 (population.starts[first] as usize, population.ends[first] as usize)
             });
             let cell = Cells { first, origin: [x as u32, cells.origin[1], cells.origin[2]], length: 1, own };
-            let fault =
-                self.run_cells(prepared, &self.frames[x % 2], &cell, population, own.0 - cells.own.0, work);
-            first_fault = first_fault.or(fault);
+            // In a row without items the ranges of cells are empty, but may start anywhere.
+            let first_answer = own.0.saturating_sub(cells.own.0);
+            self.run_cells(prepared, &self.frames[x % 2], &cell, population, first_answer, work);
         }
-        first_fault
     }
 
     fn run_cells(
@@ -351,8 +358,8 @@ impl Pass<'_> {
         cells: &Cells,
         population: Option<&Population>,
         first_answer: usize,
-        work: &mut Work,
-    ) -> Option<RowFault> {
+        work: &mut Work<'_>,
+    ) {
         work.entries.clear();
         work.entries.extend(prepared.memory.iter().map(|memory| {
             let (read, write) = if memory.of_items { (0, cells.own.0) } else { (cells.first, cells.first) };
@@ -381,8 +388,8 @@ impl Pass<'_> {
         let row = unsafe {
             Row::new(frame, &work.entries, items, destinations, &work.scratch, cells.origin, cells.length)
         };
-        (prepared.kernel)(&row);
-        row.first_fault()
+        let report = Report { row: &row, now: work.now };
+        (prepared.kernel)(report.row);
     }
 
     fn collect_movers(&self, population: &Population, row: usize, answers: &[u32], movers: &mut Vec<Mover>) {
@@ -402,11 +409,44 @@ impl Pass<'_> {
 }
 
 /// Lists that are kept from row to row.
-struct Work {
+struct Work<'a> {
     entries: Vec<Entry>,
     /// A migration's answers for the items of a row.
     answers: Vec<u32>,
     scratch: Scratch,
+    now: &'a Now,
+}
+
+/// What is being done, to be known after a panic.
+#[derive(Default)]
+struct Now {
+    /// The number of the process in the pass.
+    process: Cell<usize>,
+    row: Cell<usize>,
+    /// The first fault that the process has reported in the row.
+    reported: Cell<Option<RowFault>>,
+}
+
+impl Now {
+    fn start(&self, process: usize, row: usize) {
+        self.process.set(process);
+        self.row.set(row);
+        self.reported.set(None);
+    }
+}
+
+/// Keeps what a kernel has reported when it ends, and when it panics.
+struct Report<'a> {
+    row: &'a Row<'a>,
+    now: &'a Now,
+}
+
+impl Drop for Report<'_> {
+    fn drop(&mut self) {
+        if self.now.reported.get().is_none() {
+            self.now.reported.set(self.row.first_fault());
+        }
+    }
 }
 
 /// The cells that a kernel is given.

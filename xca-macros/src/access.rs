@@ -144,7 +144,7 @@ impl Uses {
                 self.expression(value, over_cells);
             }
             Expression::Component(value, _) | Expression::Splat(_, value) => {
-                self.expression(value, over_cells)
+                self.expression(value, over_cells);
             }
             Expression::Binary(_, left, right) | Expression::Element(left, right) => {
                 self.expression(left, over_cells);

@@ -26,8 +26,9 @@ pub(crate) struct Mentions {
     pub(crate) constants: Vec<Path>,
     /// Constants in patterns.
     pub(crate) patterns: Vec<Path>,
-    /// The first search within a radius, at its method's name.
-    pub(crate) search: Option<Span>,
+    /// The structs of substates and of parameters.
+    pub(crate) substates: Vec<Type>,
+    pub(crate) parameters: Vec<Type>,
 }
 
 /// A helper that is called.
@@ -51,6 +52,8 @@ pub(crate) struct Argument {
     pub(crate) role: Role,
 }
 
+/// The structs are written so that they are unknown to the compiler where the check of the function finds an error; the
+/// plain types stand in [`Mentions`].
 pub(crate) enum Role {
     /// `Cell<S>`: the substates type.
     Cell(Type),
@@ -101,6 +104,7 @@ pub(crate) enum PlaceRoot {
     Own(Ident),
 }
 
+#[expect(clippy::large_enum_variant, reason = "trees are small and short-lived")]
 pub(crate) enum Projection {
     /// `x`, `y`, `z` or `w`.
     Component(Ident),

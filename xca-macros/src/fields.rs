@@ -66,7 +66,10 @@ fn fields(item: &DeriveInput) -> Result<Vec<Field>> {
         }
         if let (true, Some(other)) = (position, fields.iter().find(|field| field.position)) {
             let other = &other.name;
-            return Err(Error::new_spanned(&name, format!("`{other}` is the position already; there can be one only")));
+            return Err(Error::new_spanned(
+                &name,
+                format!("`{other}` is the position already; there can be one only"),
+            ));
         }
         let documentation =
             field.attrs.iter().filter(|attribute| attribute.path().is_ident("doc")).cloned().collect();
@@ -135,7 +138,7 @@ fn schema(item: &DeriveInput, fields: &[Field]) -> TokenStream {
         None => quote!(::core::option::Option::None),
     };
     quote! {
-        const SCHEMA: &'static ::xca_core::Schema = &::xca_core::Schema {
+        const __XCA_SCHEMA: &::xca_core::Schema = &::xca_core::Schema {
             name: #struct_name,
             fields: &[#(#descriptions),*],
             position: #position,
@@ -186,6 +189,7 @@ pub(crate) fn substates(item: &DeriveInput) -> Result<TokenStream> {
         for key in names {
             let number = name_number(&key);
             named.extend(quote! {
+                #[automatically_derived]
                 impl ::xca_core::HasSubstate<#number> for #name {
                     type Native<R: ::xca_core::Float> = #native;
                     const INDEX: usize = #index;
@@ -210,27 +214,34 @@ pub(crate) fn substates(item: &DeriveInput) -> Result<TokenStream> {
     let indices: Vec<usize> = (0..fields.len()).collect();
     let names: Vec<&Ident> = fields.iter().map(|field| &field.name).collect();
     Ok(quote! {
-        #named
-        #position
         impl #name {
             #handles
         }
-        impl ::xca_core::Substates for #name {
-            #schema
 
-            fn encode(&self, field: usize, precision: ::xca_core::Precision, out: &mut [u8]) {
-                let stored = <Self as ::xca_core::Substates>::SCHEMA.fields[field].value_type.stored(precision);
-                match field {
-                    #(#indices => ::xca_core::HostValue::encode(&self.#names, stored, out),)*
-                    _ => {}
+        const _: () = {
+            #schema
+            #named
+            #position
+
+            #[automatically_derived]
+            #[diagnostic::do_not_recommend]
+            impl ::xca_core::Substates for #name {
+                const SCHEMA: &'static ::xca_core::Schema = __XCA_SCHEMA;
+
+                fn encode(&self, field: usize, precision: ::xca_core::Precision, out: &mut [u8]) {
+                    let stored = __XCA_SCHEMA.fields[field].value_type.stored(precision);
+                    match field {
+                        #(#indices => ::xca_core::HostValue::encode(&self.#names, stored, out),)*
+                        _ => {}
+                    }
+                }
+
+                fn decode<'a>(precision: ::xca_core::Precision, mut field: impl FnMut(usize) -> &'a [u8]) -> Self {
+                    let stored = |index: usize| __XCA_SCHEMA.fields[index].value_type.stored(precision);
+                    Self { #(#names: ::xca_core::HostValue::decode(stored(#indices), field(#indices)),)* }
                 }
             }
-
-            fn decode<'a>(precision: ::xca_core::Precision, mut field: impl FnMut(usize) -> &'a [u8]) -> Self {
-                let stored = |index: usize| <Self as ::xca_core::Substates>::SCHEMA.fields[index].value_type.stored(precision);
-                Self { #(#names: ::xca_core::HostValue::decode(stored(#indices), field(#indices)),)* }
-            }
-        }
+        };
     })
 }
 
@@ -271,9 +282,12 @@ pub(crate) fn parameters(item: &DeriveInput) -> Result<TokenStream> {
                 __xca_real: ::core::marker::PhantomData<R>,
             }
 
+            #schema
+
             #[automatically_derived]
+            #[diagnostic::do_not_recommend]
             impl ::xca_core::Parameters for #name {
-                #schema
+                const SCHEMA: &'static ::xca_core::Schema = __XCA_SCHEMA;
                 type Native<R: ::xca_core::Float> = #native_name<R>;
 
                 fn native<R: ::xca_core::Float>(&self) -> #native_name<R> {
@@ -281,7 +295,7 @@ pub(crate) fn parameters(item: &DeriveInput) -> Result<TokenStream> {
                 }
 
                 fn value(&self, field: usize) -> ::xca_core::ParameterValue {
-                    let value_type = <Self as ::xca_core::Parameters>::SCHEMA.fields[field].value_type;
+                    let value_type = __XCA_SCHEMA.fields[field].value_type;
                     match field {
                         #(#indices => ::xca_core::ParameterValue::new(value_type, self.#names),)*
                         _ => ::xca_core::ParameterValue::new(value_type, 0.0),

@@ -12,32 +12,32 @@ mod parse;
 use parse::Wanted;
 use proc_macro::TokenStream;
 
-/// Makes an elementary process of a function. See the guide in `xca_core`.
+#[doc = include_str!("../docs/elementary_process.md")]
 #[proc_macro_attribute]
 pub fn elementary_process(attribute: TokenStream, item: TokenStream) -> TokenStream {
     expand(attribute, item, Wanted::Process)
 }
 
-/// Makes a migration of a function: it says to which cell an item of a population belongs.
+#[doc = include_str!("../docs/migration.md")]
 #[proc_macro_attribute]
 pub fn migration(attribute: TokenStream, item: TokenStream) -> TokenStream {
     expand(attribute, item, Wanted::Migration)
 }
 
-/// Makes a function callable from processes, on every engine. It stays callable from ordinary code.
+#[doc = include_str!("../docs/helper.md")]
 #[proc_macro_attribute]
 pub fn helper(attribute: TokenStream, item: TokenStream) -> TokenStream {
     expand(attribute, item, Wanted::Helper)
 }
 
-/// Makes a struct the substates of a cell or of an item.
+/// Makes a struct the substates of a cell or of an item; the trait of the same name says how.
 #[proc_macro_derive(Substates, attributes(position))]
 pub fn substates(item: TokenStream) -> TokenStream {
     let item = syn::parse_macro_input!(item as syn::DeriveInput);
     fields::substates(&item).unwrap_or_else(|error| error.to_compile_error()).into()
 }
 
-/// Makes a struct the parameters of a model.
+/// Makes a struct the parameters of a model; the trait of the same name says how.
 #[proc_macro_derive(Parameters)]
 pub fn parameters(item: TokenStream) -> TokenStream {
     let item = syn::parse_macro_input!(item as syn::DeriveInput);
@@ -68,10 +68,13 @@ fn expand(attribute: TokenStream, item: TokenStream, wanted: Wanted) -> TokenStr
 fn fallback(error: &syn::Error, function: &syn::ItemFn, wanted: Wanted) -> proc_macro2::TokenStream {
     let messages = error.to_compile_error();
     let (visibility, name) = (&function.vis, &function.sig.ident);
+    if function.sig.receiver().is_some() {
+        return messages;
+    }
     if wanted == Wanted::Helper {
         // The function for ordinary code, and for processes a type that is unknown to the compiler because of the error.
         let mut ordinary = function.clone();
-        ordinary.block = Box::new(syn::parse_quote!({ ::core::unreachable!() }));
+        *ordinary.block = syn::parse_quote!({ ::core::unreachable!() });
         return quote::quote! {
             #[allow(warnings)]
             #ordinary

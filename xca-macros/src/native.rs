@@ -10,7 +10,7 @@ use crate::access::{Access, GroupOf, Uses, groups};
 use crate::ast::{Function, FunctionKind, Role};
 use crate::fields::{POSITION, name_number};
 use proc_macro2::{Ident, Span, TokenStream};
-use quote::{format_ident, quote, quote_spanned};
+use quote::{ToTokens, format_ident, quote, quote_spanned};
 use syn::ext::IdentExt;
 use syn::spanned::Spanned;
 use syn::{Attribute, Meta, Result, Type};
@@ -27,10 +27,10 @@ pub(crate) fn expand(function: &Function, original: &syn::ItemFn) -> Result<Toke
     }
 }
 
-/// A type of the user, or nothing that the compiler knows where the check of the function has found an error.
-fn checked(type_: &TokenStream) -> TokenStream {
+/// A type of the user, or one that is unknown to the compiler where the check of the function has found an error.
+pub(crate) fn checked(type_: &impl ToTokens) -> Type {
     let check = check::name();
-    quote!(<::xca_core::checks::Checked<#check> as ::xca_core::checks::Then<#type_>>::Type)
+    Type::Verbatim(quote!(<::xca_core::checks::Checked<#check> as ::xca_core::checks::Then<#type_>>::Type))
 }
 
 /// A value of the user, likewise.
@@ -73,14 +73,12 @@ fn substate(access: &Access, function: &Function) -> TokenStream {
         GroupOf::Position => name_number(POSITION),
         _ => name_number(&access.field.unraw().to_string()),
     };
-    let type_ = checked(&quote!(#type_));
     let span = access.field.span();
     quote_spanned!(span=> <#type_ as ::xca_core::HasSubstate<#key>>)
 }
 
 /// What a kernel sees of the parameters.
 fn native_parameters(type_: &Type, real: &TokenStream) -> TokenStream {
-    let type_ = checked(&quote!(#type_));
     quote!(<#type_ as ::xca_core::Parameters>::Native<#real>)
 }
 
@@ -88,13 +86,14 @@ fn process(function: &Function, original: &syn::ItemFn) -> Result<TokenStream> {
     let data = crate::data::function(function)?;
     let uses = Uses::of(function);
     let (name, visibility) = (&function.name, &function.visibility);
-    let kept = function.attributes.iter().filter(|attribute| {
-        ["doc", "cfg", "deprecated"].iter().any(|word| attribute.path().is_ident(word))
-    });
+    let kept = function
+        .attributes
+        .iter()
+        .filter(|attribute| ["doc", "cfg", "deprecated"].iter().any(|word| attribute.path().is_ident(word)));
     let lints = lints(&function.attributes);
     let conditions: Vec<_> = conditions(function).collect();
     let description = description(function, &uses, &data);
-    let check = check::check(function, original);
+    let (check, aliases) = (check::check(function, original), check::aliases(function));
     Ok(quote! {
         #(#kept)*
         #(#lints)*
@@ -112,6 +111,8 @@ fn process(function: &Function, original: &syn::ItemFn) -> Result<TokenStream> {
                     #description
                 }
             }
+
+            #aliases
         };
     })
 }
@@ -126,7 +127,6 @@ fn description(function: &Function, uses: &Uses, data: &TokenStream) -> TokenStr
     };
     let (subject, companion) = groups(function);
     let group = |type_: &Type| {
-        let type_ = checked(&quote!(#type_));
         quote! {
             ::xca_core::kernel::Group {
                 type_id: ::core::any::TypeId::of::<#type_>,
@@ -141,12 +141,11 @@ fn description(function: &Function, uses: &Uses, data: &TokenStream) -> TokenStr
     };
     let parameters = match parameters_type(function) {
         Some(type_) => {
-            let type_ = checked(&quote!(#type_));
             quote! {
-                ::core::option::Option::Some((
-                    ::core::any::TypeId::of::<#type_> as fn() -> ::core::any::TypeId,
-                    <#type_ as ::xca_core::Parameters>::SCHEMA,
-                ))
+                ::core::option::Option::Some(::xca_core::kernel::Group {
+                    type_id: ::core::any::TypeId::of::<#type_>,
+                    schema: <#type_ as ::xca_core::Parameters>::SCHEMA,
+                })
             }
         }
         None => quote!(::core::option::Option::None),

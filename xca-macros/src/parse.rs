@@ -13,7 +13,8 @@ mod signature;
 mod similar;
 mod statements;
 
-use crate::ast::{Function, FunctionKind};
+use crate::ast::{Function, FunctionKind, Role};
+use crate::native::checked;
 pub(crate) use places::plain_operator;
 use scope::Scope;
 use syn::{Error, Result};
@@ -41,15 +42,28 @@ pub(crate) fn function(item: &syn::ItemFn, wanted: Wanted) -> Result<Function> {
             "an elementary process has no value; assign it to a substate: `cell.substate = …;`",
         ));
     }
+    let mut mentions = scope.mentions;
+    let mut arguments = signature.arguments;
+    for argument in &mut arguments {
+        match &mut argument.role {
+            Role::Cell(type_) | Role::Slot(type_) | Role::Slots(type_) => {
+                mentions.substates.push(std::mem::replace(type_, checked(type_)));
+            }
+            Role::Parameters(type_) => {
+                mentions.parameters.push(std::mem::replace(type_, checked(type_)));
+            }
+            Role::Space | Role::Value(_) => {}
+        }
+    }
     Ok(Function {
         name: item.sig.ident.clone(),
         visibility: item.vis.clone(),
         attributes: item.attrs.clone(),
         kind: signature.kind,
-        arguments: signature.arguments,
+        arguments,
         result: signature.result,
         body,
-        mentions: scope.mentions,
+        mentions,
     })
 }
 

@@ -38,11 +38,14 @@ enum Ended {
 }
 
 /// Why a command did not.
+#[derive(Debug)]
 enum Unable {
     /// Nothing was run.
     Refused(Failure),
     /// The run failed.
     Failed(Failure),
+    /// The run failed, and this is left of it.
+    FailedLeaving(Failure, String),
     /// The parser of the command line says why, or shows the help that was asked for.
     CommandLine(clap::Error),
 }
@@ -116,6 +119,11 @@ fn main_with(definition: &Definition<'_>) -> ExitCode {
         }
         Ok(Err(Unable::Failed(error))) => {
             terminal::complain(&*error);
+            ExitCode::from(FAILED)
+        }
+        Ok(Err(Unable::FailedLeaving(error, left))) => {
+            terminal::complain(&*error);
+            terminal::remark(&left);
             ExitCode::from(FAILED)
         }
         Ok(Err(Unable::CommandLine(error))) => {

@@ -16,7 +16,7 @@ pub struct NotEnoughMemory {
 }
 
 fn gigabytes(bytes: u128) -> String {
-    format!("{} GB", crate::numbers::significant(bytes as f64 / 1e9, 2))
+    format!("{} GB", crate::numbers::significant(bytes as f64 / 1e9, 3))
 }
 
 /// Checks that something can fit into the memory that the machine has left. Where the system does not say how much that is, everything fits.
@@ -66,7 +66,7 @@ mod tests {
         assert_eq!(check_memory(1000, "a cell"), Ok(()));
         if cfg!(target_os = "linux") {
             let error = check_memory(1 << 60, "the model").unwrap_err().to_string();
-            assert!(error.starts_with("the model would need 1.2e9 GB of memory"), "{error}");
+            assert!(error.starts_with("the model would need 1.15e9 GB of memory"), "{error}");
             assert!(peak_memory().is_some_and(|bytes| bytes > 100_000));
         }
     }

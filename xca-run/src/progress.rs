@@ -98,7 +98,8 @@ pub fn rate_text(steps_per_second: f64) -> String {
     match steps_per_second {
         rate if !rate.is_finite() || rate <= 0.0 => "- steps/s".to_owned(),
         rate if rate < 0.1 => format!("{} s/step", significant(1.0 / rate, 3)),
-        rate if rate < 1e6 => format!("{} steps/s", significant(rate, if rate < 100.0 { 3 } else { 4 })),
+        rate if rate < 1e4 => format!("{} steps/s", significant(rate, if rate < 100.0 { 3 } else { 4 })),
+        rate if rate < 1e6 => format!("{rate:.0} steps/s"),
         rate => format!("{rate:.2e} steps/s"),
     }
 }
@@ -227,6 +228,7 @@ mod tests {
     fn rates_and_durations_are_short() {
         for (rate, text) in [
             (1.0e7, "1.00e7 steps/s"),
+            (29_460.4, "29460 steps/s"),
             (812.36, "812.4 steps/s"),
             (4.5678, "4.57 steps/s"),
             (0.025, "40 s/step"),

@@ -134,7 +134,11 @@ impl Recorder {
     }
 
     /// Records the initial state.
-    pub(crate) fn begin(&mut self, folder: RunFolder, simulation: &mut Simulation) -> Result<(), RecordError> {
+    pub(crate) fn begin(
+        &mut self,
+        folder: RunFolder,
+        simulation: &mut Simulation,
+    ) -> Result<(), RecordError> {
         self.folder = Some(folder);
         let snapshot = self.record(simulation)?;
         self.draw(simulation, &snapshot, "initial")
@@ -209,9 +213,9 @@ impl Recorder {
             }
             let collection = match &mut shown.collection {
                 Some(collection) => collection,
-                none => none.insert(Collection::create(
-                    &folder.top.file(&format!("{}.pvd", shown.view.name())),
-                )?),
+                none => {
+                    none.insert(Collection::create(&folder.top.file(&format!("{}.pvd", shown.view.name())))?)
+                }
             };
             collection.add(time, &path)?;
         }
@@ -219,12 +223,7 @@ impl Recorder {
         Ok(())
     }
 
-    fn draw(
-        &mut self,
-        simulation: &Simulation,
-        snapshot: &Snapshot,
-        stem: &str,
-    ) -> Result<(), RecordError> {
+    fn draw(&mut self, simulation: &Simulation, snapshot: &Snapshot, stem: &str) -> Result<(), RecordError> {
         let caption = self.caption(snapshot.step);
         for number in 0..self.shown.len() {
             let (picture, range) = self.picture(number, simulation, snapshot, &caption)?;
@@ -245,7 +244,7 @@ impl Recorder {
         caption: &str,
     ) -> Result<(Option<Picture>, Option<[f64; 2]>), RecordError> {
         let shown = &self.shown[number];
-        let title = self.model().name();
+        let title = &self.set_up.title;
         Ok(if let Some(items) = items_of(shown, simulation, snapshot) {
             let caption = format!("{caption}, {} {}", items.len(), shown.view.name());
             (Some(items.draw(title, &caption)?), None)

@@ -15,6 +15,7 @@ type Observe = dyn Fn(&State<'_>) -> Result<Vec<Observable>, Failure> + Send + S
 /// every population and all substates of cells are saved, and the first of them is drawn.
 pub struct SetUp {
     pub(crate) model: Model,
+    pub(crate) title: String,
     pub(crate) steps: u64,
     pub(crate) time_step: Option<f64>,
     pub(crate) observe: Option<Box<Observe>>,
@@ -27,6 +28,7 @@ impl SetUp {
     /// A model that is run for so many steps, unless the command line says otherwise.
     pub fn new(model: Model, steps: u64) -> Self {
         Self {
+            title: model.name().to_owned(),
             model,
             steps,
             time_step: None,
@@ -35,6 +37,13 @@ impl SetUp {
             inputs: Vec::new(),
             notes: serde_json::Map::new(),
         }
+    }
+
+    /// What pictures and the terminal call the run; the model's name unless it is given.
+    #[must_use]
+    pub fn title(mut self, title: impl Into<String>) -> Self {
+        self.title = title.into();
+        self
     }
 
     /// How many seconds a step is. Without it, time is counted in steps.

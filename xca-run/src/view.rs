@@ -215,7 +215,8 @@ pub(crate) fn complete(model: &Model, given: Vec<AnyView>) -> Result<Vec<(usize,
         let fits = found.is_some_and(|group| {
             matches!(
                 (&view, model.groups()[group].kind()),
-                (AnyView::Items(_), GroupKind::Population { .. }) | (AnyView::Cells(_), GroupKind::Cells { .. })
+                (AnyView::Items(_), GroupKind::Population { .. })
+                    | (AnyView::Cells(_), GroupKind::Cells { .. })
             )
         });
         let (Some(group), true) = (found, fits) else {

@@ -9,8 +9,8 @@ use crate::program::{Program, Roles};
 use crate::shader::{Binding, BindingAccess, Content, Options, State};
 use crate::types::{self, Type};
 use std::fmt::Write as _;
-use xca_core::ValueType;
 use xca_core::kernel::Of;
+use xca_core::{ScalarType, ValueType};
 
 /// The text, and the buffers for the engine.
 pub(crate) struct Declarations {
@@ -84,10 +84,13 @@ impl Writer<'_> {
     fn provided(&mut self) {
         let precision = self.options.precision;
         if self.mentions("space") {
-            // Without the side no floats are needed.
-            let fields = if self.mentions("side") { &SPACE[..] } else { &SPACE[..SPACE.len() - 1] };
+            // Without floats where the process needs none.
+            let fields: Vec<_> = SPACE
+                .into_iter()
+                .filter(|(name, type_)| type_.scalar != ScalarType::Real || self.mentions(name))
+                .collect();
             self.structure("Space", fields.iter().copied());
-            let layout = Layout::of(fields.iter().copied(), precision);
+            let layout = Layout::of(fields, precision);
             self.buffer("space", "Space", BindingAccess::Uniform, Content::Space(layout));
         }
         if self.mentions("moment") {

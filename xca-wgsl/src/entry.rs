@@ -102,6 +102,9 @@ impl Entry<'_> {
                 let _ = writeln!(out, "    {variable}.{field} = {};", buffer.read(number));
             }
         }
+        for table in &self.glossary.tables {
+            let _ = writeln!(out, "    {table}");
+        }
         let name = self.glossary.functions.first().map_or("", String::as_str);
         if self.kind == FunctionKind::Migration {
             let _ = writeln!(out, "    destinations[item] = {name}();");

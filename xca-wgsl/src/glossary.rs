@@ -28,6 +28,8 @@ pub(crate) struct Glossary {
     pub(crate) buffers: Vec<Buffer>,
     /// The declarations of the constants.
     pub(crate) declarations: Vec<String>,
+    /// Statements that fill tables, at the start.
+    pub(crate) tables: Vec<String>,
     constants: HashMap<(String, String), String>,
 }
 
@@ -103,6 +105,7 @@ impl Glossary {
             neighbours,
             buffers: Vec::new(),
             declarations: Vec::new(),
+            tables: Vec::new(),
             constants: HashMap::new(),
         };
         for used in &uses.substates {
@@ -153,15 +156,24 @@ impl Glossary {
         names: &mut Names,
     ) -> Result<(), Problem> {
         let key = (path.to_owned(), format!("{value:?}"));
-        let text = constant_text(path, value, options.precision)?;
-        if self.constants.contains_key(&key) || text.contains("infinity_") {
+        let text = constant_text(path, value, options)?;
+        let type_ = constant_type(path, value)?;
+        let table = matches!(type_, Type::Array(..));
+        let constant = !text.contains("infinity_") && !text.contains("space.zero");
+        if self.constants.contains_key(&key) || !(constant || table) {
             return Ok(());
         }
         let name = names.module(path.rsplit("::").next().unwrap_or(path));
-        let type_ = constant_type(path, value)?;
+        let type_ = type_.wgsl();
         // Elements of a table are reached by a number that is not known before: it has to be a variable.
-        let keyword = if matches!(type_, Type::Array(..)) { "var<private>" } else { "const" };
-        self.declarations.push(format!("{keyword} {name}: {} = {text};\n", type_.wgsl()));
+        match (constant, table) {
+            (true, false) => self.declarations.push(format!("const {name}: {type_} = {text};\n")),
+            (true, true) => self.declarations.push(format!("var<private> {name}: {type_} = {text};\n")),
+            (false, _) => {
+                self.declarations.push(format!("var<private> {name}: {type_};\n"));
+                self.tables.push(format!("{name} = {text};"));
+            }
+        }
         self.constants.insert(key, name);
         Ok(())
     }

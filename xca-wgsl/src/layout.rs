@@ -60,7 +60,7 @@ impl Layout {
 }
 
 /// The fields of the description of the space.
-pub(crate) const SPACE: [(&str, ValueType); 7] = [
+pub(crate) const SPACE: [(&str, ValueType); 8] = [
     ("extents", ValueType { scalar: ScalarType::I32, lanes: 3 }),
     ("neighbours", ValueType { scalar: ScalarType::U32, lanes: 1 }),
     ("halo", ValueType { scalar: ScalarType::U32, lanes: 3 }),
@@ -68,6 +68,7 @@ pub(crate) const SPACE: [(&str, ValueType); 7] = [
     ("seed", ValueType { scalar: ScalarType::U32, lanes: 2 }),
     ("layer", ValueType { scalar: ScalarType::U32, lanes: 1 }),
     ("side", ValueType { scalar: ScalarType::Real, lanes: 1 }),
+    ("zero", ValueType { scalar: ScalarType::Real, lanes: 1 }),
 ];
 
 /// The fields of what changes from step to step.

@@ -14,7 +14,7 @@
 //! Integers wrap as in a release build, also `u8`, which is a `u32` below 256 here. `usize` has 32 bits. Casts from floats
 //! saturate. `min` and `max` of floats are comparisons and not the processor's own. Every operation stands in the text
 //! as in the source; but WGSL lets a driver contract and reorder float operations, so that equal bits need more than the text: an
-//! engine has to forbid it (see the strict mode in the documentation of the framework).
+//! engine has to forbid it.
 //! An index beyond an array ends the program in Rust; here it reads or writes some element of the array.
 //!
 //! # What is refused

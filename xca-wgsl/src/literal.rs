@@ -1,20 +1,28 @@
 //! Numbers as WGSL writes them, exact to the last bit.
 
 use crate::error::Problem;
+use crate::shader::Options;
 use crate::types::{self, Type};
+use xca_core::ScalarType;
 use xca_core::ir::Literal;
-use xca_core::{Precision, ScalarType};
 
 /// A literal of this type.
-pub(crate) fn literal(literal: &Literal, type_: &Type, precision: Precision) -> Result<String, Problem> {
+pub(crate) fn literal(literal: &Literal, type_: &Type, options: &Options) -> Result<String, Problem> {
     match (literal, type_) {
         (Literal::Bool(value), _) => Ok(value.to_string()),
         (Literal::Integer(value, _), Type::Scalar(scalar)) => integer(i128::from(*value), *scalar),
-        (Literal::Float(digits, _), Type::Scalar(scalar)) if types::is_f64(*scalar, precision) => {
-            double(digits.parse().map_err(|_| unreadable(digits))?)
+        (Literal::Float(digits, _), Type::Scalar(scalar)) if types::is_f64(*scalar, options.precision) => {
+            let value = digits.parse().map_err(|_| unreadable(digits))?;
+            float(value, *scalar, options)
         }
-        (Literal::Float(digits, _), _) => single(digits.parse().map_err(|_| unreadable(digits))?),
-        (Literal::Integer(..), _) => Err(Problem::unsupported("a literal", "its type is not known")),
+        (Literal::Float(digits, _), Type::Scalar(scalar)) => {
+            // Rounded once, as Rust rounds a literal of type `f32`.
+            let value: f32 = digits.parse().map_err(|_| unreadable(digits))?;
+            float(value.into(), *scalar, options)
+        }
+        (Literal::Integer(..) | Literal::Float(..), _) => {
+            Err(Problem::unsupported("a literal", "its type is not known"))
+        }
     }
 }
 
@@ -43,8 +51,16 @@ pub(crate) fn integer(value: i128, scalar: ScalarType) -> Result<String, Problem
 }
 
 /// A float of this type; `f64` is rounded where the type is narrower, as `as f32` does.
-pub(crate) fn float(value: f64, scalar: ScalarType, precision: Precision) -> Result<String, Problem> {
-    if types::is_f64(scalar, precision) { double(value) } else { single(value as f32) }
+pub(crate) fn float(value: f64, scalar: ScalarType, options: &Options) -> Result<String, Problem> {
+    let wide = types::is_f64(scalar, options.precision);
+    let zero = if wide { value == 0.0 } else { value as f32 == 0.0 };
+    if zero && options.opaque_zero {
+        let same = wide == types::is_f64(ScalarType::Real, options.precision);
+        let sign = if value.is_sign_negative() { "-" } else { "" };
+        let name = types::scalar_name(scalar);
+        return Ok(if same { format!("{sign}space.zero") } else { format!("{sign}{name}(space.zero)") });
+    }
+    if wide { double(value) } else { single(value as f32) }
 }
 
 fn single(value: f32) -> Result<String, Problem> {
@@ -83,21 +99,33 @@ pub(crate) fn infinity_routine(scalar: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::{float, integer, literal};
+    use crate::shader::Options;
     use crate::types::Type;
     use xca_core::ir::Literal;
     use xca_core::{Precision, ScalarType};
+
+    fn single() -> Options {
+        Options { precision: Precision::F32, ..Options::default() }
+    }
+
+    fn double() -> Options {
+        Options { precision: Precision::F64, ..Options::default() }
+    }
 
     #[test]
     fn floats_are_exact() {
         let real = Type::Scalar(ScalarType::Real);
         let tenth = Literal::Float("0.1", None);
-        assert_eq!(literal(&tenth, &real, Precision::F32).unwrap(), "0.1f");
-        assert_eq!(literal(&tenth, &real, Precision::F64).unwrap(), "0.1lf");
+        assert_eq!(literal(&tenth, &real, &single()).unwrap(), "0.1f");
+        assert_eq!(literal(&tenth, &real, &double()).unwrap(), "0.1lf");
         let long = Literal::Float("0.30000000000000004000", None);
-        assert_eq!(literal(&long, &real, Precision::F64).unwrap(), "0.30000000000000004lf");
-        assert_eq!(float(1e300, ScalarType::Real, Precision::F32).unwrap(), "infinity_f32()");
-        assert_eq!(float(f64::NEG_INFINITY, ScalarType::F64, Precision::F32).unwrap(), "-infinity_f64()");
-        assert!(float(f64::NAN, ScalarType::F64, Precision::F32).is_err());
+        assert_eq!(literal(&long, &real, &double()).unwrap(), "0.30000000000000004lf");
+        assert_eq!(float(1e300, ScalarType::Real, &single()).unwrap(), "infinity_f32()");
+        assert_eq!(float(f64::NEG_INFINITY, ScalarType::F64, &single()).unwrap(), "-infinity_f64()");
+        let opaque = Options { opaque_zero: true, ..single() };
+        assert_eq!(float(-0.0, ScalarType::Real, &opaque).unwrap(), "-space.zero");
+        assert_eq!(float(0.0, ScalarType::F64, &opaque).unwrap(), "f64(space.zero)");
+        assert!(float(f64::NAN, ScalarType::F64, &single()).is_err());
     }
 
     #[test]

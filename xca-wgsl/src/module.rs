@@ -22,6 +22,9 @@ pub(crate) fn write(program: &Program, options: &Options) -> Result<Shader, Erro
     let mut names = Names::default();
     let glossary = Glossary::of(program, &uses, options, &mut names)?;
     let mut routines = Routines::default();
+    for table in &glossary.tables {
+        routines.need_infinities(table);
+    }
     let mut functions = Vec::new();
     // Callees before callers, for the reader.
     for number in (0..program.functions.len()).rev() {

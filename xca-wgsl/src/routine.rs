@@ -26,9 +26,14 @@ impl Routines {
         name
     }
 
-    /// An infinite number, which WGSL cannot write down.
-    pub(crate) fn need_infinity(&mut self, scalar: &str) {
-        self.need(format!("infinity_{scalar}"), |_| literal::infinity_routine(scalar));
+    /// The routines behind infinite numbers in the text, which WGSL cannot write down.
+    pub(crate) fn need_infinities(&mut self, text: &str) {
+        for scalar in ["f32", "f64"] {
+            let name = format!("infinity_{scalar}");
+            if text.contains(&name) {
+                self.need(name, |_| literal::infinity_routine(scalar));
+            }
+        }
     }
 
     /// `minimum` or `maximum` of floats: `if b < a { b } else { a }`, so that NaN and signed zeros are the same everywhere.

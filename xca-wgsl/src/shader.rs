@@ -21,6 +21,9 @@ pub struct Options {
     pub toroidal: [bool; 3],
     /// Whether cells in odd rows or columns have another neighbourhood than those in even ones.
     pub parity: Parity,
+    /// Whether float zeros are read from memory. Some drivers take `x + 0.0` for `x` and `x * 0.0` for `0.0` in spite of all
+    /// decorations (Mesa's lavapipe does), which is wrong for `-0.0`, NaN and infinities; a zero that they cannot see keeps the bits.
+    pub opaque_zero: bool,
 }
 
 impl Default for Options {
@@ -31,6 +34,7 @@ impl Default for Options {
             workgroup_size: [64, 1, 1],
             toroidal: [false; 3],
             parity: Parity::None,
+            opaque_zero: false,
         }
     }
 }
@@ -89,7 +93,7 @@ pub enum BindingAccess {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Content {
     /// What is known of the space: `extents`, the number of cells of the neighbourhood, `halo`, `row`, `layer`, `seed` (low word, high
-    /// word), `side`.
+    /// word); where they are used, `side` and `zero`, which is 0.
     Space(Layout),
     /// What changes with the step: `step` (low word, high word) and the number of items of the population.
     Moment(Layout),

@@ -1,7 +1,7 @@
 //! Where things are: cells, neighbours, positions.
 
-use xca_core::{Parity, Precision};
 use xca_core::kernel::{BEYOND_NEIGHBOURHOOD, NOWHERE, OUTSIDE};
+use xca_core::{Parity, Precision};
 
 /// The number of a cell among the stored ones, from its indices.
 pub(crate) const STORAGE_INDEX: &str = "fn storage_index(index: vec3<u32>) -> u32 {

@@ -14,7 +14,7 @@ struct Cadem {
     #[arg(long, value_name = "FILE")]
     particles: Option<PathBuf>,
     /// Cells along each side of the domain, instead of the case's; the authors' recipe then fills the larger domain
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole_cells)]
     side: Option<usize>,
     /// How walls act, instead of the case's law
     #[arg(long, value_name = "LAW", value_parser = walls())]
@@ -86,7 +86,10 @@ impl Program for Cadem {
             .columns(Dem::VELOCITY, ["vx", "vy", "vz"])
             .radius(configuration.radius)
             .colour(Dem::VELOCITY, "speed (m s^-1)");
+        let start =
+            self.particles.as_ref().map_or_else(|| self.case.to_string(), |path| path.display().to_string());
         let mut set_up = SetUp::new(model, configuration.steps)
+            .title(format!("CADEM, {start}"))
             .time_step(configuration.material().time_step)
             .observables(move |state| Ok(observables(&Diagnostics::of(state, walls)?)))
             .items(view)
@@ -96,6 +99,10 @@ impl Program for Cadem {
         }
         Ok(set_up)
     }
+}
+
+fn whole_cells(text: &str) -> Result<usize, &'static str> {
+    text.parse().map_err(|_| "it must be a whole number of cells, such as 50 for 0.1 m")
 }
 
 fn observables(diagnostics: &Diagnostics) -> Vec<Observable> {
@@ -110,14 +117,13 @@ fn observables(diagnostics: &Diagnostics) -> Vec<Observable> {
     pairs.map(|(name, value)| Observable::new(name, unit(name), value)).collect()
 }
 
-/// A parser for the names of `all`, the first of which is what no name is.
+/// A parser for the names of `all`.
 fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
     all: [(T, &'static str, &'static str); N],
 ) -> impl TypedValueParser<Value = T> {
     let names = all.map(|(_, name, help)| PossibleValue::new(name).help(help));
-    PossibleValuesParser::new(names).map(move |text| {
-        all.iter().find(|(_, name, _)| *name == text).map_or(all[0].0, |(value, ..)| *value)
-    })
+    PossibleValuesParser::new(names)
+        .map(move |text| all.iter().find(|(_, name, _)| *name == text).map_or(all[0].0, |(value, ..)| *value))
 }
 
 fn case() -> impl TypedValueParser<Value = Case> {

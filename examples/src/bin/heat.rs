@@ -39,7 +39,7 @@ struct Cube {
     #[arg(long, value_name = "METRES", default_value_t = 0.1)]
     side: f64,
     /// Stop when no cell is hotter than this, in degrees
-    #[arg(long, value_name = "DEGREES", default_value_t = 1.0)]
+    #[arg(long, value_name = "DEGREES", default_value_t = 20.0)]
     until: f64,
 }
 
@@ -53,7 +53,8 @@ impl Cube {
 impl Program for Cube {
     const NAME: &'static str = "heat";
     const ABOUT: &'static str = "Heat in a cube of copper, compared with the solution in closed form";
-    const EXAMPLES: &'static str = "--size 128 --until 50\n--set alpha=0.16 --set initial=500 --precision f32";
+    const EXAMPLES: &'static str =
+        "--size 128 --until 50\n--set alpha=0.16 --set initial=500 --precision f32";
 
     fn set_up(&self, given: Given) -> Result<SetUp, Failure> {
         let copper = given.applied_to(Copper { alpha: 0.125, diffusivity: 1.11e-4, initial: 100.0 })?;
@@ -63,6 +64,7 @@ impl Program for Cube {
         let Self { size, side, until } = *self;
         let width = side / (size + 1) as f64;
         let time_step = copper.alpha * width * width / copper.diffusivity;
+        let decay = 3.0 * PI * PI * copper.diffusivity / (side * side);
         let model = Model::builder("heat")
             .extents([size; 3])
             .cell_side(width)
@@ -77,7 +79,6 @@ impl Program for Cube {
                 Ok((hottest <= until).then(|| format!("no cell is hotter than {until} degrees")))
             })
             .build()?;
-        let decay = 3.0 * PI * PI * copper.diffusivity / (side * side);
         let observe = move |state: &State<'_>| {
             let exact = copper.initial * (-decay * state.step() as f64 * time_step).exp();
             let temperatures = state.read(Heat::TEMPERATURE)?;
@@ -94,8 +95,10 @@ impl Program for Cube {
                 Observable::number("relative_error", (errors / norm).sqrt()),
             ])
         };
+        // A little longer than it takes, should the criterion not be met.
+        let steps = (1.1 * (copper.initial / until).ln() / (decay * time_step) + 20.0).clamp(1.0, 1e9) as u64;
         let view = CellView::named("heat").draw(Heat::TEMPERATURE, "temperature (°C)");
-        Ok(SetUp::new(model, 20_000).time_step(time_step).observables(observe).cells(view))
+        Ok(SetUp::new(model, steps).time_step(time_step).observables(observe).cells(view))
     }
 }
 

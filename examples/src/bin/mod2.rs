@@ -47,9 +47,8 @@ impl Program for Mod2 {
                 odd: u8::from(FIGURE.contains(&cell.map(|index| index.wrapping_sub(middle)))),
             })
             .build()?;
-        let observe = |state: &State<'_>| {
-            Ok(vec![Observable::number("odd_cells", state.sum(Parity::ODD)? as f64)])
-        };
+        let observe =
+            |state: &State<'_>| Ok(vec![Observable::number("odd_cells", state.sum(Parity::ODD)? as f64)]);
         Ok(SetUp::new(model, 16).observables(observe))
     }
 }

@@ -79,7 +79,13 @@ impl CellFilter {
         // The centre comes first; the others as in a box, if all of it is there.
         let ordered = displacements[1..].is_sorted_by_key(|[x, y, z]| [*z, *y, *x]);
         let steps = (displacements.len() == size && ordered).then_some(steps);
-        Some(Self { displacements, reach: reach.map(|reach| reach as i32), steps, slack, wide: Wide::detect() })
+        Some(Self {
+            displacements,
+            reach: reach.map(|reach| reach as i32),
+            steps,
+            slack,
+            wide: Wide::detect(),
+        })
     }
 
     /// What a sphere around a position in the cell with these indices can touch.
@@ -155,7 +161,9 @@ impl<'a> Row<'a> {
                     length_squared(self.nearest_image(position - other)) < reach
                 });
             });
-        } else if let (Some((CellFilter { wide: Some(wide), .. }, _)), Precision::F64) = (touched, R::PRECISION) {
+        } else if let (Some((CellFilter { wide: Some(wide), .. }, _)), Precision::F64) =
+            (touched, R::PRECISION)
+        {
             let (positions, place) = (bytemuck::cast_slice(positions), position.map(Float::to_f64));
             let sphere = wide::Sphere { centre: place, square: reach.to_f64() };
             self.ranges::<REACH>(x, touched, |range| wide.keep(range, item, positions, sphere, found));

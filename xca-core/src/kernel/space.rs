@@ -46,11 +46,8 @@ impl<'a, R: Float> NativeSpace<'a, R> {
             R::cell_number(position.y, side),
             R::cell_number(position.z, side),
         ) else {
-            return if position.x == position.x && position.y == position.y && position.z == position.z {
-                OUTSIDE
-            } else {
-                NOWHERE
-            };
+            let nowhere = [position.x, position.y, position.z].iter().any(|along| along.to_f64().is_nan());
+            return if nowhere { NOWHERE } else { OUTSIDE };
         };
         let inside = |number: i64, extent: u32| number >= 0 && number < i64::from(extent);
         if inside(x, width) && inside(y, height) && inside(z, depth) {

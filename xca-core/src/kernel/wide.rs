@@ -52,8 +52,8 @@ mod avx2 {
     use crate::kernel::search;
     use crate::vector::Vector3;
     use std::arch::x86_64::{
-        _CMP_LT_OQ, _mm256_add_pd, _mm256_blend_pd, _mm256_cmp_pd, _mm256_loadu_pd, _mm256_movemask_pd, _mm256_mul_pd,
-        _mm256_permute2f128_pd, _mm256_set1_pd, _mm256_shuffle_pd, _mm256_sub_pd,
+        _CMP_LT_OQ, _mm256_add_pd, _mm256_blend_pd, _mm256_cmp_pd, _mm256_loadu_pd, _mm256_movemask_pd,
+        _mm256_mul_pd, _mm256_permute2f128_pd, _mm256_set1_pd, _mm256_shuffle_pd, _mm256_sub_pd,
     };
     use std::ops::Range;
 
@@ -113,7 +113,8 @@ mod avx2 {
         #[test]
         fn as_the_plain_loop() {
             let Some(wide) = Wide::detect() else { return };
-            let number = |counter: u32, word: usize| f64::from(philox([counter, 0, 0, 0], [7, 9])[word] >> 29) * 0.25;
+            let number =
+                |counter: u32, word: usize| f64::from(philox([counter, 0, 0, 0], [7, 9])[word] >> 29) * 0.25;
             let positions: Vec<Vector3<f64>> =
                 (0..23).map(|item| Vector3::new(number(item, 0), number(item, 1), number(item, 2))).collect();
             let mut kept = 0;

@@ -291,12 +291,12 @@ fn check_process(
             _ => {}
         }
     }
-    if let Some((wanted, schema)) = process.parameters
-        && wanted() != parameters.parameters_type()
+    if let Some(wanted) = process.parameters
+        && (wanted.type_id)() != parameters.parameters_type()
     {
         return Err(ModelError::Parameters {
             process: name,
-            wanted: schema.name,
+            wanted: wanted.schema.name,
             given: parameters.schema().name,
         });
     }

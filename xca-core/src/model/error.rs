@@ -67,8 +67,6 @@ pub enum ModelError {
         "a reflecting boundary has no meaning for the items of `{substates}` along {axis}; use a flat or toroidal one"
     )]
     ReflectedPopulation { substates: &'static str, axis: char },
-    #[error("`{substates}` is a population; only substates of cells have an outside value")]
-    OutsideOfPopulation { substates: &'static str },
     #[error("`{substates}` is not among the substates of the model; add it before")]
     NotAdded { substates: &'static str },
     #[error("a schedule of every 0 steps never comes; give at least 1")]

@@ -5,15 +5,12 @@ use crate::engine::{Execution, Fault, Population, StepContext, SubstateId};
 use crate::process::ProcessKind;
 use crate::reduction::{ITEMS_IN_BLOCK, Reduced, Reduction, reduce_values};
 use std::ops::Range;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
 impl Execution for ReferenceExecution {
     fn run(&mut self, processes: Range<usize>, context: &StepContext<'_>) -> Result<(), Fault> {
         for index in processes {
             let process = self.model.processes()[index];
-            // A panic leaves an unfinished step behind, as every fault does.
-            let answers = catch_unwind(AssertUnwindSafe(|| self.pass(&process, context)))
-                .unwrap_or_else(|panic| Err(Fault::panicked(process.name, &*panic)))?;
+            let answers = self.pass(&process, context)?;
             if process.kind == ProcessKind::Migration {
                 self.migrate(&process, &answers)?;
             }
@@ -85,10 +82,6 @@ impl Execution for ReferenceExecution {
 
     fn left(&self, group: usize) -> u64 {
         self.groups[group].left
-    }
-
-    fn set_left(&mut self, group: usize, left: u64) {
-        self.groups[group].left = left;
     }
 
     fn largest_occupancy(&self, group: usize) -> u32 {

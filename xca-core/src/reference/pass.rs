@@ -9,6 +9,7 @@ use crate::geometry::Boundary;
 use crate::kernel::{Access, Entry, Frame, Row, RowItems, Scratch};
 use crate::process::{Process, ProcessKind};
 use crate::storage::Buffer;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Where a process's substates are read and written during a pass.
 struct Pass {
@@ -44,7 +45,6 @@ impl ReferenceExecution {
         };
         let kernel = process.kernel(self.precision);
         let scratch = Scratch::default();
-        let mut first_fault = None;
         for cell in 0..geometry.cells() {
             let indices = geometry.indices(cell);
             let around: Vec<Option<usize>> = neighbourhood(&geometry, indices).collect();
@@ -68,13 +68,14 @@ impl ReferenceExecution {
             // plane where others are read. Ranges are lists of as many values as offsets. All of it outlives the row, and
             // nothing else touches it meanwhile: pointers were taken last from each buffer.
             let row = unsafe { Row::new(&frame, &entries, items, destinations, &scratch, origin, 1) };
-            kernel(&row);
-            if first_fault.is_none() {
-                first_fault = row.first_fault();
+            // A fault, and a panic too, leaves an unfinished step behind. What was reported before a panic comes first.
+            let panic = catch_unwind(AssertUnwindSafe(|| kernel(&row))).err();
+            if let Some(fault) = row.first_fault() {
+                return Err(Fault::reported(process, fault, &geometry));
             }
-        }
-        if let Some(fault) = first_fault {
-            return Err(Fault::reported(process, fault, &geometry));
+            if let Some(panic) = panic {
+                return Err(Fault::panicked(process.name, &*panic));
+            }
         }
         for pass in passes {
             if let Some(next) = pass.next {

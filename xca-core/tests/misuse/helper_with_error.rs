@@ -13,13 +13,14 @@ fn decayed(value: Real) -> Real {
 }
 
 #[helper]
-fn doubled(value: Real) -> Real {
-    value * 2
+fn rounded(value: Real) -> Real {
+    let number: i32 = value;
+    number as Real
 }
 
 #[elementary_process]
 fn process(cell: &mut Cell<Heat>) {
-    cell.temperature = decayed(cell.temperature) + doubled(cell.temperature);
+    cell.temperature = decayed(cell.temperature) + rounded(cell.temperature);
 }
 
 fn main() {}

@@ -10,7 +10,7 @@ struct Clock {
 
 #[elementary_process]
 fn process(clock: &mut Cell<Clock>) {
-    clock.time += clock.step;
+    clock.time = clock.step;
 }
 
 fn main() {}

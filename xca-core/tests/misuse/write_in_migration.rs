@@ -9,9 +9,9 @@ struct Grain {
 }
 
 #[migration]
-fn process(me: &Slot<Grain>) {
+fn process(me: &Slot<Grain>, space: &Space) -> Destination {
     me.kind = 0;
-    Destination::Stay
+    space.cell_containing(me.position)
 }
 
 fn main() {}

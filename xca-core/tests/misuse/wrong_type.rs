@@ -11,7 +11,6 @@ struct Heat {
 fn process(cell: &mut Cell<Heat>) {
     cell.kind = cell.temperature;
     cell.temperature = 1;
-    cell.temperature = cell.kind * 0.5;
 }
 
 fn main() {}

@@ -2,9 +2,7 @@
 
 use super::hidden;
 use crate::access::GroupOf;
-use crate::ast::{
-    Block, Expression, Function, FunctionKind, Place, PlaceRoot, Projection, Reach, Statement,
-};
+use crate::ast::{Block, Expression, Function, FunctionKind, Place, PlaceRoot, Projection, Reach, Statement};
 use crate::fields::with_real;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{quote, quote_spanned};

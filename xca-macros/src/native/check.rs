@@ -2,8 +2,7 @@
 //!
 //! It stands in a constant that has a value only if the copy is without errors; see `xca_core::checks`.
 
-use crate::access::groups;
-use crate::ast::Function;
+use crate::ast::{Call, Function};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{quote, quote_spanned};
 use syn::spanned::Spanned;
@@ -14,34 +13,31 @@ pub(super) fn name() -> Ident {
     Ident::new("__XCA_CHECKED", Span::call_site())
 }
 
-/// The constant, and the names by which helpers are called.
+/// The constant.
 pub(super) fn check(function: &Function, original: &syn::ItemFn) -> TokenStream {
     let name = name();
-    let aliases = aliases(function);
-    let callable = function.mentions.calls.iter().map(|call| {
-        let alias = &call.alias;
-        quote_spanned!(alias.span()=> ::xca_core::checks::callable::<#alias>();)
+    let mentions = &function.mentions;
+    let constants = mentions.constants.iter().map(|path| {
+        quote_spanned!(path.span()=> ::core::mem::drop(::xca_core::ir::ConstantValue::constant(&#path));)
     });
-    let constants = function.mentions.constants.iter().map(|path| {
-        quote_spanned!(path.span()=> ::xca_core::ir::ConstantValue::constant(&#path);)
-    });
-    let patterns = function
-        .mentions
+    let patterns = mentions
         .patterns
         .iter()
-        .map(|path| quote_spanned!(path.span()=> ::xca_core::checks::pattern(&#path);));
-    let position = function.mentions.search.map(|span| {
-        let (subject, _) = groups(function);
-        quote_spanned!(span=> ::xca_core::checks::position::<#subject>();)
-    });
-    let copy = copy(original);
+        .map(|path| quote_spanned!(path.span()=> ::xca_core::checks::PatternConstant::pattern(&#path);));
+    let substates = mentions
+        .substates
+        .iter()
+        .map(|type_| quote_spanned!(type_.span()=> let _ = <#type_ as ::xca_core::Substates>::SCHEMA;));
+    let parameters = mentions
+        .parameters
+        .iter()
+        .map(|type_| quote_spanned!(type_.span()=> let _ = <#type_ as ::xca_core::Parameters>::SCHEMA;));
+    let copy = copy(function, original);
     quote! {
-        #aliases
-
         const #name: bool = {
-            #(#callable)*
-            #position
             let _ = || {
+                #(#substates)*
+                #(#parameters)*
                 #(#constants)*
                 #(#patterns)*
             };
@@ -51,37 +47,10 @@ pub(super) fn check(function: &Function, original: &syn::ItemFn) -> TokenStream 
     }
 }
 
-/// Names for the helpers that are called: of the helper's own type, or, where the function is no helper and has no such type,
-/// of one that says so.
-fn aliases(function: &Function) -> TokenStream {
-    let calls = &function.mentions.calls;
-    if calls.is_empty() {
-        return TokenStream::new();
-    }
-    let plain = calls.iter().map(|call| {
-        let alias = &call.alias;
-        quote!(pub type #alias = ::xca_core::checks::PlainFunction;)
-    });
-    let imports = calls.iter().map(|call| {
-        let (function, alias) = (&call.function, &call.alias);
-        quote!(#[allow(unused_imports)] use #function as #alias;)
-    });
-    // What is imported by name goes before what is imported by `*`.
-    quote! {
-        #[allow(non_camel_case_types)]
-        mod __xca_plain_functions {
-            #(#plain)*
-        }
-        #[allow(unused_imports)]
-        use __xca_plain_functions::*;
-        #(#imports)*
-    }
-}
-
 /// The function as a closure, which belongs to the constant's own body.
-fn copy(original: &syn::ItemFn) -> TokenStream {
+fn copy(function: &Function, original: &syn::ItemFn) -> TokenStream {
     let mut block = original.block.clone();
-    SpellOut.visit_block_mut(&mut block);
+    SpellOut(&function.mentions.calls).visit_block_mut(&mut block);
     let inputs = &original.sig.inputs;
     let output = match &original.sig.output {
         syn::ReturnType::Default => quote!(-> ()),
@@ -96,17 +65,75 @@ fn copy(original: &syn::ItemFn) -> TokenStream {
 }
 
 /// Writes `a += b` as `a = a + b`: the fields of a cell are reached through `DerefMut`, and in a compound assignment of vectors that
-/// would borrow the cell while the right-hand side reads it.
-struct SpellOut;
+/// would borrow the cell while the right-hand side reads it. And has each call of a function check that it is a helper.
+struct SpellOut<'a>(&'a [Call]);
 
-impl VisitMut for SpellOut {
+impl VisitMut for SpellOut<'_> {
     fn visit_expr_mut(&mut self, expression: &mut syn::Expr) {
         syn::visit_mut::visit_expr_mut(self, expression);
-        let syn::Expr::Binary(binary) = expression else { return };
-        let Some(operator) = crate::parse::plain_operator(&binary.op) else { return };
-        let (left, right) = (&binary.left, &binary.right);
-        let span = binary.op.span();
-        let sum = quote_spanned!(span=> #left #operator (#right));
-        *expression = syn::Expr::Verbatim(quote_spanned!(span=> #left = #sum));
+        match expression {
+            syn::Expr::Binary(binary) => {
+                let Some(operator) = crate::parse::plain_operator(&binary.op) else { return };
+                let (left, right) = (&binary.left, &binary.right);
+                let span = binary.op.span();
+                let sum = quote_spanned!(span=> #left #operator (#right));
+                *expression = syn::Expr::Verbatim(quote_spanned!(span=> #left = #sum));
+            }
+            syn::Expr::Call(call) => {
+                let function = &call.func;
+                let text = quote!(#function).to_string();
+                let helper = self.0.iter().find(|call| {
+                    let function = &call.function;
+                    quote!(#function).to_string() == text
+                });
+                if let Some(Call { alias, .. }) = helper {
+                    let alias = Ident::new(&alias.to_string(), function.span());
+                    *expression = syn::Expr::Verbatim(
+                        quote_spanned!(function.span()=> <#alias as ::xca_core::checks::Callable<_>>::result(#call)),
+                    );
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Names for the helpers that are called: of the helper's own type, or, where the function is no helper and has no such type,
+/// of one that says so.
+///
+/// It comes after everything that the user wrote: its macros exist only so that there is something to import where the user
+/// calls a function that does not exist, and must not be seen from there.
+pub(super) fn aliases(function: &Function) -> TokenStream {
+    let calls = &function.mentions.calls;
+    if calls.is_empty() {
+        return TokenStream::new();
+    }
+    let plain = calls.iter().map(|call| {
+        let alias = &call.alias;
+        quote!(pub type #alias = ::xca_core::checks::PlainFunction;)
+    });
+    let imports = calls.iter().map(|call| {
+        let (function, alias) = (&call.function, &call.alias);
+        let fallback = function.get_ident().map(|name| {
+            quote! {
+                #[allow(unused_macros)]
+                macro_rules! #name { () => {}; }
+            }
+        });
+        quote! {
+            #fallback
+            #[allow(unused_imports)]
+            use #function as #alias;
+        }
+    });
+    // What is imported by name goes before what is imported by `*`.
+    quote! {
+        #[allow(non_camel_case_types)]
+        mod __xca_plain_functions {
+            #(#plain)*
+        }
+        #[allow(unused_imports)]
+        use __xca_plain_functions::*;
+        #(#imports)*
     }
 }

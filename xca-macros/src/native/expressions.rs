@@ -99,7 +99,15 @@ impl Writer<'_> {
                 quote!(#value.#component)
             }
             Expression::Element(array, index) => {
-                let (array, index) = (self.expression(array), self.expression(index));
+                let index = self.expression(index);
+                let array = match &**array {
+                    // At the start of a statement the brackets would be a statement of their own.
+                    block @ (Expression::If { .. } | Expression::Match { .. } | Expression::Block(_)) => {
+                        let block = self.expression(block);
+                        quote!((#block))
+                    }
+                    other => self.expression(other),
+                };
                 quote!(#array[#index])
             }
             Expression::Array(elements, span) => {

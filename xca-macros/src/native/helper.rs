@@ -12,7 +12,7 @@ pub(super) fn expand(function: &Function, original: &syn::ItemFn) -> Result<Toke
     let data = crate::data::function(function)?;
     let (name, visibility) = (&function.name, &function.visibility);
     let natives = [quote!(f32), quote!(f64)].map(|real| native(function, &real));
-    let check = check::check(function, original);
+    let (check, aliases) = (check::check(function, original), check::aliases(function));
     let conditions: Vec<_> = conditions(function).collect();
     Ok(quote! {
         #original
@@ -28,7 +28,8 @@ pub(super) fn expand(function: &Function, original: &syn::ItemFn) -> Result<Toke
             #check
 
             #[automatically_derived]
-            impl ::xca_core::checks::Callable for #name {}
+            #[diagnostic::do_not_recommend]
+            impl<T> ::xca_core::checks::Callable<T> for #name {}
 
             #[allow(warnings, arithmetic_overflow, overflowing_literals, unconditional_panic, clippy::all)]
             #[automatically_derived]
@@ -40,6 +41,8 @@ pub(super) fn expand(function: &Function, original: &syn::ItemFn) -> Result<Toke
                     #data
                 }
             }
+
+            #aliases
         };
     })
 }

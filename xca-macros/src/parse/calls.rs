@@ -45,7 +45,10 @@ impl Scope {
             && inner.method == "neighbour"
             && self.is_subject(&inner.receiver)
         {
-            return Err(no_method_of("a neighbour has its substates, `cell.neighbour(n).substate`", &call.method));
+            return Err(no_method_of(
+                "a neighbour has its substates, `cell.neighbour(n).substate`",
+                &call.method,
+            ));
         }
         match self.named(&call.receiver) {
             Some(Binding::Subject) => return self.subject_method(call),
@@ -110,7 +113,10 @@ impl Scope {
                 ));
             }
             "fault" => {
-                return Err(Error::new_spanned(call, "`fault` has no value; write it as a statement of its own"));
+                return Err(Error::new_spanned(
+                    call,
+                    "`fault` has no value; write it as a statement of its own",
+                ));
             }
             _ if method.starts_with("others") => {
                 return Err(Error::new_spanned(
@@ -125,7 +131,10 @@ impl Scope {
 
     fn other_method(&mut self, call: &ExprMethodCall) -> Result<Expression> {
         match strip(&call.receiver) {
-            Expr::Path(path) if call.method == "label" && let Some(name) = path.path.get_ident() => {
+            Expr::Path(path)
+                if call.method == "label"
+                    && let Some(name) = path.path.get_ident() =>
+            {
                 let [] = self.arguments(call, "`label()` takes no arguments")?;
                 Ok(Expression::OtherLabel(name.clone()))
             }
@@ -228,7 +237,9 @@ impl Scope {
                 ));
             }
         }
-        if let Some(segment) = path.segments.iter().find(|segment| !matches!(segment.arguments, PathArguments::None)) {
+        if let Some(segment) =
+            path.segments.iter().find(|segment| !matches!(segment.arguments, PathArguments::None))
+        {
             return Err(Error::new_spanned(segment, "a helper is not generic: leave out the type arguments"));
         }
         let arguments: Vec<Expression> =
@@ -243,7 +254,15 @@ impl Scope {
                 reference,
                 "pass the value itself, without `&`; parameters and space are references already",
             )),
-            other if let Some(Binding::Subject | Binding::CellOfItem | Binding::Slots | Binding::Neighbour | Binding::Other) = self.named(other) => {
+            other
+                if let Some(
+                    Binding::Subject
+                    | Binding::CellOfItem
+                    | Binding::Slots
+                    | Binding::Neighbour
+                    | Binding::Other,
+                ) = self.named(other) =>
+            {
                 Err(Error::new_spanned(
                     other,
                     "a helper takes values: pass the substates that it needs, `cell.substate`, or the parameters and the space",
@@ -279,8 +298,8 @@ impl Scope {
 
 fn is_type(word: &Ident) -> bool {
     let numbers = [
-        "bool", "char", "str", "u8", "u16", "u32", "u64", "u128", "usize", "i8", "i16", "i32", "i64", "i128", "isize",
-        "f32", "f64",
+        "bool", "char", "str", "u8", "u16", "u32", "u64", "u128", "usize", "i8", "i16", "i32", "i64", "i128",
+        "isize", "f32", "f64",
     ];
     is_constant(word) || numbers.iter().any(|number| word == number)
 }

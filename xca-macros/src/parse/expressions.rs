@@ -17,6 +17,18 @@ pub(super) fn strip(expression: &Expr) -> &Expr {
     }
 }
 
+/// Both results, or the errors of both.
+pub(super) fn both<A, B>(first: Result<A>, second: Result<B>) -> Result<(A, B)> {
+    match (first, second) {
+        (Ok(first), Ok(second)) => Ok((first, second)),
+        (Err(mut error), Err(other)) => {
+            error.combine(other);
+            Err(error)
+        }
+        (Err(error), Ok(_)) | (Ok(_), Err(error)) => Err(error),
+    }
+}
+
 impl Scope {
     pub(super) fn expression(&mut self, expression: &Expr) -> Result<Expression> {
         match strip(expression) {
@@ -34,19 +46,17 @@ impl Scope {
                     "there are no references in a process: use the value itself, without `*`",
                 )),
             },
-            Expr::Binary(binary) if super::plain_operator(&binary.op).is_some() => {
-                Err(Error::new_spanned(
-                    binary,
-                    "an assignment has no value; write it as a statement of its own",
-                ))
-            }
+            Expr::Binary(binary) if super::plain_operator(&binary.op).is_some() => Err(Error::new_spanned(
+                binary,
+                "an assignment has no value; write it as a statement of its own",
+            )),
             Expr::Binary(binary) => self.binary(binary.op, &binary.left, &binary.right),
             Expr::Cast(cast) => {
                 Ok(Expression::Cast(Box::new(self.expression(&cast.expr)?), (*cast.ty).clone()))
             }
             Expr::Index(index) => {
-                let (array, index) = (self.expression(&index.expr), self.expression(&index.index));
-                Ok(Expression::Element(Box::new(array?), Box::new(index?)))
+                let (array, index) = both(self.expression(&index.expr), self.expression(&index.index))?;
+                Ok(Expression::Element(Box::new(array), Box::new(index)))
             }
             Expr::Array(array) => {
                 let elements =
@@ -59,9 +69,10 @@ impl Scope {
                     Expr::Lit(literal) if let Lit::Int(length) = &literal.lit => {
                         Ok(Expression::Repeat(Box::new(value), length.clone()))
                     }
-                    other => {
-                        Err(Error::new_spanned(other, "write the length of the array as a number: `[0.0; 4]`"))
-                    }
+                    other => Err(Error::new_spanned(
+                        other,
+                        "write the length of the array as a number: `[0.0; 4]`",
+                    )),
                 }
             }
             Expr::If(if_) => self.if_expression(if_),
@@ -72,8 +83,8 @@ impl Scope {
     }
 
     fn binary(&mut self, operator: BinOp, left: &Expr, right: &Expr) -> Result<Expression> {
-        let (left, right) = (self.expression(left), self.expression(right));
-        Ok(Expression::Binary(operator, Box::new(left?), Box::new(right?)))
+        let (left, right) = both(self.expression(left), self.expression(right))?;
+        Ok(Expression::Binary(operator, Box::new(left), Box::new(right)))
     }
 
     fn if_expression(&mut self, if_: &syn::ExprIf) -> Result<Expression> {
@@ -138,7 +149,8 @@ impl Scope {
                 _ => Err(no_destination(path)),
             };
         }
-        if let Some(first) = words.first().filter(|first| **first == "Self" || **first == "self" && words.len() == 1)
+        if let Some(first) =
+            words.first().filter(|first| **first == "Self" || **first == "self" && words.len() == 1)
         {
             return Err(Error::new_spanned(first, "a process is a free function: there is no `self`"));
         }
@@ -208,6 +220,15 @@ impl Scope {
             return Ok(Expression::Neighbour { index, field: member });
         }
         let value = self.expression(&field.base)?;
+        if let (Expression::Constant(path), false) = (&value, is_component(&member)) {
+            let path = quote::quote!(#path).to_string().replace(' ', "");
+            return Err(Error::new_spanned(
+                &member,
+                format!(
+                    "constants are numbers, vectors and arrays; make one of the field: `const NAME: … = {path}.{member};`"
+                ),
+            ));
+        }
         if !is_component(&member) {
             return Err(no_component(&member));
         }

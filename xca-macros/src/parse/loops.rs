@@ -89,10 +89,10 @@ impl Scope {
             }
         }
         if !within {
-            let [] = self.arguments(call, "this search takes no radius; the one that does ends in `_within`")?;
+            let [] =
+                self.arguments(call, "this search takes no radius; the one that does ends in `_within`")?;
             return Ok((reach, None));
         }
-        self.mentions.search.get_or_insert(call.method.span());
         let [radius] = self.arguments(call, "give the radius, in metres")?;
         Ok((reach, Some(radius)))
     }
@@ -119,8 +119,12 @@ fn variable(pattern: &Pat) -> Result<Ident> {
 
 fn method_of_range(call: &ExprMethodCall) -> String {
     match call.method.to_string().as_str() {
-        "rev" => "a range runs upwards; compute the index: `for k in 0..n { let i = n - 1 - k; … }`".to_owned(),
-        "step_by" => "a range runs by ones; compute the index: `for k in 0..n { let i = step * k; … }`".to_owned(),
+        "rev" => {
+            "a range runs upwards; compute the index: `for k in 0..n { let i = n - 1 - k; … }`".to_owned()
+        }
+        "step_by" => {
+            "a range runs by ones; compute the index: `for k in 0..n { let i = step * k; … }`".to_owned()
+        }
         "iter" | "into_iter" | "iter_mut" | "enumerate" => {
             "go through an array by index: `for i in 0..3 { … values[i] … }`".to_owned()
         }

@@ -43,7 +43,9 @@ impl Scope {
                 name,
                 "a pattern binds no name; leave out the `name @` and use the matched value itself",
             )),
-            Pat::Ident(name) if is_constant(&name.ident) => Ok(self.constant_pattern(&name.ident.clone().into())),
+            Pat::Ident(name) if is_constant(&name.ident) => {
+                Ok(self.constant_pattern(&name.ident.clone().into()))
+            }
             Pat::Ident(name) => Err(Error::new_spanned(
                 name,
                 "a pattern binds no name; write `_`, and use the matched value itself",

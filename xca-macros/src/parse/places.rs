@@ -1,6 +1,6 @@
 //! What is assigned to.
 
-use super::expressions::strip;
+use super::expressions::{both, strip};
 use super::refusals::{cannot_write, is_component, no_component};
 use super::scope::{Binding, Scope};
 use crate::ast::{FunctionKind, Place, PlaceRoot, Projection, Statement};
@@ -16,9 +16,8 @@ impl Scope {
         right: &Expr,
         span: Span,
     ) -> Result<Statement> {
-        let place = self.place(left);
-        let value = self.expression(right);
-        Ok(Statement::Assign { place: place?, operator, value: value?, span })
+        let (place, value) = both(self.place(left), self.expression(right))?;
+        Ok(Statement::Assign { place, operator, value, span })
     }
 
     fn place(&mut self, left: &Expr) -> Result<Place> {

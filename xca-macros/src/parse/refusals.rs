@@ -14,9 +14,15 @@ pub(super) fn refused(expression: &Expr) -> Error {
         Expr::Reference(_) | Expr::RawAddr(_) => {
             "there are no references in a process: use the value itself, without `&`"
         }
-        Expr::Tuple(tuple) if tuple.elems.is_empty() => "`()` is not part of a process; write an empty block, `{}`",
-        Expr::Tuple(_) => "tuples are not part of a process; use single variables, a small vector or an array",
-        Expr::Struct(_) => "structs cannot be made in a process; assign the substates one by one: `cell.substate = …`",
+        Expr::Tuple(tuple) if tuple.elems.is_empty() => {
+            "`()` is not part of a process; write an empty block, `{}`"
+        }
+        Expr::Tuple(_) => {
+            "tuples are not part of a process; use single variables, a small vector or an array"
+        }
+        Expr::Struct(_) => {
+            "structs cannot be made in a process; assign the substates one by one: `cell.substate = …`"
+        }
         Expr::Range(_) => "a range stands only in `for i in 0..n` and in patterns",
         Expr::Let(_) => "`let` in a condition is not part of a process; compare with `==`, or with `match`",
         Expr::Unsafe(_) => "unsafe code is not part of a process",
@@ -53,7 +59,9 @@ pub(super) fn macro_call(call: &syn::Macro) -> Error {
         }
         "vec" => "there are no lists in a process; use an array of fixed length: `[0.0; 4]`",
         "matches" => "write `match` or comparisons instead of `matches!`",
-        _ => "macros cannot be called in a process; write the code in place, or as a function marked #[helper]",
+        _ => {
+            "macros cannot be called in a process; write the code in place, or as a function marked #[helper]"
+        }
     };
     Error::new_spanned(call, advice)
 }
@@ -103,7 +111,9 @@ pub(super) fn refuse_attributes(attributes: &[Attribute]) -> Result<()> {
         attribute.path().segments.first().is_none_or(|first| !harmless.iter().any(|word| first.ident == word))
     });
     match refused {
-        Some(attribute) => Err(Error::new_spanned(attribute, "this attribute has no meaning within a process")),
+        Some(attribute) => {
+            Err(Error::new_spanned(attribute, "this attribute has no meaning within a process"))
+        }
         None => Ok(()),
     }
 }
@@ -123,11 +133,11 @@ pub(super) fn no_component(name: &Ident) -> Error {
 pub(super) fn method(method: &Ident, known: &[&str]) -> Error {
     let name = method.to_string();
     let advice = match name.as_str() {
-        "exp" | "exp2" | "exp_m1" | "ln" | "ln_1p" | "log" | "log2" | "log10" | "powf" | "sin" | "cos" | "tan"
-        | "asin" | "acos" | "atan" | "atan2" | "sin_cos" | "sinh" | "cosh" | "tanh" | "asinh" | "acosh"
-        | "atanh" | "cbrt" | "hypot" => format!(
-            "`{name}` gives other bits on other machines, so a process cannot use it; exact are + - * / sqrt abs floor ceil trunc \
-             min max clamp: write a polynomial or a table of them as a function marked #[helper]"
+        "exp" | "exp2" | "exp_m1" | "ln" | "ln_1p" | "log" | "log2" | "log10" | "powf" | "sin" | "cos"
+        | "tan" | "asin" | "acos" | "atan" | "atan2" | "sin_cos" | "sinh" | "cosh" | "tanh" | "asinh"
+        | "acosh" | "atanh" | "cbrt" | "hypot" => format!(
+            "`{name}` gives other bits on other machines, so a process cannot use it; write what you need of it with + - * / sqrt \
+             abs floor ceil trunc min max clamp, as a polynomial or a table"
         ),
         "powi" | "pow" => format!("`{name}` is not part of a process; write the product: `x * x * x`"),
         "round" | "round_ties_even" => {
@@ -135,7 +145,9 @@ pub(super) fn method(method: &Ident, known: &[&str]) -> Error {
         }
         "mul_add" => "`mul_add` rounds once and differs between engines; write `a * b + c`".to_owned(),
         "clone" | "to_owned" | "copied" => format!("values are copied by themselves: leave out `.{name}()`"),
-        "into" | "try_into" => format!("`{name}` is not part of a process; cast: `value as Real`, `value as u32`"),
+        "into" | "try_into" => {
+            format!("`{name}` is not part of a process; cast: `value as Real`, `value as u32`")
+        }
         "is_nan" => "write `value != value`: only NaN differs from itself".to_owned(),
         "is_finite" => "write `value - value == 0.0`: only numbers that are finite do that".to_owned(),
         "signum" => "write `if value < 0.0 { -1.0 } else { 1.0 }`".to_owned(),
@@ -147,14 +159,18 @@ pub(super) fn method(method: &Ident, known: &[&str]) -> Error {
         "distance" => "write `(a - b).length()`".to_owned(),
         "norm" | "magnitude" => "write `vector.length()`".to_owned(),
         "norm_squared" | "magnitude_squared" => "write `vector.length_squared()`".to_owned(),
-        "len" => "an array has the length that it was made with; write it as a number or a constant".to_owned(),
+        "len" => {
+            "an array has the length that it was made with; write it as a number or a constant".to_owned()
+        }
         "iter" | "into_iter" | "iter_mut" | "map" | "sum" | "fold" => {
             "go through an array by index: `for i in 0..3 { … values[i] … }`".to_owned()
         }
         "contains" => "compare with `<=` and `<`, or with `match`".to_owned(),
         _ => match super::similar::similar(&name, known.iter().copied()) {
             Some(similar) => format!("there is no method `{name}`; did you mean `{similar}`?"),
-            None => format!("`{name}` is not part of a process; numbers and vectors have {}", known.join(", ")),
+            None => {
+                format!("`{name}` is not part of a process; numbers and vectors have {}", known.join(", "))
+            }
         },
     };
     Error::new_spanned(method, advice)

@@ -29,6 +29,9 @@ pub(super) enum Binding {
     Other,
 }
 
+/// Functions that Rust has everywhere.
+const IN_RUSTS_PRELUDE: [&str; 5] = ["drop", "size_of", "size_of_val", "align_of", "align_of_val"];
+
 impl Binding {
     pub(super) fn is_value(self) -> bool {
         matches!(self, Self::Value | Self::Argument)
@@ -111,6 +114,12 @@ impl Scope {
 
     /// The alias of a helper that is called.
     pub(super) fn alias(&mut self, function: &Path) -> Ident {
+        // An import of these would be ambiguous where a helper has such a name.
+        if let Some(name) = function.get_ident()
+            && IN_RUSTS_PRELUDE.iter().any(|known| name == known)
+        {
+            return name.clone();
+        }
         let text = quote!(#function).to_string();
         let same = |call: &&Call| {
             let function = &call.function;

@@ -2,7 +2,6 @@
 
 use super::Wanted;
 use crate::ast::{Argument, FunctionKind, Role};
-use syn::spanned::Spanned;
 use syn::{
     Error, FnArg, GenericArgument, Ident, ItemFn, Pat, PathArguments, PathSegment, Result, ReturnType, Type,
 };
@@ -102,17 +101,17 @@ fn result(item: &ItemFn, kind: FunctionKind) -> Result<Option<Type>> {
 
 fn kind(item: &ItemFn, wanted: Wanted, arguments: &[Argument]) -> Result<FunctionKind> {
     let first = arguments.first().map(|argument| &argument.role);
-    let place = match item.sig.inputs.first() {
-        Some(FnArg::Typed(argument)) => argument.ty.span(),
-        _ => item.sig.ident.span(),
+    let explain = |message| match item.sig.inputs.first() {
+        Some(FnArg::Typed(argument)) => Error::new_spanned(&argument.ty, message),
+        _ => Error::new_spanned(&item.sig.ident, message),
     };
     match (wanted, first) {
         (Wanted::Helper, _) => Ok(FunctionKind::Helper),
         (Wanted::Process, Some(Role::Cell(_))) => Ok(FunctionKind::Cells),
         (Wanted::Process, Some(Role::Slot(_))) => Ok(FunctionKind::Items),
         (Wanted::Migration, Some(Role::Slot(_))) => Ok(FunctionKind::Migration),
-        (Wanted::Process, _) => Err(Error::new(place, PROCESS_TAKES)),
-        (Wanted::Migration, _) => Err(Error::new(place, MIGRATION_TAKES)),
+        (Wanted::Process, _) => Err(explain(PROCESS_TAKES)),
+        (Wanted::Migration, _) => Err(explain(MIGRATION_TAKES)),
     }
 }
 
@@ -137,11 +136,15 @@ fn check_roles(kind: FunctionKind, arguments: &[Argument]) -> Result<()> {
         }
         if !fits {
             let message = match role {
-                Role::Cell(_) => "a process over cells has one cell; others are its neighbours, `cell.neighbour(n)`",
+                Role::Cell(_) => {
+                    "a process over cells has one cell; others are its neighbours, `cell.neighbour(n)`"
+                }
                 Role::Slots(_) => {
                     "a process over items takes its cell, `&Cell<…>`; other items are found by `me.others_in_cell()` and its kin"
                 }
-                _ => "an item is the first argument, `me: &mut Slot<…>`; a process over cells takes all items of the cell, `&Slots<…>`",
+                _ => {
+                    "an item is the first argument, `me: &mut Slot<…>`; a process over cells takes all items of the cell, `&Slots<…>`"
+                }
             };
             return Err(Error::new_spanned(name, message));
         }
@@ -170,13 +173,13 @@ fn argument(input: &FnArg, position: usize, wanted: Wanted) -> Result<Argument> 
     let role = match &*typed.ty {
         Type::Reference(reference) => referenced(reference, &name, position, wanted)?,
         other if wanted == Wanted::Helper => Role::Value(other.clone()),
-        other => return Err(Error::new_spanned(other, wanting(other, position, wanted))),
+        other => return Err(Error::new_spanned(other, wanting(other, &name, position, wanted))),
     };
     Ok(Argument { name, role })
 }
 
 /// What to write instead of an argument that is no reference.
-fn wanting(type_: &Type, position: usize, wanted: Wanted) -> String {
+fn wanting(type_: &Type, name: &Ident, position: usize, wanted: Wanted) -> String {
     let word = last_segment(type_).map(|segment| segment.ident.to_string()).unwrap_or_default();
     match word.as_str() {
         "Cell" | "Slot" if position == 0 && wanted == Wanted::Process => format!("write `&mut {word}<…>`"),
@@ -185,16 +188,18 @@ fn wanting(type_: &Type, position: usize, wanted: Wanted) -> String {
         _ if position == 0 && wanted == Wanted::Process => PROCESS_TAKES.to_owned(),
         _ if position == 0 => MIGRATION_TAKES.to_owned(),
         "" => "a process takes the cell or item, then `&MyParameters` and `&Space`".to_owned(),
-        _ => format!("parameters come as a reference to their struct: `&{word}`; the struct derives `Parameters`"),
+        _ if crate::fields::is_value_type(&word) => no_argument(name),
+        _ => format!(
+            "parameters come as a reference to their struct: `&{word}`; the struct derives `Parameters`"
+        ),
     }
 }
 
-fn referenced(
-    reference: &syn::TypeReference,
-    name: &Ident,
-    position: usize,
-    wanted: Wanted,
-) -> Result<Role> {
+fn no_argument(name: &Ident) -> String {
+    format!("`{name}` cannot be an argument of its own; make it a field of the struct of parameters")
+}
+
+fn referenced(reference: &syn::TypeReference, name: &Ident, position: usize, wanted: Wanted) -> Result<Role> {
     let Some(segment) = last_segment(&reference.elem) else {
         return Err(Error::new_spanned(
             &reference.elem,
@@ -209,7 +214,7 @@ fn referenced(
     if crate::fields::is_value_type(&word) {
         let message = match wanted {
             Wanted::Helper => format!("values are passed as they are, without `&`: `{name}: {word}`"),
-            _ => format!("`{name}` is no argument of a process; make it a field of the struct of parameters"),
+            _ => no_argument(name),
         };
         return Err(Error::new_spanned(reference, message));
     }
@@ -235,7 +240,13 @@ fn referenced(
     if mutable && !(own && wanted == Wanted::Process) {
         let message = match (&role, wanted) {
             (_, Wanted::Helper) => HELPER_TAKES,
-            (Role::Parameters(_), _) => "parameters are read only; steering changes them: leave out the `mut`",
+            (Role::Cell(_) | Role::Slot(_), Wanted::Process) => {
+                "the cell or item that the process writes is its first argument"
+            }
+            (Role::Parameters(_), Wanted::Process) if position == 0 => PROCESS_TAKES,
+            (Role::Parameters(_), _) => {
+                "parameters are read only; steering changes them: leave out the `mut`"
+            }
             (_, Wanted::Migration) => {
                 "a migration only says where the item goes and changes nothing: leave out the `mut`"
             }

@@ -8,6 +8,7 @@ use syn::spanned::Spanned;
 use syn::{Error, Expr, Pat, Result, Stmt};
 
 /// What an expression in the place of a statement turned out to be.
+#[expect(clippy::large_enum_variant, reason = "made one at a time, and taken apart at once")]
 pub(super) enum Item {
     Statement(Statement),
     /// An expression with a value.
@@ -53,7 +54,7 @@ impl Scope {
     }
 
     fn local(&mut self, local: &syn::Local) -> Result<Statement> {
-        refuse_attributes(&local.attrs)?;
+        let attributes = refuse_attributes(&local.attrs);
         let (pattern, type_) = match &local.pat {
             Pat::Type(typed) => (&*typed.pat, Some((*typed.ty).clone())),
             other => (other, None),
@@ -80,6 +81,7 @@ impl Scope {
         // Bound even after an error, so that one mistake does not make others of its uses.
         let is_neighbour = matches!(value, Ok(Initial::Neighbour(_)));
         self.bind(&name, if is_neighbour { Binding::Neighbour } else { Binding::Value });
+        attributes?;
         Ok(match value? {
             Initial::Neighbour(index) => Statement::LetNeighbour { name, index },
             Initial::Value(value) => {
@@ -101,7 +103,9 @@ impl Scope {
     /// An expression in the place of a statement, or at the end of a block.
     pub(super) fn item(&mut self, expression: &Expr) -> Result<Item> {
         let statement = match expression {
-            Expr::Assign(assign) => self.assignment(&assign.left, None, &assign.right, assign.eq_token.span())?,
+            Expr::Assign(assign) => {
+                self.assignment(&assign.left, None, &assign.right, assign.eq_token.span())?
+            }
             Expr::Binary(binary) if let Some(operator) = super::plain_operator(&binary.op) => {
                 self.assignment(&binary.left, Some(operator), &binary.right, binary.op.span())?
             }

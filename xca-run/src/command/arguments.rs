@@ -17,7 +17,7 @@ pub(crate) struct ModelArguments {
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
 
-    /// Set a parameter of the model; can be given several times
+    /// Set a parameter of the model; can be given several times. A name that it does not have lists those that it has
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<Assignment>,
 
@@ -42,7 +42,7 @@ pub(crate) struct EngineArguments {
 #[derive(Args, Debug, Clone)]
 pub(crate) struct RunArguments {
     /// How many steps are done; the model says how many unless it is given
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = steps)]
     pub(crate) steps: Option<u64>,
 
     /// The folder of the files; out/NAME unless it is given. Files of an earlier run there are replaced
@@ -71,6 +71,10 @@ fn threads(text: &str) -> Result<usize, String> {
         Ok(number) => Err(format!("{number} threads are too many; give at most {MOST_THREADS}")),
         Err(_) => Err(format!("it must be a whole number from 1 to {MOST_THREADS}")),
     }
+}
+
+fn steps(text: &str) -> Result<u64, &'static str> {
+    text.parse().map_err(|_| "it must be a whole number of steps")
 }
 
 fn interval(text: &str) -> Result<u64, String> {

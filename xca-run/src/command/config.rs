@@ -19,7 +19,7 @@ pub enum ConfigError {
     Read { path: PathBuf, source: io::Error },
     #[error("{}:{line}: {message}", path.display())]
     Syntax { path: PathBuf, line: usize, message: String },
-    #[error("{}: unknown key `{key}`; there are {known}", path.display())]
+    #[error("{}: unknown key `{key}`; there are {known}, and parameters of the model below [set]", path.display())]
     UnknownKey { path: PathBuf, key: String, known: String },
     #[error("{}: the value of `{key}` must be {wanted}", path.display())]
     Type { path: PathBuf, key: String, wanted: &'static str },
@@ -39,9 +39,15 @@ pub(super) fn arguments(
         let option = command
             .get_arguments()
             .find(|option| option.get_long() == Some(&key) && is_allowed(&key))
-            .ok_or_else(|| ConfigError::UnknownKey { path: path.to_owned(), key: key.clone(), known: known(command) })?;
+            .ok_or_else(|| ConfigError::UnknownKey {
+                path: path.to_owned(),
+                key: key.clone(),
+                known: known(command),
+            })?;
         let texts = match option.get_action() {
-            ArgAction::SetTrue => flag(&value).map(|on| if on { vec![format!("--{key}")] } else { Vec::new() }),
+            ArgAction::SetTrue => {
+                flag(&value).map(|on| if on { vec![format!("--{key}")] } else { Vec::new() })
+            }
             ArgAction::Append if key == SET => assignments(&value),
             ArgAction::Append => list(&key, &value),
             _ => single(&value).map(|text| vec![format!("--{key}={text}")]),
@@ -49,7 +55,8 @@ pub(super) fn arguments(
         let texts =
             texts.map_err(|wanted| ConfigError::Type { path: path.to_owned(), key: key.clone(), wanted })?;
         check(path, command, &texts)?;
-        let on_command_line = matches.value_source(option.get_id().as_str()) == Some(ValueSource::CommandLine);
+        let on_command_line =
+            matches.value_source(option.get_id().as_str()) == Some(ValueSource::CommandLine);
         if !on_command_line || key == SET {
             all.extend(texts.into_iter().map(OsString::from));
         }
@@ -62,7 +69,8 @@ fn is_allowed(key: &str) -> bool {
 }
 
 fn known(command: &Command) -> String {
-    let names: Vec<&str> = command.get_arguments().filter_map(clap::Arg::get_long).filter(|name| is_allowed(name)).collect();
+    let names: Vec<&str> =
+        command.get_arguments().filter_map(clap::Arg::get_long).filter(|name| is_allowed(name)).collect();
     names.join(", ")
 }
 
@@ -121,7 +129,8 @@ fn check(path: &Path, command: &Command, texts: &[String]) -> Result<(), ConfigE
         Err(error) if error.kind() != ErrorKind::MissingRequiredArgument => {
             let text = error.to_string();
             let first = text.split("\n\n").next().unwrap_or_default();
-            let message = first.trim_start_matches("error: ").split_whitespace().collect::<Vec<_>>().join(" ");
+            let message =
+                first.trim_start_matches("error: ").split_whitespace().collect::<Vec<_>>().join(" ");
             Err(ConfigError::Value { path: path.to_owned(), message })
         }
         _ => Ok(()),

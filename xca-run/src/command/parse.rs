@@ -13,6 +13,8 @@ use std::path::PathBuf;
 /// The name of the subcommand.
 pub(super) const RUN: &str = "run";
 
+const RUN_ABOUT: &str = "Run the model, and write what comes of it to a folder";
+
 /// What a command line asks for.
 pub(super) struct Invocation<'a> {
     pub(super) definition: &'a Definition<'a>,
@@ -35,17 +37,21 @@ impl Invocation<'_> {
 /// The whole command.
 pub(super) fn command(definition: &Definition<'_>) -> Command {
     let Definition { name, about, version, examples, options, .. } = definition;
-    let run = Command::new(RUN).about("Run the model, and write what comes of it to a folder");
+    let run = Command::new(RUN);
     let run = options(run.next_help_heading("Options of this model"));
     let run = ModelArguments::augment_args(run.next_help_heading("Options of every model"));
     let run = EngineArguments::augment_args(run);
     let run = RunArguments::augment_args(run).next_help_heading(None::<&str>);
     let examples: String = examples.lines().map(|line| format!("\n  {name} run {}", line.trim())).collect();
-    // A model's option of the same name as a common one would be refused by the parser with a panic in debug builds; the documentation of
-    // `Program` says so.
     let run = run
-        .about("Run the model, and write what comes of it to a folder")
+        // An option's text comes from its own description, never from that of the struct.
+        .about(RUN_ABOUT)
         .long_about(None::<&str>)
+        .mut_args(|option| {
+            // `--steps -1` is a wrong number, not an unknown option.
+            let takes_values = option.get_action().takes_values();
+            if takes_values { option.allow_negative_numbers(true) } else { option }
+        })
         .after_help(format!("Examples:\n  {name} run{examples}\n\n{EXIT_CODES}"));
     Command::new(*name)
         .about(*about)
@@ -68,7 +74,8 @@ pub(super) fn invocation<'a>(
         let lenient = lenient.map_err(Unable::CommandLine)?;
         if let (Some((name, matches)), Some(run)) = (lenient.subcommand(), command.find_subcommand(RUN)) {
             let from_file = config::arguments(&path, run, matches).map_err(Unable::refused)?;
-            let place = 1 + arguments.iter().position(|argument| argument.to_str() == Some(name)).unwrap_or(0);
+            let place =
+                1 + arguments.iter().position(|argument| argument.to_str() == Some(name)).unwrap_or(0);
             arguments.splice(place..place, from_file);
         }
     }

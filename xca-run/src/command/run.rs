@@ -5,7 +5,7 @@ use super::{Ended, Unable};
 use crate::interrupt::Interrupt;
 use crate::machine::{check_memory, peak_memory};
 use crate::numbers::significant;
-use crate::program::Given;
+use crate::program::{Failure, Given};
 use crate::progress::{self, Diagnostic};
 use crate::record::{Recorder, RunFolder};
 use crate::report::{self, Report};
@@ -32,7 +32,7 @@ pub(super) fn run(invocation: Invocation<'_>) -> Result<Ended, Unable> {
     let folder = folder.map_err(Unable::refused)?;
     let options = RunOptions { precision: given.precision, seed: given.seed };
     let simulation = Simulation::new(recorder.model(), &*engine, options).map_err(not_started)?;
-    let every = invocation.run.every.unwrap_or((steps / OUTPUTS).max(1));
+    let every = invocation.run.every.unwrap_or(steps.div_ceil(OUTPUTS).max(1));
     let report = first_report(&invocation, &recorder, &*engine, steps, every);
     let run = Run {
         simulation,
@@ -45,12 +45,15 @@ pub(super) fn run(invocation: Invocation<'_>) -> Result<Ended, Unable> {
         stepping: Duration::ZERO,
         begin,
     };
-    run.to_end()
+    run.go()
 }
 
 /// The model with its parameters set.
 fn set_up(invocation: &Invocation<'_>, given: &Given) -> Result<SetUp, Unable> {
     let mut set_up = invocation.set_up(given.clone())?;
+    if let (Some(parameter), []) = (given.parameters.first(), set_up.model.parameters().schema().fields) {
+        return Err(Unable::refused(format!("this model has no parameters; `{parameter}` cannot be set")));
+    }
     for parameter in &given.parameters {
         set_up.model.set_parameter(&parameter.name, &parameter.value).map_err(Unable::refused)?;
     }
@@ -128,29 +131,43 @@ struct Run {
 }
 
 impl Run {
-    fn to_end(mut self) -> Result<Ended, Unable> {
+    fn go(mut self) -> Result<Ended, Unable> {
         let interrupt = Interrupt::install().map_err(Unable::failed)?;
         self.say(&self.headline());
         self.report.write(&self.folder.report()).map_err(Unable::failed)?;
         let result = self.steps(&interrupt);
-        if let Err(Unable::Failed(error)) = &result {
+        if let Err(error) = &result {
             self.report.progress.outcome = "failed";
             self.report.progress.reason = Some(error.to_string());
         }
         self.complete_report();
+        let written = self.report.write(&self.folder.report());
         // The first error is the one to tell.
-        let written = self.report.write(&self.folder.report()).map_err(Unable::failed);
-        let ended = result?;
-        written?;
-        self.say(&self.summary());
-        Ok(ended)
+        match (result, written) {
+            (Err(error), _) => Err(Unable::FailedLeaving(error, self.remains())),
+            (Ok(_), Err(error)) => Err(Unable::FailedLeaving(error.into(), self.remains())),
+            (Ok(ended), Ok(())) => {
+                self.say(&self.summary());
+                Ok(ended)
+            }
+        }
+    }
+
+    /// What is left of a run that failed.
+    fn remains(&self) -> String {
+        let folder = self.folder.top.path().display();
+        format!(
+            "{} steps are done; what was written until then is in {folder}",
+            self.simulation.step_number()
+        )
     }
 
     /// Records the initial state, does the steps, and records the final state.
-    fn steps(&mut self, interrupt: &Interrupt) -> Result<Ended, Unable> {
+    fn steps(&mut self, interrupt: &Interrupt) -> Result<Ended, Failure> {
         let wanted = self.report.progress.steps_wanted;
-        self.recorder.begin(self.folder.clone(), &mut self.simulation).map_err(Unable::failed)?;
-        let line = if self.quiet { progress::Progress::hidden() } else { progress::Progress::new(Some(wanted)) };
+        self.recorder.begin(self.folder.clone(), &mut self.simulation)?;
+        let line =
+            if self.quiet { progress::Progress::hidden() } else { progress::Progress::new(Some(wanted)) };
         let mut batch = Batch::default();
         while self.simulation.step_number() < wanted
             && self.simulation.stop_reason().is_none()
@@ -165,16 +182,16 @@ impl Run {
             if result.is_err() {
                 line.finish();
             }
-            result.map_err(Unable::failed)?;
+            result?;
             let done = self.simulation.step_number();
             line.at(done);
             if done.is_multiple_of(self.every) {
-                self.recorder.record(&mut self.simulation).map_err(Unable::failed)?;
+                self.recorder.record(&mut self.simulation)?;
             }
         }
         line.finish();
-        self.simulation.finish().map_err(Unable::failed)?;
-        self.recorder.finish(&mut self.simulation).map_err(Unable::failed)?;
+        self.simulation.finish()?;
+        self.recorder.finish(&mut self.simulation)?;
         let done = self.simulation.step_number();
         let progress = &mut self.report.progress;
         if let Some(reason) = self.simulation.stop_reason() {
@@ -221,7 +238,7 @@ impl Run {
         let time_step = progress.time_step.map(|seconds| format!(" of {} s", significant(seconds, 4)));
         format!(
             "{}, {}, {engine} engine with {threads}, {precision}, {} steps{}",
-            self.recorder.model().name(),
+            self.recorder.set_up().title,
             cells(self.recorder.model()),
             progress.steps_wanted,
             time_step.unwrap_or_default(),
@@ -241,7 +258,9 @@ impl Run {
             .collect();
         let progress = &self.report.progress;
         let end = match (progress.outcome, &progress.reason) {
-            ("interrupted", _) => format!("interrupted after {} of {} steps", progress.steps, progress.steps_wanted),
+            ("interrupted", _) => {
+                format!("interrupted after {} of {} steps", progress.steps, progress.steps_wanted)
+            }
             (_, Some(reason)) => format!("stopped after {} steps: {reason}", progress.steps),
             _ => format!("{} steps", progress.steps),
         };
@@ -251,12 +270,13 @@ impl Run {
         let plain = self.report.files.iter().filter(|file| !file.contains('*')).map(String::as_str);
         let files: Vec<&str> = plain.chain(["run.json"]).collect();
         format!(
-            "\n{}\n\n{end}{} in {wall}{}\n{}: {}; {frames} frames",
+            "\n{}\n\n{end}{} in {wall}{}\n{}: {}; {frames} {}",
             progress::summary(&diagnostics),
             time.unwrap_or_default(),
             rate.unwrap_or_default(),
             self.folder.top.path().display(),
             files.join(", "),
+            if frames == 1 { "frame" } else { "frames" },
         )
     }
 }
@@ -290,3 +310,6 @@ fn cells(model: &Model) -> String {
         [x, y, z] => format!("{x} x {y} x {z} cells"),
     }
 }
+
+#[cfg(test)]
+mod tests;

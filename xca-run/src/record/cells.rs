@@ -83,8 +83,7 @@ impl<'a> Cells<'a> {
         let (_, label) = self.drawn();
         let (is_float, values) = self.layer_values();
         let mut scalar = Scalar::new(&label, &values);
-        scalar.map =
-            self.view.map.unwrap_or(if is_float { ColourMap::Sequential } else { ColourMap::Paper });
+        scalar.map = self.view.map.unwrap_or(if is_float { ColourMap::Sequential } else { ColourMap::Paper });
         let wider = |[low, high]: [f64; 2]| {
             self.range().map_or([low, high], |[least, most]| [least.min(low), most.max(high)])
         };

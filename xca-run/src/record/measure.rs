@@ -41,7 +41,13 @@ fn count(group: &Group, prefix: &str, population: &Population, left: u64) -> Vec
     observables
 }
 
-fn of_field(group: &Group, field: usize, precision: Precision, prefix: &str, bytes: &[u8]) -> Vec<Observable> {
+fn of_field(
+    group: &Group,
+    field: usize,
+    precision: Precision,
+    prefix: &str,
+    bytes: &[u8],
+) -> Vec<Observable> {
     let definition = &group.schema().fields[field];
     let stored = definition.value_type.stored(precision);
     let count = (bytes.len() / stored.size()) as f64;

@@ -33,7 +33,8 @@ impl Plane {
     /// The values with these numbers, in this order.
     pub(crate) fn chosen(stored: StoredType, bytes: &[u8], which: &[usize]) -> Self {
         let size = stored.size();
-        let chosen: Vec<&[u8]> = which.iter().map(|&index| &bytes[index * size..(index + 1) * size]).collect();
+        let chosen: Vec<&[u8]> =
+            which.iter().map(|&index| &bytes[index * size..(index + 1) * size]).collect();
         Self::decode(stored, &chosen)
     }
 
@@ -115,7 +116,9 @@ impl Plane {
 
     /// Values of three lanes as points.
     pub(crate) fn to_points(&self) -> Vec<[f64; 3]> {
-        (0..self.len()).map(|index| std::array::from_fn(|lane| self.number(index * self.lanes + lane))).collect()
+        (0..self.len())
+            .map(|index| std::array::from_fn(|lane| self.number(index * self.lanes + lane)))
+            .collect()
     }
 }
 
@@ -127,7 +130,8 @@ mod tests {
 
     #[test]
     fn bytes_become_numbers() {
-        let bytes: Vec<u8> = [3.0_f32, -4.0, 0.5, 0.0, 1.0, 1.0].iter().flat_map(|x| x.to_ne_bytes()).collect();
+        let bytes: Vec<u8> =
+            [3.0_f32, -4.0, 0.5, 0.0, 1.0, 1.0].iter().flat_map(|x| x.to_ne_bytes()).collect();
         let plane = Plane::all(VECTOR, &bytes);
         assert_eq!((plane.len(), plane.is_float()), (3, true));
         assert_eq!(plane.lane(1), [-4.0, 0.0, 1.0]);

@@ -51,7 +51,7 @@ impl Writer<'_, '_> {
         if let (Some(value), Expression::Literal(_) | Expression::Constant { .. }) =
             (constant_value(operand), operand)
         {
-            return Ok(Text::number(literal::float(value, to, precision)?));
+            return Ok(Text::number(literal::float(value, to, self.shared.options)?));
         }
         let mut text = self.expression(operand)?;
         if constant_value(operand).is_some() {

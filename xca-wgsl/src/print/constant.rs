@@ -4,28 +4,29 @@ use super::Writer;
 use crate::error::Problem;
 use crate::inference::constant_type;
 use crate::literal;
+use crate::shader::Options;
 use crate::types;
+use xca_core::ScalarType;
 use xca_core::ir::Constant;
-use xca_core::{Precision, ScalarType};
 
 impl Writer<'_, '_> {
     pub(super) fn constant(&self, name: &str, value: &Constant) -> Result<String, Problem> {
         match self.shared.glossary.constant(name, value) {
             Some(known) => Ok(known.to_owned()),
-            None => constant_text(name, value, self.shared.options.precision),
+            None => constant_text(name, value, self.shared.options),
         }
     }
 }
 
 /// The value of a constant, written out.
-pub(crate) fn constant_text(name: &str, value: &Constant, precision: Precision) -> Result<String, Problem> {
+pub(crate) fn constant_text(name: &str, value: &Constant, options: &Options) -> Result<String, Problem> {
     match value {
         Constant::Bool(value) => Ok(value.to_string()),
         Constant::U8(value) => literal::integer(i128::from(*value), ScalarType::U8),
         Constant::I32(value) => literal::integer(i128::from(*value), ScalarType::I32),
         Constant::U32(value) => literal::integer(i128::from(*value), ScalarType::U32),
-        Constant::F32(value) => literal::float((*value).into(), ScalarType::F32, precision),
-        Constant::Real(value) => literal::float(*value, ScalarType::Real, precision),
+        Constant::F32(value) => literal::float((*value).into(), ScalarType::F32, options),
+        Constant::Real(value) => literal::float(*value, ScalarType::Real, options),
         Constant::Vector(elements) | Constant::Array(elements) => {
             let type_ = constant_type(name, value)?;
             let elements = elements
@@ -37,7 +38,7 @@ pub(crate) fn constant_text(name: &str, value: &Constant, precision: Precision) 
                             "its elements differ in type",
                         ));
                     }
-                    constant_text(name, element, precision)
+                    constant_text(name, element, options)
                 })
                 .collect::<Result<Vec<_>, _>>()?;
             Ok(format!("{}({})", type_.wgsl(), elements.join(", ")))

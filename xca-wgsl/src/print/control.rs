@@ -210,11 +210,10 @@ impl Writer<'_, '_> {
         let [from, to_text] = [texts[0].clone(), texts[1].clone()];
         let end = self.end(to, to_text);
         self.note_neighbour(statement, to, inclusive)?;
-        self.shared.names.open();
-        let local = self.shared.names.local(variable);
-        self.locals.insert(number, local.clone());
         let name = type_.wgsl();
         if inclusive && !below_largest(to, &type_) {
+            let local = self.shared.names.local(variable);
+            self.locals.insert(number, local.clone());
             // The end may be the largest number of its type, beyond which counting would begin again.
             let more = self.shared.names.local("more");
             self.line(&format!("var {local}: {name} = {};", from.plain()));
@@ -229,15 +228,18 @@ impl Writer<'_, '_> {
             self.line(&format!("        {local} += {one};"));
             self.line("    }");
         } else {
+            self.shared.names.open();
+            let local = self.shared.names.local(variable);
+            self.locals.insert(number, local.clone());
             let sign = if inclusive { "<=" } else { "<" };
             let from = from.plain();
             self.line(&format!(
                 "for (var {local}: {name} = {from}; {local} {sign} {end}; {local} += {one}) {{"
             ));
             self.loop_body(None, body)?;
+            self.shared.names.close();
         }
         self.line("}");
-        self.shared.names.close();
         Ok(())
     }
 }

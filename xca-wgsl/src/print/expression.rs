@@ -16,7 +16,7 @@ impl Writer<'_, '_> {
         match value {
             Expression::Literal(literal) => {
                 let type_ = self.type_of(value);
-                let text = literal::literal(literal, &type_, self.shared.options.precision)?;
+                let text = literal::literal(literal, &type_, self.shared.options)?;
                 Ok(self.number(text))
             }
             Expression::Constant { name, value } => {
@@ -191,11 +191,7 @@ impl Writer<'_, '_> {
     }
 
     fn number(&mut self, text: String) -> Text {
-        for scalar in ["f32", "f64"] {
-            if text.contains(&format!("infinity_{scalar}")) {
-                self.shared.routines.need_infinity(scalar);
-            }
-        }
+        self.shared.routines.need_infinities(&text);
         Text::number(text)
     }
 

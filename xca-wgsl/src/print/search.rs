@@ -10,9 +10,9 @@ use xca_core::kernel::Of;
 impl Writer<'_, '_> {
     pub(super) fn for_items(&mut self, statement: &Statement, body: &Block) -> Result<(), Problem> {
         let Statement::ForItems { variable, .. } = statement else { return Ok(()) };
-        self.shared.names.open();
         let end = self.shared.names.local("end");
         self.line(&format!("let {end}: u32 = item_ends[here];"));
+        self.shared.names.open();
         let item = self.item(statement, variable)?;
         self.line(&format!("for (var {item}: u32 = item_starts[here]; {item} < {end}; {item} += 1u) {{"));
         self.loop_body(None, body)?;
@@ -29,17 +29,16 @@ impl Writer<'_, '_> {
         body: &Block,
     ) -> Result<(), Problem> {
         let Statement::ForOthers { variable, .. } = statement else { return Ok(()) };
-        self.shared.names.open();
+        // What stands before the loop stays visible after it: only the variable of the loop has a scope of its own.
         let near = radius.map(|radius| self.near(radius)).transpose()?;
         if reach == Reach::Cell {
-            self.items_of("here", statement, variable, near.as_ref(), None, body)?;
-            self.shared.names.close();
-            return Ok(());
+            return self.items_of("here", statement, variable, near.as_ref(), None, body);
         }
         let ended = visit::breaks(body).then(|| self.shared.names.local("ended"));
         if let Some(ended) = &ended {
             self.line(&format!("var {ended}: bool = false;"));
         }
+        self.shared.names.open();
         let neighbour = self.shared.names.local("neighbour");
         let first = if reach == Reach::All { 0 } else { 1 };
         let count = self.shared.glossary.neighbours.clone();
@@ -90,6 +89,7 @@ impl Writer<'_, '_> {
     ) -> Result<(), Problem> {
         let end = self.shared.names.local("end");
         self.line(&format!("let {end}: u32 = item_ends[{cell}];"));
+        self.shared.names.open();
         let item = self.item(statement, variable)?;
         self.line(&format!("for (var {item}: u32 = item_starts[{cell}]; {item} < {end}; {item} += 1u) {{"));
         self.inside(|writer| {
@@ -112,6 +112,7 @@ impl Writer<'_, '_> {
             result
         })?;
         self.line("}");
+        self.shared.names.close();
         Ok(())
     }
 

@@ -25,8 +25,16 @@ pub(crate) fn accepted<P: ElementaryProcess>() {
     for precision in [Precision::F32, Precision::F64] {
         for neighbourhood_size in [None, Some(7)] {
             for toroidal in [[false; 3], [true, false, true]] {
-                let options = Options { precision, neighbourhood_size, toroidal, ..Options::default() };
-                written_with::<P>(&options);
+                for opaque_zero in [false, true] {
+                    let options = Options {
+                        precision,
+                        neighbourhood_size,
+                        toroidal,
+                        opaque_zero,
+                        ..Options::default()
+                    };
+                    written_with::<P>(&options);
+                }
             }
         }
     }

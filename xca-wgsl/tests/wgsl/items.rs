@@ -151,11 +151,23 @@ fn searches(me: &mut Slot<Dem>, cell: &Cell<Field>, space: &Space) {
         }
         me.force -= other.force;
     }
+    for other in me.others_in_cell_within(space.side()) {
+        me.force += other.force;
+    }
+    for other in me.others_in_cell() {
+        me.force += other.velocity;
+    }
+    for other in me.others_in_neighbours() {
+        if other.velocity.x > 2.0 {
+            break;
+        }
+        me.force -= other.velocity;
+    }
     if me.id == VOID || me.index().z == 0 {
         return;
     }
     me.velocity.x += me.random(0) * cell.density - cell.position;
-    me.velocity.y += me.random_bits(1) as Real;
+    me.velocity.y += me.random_bits(1) as Real * 1e-9;
 }
 
 #[test]
@@ -164,7 +176,7 @@ fn searches_of_all_kinds() {
     let options = Options { toroidal: [true, false, false], ..Options::default() };
     let shader = written_with::<searches>(&options);
     let text = function(&shader, "searches");
-    assert_eq!(text.matches("ended = true;").count(), 1, "{text}");
+    assert_eq!(text.matches(" = true;").count(), 2, "{text}");
     assert!(text.contains("nearest_image(centre - position_at(second))"), "{text}");
     let image = function(&shader, "nearest_image");
     assert!(

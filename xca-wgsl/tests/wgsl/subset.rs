@@ -7,6 +7,8 @@ const WEIGHTS: [Real; 3] = [0.25, 0.5, 0.25];
 const STEPS: [Vector2<i32>; 2] = [Vector2::new(1, 0), Vector2::new(0, -1)];
 const GRAVITY: Vector3<Real> = Vector3::new(0.0, 0.0, -9.81);
 const LIMIT: Real = Real::MAX;
+const INFINITE: Real = Real::INFINITY;
+const LIMITS: [Real; 3] = [0.0, Real::INFINITY, -0.0];
 const LOWEST: i32 = i32::MIN;
 const MASK: u32 = 0xdead_beef;
 const LIVING: u8 = 3;
@@ -125,6 +127,29 @@ fn floats_keep_their_types() {
 }
 
 #[elementary_process]
+fn edges(cell: &mut Cell<State>) {
+    let x = cell.real;
+    let y = cell.velocity.x;
+    let least = x.min(y);
+    let most = x.max(y);
+    cell.signed = x as i32 ^ (least as i32).abs() ^ y as u32 as i32 ^ (x as u8) as i32;
+    cell.unsigned = (x as u32) ^ (cell.unsigned << cell.byte) ^ (cell.signed >> (cell.byte + 25)) as u32;
+    cell.byte = y as u8 ^ (cell.byte << (cell.byte & 15));
+    cell.single = most as f32;
+    cell.double = x.clamp(-1.5, 1e30) as f64 + cell.signed as f64;
+    if x < INFINITE && !(y > -INFINITE) {
+        cell.real = -0.0;
+    } else if least != most {
+        cell.real = x / y + LIMITS[(cell.unsigned % 3) as usize];
+    }
+}
+
+#[test]
+fn edges_of_types() {
+    accepted::<edges>();
+}
+
+#[elementary_process]
 fn vectors(cell: &mut Cell<State>, p: &Settings) {
     let mut v = cell.velocity + GRAVITY * 0.1 - 2.0 * p.wind;
     v *= 0.5;
@@ -165,7 +190,7 @@ fn shadowing(cell: &mut Cell<State>) {
     let r#type = x;
     let _unused = 3;
     let here = r#type;
-    let f32 = here + 1;
+    let f32 = here % 1000 + 1;
     for x in 0..f32 {
         let x = x * 2;
         cell.signed += x;
@@ -196,7 +221,7 @@ fn shadowing() {
     let type_2: i32 = x_2;
     let _unused: i32 = 3i;
     let here_2: i32 = type_2;
-    let f32_2: i32 = here_2 + 1i;
+    let f32_2: i32 = here_2 % 1000i + 1i;
     for (var x_3: i32 = 0i; x_3 < f32_2; x_3 += 1i) {
         let x_4: i32 = x_3 * 2i;
         cell.signed += x_4;
@@ -214,6 +239,12 @@ fn loops(cell: &mut Cell<State>) {
         if i % 2 == 0 {
             continue;
         }
+        for k in i..=i + 2 {
+            total += k;
+        }
+        for k in i..=i + 2 {
+            total += k;
+        }
         for j in (i + 1)..10 {
             if j > 5 {
                 break;
@@ -227,8 +258,8 @@ fn loops(cell: &mut Cell<State>) {
     let mut n = 0_u8;
     while n < 100 && total > 3 {
         n += 1;
-        if n == 50 {
-            return;
+        if n == 50 && cell.signed > 0 {
+            break;
         }
     }
     loop {
@@ -238,7 +269,13 @@ fn loops(cell: &mut Cell<State>) {
             1 | 2 => continue,
             3..=9 => {}
             _ if total % 3 == 0 => total /= 3,
-            _ => return,
+            _ => {
+                cell.unsigned = total;
+                if total % 2 == 0 {
+                    return;
+                }
+                break;
+            }
         }
     }
     for byte in 250..=255 {
@@ -348,8 +385,8 @@ fn arrays(cell: &mut Cell<State>) {
     pair[0].y += fields[1][0];
     pair[1] = pair[0];
     let copy = fields;
-    cell.signed = table[3] + [1, 2, 3][cell.byte as usize];
-    cell.real = copy[1][cell.unsigned as usize];
+    cell.signed = table[3] + [1, 2, 3][cell.byte as usize % 3];
+    cell.real = copy[1][(cell.unsigned % 2) as usize];
     cell.velocity = pair[1];
 }
 

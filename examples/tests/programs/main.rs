@@ -1,0 +1,10 @@
+//! The programs as their users see them: each test runs the real thing, and looks at what it says and writes.
+
+#![allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should")]
+
+mod files;
+mod interrupted;
+mod misuse;
+mod physics;
+mod running;
+mod same_bits;

@@ -1,0 +1,195 @@
+//! The documents speak of what is there: links, paths, tests, programs, unsafe code, dependencies.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+type TestResult = Result<(), Box<dyn std::error::Error>>;
+
+fn root() -> PathBuf {
+    PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+}
+
+/// A document of the workspace.
+struct Document {
+    path: PathBuf,
+    text: String,
+}
+
+impl Document {
+    fn all() -> Result<Vec<Self>, Box<dyn std::error::Error>> {
+        let mut paths = Vec::new();
+        for folder in [root(), root().join("docs")] {
+            for entry in fs::read_dir(folder)? {
+                let path = entry?.path();
+                if path.extension().is_some_and(|extension| extension == "md") {
+                    paths.push(path);
+                }
+            }
+        }
+        paths.into_iter().map(|path| Ok(Self { text: fs::read_to_string(&path)?, path })).collect()
+    }
+
+    /// The lines that are in no block of code.
+    fn prose(&self) -> impl Iterator<Item = &str> {
+        let mut in_code = false;
+        self.text.lines().filter(move |line| {
+            let is_fence = line.trim_start().starts_with("```");
+            in_code ^= is_fence;
+            !in_code && !is_fence
+        })
+    }
+
+    /// What stands between backticks in the prose.
+    fn quoted(&self) -> impl Iterator<Item = &str> {
+        self.prose().flat_map(|line| line.split('`').skip(1).step_by(2))
+    }
+
+    /// Where the links of the prose lead, other than to the web.
+    fn links(&self) -> impl Iterator<Item = &str> {
+        let targets = self.prose().flat_map(|line| line.split("](").skip(1));
+        targets.filter_map(|rest| rest.split([')', '#']).next()).filter(|target| !target.contains("://"))
+    }
+
+    fn name(&self) -> String {
+        self.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
+    }
+}
+
+/// Whether a quoted text means a file or folder of the workspace.
+fn is_path(quoted: &str) -> bool {
+    let Some((first, _)) = quoted.split_once('/') else { return false };
+    let is_member = root().join(first).join("Cargo.toml").exists();
+    (is_member || ["docs", "scripts"].contains(&first)) && !quoted.contains([' ', '<', '*'])
+}
+
+#[test]
+fn links_lead_somewhere() -> TestResult {
+    let mut links = 0;
+    for document in Document::all()? {
+        let folder = document.path.parent().map(Path::to_owned).unwrap_or_default();
+        for link in document.links() {
+            assert!(link.is_empty() || folder.join(link).exists(), "{}: {link}", document.name());
+            links += 1;
+        }
+    }
+    assert!(links > 20, "{links}");
+    Ok(())
+}
+
+/// A path may be followed by a function: `folder/file.rs: name_of_the_test`.
+#[test]
+fn paths_and_functions_exist() -> TestResult {
+    let (mut paths, mut functions) = (0, 0);
+    for document in Document::all()? {
+        for quoted in document.quoted() {
+            let (path, function) = match quoted.split_once(": ") {
+                Some((path, function)) => (path, Some(function)),
+                None => (quoted, None),
+            };
+            if !is_path(path) {
+                continue;
+            }
+            paths += 1;
+            let file = root().join(path);
+            assert!(file.exists(), "{}: {path}", document.name());
+            if let Some(function) = function {
+                functions += 1;
+                let text = fs::read_to_string(file)?;
+                assert!(text.contains(&format!("fn {function}(")), "{}: {quoted}", document.name());
+            }
+        }
+    }
+    assert!(paths > 50 && functions > 10, "{paths} {functions}");
+    Ok(())
+}
+
+/// The commands name programs and crates that exist.
+#[test]
+fn commands_can_be_run() -> TestResult {
+    let members = fs::read_to_string(root().join("Cargo.toml"))?;
+    let mut commands = 0;
+    for document in Document::all()? {
+        for line in document.text.lines() {
+            for command in line.split("cargo ").skip(1) {
+                let words: Vec<&str> = command.split([' ', '`']).collect();
+                for pair in words.windows(2) {
+                    let exists = match pair {
+                        ["--bin", name] => root().join(format!("examples/src/bin/{name}.rs")).exists(),
+                        ["-p", name] => {
+                            members.contains(&format!("\"{}\"", name.strip_prefix("xca-").unwrap_or(name)))
+                                || members.contains(&format!("\"{name}\""))
+                        }
+                        _ => continue,
+                    };
+                    assert!(exists, "{}: {line}", document.name());
+                    commands += 1;
+                }
+            }
+        }
+    }
+    assert!(commands > 5, "{commands}");
+    Ok(())
+}
+
+#[test]
+fn the_program_of_the_readme_is_the_example() -> TestResult {
+    let program = fs::read_to_string(root().join("examples/src/bin/life.rs"))?;
+    let readme = fs::read_to_string(root().join("README.md"))?;
+    assert!(readme.contains(&format!("```rust\n{program}```\n")), "the README shows another program");
+    assert!(program.lines().count() <= 30, "it has {} lines", program.lines().count());
+    Ok(())
+}
+
+/// docs/architecture.md lists the files with unsafe code.
+#[test]
+fn unsafe_code_is_where_the_architecture_says() -> TestResult {
+    let architecture = fs::read_to_string(root().join("docs/architecture.md"))?;
+    let mut folders: Vec<PathBuf> = fs::read_dir(root())?
+        .map(|entry| entry.map(|entry| entry.path().join("src")))
+        .collect::<Result<_, _>>()?;
+    let mut found = 0;
+    while let Some(folder) = folders.pop() {
+        let Ok(entries) = fs::read_dir(&folder) else { continue };
+        for entry in entries {
+            let path = entry?.path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "rs")
+                && fs::read_to_string(&path)?.contains("[allow(unsafe_code)]")
+            {
+                found += 1;
+                let name = path.strip_prefix(root())?.to_string_lossy().replace('\\', "/");
+                assert!(architecture.contains(&format!("| `{name}`")), "{name} is not listed");
+            }
+        }
+    }
+    assert!(found > 2, "{found}");
+    Ok(())
+}
+
+/// docs/architecture.md says who may depend on whom. Tests may use more.
+#[test]
+fn crates_depend_on_each_other_as_the_architecture_says() -> TestResult {
+    for (folder, allowed) in [
+        ("xca-macros", &[][..]),
+        ("xca-core", &["xca-macros"]),
+        ("xca-cpu", &["xca-core"]),
+        ("xca-wgsl", &["xca-core"]),
+        ("cadem", &["xca-core"]),
+        ("xca-run", &["xca-core", "xca-cpu"]),
+    ] {
+        let manifest = fs::read_to_string(root().join(folder).join("Cargo.toml"))?;
+        let dependencies = manifest
+            .split("\n[")
+            .filter(|section| {
+                section.starts_with("dependencies]") || section.starts_with("build-dependencies]")
+            })
+            .flat_map(str::lines)
+            .filter_map(|line| line.split(['.', ' ', '=']).next())
+            .filter(|name| name.starts_with("xca-") || *name == "cadem");
+        for dependency in dependencies {
+            assert!(allowed.contains(&dependency), "{folder} must not depend on {dependency}");
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,13 @@
+//! Each construct that a process may use, run on the reference engine in both precisions.
+
+mod cells;
+mod common;
+mod constants;
+mod control;
+mod faults;
+mod floats;
+mod helpers;
+mod integers;
+mod items;
+mod names;
+mod vectors;
