@@ -1,6 +1,11 @@
-//! Both engines, small.
+//! A first look at this engine beside the reference, and what it promises beyond the same bits. The suites that run on every engine are in
+//! the workspace's member `tests`.
+
+use std::error::Error;
 use xca_core::prelude::*;
-use xca_cpu::Cpu;
+use xca_cpu::{Cpu, CpuError};
+
+type TestResult = Result<(), Box<dyn Error>>;
 
 #[derive(Substates, Clone, Copy, Debug, PartialEq)]
 struct Walker {
@@ -11,65 +16,86 @@ struct Walker {
 }
 
 #[elementary_process]
-fn walk(me: &mut Slot<Walker>) {
+fn avoid(me: &mut Slot<Walker>) {
     for other in me.others_within(0.75) {
         me.seen = me.seen.wrapping_mul(31).wrapping_add(other.label());
         me.velocity += 0.01 * (me.position - other.position);
     }
 }
+
 #[elementary_process]
-fn go(me: &mut Slot<Walker>) {
+fn walk(me: &mut Slot<Walker>) {
     me.velocity += Vector3::new(me.random(0) - 0.5, me.random(1) - 0.5, me.random(2) - 0.5) * 0.1;
     me.position += me.velocity * 0.2;
 }
+
 #[migration]
 fn settle(me: &Slot<Walker>, space: &Space) -> Destination {
     space.cell_containing(me.position)
 }
 
-#[test]
-fn same_bits() -> Result<(), Box<dyn std::error::Error>> {
-    let model = Model::builder("walkers")
+/// So many walkers, spread over a box of 7 by 6 by 5 cells.
+fn walkers(count: u32, slots: usize) -> Result<Model, ModelError> {
+    Model::builder("walkers")
         .extents([7, 6, 5])
         .neighbourhood(Neighbourhood::moore(1))
-        .population::<Walker>(20)
+        .population::<Walker>(slots)
         .items_may_leave::<Walker>()
+        .process(avoid)
         .process(walk)
-        .process(go)
         .process(settle)
-        .initialise(|state| {
-            let items = (0..300u32)
-                .map(|l| {
-                    let p = [l % 7, l / 7 % 6, l / 42 % 5]
-                        .map(|i| f64::from(i) + f64::from(l * 7919 % 97) / 97.0);
-                    Item {
-                        label: l,
-                        cell: p.map(|x| x as usize),
-                        state: Walker {
-                            position: Vector3::new(p[0], p[1], p[2]),
-                            velocity: Vector3::splat(0.0),
-                            seen: 0,
-                        },
-                    }
-                })
-                .collect();
-            Ok(state.set_items(items)?)
+        .initialise(move |state| {
+            let item = |label: u32| {
+                let cell = [label % 7, label / 7 % 6, label / 42 % 5];
+                let [x, y, z] = cell.map(|index| f64::from(index) + f64::from(label * 7919 % 97) / 97.0);
+                let position = Vector3::new(x, y, z);
+                let state = Walker { position, velocity: Vector3::splat(0.0), seen: 0 };
+                Item { label, cell: cell.map(|index| index as usize), state }
+            };
+            Ok(state.set_items((0..count).map(item).collect())?)
         })
-        .build()?;
+        .build()
+}
+
+#[test]
+fn same_bits_as_the_reference() -> TestResult {
+    let model = walkers(300, 20)?;
     for precision in [Precision::F32, Precision::F64] {
         let options = RunOptions { precision, seed: 3 };
-        let mut a = Simulation::new(&model, &Reference, options)?;
         for threads in [1, 2, 3] {
-            let mut a = Simulation::new(&model, &Reference, options)?;
-            let mut b = Simulation::new(&model, &Cpu::with_threads(threads)?, options)?;
-            for step in 0..60 {
-                a.step()?;
-                b.step()?;
-                assert!(a.snapshot() == b.snapshot(), "step {step}");
+            let mut reference = Simulation::new(&model, &Reference, options)?;
+            let mut parallel = Simulation::new(&model, &Cpu::with_threads(threads)?, options)?;
+            for step in 0..40 {
+                assert!(
+                    reference.snapshot() == parallel.snapshot(),
+                    "step {step}, {threads} threads, {precision}"
+                );
+                reference.step()?;
+                parallel.step()?;
             }
+            assert!(parallel.state().count_left::<Walker>()? > 0);
         }
-        a.run(60)?;
-        println!("{:?} left {}", a.state().count_items::<Walker>()?, a.state().count_left::<Walker>()?);
     }
+    Ok(())
+}
+
+#[test]
+fn as_many_threads_as_wanted() -> TestResult {
+    assert_eq!(Cpu::with_threads(5)?.threads(), 5);
+    assert!(Cpu::new()?.threads() >= 1);
+    let none = Cpu::with_threads(0);
+    assert!(matches!(none, Err(CpuError::NoThreads)), "{none:?}");
+    Ok(())
+}
+
+/// Slots are a limit, not memory: only items take room.
+#[test]
+fn memory_grows_with_the_items() -> TestResult {
+    let engine = Cpu::with_threads(1)?;
+    let memory = |count, slots| -> Result<usize, Box<dyn Error>> {
+        Ok(Simulation::new(&walkers(count, slots)?, &engine, RunOptions::default())?.memory())
+    };
+    assert_eq!(memory(100, 10)?, memory(100, 100_000)?);
+    assert!(memory(2000, 100)? > memory(100, 100)? + 1900 * size_of::<Walker>());
     Ok(())
 }

@@ -35,7 +35,10 @@ pub(crate) struct Mentions {
 pub(crate) struct Call {
     /// The path that the user wrote.
     pub(crate) function: Path,
-    /// The name by which the generated code calls it.
+    /// The name by which it is imported.
+    pub(crate) import: Ident,
+    /// The name by which the generated code calls it: a type that is unknown to the compiler where the check of the calling
+    /// function finds an error.
     pub(crate) alias: Ident,
 }
 

@@ -92,6 +92,9 @@ fn process(function: &Function, original: &syn::ItemFn) -> Result<TokenStream> {
         .filter(|attribute| ["doc", "cfg", "deprecated"].iter().any(|word| attribute.path().is_ident(word)));
     let lints = lints(&function.attributes);
     let conditions: Vec<_> = conditions(function).collect();
+    // A process that is deprecated may be mentioned in its own code.
+    let deprecated = function.attributes.iter().any(|attribute| attribute.path().is_ident("deprecated"));
+    let allow = deprecated.then(|| quote!(#[allow(deprecated)]));
     let description = description(function, &uses, &data);
     let (check, aliases) = (check::check(function, original), check::aliases(function));
     Ok(quote! {
@@ -102,6 +105,7 @@ fn process(function: &Function, original: &syn::ItemFn) -> Result<TokenStream> {
         #visibility struct #name;
 
         #(#conditions)*
+        #allow
         const _: () = {
             #check
 

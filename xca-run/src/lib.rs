@@ -1,5 +1,55 @@
 //! The program frame that every xca model's program shares.
 //!
+//! A scientist defines a model with [`xca_core`]; this crate makes a program of it. The whole of Conway's Game of Life:
+//!
+//! ```no_run
+//! use xca_run::prelude::*;
+//!
+//! #[derive(Substates, Clone)]
+//! struct Life {
+//!     alive: u8,
+//! }
+//!
+//! #[elementary_process]
+//! fn evolve(cell: &mut Cell<Life>) {
+//!     let mut count = 0;
+//!     for n in 1..cell.neighbours() {
+//!         count += cell.neighbour(n).alive;
+//!     }
+//!     cell.alive = if count == 3 || (count == 2 && cell.alive == 1) { 1 } else { 0 };
+//! }
+//!
+//! fn main() -> ExitCode {
+//!     xca_run::main_of("life", "Conway's Game of Life on a torus", |given| {
+//!         let model = Model::builder("life")
+//!             .extents([256, 256, 1])
+//!             .neighbourhood(Neighbourhood::moore_2d(1))
+//!             .boundary(Boundary::Toroidal)
+//!             .substates::<Life>()
+//!             .process(evolve)
+//!             .fill(move |cell| Life { alive: u8::from(given.random(cell, 0) < 0.3) })
+//!             .build()?;
+//!         Ok(SetUp::new(model, 1000))
+//!     })
+//! }
+//! ```
+//!
+//! `life run` now does 1000 steps on all cores, shows how far it has come, and leaves in the folder `out/life`:
+//!
+//! | file | holds |
+//! |---|---|
+//! | `observables.csv` | a row of numbers every so many steps; least, mean and largest of each substate unless [`SetUp::observables`] says others |
+//! | `life.pvd` | what ParaView opens: all frames with their times |
+//! | `frames/life_00000050.vti`, … | all substates (`.vtp` for the items of a population) |
+//! | `initial.png`, `final.png` | pictures of the first state and the last |
+//! | `final.csv` | of a population, all items with 17 digits, by label |
+//! | `run.json` | everything about the run: options, parameters, engine, seed, times, why it ended |
+//!
+//! Every program has the same command line: `--engine`, `--threads`, `--precision`, `--steps`, `--seed`, `--set`, `--config`, `--out`, `--every`,
+//! `--quiet`. A model that has options of its own is a struct that implements [`Program`]; what is saved and drawn is refined with
+//! [`ItemView`] and [`CellView`].
+//!
+//! # The parts
 //! | module | holds |
 //! |---|---|
 //! | [`output`] | the files of a run: particles and time series as CSV, VTK files for ParaView, PNG pictures |

@@ -4,6 +4,7 @@ mod cells;
 mod folder;
 mod items;
 mod measure;
+mod shown;
 mod values;
 
 pub use folder::FolderError;
@@ -16,10 +17,9 @@ use crate::output::table_csv::{SeriesError, SeriesWriter};
 use crate::output::vtk::{Collection, VtkError};
 use crate::program::{Failure, Observable};
 use crate::set_up::SetUp;
-use crate::view::{AnyView, ViewError, complete};
-use cells::Cells;
-use items::Items;
-use xca_core::{GroupSnapshot, Model, Simulation, Snapshot};
+use crate::view::{ViewError, complete};
+use shown::Shown;
+use xca_core::{Model, Simulation, Snapshot};
 
 /// A part of a run's record that cannot be made or written.
 #[derive(Debug, thiserror::Error)]
@@ -41,15 +41,6 @@ pub enum RecordError {
     OtherObservables { step: u64, now: String, before: String },
 }
 
-/// A view with its files.
-struct Shown {
-    group: usize,
-    view: AnyView,
-    collection: Option<Collection>,
-    /// The scale of the first picture.
-    range: Option<[f64; 2]>,
-}
-
 /// Writes the files of a run.
 pub(crate) struct Recorder {
     set_up: SetUp,
@@ -66,10 +57,7 @@ impl Recorder {
     /// Checks what the set-up wants to be shown.
     pub(crate) fn new(mut set_up: SetUp) -> Result<Self, ViewError> {
         let views = complete(&set_up.model, std::mem::take(&mut set_up.views))?;
-        let shown = views
-            .into_iter()
-            .map(|(group, view)| Shown { group, view, collection: None, range: None })
-            .collect();
+        let shown = views.into_iter().map(|(group, view)| Shown::new(group, view)).collect();
         Ok(Self {
             set_up,
             shown,
@@ -93,14 +81,13 @@ impl Recorder {
     /// The files that a run makes, below its folder; `*` stands for the number of the step.
     pub(crate) fn files(&self) -> Vec<String> {
         let mut files = vec![SERIES.to_owned()];
-        for (number, Shown { view, .. }) in self.shown.iter().enumerate() {
-            let name = view.name();
-            let extension = extension(view);
-            if matches!(view, AnyView::Items(_)) {
+        for (number, shown) in self.shown.iter().enumerate() {
+            let name = shown.view.name();
+            if shown.is_of_items() {
                 files.push(self.numbered_file("final", number, "csv"));
             }
             files.push(format!("{name}.pvd"));
-            files.push(format!("{}/{name}_*.{extension}", folder::FRAMES));
+            files.push(format!("{}/{name}_*.{}", folder::FRAMES, shown.extension()));
             files.push(self.numbered_file("initial", number, "png"));
             files.push(self.numbered_file("final", number, "png"));
         }
@@ -109,10 +96,9 @@ impl Recorder {
 
     /// `final.png` of the first view of its kind, `final_NAME.png` of the others.
     fn numbered_file(&self, stem: &str, number: usize, extension: &str) -> String {
-        let is_items = |view: &AnyView| matches!(view, AnyView::Items(_));
         let before = &self.shown[..number];
         let first = if extension == "csv" {
-            before.iter().all(|other| !is_items(&other.view))
+            before.iter().all(|other| !other.is_of_items())
         } else {
             before.is_empty()
         };
@@ -160,7 +146,7 @@ impl Recorder {
         let snapshot = self.record(simulation)?;
         let Some(folder) = &self.folder else { return Ok(()) };
         for (number, shown) in self.shown.iter().enumerate() {
-            if let Some(items) = items_of(shown, simulation, &snapshot) {
+            if let Some(items) = shown.items(simulation, &snapshot) {
                 items.write_table(&folder.top.file(&self.numbered_file("final", number, "csv")))?;
             }
         }
@@ -205,10 +191,10 @@ impl Recorder {
         let time = self.time(snapshot.step);
         let Some(folder) = &self.folder else { return Ok(()) };
         for shown in &mut self.shown {
-            let path = folder.frames.numbered(shown.view.name(), snapshot.step, extension(&shown.view));
-            if let Some(items) = items_of(shown, simulation, snapshot) {
+            let path = folder.frames.numbered(shown.view.name(), snapshot.step, shown.extension());
+            if let Some(items) = shown.items(simulation, snapshot) {
                 items.write_frame(&path, time)?;
-            } else if let Some(cells) = cells_of(shown, simulation, snapshot) {
+            } else if let Some(cells) = shown.cells(simulation, snapshot) {
                 cells.write_frame(&path, time)?;
             }
             let collection = match &mut shown.collection {
@@ -245,10 +231,10 @@ impl Recorder {
     ) -> Result<(Option<Picture>, Option<[f64; 2]>), RecordError> {
         let shown = &self.shown[number];
         let title = &self.set_up.title;
-        Ok(if let Some(items) = items_of(shown, simulation, snapshot) {
+        Ok(if let Some(items) = shown.items(simulation, snapshot) {
             let caption = format!("{caption}, {} {}", items.len(), shown.view.name());
             (Some(items.draw(title, &caption)?), None)
-        } else if let Some(cells) = cells_of(shown, simulation, snapshot) {
+        } else if let Some(cells) = shown.cells(simulation, snapshot) {
             (Some(cells.draw(title, caption, shown.range)?), cells.range())
         } else {
             (None, None)
@@ -267,38 +253,3 @@ impl Recorder {
 
 /// The time series.
 const SERIES: &str = "observables.csv";
-
-fn extension(view: &AnyView) -> &'static str {
-    match view {
-        AnyView::Items(_) => "vtp",
-        AnyView::Cells(_) => "vti",
-    }
-}
-
-fn items_of<'a>(shown: &'a Shown, simulation: &'a Simulation, snapshot: &'a Snapshot) -> Option<Items<'a>> {
-    let model = simulation.model();
-    match (&shown.view, &snapshot.groups[shown.group]) {
-        (AnyView::Items(view), GroupSnapshot::Population(population, _)) => Some(Items::new(
-            view,
-            &model.groups()[shown.group],
-            model.geometry(),
-            simulation.options().precision,
-            population,
-        )),
-        _ => None,
-    }
-}
-
-fn cells_of<'a>(shown: &'a Shown, simulation: &'a Simulation, snapshot: &'a Snapshot) -> Option<Cells<'a>> {
-    let model = simulation.model();
-    match (&shown.view, &snapshot.groups[shown.group]) {
-        (AnyView::Cells(view), GroupSnapshot::Cells(fields)) => Some(Cells::new(
-            view,
-            &model.groups()[shown.group],
-            model.geometry(),
-            simulation.options().precision,
-            fields,
-        )),
-        _ => None,
-    }
-}

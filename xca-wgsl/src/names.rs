@@ -36,7 +36,8 @@ cell_containing nearest_image
 ";
 
 /// The beginnings of the names of routines.
-const PREFIXES: [&str; 7] = ["minimum_", "maximum_", "dot_", "cross_", "length_", "saturate_", "infinity_"];
+const PREFIXES: [&str; 9] =
+    ["runtime_", "repeat_", "minimum_", "maximum_", "dot_", "cross_", "length_", "saturate_", "infinity_"];
 
 /// Gives out names.
 #[derive(Debug, Default)]

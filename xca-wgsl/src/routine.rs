@@ -60,6 +60,34 @@ impl Routines {
         })
     }
 
+    pub(crate) fn need_length_squared(&mut self, type_: &Type) -> String {
+        let dot = self.need_dot(type_);
+        let scalar = type_.scalar().map_or("u32", types::scalar_name);
+        let vector = type_.wgsl();
+        self.need(format!("length_squared_{}", type_.word()), |name| {
+            format!("fn {name}(a: {vector}) -> {scalar} {{\n    return {dot}(a, a);\n}}\n")
+        })
+    }
+
+    /// The value itself. naga computes with constants while it reads a shader, and refuses what is not finite or loses bits;
+    /// it does not look into functions.
+    pub(crate) fn need_run_time(&mut self, type_: &Type) -> String {
+        let type_name = type_.wgsl();
+        self.need(format!("runtime_{}", type_.word()), |name| {
+            format!("fn {name}(value: {type_name}) -> {type_name} {{\n    return value;\n}}\n")
+        })
+    }
+
+    /// An array with one value in all places.
+    pub(crate) fn need_repeat(&mut self, element: &Type, length: usize) -> String {
+        let (word, element) = (element.word(), element.wgsl());
+        let values = vec!["value"; length].join(", ");
+        self.need(format!("repeat_{word}_{length}"), |name| {
+            let array = format!("array<{element}, {length}>");
+            format!("fn {name}(value: {element}) -> {array} {{\n    return {array}({values});\n}}\n")
+        })
+    }
+
     pub(crate) fn need_cross(&mut self, type_: &Type) -> String {
         let lanes = ["a.y * b.z - a.z * b.y", "a.z * b.x - a.x * b.z", "a.x * b.y - a.y * b.x"];
         let lanes = lanes.map(|lane| masked(lane, type_)).join(", ");

@@ -64,6 +64,7 @@ impl Type {
         match self {
             Self::Scalar(scalar) => scalar_name(*scalar).to_lowercase(),
             Self::Vector(scalar, lanes) => format!("vec{lanes}_{}", scalar_name(*scalar).to_lowercase()),
+            Self::Array(element, length) => format!("array_{}_{length}", element.word()),
             other => other.wgsl(),
         }
     }

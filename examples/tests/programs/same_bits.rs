@@ -35,8 +35,8 @@ fn compare(program: &str, options: &str) {
 
 #[test]
 fn cadem_in_both_precisions_and_under_both_laws_of_walls() {
-    compare(CADEM, "--case published --steps 160");
-    compare(CADEM, "--case published --walls single --precision f32 --steps 160");
+    compare(CADEM, "--case published --steps 120");
+    compare(CADEM, "--case published --walls single --precision f32 --steps 80");
 }
 
 #[test]

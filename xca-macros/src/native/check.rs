@@ -86,10 +86,10 @@ impl VisitMut for SpellOut<'_> {
                     let function = &call.function;
                     quote!(#function).to_string() == text
                 });
-                if let Some(Call { alias, .. }) = helper {
-                    let alias = Ident::new(&alias.to_string(), function.span());
+                if let Some(Call { import, .. }) = helper {
+                    let import = Ident::new(&import.to_string(), function.span());
                     *expression = syn::Expr::Verbatim(
-                        quote_spanned!(function.span()=> <#alias as ::xca_core::checks::Callable<_>>::result(#call)),
+                        quote_spanned!(function.span()=> <#import as ::xca_core::checks::Callable<_>>::result(#call)),
                     );
                 }
             }
@@ -109,11 +109,12 @@ pub(super) fn aliases(function: &Function) -> TokenStream {
         return TokenStream::new();
     }
     let plain = calls.iter().map(|call| {
-        let alias = &call.alias;
-        quote!(pub type #alias = ::xca_core::checks::PlainFunction;)
+        let import = &call.import;
+        quote!(pub type #import = ::xca_core::checks::PlainFunction;)
     });
     let imports = calls.iter().map(|call| {
-        let (function, alias) = (&call.function, &call.alias);
+        let Call { function, import, alias } = call;
+        let checked = super::checked(import);
         let fallback = function.get_ident().map(|name| {
             quote! {
                 #[allow(unused_macros)]
@@ -123,7 +124,9 @@ pub(super) fn aliases(function: &Function) -> TokenStream {
         quote! {
             #fallback
             #[allow(unused_imports)]
-            use #function as #alias;
+            use #function as #import;
+            #[allow(non_camel_case_types)]
+            type #alias = #checked;
         }
     });
     // What is imported by name goes before what is imported by `*`.

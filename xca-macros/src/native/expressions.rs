@@ -1,7 +1,7 @@
 //! Expressions in one precision.
 
 use super::body::{Writer, own_name, read_name};
-use super::{checked, checked_value, hidden};
+use super::{checked_value, hidden};
 use crate::access::GroupOf;
 use crate::ast::{Arm, Builtin, Expression, FunctionKind, Pattern};
 use crate::fields::with_real;
@@ -79,8 +79,7 @@ impl Writer<'_> {
                 let arguments = self.expressions(arguments);
                 let precision = &self.real;
                 let native = format_ident!("native_{}", precision.to_string());
-                let function = checked(&quote!(#function));
-                quote!(<#function>::#native(#(#arguments),*))
+                quote!(#function::#native(#(#arguments),*))
             }
             Expression::Method { method, receiver, arguments } => {
                 let receiver = self.expression(receiver);

@@ -8,6 +8,8 @@ use crate::ast::{Block, Builtin, Expression, FunctionKind};
 use syn::spanned::Spanned;
 use syn::{BinOp, Error, Expr, ExprMethodCall, Ident, Lit, Member, Path, Result, UnOp};
 
+const NO_SELF: &str = "a process is a free function: there is no `self`";
+
 /// Without parentheses and invisible groups.
 pub(super) fn strip(expression: &Expr) -> &Expr {
     match expression {
@@ -149,10 +151,8 @@ impl Scope {
                 _ => Err(no_destination(path)),
             };
         }
-        if let Some(first) =
-            words.first().filter(|first| **first == "Self" || **first == "self" && words.len() == 1)
-        {
-            return Err(Error::new_spanned(first, "a process is a free function: there is no `self`"));
+        if let Some(first) = words.first().filter(|first| **first == "Self") {
+            return Err(Error::new_spanned(first, NO_SELF));
         }
         self.mentions.constants.push(path.clone());
         Ok(Expression::Constant(path.clone()))
@@ -160,6 +160,7 @@ impl Scope {
 
     fn undeclared(&self, name: &Ident) -> Error {
         let message = match self.similar_name(name) {
+            _ if name == "self" => NO_SELF.to_owned(),
             Some(similar) => format!("there is no variable `{name}` here; did you mean `{similar}`?"),
             None => format!("there is no variable `{name}` here; constants are written in capitals"),
         };

@@ -128,8 +128,10 @@ impl Scope {
         if let Some(known) = self.mentions.calls.iter().find(same) {
             return known.alias.clone();
         }
-        let alias = format_ident!("__xca_helper_{}", self.mentions.calls.len(), span = function.span());
-        self.mentions.calls.push(Call { function: function.clone(), alias: alias.clone() });
+        let number = self.mentions.calls.len();
+        let [import, alias] =
+            ["import", "helper"].map(|word| format_ident!("__xca_{word}_{number}", span = function.span()));
+        self.mentions.calls.push(Call { function: function.clone(), import, alias: alias.clone() });
         alias
     }
 

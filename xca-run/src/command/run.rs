@@ -1,19 +1,22 @@
 //! The subcommand `run`.
 
+mod batch;
+mod words;
+
 use super::parse::Invocation;
 use super::{Ended, Unable};
 use crate::interrupt::Interrupt;
 use crate::machine::{check_memory, peak_memory};
-use crate::numbers::significant;
 use crate::program::{Failure, Given};
-use crate::progress::{self, Diagnostic};
+use crate::progress;
 use crate::record::{Recorder, RunFolder};
 use crate::report::{self, Report};
 use crate::set_up::SetUp;
 use crate::terminal;
+use batch::Batch;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
-use xca_core::{Engine, Model, RunError, RunOptions, Simulation};
+use xca_core::{Engine, RunError, RunOptions, Simulation};
 
 /// How many times in a run something is written, unless the command line says how often.
 const OUTPUTS: u64 = 20;
@@ -227,87 +230,6 @@ impl Run {
         if !self.quiet {
             terminal::say(text);
         }
-    }
-
-    fn headline(&self) -> String {
-        let Report { engine, threads, precision, progress, .. } = &self.report;
-        let threads = match threads {
-            1 => "1 thread".to_owned(),
-            threads => format!("{threads} threads"),
-        };
-        let time_step = progress.time_step.map(|seconds| format!(" of {} s", significant(seconds, 4)));
-        format!(
-            "{}, {}, {engine} engine with {threads}, {precision}, {} steps{}",
-            self.recorder.set_up().title,
-            cells(self.recorder.model()),
-            progress.steps_wanted,
-            time_step.unwrap_or_default(),
-        )
-    }
-
-    fn summary(&self) -> String {
-        let (frames, first, last) = self.recorder.results();
-        let pairs = first.iter().zip(last);
-        let diagnostics: Vec<Diagnostic> = pairs
-            .map(|(first, last)| Diagnostic {
-                name: first.name.clone(),
-                unit: first.unit.clone(),
-                initial: Some(first.value),
-                last: Some(last.value),
-            })
-            .collect();
-        let progress = &self.report.progress;
-        let end = match (progress.outcome, &progress.reason) {
-            ("interrupted", _) => {
-                format!("interrupted after {} of {} steps", progress.steps, progress.steps_wanted)
-            }
-            (_, Some(reason)) => format!("stopped after {} steps: {reason}", progress.steps),
-            _ => format!("{} steps", progress.steps),
-        };
-        let time = progress.time_step.map(|_| format!(", {} s simulated", significant(progress.time, 6)));
-        let rate = progress.steps_per_second.map(|rate| format!(", {}", progress::rate_text(rate)));
-        let wall = progress::duration_text(Duration::from_secs_f64(progress.wall_seconds));
-        let plain = self.report.files.iter().filter(|file| !file.contains('*')).map(String::as_str);
-        let files: Vec<&str> = plain.chain(["run.json"]).collect();
-        format!(
-            "\n{}\n\n{end}{} in {wall}{}\n{}: {}; {frames} {}",
-            progress::summary(&diagnostics),
-            time.unwrap_or_default(),
-            rate.unwrap_or_default(),
-            self.folder.top.path().display(),
-            files.join(", "),
-            if frames == 1 { "frame" } else { "frames" },
-        )
-    }
-}
-
-/// How many steps are done at a time: an engine with threads does many faster than one by one, but Ctrl-C and the line that shows how far
-/// the run has come must not wait for long.
-struct Batch {
-    steps: u64,
-}
-
-impl Default for Batch {
-    fn default() -> Self {
-        Self { steps: 1 }
-    }
-}
-
-impl Batch {
-    fn adapt(&mut self, took: Duration) {
-        match took.as_millis() {
-            0..20 => self.steps = self.steps.saturating_mul(2),
-            20..80 => {}
-            _ => self.steps = (self.steps / 2).max(1),
-        }
-    }
-}
-
-/// The number of cells along each axis that has more than one.
-fn cells(model: &Model) -> String {
-    match model.geometry().extents() {
-        [x, y, 1] => format!("{x} x {y} cells"),
-        [x, y, z] => format!("{x} x {y} x {z} cells"),
     }
 }
 

@@ -163,11 +163,14 @@ impl<'a> Inference<'a> {
         let found = self.expression(operand)?;
         let target_variable = self.table.known(target);
         let mut bare = operand;
-        while let Expression::Unary(_, inner) = bare {
+        let mut negated = false;
+        while let Expression::Unary(operator, inner) = bare {
+            negated |= *operator == UnaryOperator::Negate;
             bare = inner;
         }
         if let (Expression::Literal(_), Type::Scalar(scalar)) = (bare, target) {
             let fits = match self.table.term(found) {
+                Term::Integer if negated => *scalar == ScalarType::I32,
                 Term::Integer => !is_float(*scalar),
                 Term::Float => is_float(*scalar),
                 _ => false,

@@ -1,13 +1,13 @@
 //! `as`, with Rust's results: integers wrap, floats saturate.
 
 use super::Writer;
-use super::operator::constant_value;
+use super::operator::is_constant;
 use super::text::{Level, Text};
 use crate::error::Problem;
 use crate::literal;
 use crate::types::{self, Type};
 use xca_core::ScalarType;
-use xca_core::ir::Expression;
+use xca_core::ir::{Constant, Expression, Literal};
 
 impl Writer<'_, '_> {
     pub(super) fn cast(&mut self, operand: &Expression, target: &Type) -> Result<Text, Problem> {
@@ -48,16 +48,26 @@ impl Writer<'_, '_> {
             return self.expression(operand);
         }
         // naga cannot narrow a constant, so that it is rounded here.
-        if let (Some(value), Expression::Literal(_) | Expression::Constant { .. }) =
-            (constant_value(operand), operand)
-        {
+        if let Some(value) = exact_value(operand, types::is_f64(from, precision)) {
             return Ok(Text::number(literal::float(value, to, self.shared.options)?));
         }
         let mut text = self.expression(operand)?;
-        if constant_value(operand).is_some() {
-            text = self.keep("operand", &Type::Scalar(from), &text);
+        if is_constant(operand) {
+            text = self.at_run_time(&Type::Scalar(from), &text);
         }
         Ok(call(types::scalar_name(to), &text))
+    }
+}
+
+/// What a literal or constant float is.
+fn exact_value(value: &Expression, wide: bool) -> Option<f64> {
+    match value {
+        Expression::Literal(Literal::Float(digits, _)) if wide => digits.parse().ok(),
+        Expression::Literal(Literal::Float(digits, _)) => digits.parse::<f32>().ok().map(f64::from),
+        Expression::Constant { value: Constant::F32(value), .. } => Some(f64::from(*value)),
+        Expression::Constant { value: Constant::Real(value), .. } if wide => Some(*value),
+        Expression::Constant { value: Constant::Real(value), .. } => Some(f64::from(*value as f32)),
+        _ => None,
     }
 }
 

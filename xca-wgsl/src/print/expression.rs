@@ -260,13 +260,8 @@ impl Writer<'_, '_> {
         if matches!(text.plain(), "false" | "0u" | "0i" | "0.0f" | "0.0lf") {
             return Ok(Text::primary(super::zero(&type_)));
         }
-        let text = if is_simple(element) {
-            text
-        } else {
-            let element_type = self.type_of(element);
-            self.keep("element", &element_type, &text)
-        };
-        Ok(Text::primary(format!("{}({})", type_.wgsl(), list(&vec![text; length]))))
+        let routine = self.shared.routines.need_repeat(&self.type_of(element), length);
+        Ok(Text::primary(format!("{routine}({})", text.plain())))
     }
 
     pub(super) fn lane(&self, lane: u8) -> Result<&'static str, Problem> {

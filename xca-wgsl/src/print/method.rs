@@ -2,8 +2,8 @@
 
 use super::Writer;
 use super::expression::list;
-use super::operator::constant_value;
-use super::text::{Level, Text};
+use super::operator::is_constant;
+use super::text::Text;
 use crate::error::Problem;
 use crate::types::Type;
 use xca_core::ScalarType;
@@ -28,8 +28,8 @@ impl Writer<'_, '_> {
         self.check_receiver(method, &type_)?;
         let mut texts = self.operands(&values)?;
         // naga would compute it while it reads the shader, and refuse square roots of negative numbers, say.
-        if constant_value(receiver).is_some() {
-            texts[0] = self.keep("operand", &type_, &texts[0]);
+        if is_constant(receiver) {
+            texts[0] = self.at_run_time(&type_, &texts[0]);
         }
         let operands = |texts: &[Text]| texts.iter().map(Text::argument).collect::<Vec<_>>().join(", ");
         Ok(match method {
@@ -64,9 +64,8 @@ impl Writer<'_, '_> {
                 Text::primary(format!("{routine}({})", operands(&texts)))
             }
             Method::LengthSquared => {
-                let value = self.named(receiver, &type_, &texts[0]);
-                let routine = self.shared.routines.need_dot(&type_);
-                Text::primary(format!("{routine}({value}, {value})"))
+                let routine = self.shared.routines.need_length_squared(&type_);
+                Text::primary(format!("{routine}({})", list(&texts)))
             }
             Method::Length => {
                 let routine = self.shared.routines.need_length(&type_);
@@ -83,15 +82,6 @@ impl Writer<'_, '_> {
             Text::primary(format!("{routine}({arguments})"))
         } else {
             Text::primary(format!("{builtin}({arguments})"))
-        }
-    }
-
-    /// A text that may stand twice.
-    fn named(&mut self, value: &Expression, type_: &Type, text: &Text) -> String {
-        if super::expression::is_simple(value) {
-            text.at_least(Level::Additive)
-        } else {
-            self.keep("operand", type_, text).plain().to_owned()
         }
     }
 

@@ -4,6 +4,7 @@ use super::Writer;
 use super::text::{Level, Text};
 use crate::error::Problem;
 use crate::types::{self, Type};
+use crate::visit::{self, Node};
 use xca_core::ScalarType;
 use xca_core::ir::{BinaryOperator, Expression};
 
@@ -17,7 +18,7 @@ impl Writer<'_, '_> {
         let mut texts = self.operands(&[left, right])?;
         let (left_type, right_type) = (self.type_of(left), self.type_of(right));
         if self.overflows(operator, left, right) {
-            texts[0] = self.keep("operand", &left_type, &texts[0]);
+            texts[0] = self.at_run_time(&left_type, &texts[0]);
         }
         self.combined(operator, (&texts[0], &left_type), (&texts[1], &right_type))
     }
@@ -123,17 +124,38 @@ impl Writer<'_, '_> {
         Text::joined(&value, "&", &Text::primary(mask), Level::Bitwise)
     }
 
-    /// Whether naga would compute the value while it reads the shader, and refuse it because it is not finite.
+    /// A constant that naga does not compute with while it reads the shader.
+    pub(super) fn at_run_time(&mut self, type_: &Type, value: &Text) -> Text {
+        let routine = self.shared.routines.need_run_time(type_);
+        Text::primary(format!("{routine}({})", value.plain()))
+    }
+
+    /// Whether naga would compute the value while it reads the shader, and perhaps refuse it: a float that is not finite, an integer
+    /// that loses bits.
     fn overflows(&self, operator: BinaryOperator, left: &Expression, right: &Expression) -> bool {
+        if !(is_constant(left) && is_constant(right)) {
+            return false;
+        }
         let type_ = self.type_of(left);
-        let precision = self.shared.options.precision;
-        let single = match type_ {
-            Type::Scalar(scalar) if types::is_float(scalar) => !types::is_f64(scalar, precision),
-            _ => return false,
+        if !type_.is_float() {
+            return matches!(
+                operator,
+                BinaryOperator::ShiftLeft | BinaryOperator::Divide | BinaryOperator::Remainder
+            );
+        }
+        let value = match (constant_value(left), constant_value(right)) {
+            (Some(left), Some(right)) => arithmetic(operator, left, right),
+            _ => None,
         };
-        let (Some(left), Some(right)) = (constant_value(left), constant_value(right)) else { return false };
-        let Some(value) = arithmetic(operator, left, right) else { return false };
-        if single { !(value as f32).is_finite() } else { !value.is_finite() }
+        let wide = type_.scalar().is_some_and(|scalar| types::is_f64(scalar, self.shared.options.precision));
+        let finite = |value: f64| if wide { value.is_finite() } else { (value as f32).is_finite() };
+        match operator {
+            BinaryOperator::Add
+            | BinaryOperator::Subtract
+            | BinaryOperator::Multiply
+            | BinaryOperator::Divide => !value.is_some_and(finite),
+            _ => false,
+        }
     }
 }
 
@@ -154,8 +176,32 @@ fn shift(left: &Text, sign: &str, right: &Text, left_type: &Type, right_type: &T
     Text::joined(left, sign, &places, Level::Shift)
 }
 
+/// Whether a value is made of literals and constants alone.
+pub(super) fn is_constant(value: &Expression) -> bool {
+    let mut constant = true;
+    visit::expression(value, &mut |node| {
+        if let Node::Expression(inner) = node {
+            constant &= !matches!(
+                inner,
+                Expression::Local(_)
+                    | Expression::Own(_)
+                    | Expression::CellOfItem(_)
+                    | Expression::Neighbour { .. }
+                    | Expression::NamedNeighbour { .. }
+                    | Expression::Other { .. }
+                    | Expression::OtherLabel(_)
+                    | Expression::Parameter(_)
+                    | Expression::Builtin(..)
+                    | Expression::Call { .. }
+            );
+        }
+        constant
+    });
+    constant
+}
+
 /// About what a float is that is known before the run.
-pub(super) fn constant_value(value: &Expression) -> Option<f64> {
+fn constant_value(value: &Expression) -> Option<f64> {
     use xca_core::ir::{Constant, Literal, UnaryOperator};
     match value {
         Expression::Literal(Literal::Float(digits, _)) => digits.parse().ok(),

@@ -175,7 +175,7 @@ fn views_say_what_is_saved() {
         let grass = CellView::named("grass").draw(Grass::WIND, "wind").layer(1).range(0.0, 5.0);
         let observe = |state: &State<'_>| Ok(vec![Observable::new("grass", "m", state.sum(Grass::HEIGHT)?)]);
         let set_up = SetUp::new(model()?, 3).time_step(0.25).observables(observe);
-        Ok(set_up.items(hares).cells(grass).note("season", "summer")?)
+        set_up.items(hares).cells(grass).note("season", "summer")
     };
     let folder = tempfile::tempdir().unwrap();
     let (ended, report) = run_model(&make, &["--set", "rate=1", "--precision", "f32"], folder.path());

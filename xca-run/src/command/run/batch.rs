@@ -1,0 +1,25 @@
+//! How many steps are done at a time.
+
+use std::time::Duration;
+
+/// How many steps are done at a time: an engine with threads does many faster than one by one, but Ctrl-C and the line that shows how far
+/// the run has come must not wait for long.
+pub(super) struct Batch {
+    pub(super) steps: u64,
+}
+
+impl Default for Batch {
+    fn default() -> Self {
+        Self { steps: 1 }
+    }
+}
+
+impl Batch {
+    pub(super) fn adapt(&mut self, took: Duration) {
+        match took.as_millis() {
+            0..20 => self.steps = self.steps.saturating_mul(2),
+            20..80 => {}
+            _ => self.steps = (self.steps / 2).max(1),
+        }
+    }
+}

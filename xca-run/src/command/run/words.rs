@@ -1,0 +1,71 @@
+//! What a run says of itself at its start and at its end.
+
+use super::Run;
+use crate::numbers::significant;
+use crate::progress::{self, Diagnostic};
+use crate::report::Report;
+use std::time::Duration;
+use xca_core::Model;
+
+impl Run {
+    /// The line at the start.
+    pub(super) fn headline(&self) -> String {
+        let Report { engine, threads, precision, progress, .. } = &self.report;
+        let threads = match threads {
+            1 => "1 thread".to_owned(),
+            threads => format!("{threads} threads"),
+        };
+        let time_step = progress.time_step.map(|seconds| format!(" of {} s", significant(seconds, 4)));
+        format!(
+            "{}, {}, {engine} engine with {threads}, {precision}, {} steps{}",
+            self.recorder.set_up().title,
+            cells(self.recorder.model()),
+            progress.steps_wanted,
+            time_step.unwrap_or_default(),
+        )
+    }
+
+    /// The table of observables, how it ended, and where the files are.
+    pub(super) fn summary(&self) -> String {
+        let (frames, first, last) = self.recorder.results();
+        let pairs = first.iter().zip(last);
+        let diagnostics: Vec<Diagnostic> = pairs
+            .map(|(first, last)| Diagnostic {
+                name: first.name.clone(),
+                unit: first.unit.clone(),
+                initial: Some(first.value),
+                last: Some(last.value),
+            })
+            .collect();
+        let progress = &self.report.progress;
+        let end = match (progress.outcome, &progress.reason) {
+            ("interrupted", _) => {
+                format!("interrupted after {} of {} steps", progress.steps, progress.steps_wanted)
+            }
+            (_, Some(reason)) => format!("stopped after {} steps: {reason}", progress.steps),
+            _ => format!("{} steps", progress.steps),
+        };
+        let time = progress.time_step.map(|_| format!(", {} s simulated", significant(progress.time, 6)));
+        let rate = progress.steps_per_second.map(|rate| format!(", {}", progress::rate_text(rate)));
+        let wall = progress::duration_text(Duration::from_secs_f64(progress.wall_seconds));
+        let plain = self.report.files.iter().filter(|file| !file.contains('*')).map(String::as_str);
+        let files: Vec<&str> = plain.chain(["run.json"]).collect();
+        format!(
+            "\n{}\n\n{end}{} in {wall}{}\n{}: {}; {frames} {}",
+            progress::summary(&diagnostics),
+            time.unwrap_or_default(),
+            rate.unwrap_or_default(),
+            self.folder.top.path().display(),
+            files.join(", "),
+            if frames == 1 { "frame" } else { "frames" },
+        )
+    }
+}
+
+/// The number of cells along each axis that has more than one.
+fn cells(model: &Model) -> String {
+    match model.geometry().extents() {
+        [x, y, 1] => format!("{x} x {y} cells"),
+        [x, y, z] => format!("{x} x {y} x {z} cells"),
+    }
+}

@@ -1,0 +1,71 @@
+//! A view of a model, and what it sees of a state.
+
+use super::cells::Cells;
+use super::items::Items;
+use crate::output::vtk::Collection;
+use crate::view::AnyView;
+use xca_core::{GroupSnapshot, Simulation, Snapshot};
+
+/// A view with its files.
+pub(super) struct Shown {
+    group: usize,
+    pub(super) view: AnyView,
+    /// The frames that there are.
+    pub(super) collection: Option<Collection>,
+    /// The scale of the first picture.
+    pub(super) range: Option<[f64; 2]>,
+}
+
+impl Shown {
+    /// A view of the group with this number.
+    pub(super) fn new(group: usize, view: AnyView) -> Self {
+        Self { group, view, collection: None, range: None }
+    }
+
+    pub(super) fn is_of_items(&self) -> bool {
+        matches!(self.view, AnyView::Items(_))
+    }
+
+    /// Of the names of its frames.
+    pub(super) fn extension(&self) -> &'static str {
+        if self.is_of_items() { "vtp" } else { "vti" }
+    }
+
+    /// The items, if it is a view of items.
+    pub(super) fn items<'a>(
+        &'a self,
+        simulation: &'a Simulation,
+        snapshot: &'a Snapshot,
+    ) -> Option<Items<'a>> {
+        let model = simulation.model();
+        match (&self.view, &snapshot.groups[self.group]) {
+            (AnyView::Items(view), GroupSnapshot::Population(population, _)) => Some(Items::new(
+                view,
+                &model.groups()[self.group],
+                model.geometry(),
+                simulation.options().precision,
+                population,
+            )),
+            _ => None,
+        }
+    }
+
+    /// The substates of cells, if it is a view of these.
+    pub(super) fn cells<'a>(
+        &'a self,
+        simulation: &'a Simulation,
+        snapshot: &'a Snapshot,
+    ) -> Option<Cells<'a>> {
+        let model = simulation.model();
+        match (&self.view, &snapshot.groups[self.group]) {
+            (AnyView::Cells(view), GroupSnapshot::Cells(fields)) => Some(Cells::new(
+                view,
+                &model.groups()[self.group],
+                model.geometry(),
+                simulation.options().precision,
+                fields,
+            )),
+            _ => None,
+        }
+    }
+}
