@@ -2,6 +2,7 @@
 
 pub mod brute_force;
 pub mod restitution;
+pub mod suite;
 
 /// The guide, whose programs are run as tests of the documentation.
 #[doc = include_str!("../../docs/guide.md")]

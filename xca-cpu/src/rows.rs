@@ -105,6 +105,8 @@ pub(crate) fn run(
     let per_block = rows.div_ceil(threads * BLOCKS_PER_THREAD).max(1);
     let found: Vec<Found> = (0..rows.div_ceil(per_block))
         .into_par_iter()
+        // Each block can go to another thread: the items may all be in a few of them.
+        .with_max_len(1)
         .map(|block| pass.block(model, block * per_block..((block + 1) * per_block).min(rows)))
         .collect();
     let mut movers = Vec::new();

@@ -9,7 +9,7 @@ use xca_core::{Geometry, StoredScalar};
 /// number. `field` is the position.
 pub(crate) fn slack(population: &Population, field: usize, layout: &Layout, geometry: &Geometry) -> f64 {
     let bytes = population.items.fields[field].bytes();
-    let rows = (0..layout.rows()).into_par_iter().with_min_len(16);
+    let rows = (0..layout.rows()).into_par_iter().with_min_len(16).with_max_len(64);
     let of_rows = |row: &(dyn Fn(usize) -> f64 + Sync)| rows.map(row).reduce(|| 0.0, largest);
     match population.types[field].scalar {
         StoredScalar::F32 => {

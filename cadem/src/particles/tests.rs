@@ -40,7 +40,7 @@ fn particles_are_inside_the_domain_and_before_the_walls() {
     let error = refused(&per_slot, &inset);
     assert_eq!(
         error.to_string(),
-        "particle 1 at [0.1, 0.1, 0.0004] m is behind the wall z-low, which this wall law puts at 0.0005 m; `allow_overlaps` lets it"
+        "particle 1 at [0.1, 0.1, 0.0004] m is behind the wall z-low, which this wall law puts at 0.0005 m; `allow_overlaps` (`--allow-overlaps` on the command line) lets it"
     );
     let open = Configuration { openings: vec![Opening::whole(Face::ZLow)], ..per_slot.clone() };
     assert_eq!(open.check_particles(&inset), Ok(()));

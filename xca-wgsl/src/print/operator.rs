@@ -59,6 +59,10 @@ impl Writer<'_, '_> {
             BinaryOperator::Equal if type_.lanes() > 1 => {
                 Text::primary(format!("all({})", Text::joined(left, "==", right, Level::Relational).plain()))
             }
+            // naga compares floats so that NaN is not unequal to anything; `!(a == b)` is what Rust has.
+            BinaryOperator::NotEqual if type_.is_float() => {
+                self.combined(BinaryOperator::Equal, (left, left_type), (right, right_type))?.inverted("!")
+            }
             BinaryOperator::NotEqual if type_.lanes() > 1 => {
                 Text::primary(format!("any({})", Text::joined(left, "!=", right, Level::Relational).plain()))
             }

@@ -156,12 +156,10 @@ impl Writer<'_, '_> {
             self.line(&format!("{target} = {};", text.plain()));
             return Ok(());
         };
-        let target = self.place(place)?;
-        let mut before = Text::primary(target.clone());
-        if self.hoists(value) {
-            before = self.keep("operand", &type_, &before);
-        }
+        // As in Rust the right-hand side comes first.
         let text = self.expression(value)?;
+        let target = self.place(place)?;
+        let before = Text::primary(target.clone());
         let value_type = self.type_of(value);
         let short = match operator {
             BinaryOperator::Add => Some("+="),
@@ -172,7 +170,7 @@ impl Writer<'_, '_> {
         };
         let result = self.combined(operator, (&before, &type_), (&text, &value_type))?;
         match short {
-            Some(short) if before.plain() == target && !type_.is_u8() => {
+            Some(short) if !type_.is_u8() => {
                 self.line(&format!("{target} {short} {};", text.plain()));
             }
             _ => self.line(&format!("{target} = {};", result.plain())),

@@ -341,7 +341,10 @@ impl Source {
             }
             4 => Statement::Expression(self.match_(None, next)),
             5 => {
+                // The condition cannot leave the loop around it.
+                let loops = std::mem::take(&mut self.loops);
                 let condition = self.expression(&Type::Bool, next);
+                self.loops = loops;
                 Statement::While { condition, body: self.loop_body(next) }
             }
             6 => {

@@ -1,0 +1,136 @@
+//! The engines that every suite runs on, and how their runs are compared.
+
+use std::error::Error;
+use xca_core::{
+    Engine, GroupSnapshot, Model, Precision, Reference, RunError, RunOptions, Simulation, Snapshot,
+};
+use xca_cpu::Cpu;
+
+/// The thread counts of the parallel engine that must make no difference.
+pub const THREADS: [usize; 4] = [1, 2, 3, 8];
+
+/// Both precisions.
+pub const PRECISIONS: [Precision; 2] = [Precision::F32, Precision::F64];
+
+/// Every engine, the oracle first.
+///
+/// # Errors
+/// Where an engine cannot be made.
+pub fn all() -> Result<Vec<Box<dyn Engine>>, Box<dyn Error>> {
+    let mut engines: Vec<Box<dyn Engine>> = vec![Box::new(Reference)];
+    for threads in THREADS {
+        engines.push(Box::new(Cpu::with_threads(threads)?));
+    }
+    Ok(engines)
+}
+
+/// The name of an engine with its number of threads, for messages.
+pub fn describe(engine: &dyn Engine) -> String {
+    format!("{} with {} threads", engine.name(), engine.threads())
+}
+
+/// Runs a model on each engine and demands that all agree with the first to the last bit, after every step and in a run of all steps at
+/// once. Where the first stops with an error, the others must stop in the same step with the same one; that error is the result.
+///
+/// # Errors
+/// What the run ends with on all engines.
+///
+/// # Panics
+/// Where two engines differ.
+pub fn assert_same_runs(
+    model: &Model,
+    engines: &[Box<dyn Engine>],
+    options: RunOptions,
+    steps: u64,
+) -> Result<(), RunError> {
+    let Some((oracle, others)) = engines.split_first() else { return Ok(()) };
+    let mut first = Simulation::new(model, &**oracle, options)?;
+    let mut rest: Vec<Simulation> =
+        others.iter().map(|engine| Simulation::new(model, &**engine, options)).collect::<Result<_, _>>()?;
+    for step in 0..=steps {
+        let outcome = if step == 0 { Ok(()) } else { first.step() };
+        let snapshot = first.snapshot();
+        for (engine, simulation) in others.iter().zip(&mut rest) {
+            let other = if step == 0 { Ok(()) } else { simulation.step() };
+            let place = || format!("step {step} of `{}` on {}", model.name(), describe(&**engine));
+            assert_eq!(outcome_text(&outcome), outcome_text(&other), "{}", place());
+            if outcome.is_ok() {
+                assert_same_state(&snapshot, &simulation.snapshot(), &place);
+            }
+        }
+        outcome?;
+    }
+    let snapshot = first.snapshot();
+    for engine in others {
+        let place = || format!("all steps of `{}` at once on {}", model.name(), describe(&**engine));
+        let mut at_once = Simulation::new(model, &**engine, options)?;
+        at_once.run(steps)?;
+        assert_same_state(&snapshot, &at_once.snapshot(), &place);
+    }
+    Ok(())
+}
+
+/// Runs a model that must stop with a fault: in the same way on every engine, after which none goes on.
+///
+/// # Panics
+/// Where it does not stop, or not in the same way, or where an engine goes on.
+pub fn assert_same_fault(
+    model: &Model,
+    engines: &[Box<dyn Engine>],
+    options: RunOptions,
+    steps: u64,
+) -> RunError {
+    let Err(error) = assert_same_runs(model, engines, options, steps) else {
+        panic!("`{}` does not stop with a fault", model.name());
+    };
+    let RunError::Fault { step: broken, .. } = &error else { return error };
+    for engine in engines {
+        let name = describe(&**engine);
+        let Ok(mut simulation) = Simulation::new(model, &**engine, options) else { continue };
+        assert_eq!(outcome_text(&simulation.run(steps).map(|_| ())), error_text(&error), "{name}");
+        for outcome in [simulation.step(), simulation.run(1).map(|_| ()), simulation.run_process(0)] {
+            assert!(matches!(outcome, Err(RunError::Broken { step }) if step == *broken), "{name} goes on");
+        }
+    }
+    error
+}
+
+/// Demands that two states are the same to the last bit.
+///
+/// # Panics
+/// Where they are not, with the place and what differs.
+pub fn assert_same_state(wanted: &Snapshot, found: &Snapshot, place: &dyn Fn() -> String) {
+    assert_eq!(wanted.step, found.step, "{}: the number of steps", place());
+    for (group, (wanted, found)) in wanted.groups.iter().zip(&found.groups).enumerate() {
+        match (wanted, found) {
+            (GroupSnapshot::Cells(wanted), GroupSnapshot::Cells(found)) => {
+                for (field, (wanted, found)) in wanted.iter().zip(found).enumerate() {
+                    let byte = wanted.iter().zip(found).position(|(wanted, found)| wanted != found);
+                    assert!(wanted == found, "{}: group {group}, field {field}, byte {byte:?}", place());
+                }
+            }
+            (GroupSnapshot::Population(wanted, left), GroupSnapshot::Population(found, found_left)) => {
+                assert_eq!(wanted.counts, found.counts, "{}: items in each cell", place());
+                assert_eq!(wanted.labels, found.labels, "{}: labels", place());
+                for (field, (wanted, found)) in wanted.fields.iter().zip(&found.fields).enumerate() {
+                    let byte = wanted.iter().zip(found).position(|(wanted, found)| wanted != found);
+                    assert!(wanted == found, "{}: group {group}, field {field}, byte {byte:?}", place());
+                }
+                assert_eq!(left, found_left, "{}: items that left", place());
+            }
+            _ => panic!("{}: group {group} is another kind", place()),
+        }
+    }
+}
+
+/// An outcome as text, in which a value that is no number equals itself.
+pub fn outcome_text(outcome: &Result<(), RunError>) -> String {
+    match outcome {
+        Ok(()) => "no fault".to_owned(),
+        Err(error) => error_text(error),
+    }
+}
+
+fn error_text(error: &RunError) -> String {
+    format!("{error}; {error:?}")
+}

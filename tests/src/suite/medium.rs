@@ -1,0 +1,177 @@
+//! Elementary processes over cells from which random models are put together: each uses the engine in another way.
+//!
+//! Their values stay bounded, so that no run ends in infinities that hide differences.
+
+use super::lattice::mix;
+use xca_core::prelude::*;
+
+/// The fault that [`tire`] reports.
+pub const TIRED: u32 = 21;
+
+/// The state of a cell, with each type of substate.
+#[derive(Substates, Clone, Copy, Debug, PartialEq)]
+#[expect(missing_docs, reason = "they mean nothing")]
+pub struct Medium {
+    pub life: u8,
+    pub charge: i32,
+    pub bits: u32,
+    pub heat: f32,
+    pub energy: f64,
+    pub level: Real,
+    pub flow: Vector3<Real>,
+    pub pair: Vector2<i32>,
+    pub blend: Vector4<f32>,
+}
+
+/// What the processes are told, those over items too.
+#[derive(Parameters, Clone, Copy, Debug, PartialEq)]
+pub struct Tuning {
+    /// A weight between 0 and 1.
+    pub rate: Real,
+    /// The radius of searches, in metres.
+    pub radius: Real,
+    /// How far an item goes in a step at most, in cells.
+    pub pace: Real,
+    /// A constant push.
+    pub drift: Vector3<Real>,
+    /// Mixed into what is drawn.
+    pub salt: u32,
+    /// One draw in so many is a fault; 0 for never.
+    pub rarity: u32,
+    /// How far beyond the neighbourhood a cell looks at most.
+    pub greed: u32,
+    /// 1 for each toroidal axis, else 0.
+    pub torus: Vector3<i32>,
+}
+
+/// A number of this size or smaller.
+#[helper]
+pub fn bounded(value: Real, size: Real) -> Real {
+    value.max(-size).min(size)
+}
+
+/// Counts neighbours: an integer that is read elsewhere and written.
+#[elementary_process]
+pub fn breed(cell: &mut Cell<Medium>) {
+    let mut count = 0;
+    for n in 1..cell.neighbours() {
+        count += (cell.neighbour(n).life & 1) as u32;
+    }
+    cell.life = match count {
+        0 => cell.life / 2,
+        1..=2 => cell.life,
+        3 if cell.life < 9 => 201,
+        _ => (count % 7) as u8,
+    };
+}
+
+/// Relaxes a floating substate, each neighbour with another weight.
+#[elementary_process]
+pub fn relax(cell: &mut Cell<Medium>, p: &Tuning) {
+    let mut sum = 0.0;
+    let mut weights = 0.0;
+    for n in 0..cell.neighbours() {
+        let weight = 1.0 / (n as Real + 3.0);
+        sum += weight * cell.neighbour(n).level;
+        weights += weight;
+    }
+    cell.level += p.rate * (sum / weights - cell.level);
+}
+
+/// Two integer substates, both read elsewhere and written.
+#[elementary_process]
+pub fn trade(cell: &mut Cell<Medium>) {
+    let mut given = 0;
+    for n in 1..cell.neighbours() {
+        let other = cell.neighbour(n);
+        given = given ^ other.charge.wrapping_mul(n as i32 + 5);
+        cell.pair.x = cell.pair.x.wrapping_add(other.pair.y);
+    }
+    cell.pair.y = cell.pair.x ^ cell.neighbour(0).pair.y;
+    cell.charge = cell.charge.wrapping_sub(given >> 3);
+}
+
+/// In place, with random numbers: nothing is read elsewhere.
+#[elementary_process]
+pub fn shake(cell: &mut Cell<Medium>, p: &Tuning, space: &Space) {
+    let here = cell.index();
+    cell.bits = mix(cell.bits ^ p.salt, cell.random_bits(space.step() + 1));
+    cell.level = bounded(cell.level + p.rate * (cell.random(0) - 0.5), 100.0);
+    if (here.x + here.y * 2 + here.z * 3) % 4 == 1 {
+        cell.heat = cell.random(7) as f32;
+    }
+}
+
+/// Reads one substate elsewhere and writes others in place, without a look at their old values.
+#[elementary_process]
+pub fn slope(cell: &mut Cell<Medium>) {
+    let last = cell.neighbours() - 1;
+    let first = cell.neighbour(0).level;
+    let difference = cell.neighbour(last).level - first;
+    cell.heat = difference as f32;
+    cell.energy = difference as f64 * 0.1 + 3.0;
+}
+
+/// Reads several substates elsewhere; writes a vector that is read elsewhere too.
+#[elementary_process]
+pub fn swirl(cell: &mut Cell<Medium>, p: &Tuning) {
+    let mut turned = Vector3::splat(0.0);
+    for n in 1..cell.neighbours() {
+        let other = cell.neighbour(n);
+        turned += other.flow.cross(p.drift) * 0.25 + other.flow * (other.level * 0.001);
+        if other.life > 100 {
+            continue;
+        }
+        turned.x += other.heat as Real * 0.01;
+    }
+    let length = turned.length() + 1.0;
+    cell.flow = cell.flow * p.rate + turned * (1.0 / length);
+    cell.level = bounded(cell.level + cell.flow.dot(p.drift), 100.0);
+}
+
+/// A chain of substates in place: may run together with its neighbours in the order of processes.
+#[elementary_process]
+pub fn settle_down(cell: &mut Cell<Medium>) {
+    let mut rest = cell.energy;
+    let mut turns = 0;
+    while rest > 0.5 && turns < 6 {
+        rest *= 0.5;
+        turns += 1;
+    }
+    cell.energy = rest.max(-10.0).min(10.0);
+    cell.blend.x += turns as f32 * 0.125 - cell.blend.x * 0.5;
+    cell.blend.w = cell.heat.abs().sqrt();
+    cell.charge = cell.charge.wrapping_add(turns);
+}
+
+/// Four lanes, read elsewhere and written lane by lane.
+#[elementary_process]
+pub fn blend(cell: &mut Cell<Medium>) {
+    for n in 1..cell.neighbours() {
+        let other = cell.neighbour(n);
+        if other.blend.y > cell.blend.z {
+            cell.blend.z = other.blend.x * 0.5 + 0.25;
+        } else {
+            cell.blend.y = (cell.blend.y + other.blend.w * 0.5).min(8.0);
+        }
+    }
+}
+
+/// Tired cells report a fault, rarely; all others write first.
+#[elementary_process]
+pub fn tire(cell: &mut Cell<Medium>, p: &Tuning) {
+    cell.bits = cell.bits.wrapping_add(1);
+    if p.rarity > 0 && cell.random_bits(p.salt) % p.rarity == 0 {
+        cell.fault(TIRED, cell.level);
+        return;
+    }
+    cell.life = cell.life ^ 3;
+}
+
+/// Looks at one neighbour that its own state names, perhaps beyond the neighbourhood.
+#[elementary_process]
+pub fn peek(cell: &mut Cell<Medium>, p: &Tuning) {
+    let n = mix(cell.bits, p.salt) % (cell.neighbours() + p.greed);
+    cell.pair.x = cell.neighbour(n).charge;
+    cell.energy = cell.neighbour(n).energy * 0.5;
+}

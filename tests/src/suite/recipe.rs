@@ -1,0 +1,229 @@
+//! Models put together from what chance says.
+
+use super::lattice::mix;
+use super::medium::{self, Medium, Tuning};
+use super::reduced;
+use super::walker::{self, Walker};
+use xca_core::prelude::*;
+use xca_core::{ModelBuilder, Parity};
+
+/// Everything that makes a random model.
+#[derive(Debug, Clone)]
+pub struct Recipe {
+    /// The number of cells; enlarged where the neighbourhood needs more.
+    pub extents: [usize; 3],
+    /// Which cells a cell sees.
+    pub neighbourhood: Neighbourhood,
+    /// What lies beyond the faces; changed where it has no meaning.
+    pub boundaries: [Boundary; 3],
+    /// The side of a cell.
+    pub side: f64,
+    /// The processes by their numbers, see [`add`].
+    pub processes: Vec<usize>,
+    /// How many items a cell can hold; 0 for a model without items.
+    pub slots: usize,
+    /// How many items the fullest cells have at the start, if there are as many slots.
+    pub crowding: usize,
+    /// What the initial state is made of.
+    pub salt: u32,
+    /// What the processes are told.
+    pub tuning: Tuning,
+    /// Whether items may leave the space.
+    pub open: bool,
+    /// Whether steering changes state and parameters between steps, with all reductions in it.
+    pub steered: bool,
+}
+
+/// How many processes over cells alone [`add`] knows.
+pub const OVER_CELLS: usize = 10;
+/// How many processes [`add`] knows.
+pub const PROCESSES: usize = 20;
+
+/// Adds the process with this number.
+pub fn add(builder: ModelBuilder, number: usize) -> ModelBuilder {
+    match number {
+        0 => builder.process(medium::breed),
+        1 => builder.process(medium::relax),
+        2 => builder.process(medium::trade),
+        3 => builder.process(medium::shake),
+        4 => builder.process(medium::slope),
+        5 => builder.process(medium::swirl),
+        6 => builder.process(medium::settle_down),
+        7 => builder.process(medium::blend),
+        8 => builder.process(medium::tire),
+        9 => builder.process(medium::peek),
+        10 => builder.process(walker::attract),
+        11 => builder.process(walker::share),
+        12 => builder.process(walker::remember),
+        13 => builder.process(walker::follow_first),
+        14 => builder.process(walker::feel),
+        15 => builder.process(walker::weigh),
+        16 => builder.process(walker::crowd),
+        // A walk that is not settled ends in a fault soon, so both come together.
+        17 => builder.process(walker::walk).process(walker::settle),
+        18 => builder.process(walker::walk).process(walker::wander),
+        _ => builder.process(walker::stumble),
+    }
+}
+
+impl Recipe {
+    /// The model.
+    ///
+    /// # Errors
+    /// Where [`Self::fit`] has left something that does not fit, which the suites take for a failure.
+    pub fn build(&self) -> Result<Model, ModelError> {
+        let recipe = self.fit();
+        let (extents, side, slots, salt) = (recipe.extents, recipe.side, recipe.slots, recipe.salt);
+        let most = recipe.crowding.min(slots);
+        let mut builder = Model::builder("random")
+            .extents(extents)
+            .cell_side(side)
+            .neighbourhood(recipe.neighbourhood)
+            .boundaries(recipe.boundaries)
+            .parameters(recipe.tuning)
+            .substates_with_outside(medium_of(mix(salt, 17)))
+            .fill(move |[x, y, z]| medium_of(mix(mix(mix(salt, x as u32), y as u32), z as u32)));
+        if slots > 0 {
+            builder = builder
+                .population::<Walker>(slots)
+                .initialise(move |state| Ok(state.set_items(walkers(extents, side, most, salt))?));
+            if recipe.open {
+                builder = builder.items_may_leave::<Walker>();
+            }
+        }
+        for &number in &recipe.processes {
+            if slots > 0 || number < OVER_CELLS {
+                builder = add(builder, number);
+            }
+        }
+        if recipe.steered {
+            builder = builder.steer(Schedule::Every(2), steer);
+            if slots > 0 {
+                builder = builder.steer(Schedule::Every(1), steer_items);
+            }
+        }
+        builder.build()
+    }
+
+    /// The same recipe with extents and boundaries that the neighbourhood allows.
+    pub fn fit(&self) -> Self {
+        let mut fitted = self.clone();
+        let alternating = match self.neighbourhood.parity() {
+            Parity::None => None,
+            Parity::Row => Some(1),
+            Parity::Column => Some(0),
+        };
+        for (axis, reach) in self.neighbourhood.reach().into_iter().enumerate() {
+            let reflecting = fitted.boundaries[axis] == Boundary::Reflecting;
+            if reflecting && (self.slots > 0 || alternating == Some(axis)) {
+                fitted.boundaries[axis] = Boundary::Toroidal;
+            }
+            let extent = &mut fitted.extents[axis];
+            if fitted.boundaries[axis] == Boundary::Toroidal {
+                if reach > 0 {
+                    *extent = (*extent).max(2 * reach + 1);
+                }
+                if alternating == Some(axis) {
+                    *extent += *extent % 2;
+                }
+            } else {
+                *extent = (*extent).max(reach);
+            }
+        }
+        let [x, y, z] = fitted.boundaries.map(|boundary| i32::from(boundary == Boundary::Toroidal));
+        fitted.tuning.torus = Vector3::new(x, y, z);
+        fitted
+    }
+}
+
+/// A fraction of 1 from some bits.
+fn fraction(salt: u32, number: u32) -> f64 {
+    f64::from(mix(salt, number) >> 8) / 16_777_216.0
+}
+
+fn medium_of(salt: u32) -> Medium {
+    let part = |number| fraction(salt, number) * 2.0 - 1.0;
+    Medium {
+        life: (mix(salt, 0) % 5) as u8,
+        charge: mix(salt, 1) as i32,
+        bits: mix(salt, 2),
+        heat: part(3) as f32,
+        energy: part(4),
+        level: part(5),
+        flow: Vector3::new(part(6), part(7), part(8)),
+        pair: Vector2::new(mix(salt, 9) as i32 >> 4, mix(salt, 10) as i32),
+        blend: Vector4::new(part(11) as f32, part(12) as f32, part(13) as f32, 0.5),
+    }
+}
+
+/// Items in half of the cells, `most` in some. Their labels are in no order.
+fn walkers(extents: [usize; 3], side: f64, most: usize, salt: u32) -> Vec<Item<Walker>> {
+    let mut items = Vec::new();
+    for number in 0..extents.iter().product() {
+        let cell =
+            [number % extents[0], number / extents[0] % extents[1], number / (extents[0] * extents[1])];
+        let salt = mix(salt, number as u32);
+        let count = match salt % 8 {
+            0..=3 => 0,
+            4..=6 => most.div_ceil(3),
+            _ => most,
+        };
+        for slot in 0..count {
+            let salt = mix(salt, slot as u32);
+            let place = |axis: usize| (cell[axis] as f64 + 0.01 + 0.98 * fraction(salt, axis as u32)) * side;
+            let part = |number| fraction(salt, number) - 0.5;
+            let state = Walker {
+                position: Vector3::new(place(0), place(1), place(2)),
+                velocity: Vector3::new(part(3), part(4), part(5)) * side,
+                mass: 1.0 + part(6),
+                kind: (salt % 3) as u8,
+                seen: salt,
+                load: salt as i32,
+                warmth: part(7),
+            };
+            // Odd multiples of an odd number: all different, and in no order.
+            let label = ((number * most + slot) as u32).wrapping_mul(0x9E37_79B1);
+            items.push(Item { label, cell, state });
+        }
+    }
+    items
+}
+
+/// Single cells, whole substates and parameters change between steps. What all reductions say goes into a cell.
+fn steer(state: &mut State<'_>) -> Result<(), SteeringError> {
+    let extents = state.geometry().extents();
+    let which = state.parameters::<Tuning>()?.salt;
+    let reductions = reduced::of_cells(state, which)?;
+    state.set(Medium::BITS, [0; 3], reductions)?;
+    state.set(Medium::LEVEL, extents.map(|extent| extent - 1), 7.5)?;
+    state.set(Medium::LIFE, [0; 3], 1)?;
+    let mut charges = state.read(Medium::CHARGE)?;
+    charges.reverse();
+    state.write(Medium::CHARGE, &charges)?;
+    let mut tuning = state.parameters::<Tuning>()?;
+    tuning.salt += 1;
+    tuning.rate = state.maximum(Medium::LEVEL)?.unwrap_or(0.0).abs().min(0.5);
+    state.set_parameters(tuning)?;
+    state.set_parameter("drift", "0.125, -0.25, 0.5")?;
+    Ok(())
+}
+
+/// Whole substates of items change, and some items go.
+fn steer_items(state: &mut State<'_>) -> Result<(), SteeringError> {
+    let which = state.parameters::<Tuning>()?.salt;
+    let reductions = reduced::of_items(state, which)?;
+    let mut loads = state.read(Walker::LOAD)?;
+    let by = loads.len().min(1);
+    loads.rotate_right(by);
+    if let Some(load) = loads.first_mut() {
+        *load = reductions as i32;
+    }
+    state.write(Walker::LOAD, &loads)?;
+    if state.step() == 3 {
+        let mut items = state.items::<Walker>()?;
+        items.retain(|item| item.label % 4 != 1);
+        items.reverse();
+        state.set_items(items)?;
+    }
+    Ok(())
+}

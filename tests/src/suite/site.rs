@@ -1,0 +1,237 @@
+//! The self-checking automaton of cells.
+//!
+//! What every substate of every cell holds after every process is a function of the cell's place, the step and the process alone. So each cell
+//! can verify, in each process, its own indices and the whole state of each of its neighbours, and reports a fault where
+//! something is not as it must be: a wrong neighbour, a stale halo, a substate that changed though no one wrote it, or one
+//! that another process wrote too early. No physics is needed to test an engine.
+
+use super::lattice::{Lattice, NOWHERE, Shape, mix, neighbour_place};
+use xca_core::prelude::*;
+
+/// The fault of a cell that is told other indices than its own.
+pub const WRONG_INDEX: u32 = 1;
+/// The fault of a cell with a neighbourhood of another size.
+pub const WRONG_SIZE: u32 = 2;
+/// The fault of a cell whose own state is not as it must be.
+pub const WRONG_SELF: u32 = 3;
+/// The fault of a cell that finds another cell in the place of a neighbour; the value is the neighbour's number.
+pub const WRONG_PLACE: u32 = 4;
+/// The fault of a cell whose neighbour's state is not as it must be; the value is the neighbour's number.
+pub const WRONG_NEIGHBOUR: u32 = 5;
+/// The fault of a cell that is told another step.
+pub const WRONG_STEP: u32 = 6;
+
+/// The state of a cell: one substate of each kind.
+#[derive(Substates, Clone, Copy, Debug, PartialEq)]
+pub struct Site {
+    /// The cell's own indices; no process writes them.
+    pub place: Vector3<i32>,
+    /// Written by three processes, in each of the ways that there are.
+    pub stamp: u32,
+    /// Written by [`third`].
+    pub tag: u8,
+    /// Written by [`third`], which reads it at neighbours too.
+    pub count: i32,
+    /// Written by [`first`].
+    pub single: f32,
+    /// Written by [`first`].
+    pub double: f64,
+    /// Written by [`second`].
+    pub level: Real,
+    /// Written by [`second`].
+    pub flow: Vector3<Real>,
+    /// Written by [`fourth`].
+    pub pair: Vector2<f32>,
+    /// Written by [`fifth`]; the steps done.
+    pub steps: Vector4<u32>,
+}
+
+/// What a cell holds after a process, in 32 bits from which all its substates are made. Outside it is always the same.
+#[helper]
+pub fn mark(place: Vector3<i32>, step: u32, process: u32) -> u32 {
+    if place.x == NOWHERE {
+        return 0x0BAD_CAFE;
+    }
+    let place = mix(mix(place.x as u32, place.y as u32), place.z as u32);
+    mix(mix(place, step), process)
+}
+
+/// A number with a fraction, exact in every type.
+#[helper]
+pub fn single_of(mark: u32) -> f32 {
+    (mark & 0xFFFF) as f32 * 0.25
+}
+
+/// As [`single_of`].
+#[helper]
+pub fn double_of(mark: u32) -> f64 {
+    (mark & 0xF_FFFF) as f64 * 0.125
+}
+
+/// As [`single_of`], with a sign.
+#[helper]
+pub fn real_of(mark: u32) -> Real {
+    (mark & 0xFFFF) as Real * 0.5 - 1024.0
+}
+
+/// Whether two places are the same.
+#[helper]
+pub fn same_place(a: Vector3<i32>, b: Vector3<i32>) -> bool {
+    a.x == b.x && a.y == b.y && a.z == b.z
+}
+
+/// The number of [`fourth`], for [`mark`].
+const FOURTH: u32 = 4;
+
+/// Reads neighbours and itself, and writes what it reads at neighbours (so to a second buffer), and one substate more in place.
+#[elementary_process]
+pub fn first(cell: &mut Cell<Site>, p: &Lattice, space: &Space) {
+    let here = cell.index();
+    let step = space.step();
+    if !same_place(here, cell.place) {
+        cell.fault(WRONG_INDEX, here.x as Real);
+    }
+    if cell.neighbours() != p.neighbours {
+        cell.fault(WRONG_SIZE, cell.neighbours() as Real);
+    }
+    if cell.stamp != mark(here, step, 0) || cell.single != single_of(mark(here, step.wrapping_sub(1), 1)) {
+        cell.fault(WRONG_SELF, cell.single as Real);
+    }
+    // Written first: neighbours must show the old state all the same, and the cell itself the new one.
+    cell.stamp = mark(here, step, 1);
+    for n in 0..cell.neighbours() {
+        let there = neighbour_place(p, here, space.extents(), n);
+        let other = cell.neighbour(n);
+        if !same_place(other.place, there) {
+            cell.fault(WRONG_PLACE, n as Real);
+        }
+        let stale = mark(there, step.wrapping_sub(1), 3);
+        if other.stamp != mark(there, step, 0)
+            || other.count != stale as i32
+            || other.tag != (stale & 255) as u8
+        {
+            cell.fault(WRONG_NEIGHBOUR, n as Real);
+        }
+    }
+    if cell.stamp != mark(here, step, 1) {
+        cell.fault(WRONG_SELF, 1.0);
+    }
+    cell.single = single_of(cell.stamp);
+    cell.double = double_of(cell.stamp);
+}
+
+/// Looks at its own cell alone, and writes in place: one substate from its old value, two others without looking.
+#[elementary_process]
+pub fn second(cell: &mut Cell<Site>, space: &Space) {
+    let here = cell.index();
+    let step = space.step();
+    if cell.stamp != mark(here, step, 1)
+        || cell.single != single_of(cell.stamp)
+        || cell.double != double_of(cell.stamp)
+    {
+        cell.fault(WRONG_SELF, 2.0);
+    }
+    cell.stamp = mark(here, step, 2);
+    cell.level = real_of(cell.stamp);
+    cell.flow = Vector3::new(cell.level, -cell.level, here.x as Real);
+}
+
+/// Reads neighbours; writes one substate that it reads there, and one that it does not.
+#[elementary_process]
+pub fn third(cell: &mut Cell<Site>, p: &Lattice, space: &Space) {
+    let here = cell.index();
+    let step = space.step();
+    for n in 0..cell.neighbours() {
+        let there = neighbour_place(p, here, space.extents(), n);
+        let other = cell.neighbour(n);
+        let now = mark(there, step, 2);
+        let before = mark(there, step, 1);
+        if other.stamp != now || other.level != real_of(now) || other.flow.y != -real_of(now) {
+            cell.fault(WRONG_NEIGHBOUR, n as Real);
+        }
+        if other.single != single_of(before)
+            || other.double != double_of(before)
+            || other.flow.z != there.x as Real
+        {
+            cell.fault(WRONG_NEIGHBOUR, n as Real);
+        }
+        if other.count != mark(there, step.wrapping_sub(1), 3) as i32 {
+            cell.fault(WRONG_NEIGHBOUR, n as Real);
+        }
+    }
+    let now = mark(here, step, 3);
+    cell.count = now as i32;
+    cell.tag = (now & 255) as u8;
+}
+
+/// Reads neighbours, and writes only what it does not read at all: in place.
+#[elementary_process]
+pub fn fourth(cell: &mut Cell<Site>, p: &Lattice, space: &Space) {
+    let here = cell.index();
+    let step = space.step();
+    for n in 0..cell.neighbours() {
+        let there = neighbour_place(p, here, space.extents(), n);
+        let now = mark(there, step, 3);
+        if cell.neighbour(n).tag != (now & 255) as u8 || cell.neighbour(n).count != now as i32 {
+            cell.fault(WRONG_NEIGHBOUR, n as Real);
+        }
+    }
+    cell.pair = Vector2::new(single_of(mark(here, step, FOURTH)), 1.5);
+    cell.stamp = mark(here, step.wrapping_add(1), 0);
+}
+
+/// Looks at its own cell alone; may run together with [`fourth`].
+#[elementary_process]
+pub fn fifth(cell: &mut Cell<Site>, space: &Space) {
+    let here = cell.index();
+    let step = space.step();
+    if cell.pair.x != single_of(mark(here, step, FOURTH)) || cell.stamp != mark(here, step.wrapping_add(1), 0)
+    {
+        cell.fault(WRONG_SELF, 5.0);
+    }
+    if cell.steps.w != step || cell.steps.x != step + 3 {
+        cell.fault(WRONG_STEP, cell.steps.w as Real);
+    }
+    cell.steps.w += 1;
+    cell.steps.x += 1;
+}
+
+/// The state of a cell before the first step, or beyond a flat face (place [`NOWHERE`]).
+fn at_start(place: [i32; 3]) -> Site {
+    let place = Vector3::new(place[0], place[1], place[2]);
+    let before = |process: u32| mark(place, u32::MAX, process);
+    // What the processes of the step before would have left. The outside is the same after every process.
+    let level = real_of(before(2));
+    Site {
+        place,
+        stamp: mark(place, 0, 0),
+        tag: (before(3) & 255) as u8,
+        count: before(3) as i32,
+        single: single_of(before(1)),
+        double: double_of(before(1)),
+        level,
+        flow: Vector3::new(level, -level, f64::from(place.x)),
+        pair: Vector2::new(0.0, 0.0),
+        steps: Vector4::new(3, 0, 0, 0),
+    }
+}
+
+/// The automaton in a space.
+///
+/// # Errors
+/// Where the neighbourhood and the boundaries do not fit the extents.
+pub fn model(shape: Shape, extents: [usize; 3], boundaries: [Boundary; 3]) -> Result<Model, ModelError> {
+    Model::builder(format!("sites, {shape:?}, {extents:?}, {boundaries:?}"))
+        .extents(extents)
+        .neighbourhood(shape.neighbourhood())
+        .boundaries(boundaries)
+        .parameters(Lattice::new(shape, boundaries))
+        .substates_with_outside(at_start([NOWHERE; 3]))
+        .process(first)
+        .process(second)
+        .process(third)
+        .process(fourth)
+        .process(fifth)
+        .fill(|cell| at_start(cell.map(|index| index as i32)))
+        .build()
+}

@@ -1,0 +1,120 @@
+//! The self-checking automaton of cells, on every engine, neighbourhood, boundary and many extents.
+
+use std::error::Error;
+use xca_core::HostValue;
+use xca_core::prelude::*;
+use xca_tests::suite::engines::{self, PRECISIONS, assert_same_runs, outcome_text};
+use xca_tests::suite::lattice::Shape;
+use xca_tests::suite::site::{self, Site};
+
+const BOUNDARIES: [Boundary; 3] = [Boundary::Flat, Boundary::Toroidal, Boundary::Reflecting];
+
+/// Spaces with few cells: thin along one axis, not square, one layer, as small as the neighbourhood allows, and one with many rows.
+fn spaces(shape: Shape) -> &'static [[usize; 3]] {
+    match shape {
+        Shape::Alone => &[[1, 1, 1], [5, 1, 3]],
+        Shape::VonNeumann => &[[3, 3, 3], [1, 4, 5], [9, 2, 1], [4, 3, 6], [2, 11, 10]],
+        Shape::Moore => &[[3, 3, 3], [1, 1, 1], [5, 1, 4], [7, 4, 3]],
+        Shape::VonNeumann2D => &[[1, 5, 1], [6, 4, 1], [3, 5, 2]],
+        Shape::Moore2D => &[[5, 1, 1], [6, 4, 1], [3, 3, 2]],
+        Shape::WideVonNeumann => &[[5, 5, 5], [2, 6, 3]],
+        Shape::WideMoore => &[[5, 5, 5], [3, 2, 6]],
+        Shape::HexagonsCornerUp | Shape::HexagonsSideUp => &[[6, 4, 1], [3, 4, 1], [4, 3, 2], [1, 1, 1]],
+        Shape::Skewed => &[[5, 3, 5], [2, 1, 2], [6, 4, 5]],
+    }
+}
+
+/// Whether a model can be built of this: round a torus no cell may be its own neighbour, beyond other faces there is only one more space,
+/// and rows of hexagons alternate.
+fn fits(shape: Shape, extents: [usize; 3], boundaries: [Boundary; 3]) -> bool {
+    let alternating = match shape {
+        Shape::HexagonsCornerUp => Some(1),
+        Shape::HexagonsSideUp => Some(0),
+        _ => None,
+    };
+    (0..3).all(|axis| {
+        let (reach, extent) = (shape.reach()[axis], extents[axis]);
+        match boundaries[axis] {
+            Boundary::Flat => reach <= extent,
+            Boundary::Toroidal => {
+                (reach == 0 || extent > 2 * reach) && (alternating != Some(axis) || extent % 2 == 0)
+            }
+            Boundary::Reflecting => reach <= extent && alternating != Some(axis),
+        }
+    })
+}
+
+#[test]
+fn every_cell_finds_what_it_must() -> Result<(), Box<dyn Error>> {
+    let engines = engines::all()?;
+    for shape in Shape::ALL {
+        for &extents in spaces(shape) {
+            for combination in 0..27 {
+                let boundaries = [combination % 3, combination / 3 % 3, combination / 9];
+                let boundaries = boundaries.map(|index| BOUNDARIES[index]);
+                let model = site::model(shape, extents, boundaries);
+                assert_eq!(
+                    model.is_ok(),
+                    fits(shape, extents, boundaries),
+                    "{shape:?} {extents:?} {boundaries:?}"
+                );
+                let Ok(model) = model else { continue };
+                for precision in PRECISIONS {
+                    assert_same_runs(&model, &engines, RunOptions { precision, seed: 0 }, 3)
+                        .map_err(|error| format!("{}: {error}", model.name()))?;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Changes one value between the processes of the second step; every engine must report the same cell.
+fn assert_found<V: HostValue>(
+    substate: Substate<Site, V>,
+    before: usize,
+    change: impl Fn(V) -> V,
+) -> Result<(), Box<dyn Error>> {
+    let model = site::model(
+        Shape::VonNeumann,
+        [4, 3, 5],
+        [Boundary::Toroidal, Boundary::Flat, Boundary::Reflecting],
+    )?;
+    let mut reports = Vec::new();
+    for engine in engines::all()? {
+        let mut simulation = Simulation::new(&model, &*engine, RunOptions::default())?;
+        simulation.step()?;
+        (0..before).try_for_each(|process| simulation.run_process(process))?;
+        let cell = [3, 1, 4];
+        let value = simulation.state().get(substate, cell)?;
+        simulation.state().set(substate, cell, change(value))?;
+        let outcome =
+            (before..model.processes().len()).try_for_each(|process| simulation.run_process(process));
+        assert!(
+            matches!(&outcome, Err(RunError::Fault { step: 2, fault: xca_core::Fault::Reported { .. }, .. })),
+            "{substate:?} on {}: {outcome:?}",
+            engines::describe(&*engine)
+        );
+        reports.push(outcome_text(&outcome));
+    }
+    reports.dedup();
+    assert_eq!(reports.len(), 1, "{reports:?}");
+    Ok(())
+}
+
+/// The automaton itself is tested: it notices a wrong value in any substate.
+#[test]
+fn every_change_is_found() -> Result<(), Box<dyn Error>> {
+    assert_found(Site::PLACE, 0, |place| Vector3::new(place.y, place.x, place.z))?;
+    assert_found(Site::STAMP, 0, |stamp| stamp ^ 0x8000_0000)?;
+    assert_found(Site::STAMP, 2, |stamp| stamp ^ 1)?;
+    assert_found(Site::TAG, 0, |tag| tag ^ 1)?;
+    assert_found(Site::COUNT, 0, |count| count ^ 1)?;
+    assert_found(Site::COUNT, 3, |count| count ^ 1)?;
+    assert_found(Site::SINGLE, 0, |single| single + 0.25)?;
+    assert_found(Site::DOUBLE, 1, |double| double + 0.125)?;
+    assert_found(Site::LEVEL, 2, |level| -level)?;
+    assert_found(Site::FLOW, 2, |flow| Vector3::new(flow.x, flow.y, flow.z + 1.0))?;
+    assert_found(Site::PAIR, 4, |pair| Vector2::new(pair.x + 0.25, pair.y))?;
+    assert_found(Site::STEPS, 0, |steps| Vector4::new(steps.x, 0, 0, steps.w + 1))
+}

@@ -1,0 +1,231 @@
+//! Who may depend on whom, and where unsafe code may stand: read from the workspace itself.
+
+use std::error::Error;
+use std::fs;
+use std::path::{Path, PathBuf};
+use toml::{Table, Value};
+
+type TestResult = Result<(), Box<dyn Error>>;
+
+/// For each member, the members that it may depend on. A new member finds its place here first.
+const DIRECTIONS: [(&str, &[&str]); 10] = [
+    ("xca-macros", &[]),
+    ("xca-core", &["xca-macros"]),
+    ("xca-wgsl", &["xca-core"]),
+    ("xca-cpu", &["xca-core"]),
+    ("xca-gpu", &["xca-core", "xca-wgsl"]),
+    ("xca-run", &["xca-core", "xca-cpu", "xca-gpu"]),
+    ("cadem", &["xca-core"]),
+    ("xca-examples", &["xca-core", "xca-run", "cadem"]),
+    ("xca-benchmarks", &["xca-core", "xca-cpu", "xca-gpu", "cadem"]),
+    ("xca-tests", &["xca-core", "xca-cpu", "xca-gpu", "xca-run", "xca-wgsl", "cadem"]),
+];
+
+/// Members that may use nothing from elsewhere but this.
+const FEW_FRIENDS: [(&str, &[&str]); 2] =
+    [("xca-core", &["bytemuck", "serde", "thiserror"]), ("cadem", &["serde", "thiserror"])];
+
+/// What drives threads and devices, and the members that may: engines, and the benchmarks, which measure loops by hand.
+const DRIVERS: [(&str, &[&str]); 2] = [("rayon", &["xca-cpu", "xca-benchmarks"]), ("wgpu", &["xca-gpu"])];
+
+/// The engines; none may know of another.
+const ENGINES: [&str; 2] = ["xca-cpu", "xca-gpu"];
+
+/// The files that argue for unsafe code.
+const UNSAFE: [&str; 6] = [
+    "xca-core/src/kernel.rs",
+    "xca-core/src/kernel/search.rs",
+    "xca-core/src/kernel/wide.rs",
+    "xca-core/src/reference/pass.rs",
+    "xca-core/src/vector.rs",
+    "xca-cpu/src/rows.rs",
+];
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// A member of the workspace.
+struct Member {
+    folder: PathBuf,
+    name: String,
+    manifest: Table,
+}
+
+impl Member {
+    fn all() -> Result<Vec<Self>, Box<dyn Error>> {
+        let workspace: Table = fs::read_to_string(root().join("Cargo.toml"))?.parse()?;
+        let members = workspace["workspace"]["members"].as_array().ok_or("no members")?;
+        let mut all = Vec::new();
+        for member in members {
+            let folder = root().join(member.as_str().ok_or("a member without a name")?);
+            let manifest: Table = fs::read_to_string(folder.join("Cargo.toml"))?.parse()?;
+            let name = manifest["package"]["name"].as_str().ok_or("a package without a name")?.to_owned();
+            all.push(Self { folder, name, manifest });
+        }
+        Ok(all)
+    }
+
+    /// The names of the packages in these tables, also in those for some targets only.
+    fn packages(&self, kinds: &[&str]) -> Vec<String> {
+        let targets = self.manifest.get("target").and_then(Value::as_table);
+        let tables = targets.into_iter().flat_map(|targets| targets.values().filter_map(Value::as_table));
+        let mut packages = Vec::new();
+        for table in tables.chain([&self.manifest]) {
+            for dependencies in kinds.iter().filter_map(|kind| table.get(*kind)?.as_table()) {
+                for (name, about) in dependencies {
+                    let renamed = about.get("package").and_then(Value::as_str);
+                    packages.push(renamed.unwrap_or(name).to_owned());
+                }
+            }
+        }
+        packages
+    }
+
+    /// What the member itself needs; tests of it may need more.
+    fn needs(&self) -> Vec<String> {
+        self.packages(&["dependencies", "build-dependencies"])
+    }
+
+    fn sources(&self, folder: &str) -> Result<Vec<(String, String)>, Box<dyn Error>> {
+        let mut folders = vec![self.folder.join(folder)];
+        let mut sources = Vec::new();
+        while let Some(folder) = folders.pop() {
+            let Ok(entries) = fs::read_dir(&folder) else { continue };
+            for entry in entries {
+                let path = entry?.path();
+                if path.is_dir() {
+                    folders.push(path);
+                } else if path.extension().is_some_and(|extension| extension == "rs") {
+                    let name = path.strip_prefix(root())?.to_string_lossy().replace('\\', "/");
+                    sources.push((name, fs::read_to_string(&path)?));
+                }
+            }
+        }
+        Ok(sources)
+    }
+}
+
+/// Whether the text has the word, not as a part of another one.
+fn has_word(text: &str, word: &str) -> bool {
+    let part = |character: char| character.is_alphanumeric() || character == '_';
+    text.match_indices(word).any(|(at, _)| {
+        let (before, after) = (text[..at].chars().next_back(), text[at + word.len()..].chars().next());
+        !before.is_some_and(part) && !after.is_some_and(part)
+    })
+}
+
+/// The code without comments and without what stands between quotes, line by line.
+fn code(text: &str) -> String {
+    let lines = text.lines().map(|line| line.split("//").next().unwrap_or_default());
+    lines.map(|line| line.split('"').step_by(2).collect::<String>() + "\n").collect()
+}
+
+/// Whether the code has something unsafe, or allows itself to.
+fn has_unsafe(code: &str) -> bool {
+    let after = ["{", "fn ", "impl ", "impl<", "trait ", "extern "];
+    let unsafely = code.split("unsafe ").skip(1).any(|rest| after.iter().any(|word| rest.starts_with(word)));
+    unsafely || ["allow(unsafe_code", "expect(unsafe_code"].iter().any(|words| code.contains(words))
+}
+
+#[test]
+fn members_depend_only_on_those_below() -> TestResult {
+    let members = Member::all()?;
+    let names: Vec<&str> = members.iter().map(|member| member.name.as_str()).collect();
+    for member in &members {
+        let allowed = DIRECTIONS.iter().find(|(name, _)| *name == member.name);
+        let (_, allowed) =
+            allowed.ok_or_else(|| format!("`{}` has no place among the members", member.name))?;
+        for package in member.needs() {
+            let known = names.contains(&package.as_str());
+            assert!(
+                !known || allowed.contains(&package.as_str()),
+                "`{}` depends on `{package}`",
+                member.name
+            );
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn the_core_and_the_models_have_few_friends() -> TestResult {
+    let members = Member::all()?;
+    for (name, friends) in FEW_FRIENDS {
+        let member = members.iter().find(|member| member.name == name).ok_or(name)?;
+        for package in member.needs() {
+            let known = members.iter().any(|member| member.name == package);
+            assert!(known || friends.contains(&package.as_str()), "`{name}` depends on `{package}`");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn engines_do_not_know_each_other() -> TestResult {
+    for member in Member::all()? {
+        let all = member.packages(&["dependencies", "build-dependencies", "dev-dependencies"]);
+        for engine in ENGINES {
+            // Not even in their tests; and the models and the core not in theirs.
+            let apart =
+                ENGINES.contains(&member.name.as_str()) || ["xca-core", "cadem"].contains(&&*member.name);
+            assert!(!apart || !all.contains(&engine.to_owned()), "`{}` knows `{engine}`", member.name);
+        }
+        for (driver, allowed) in DRIVERS {
+            let uses = all.contains(&driver.to_owned());
+            assert!(!uses || allowed.contains(&&*member.name), "`{}` depends on `{driver}`", member.name);
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn the_core_and_the_models_name_no_engine() -> TestResult {
+    for member in Member::all()?.iter().filter(|member| ["xca-core", "cadem"].contains(&&*member.name)) {
+        let mut sources = member.sources("src")?;
+        sources.extend(member.sources("tests")?);
+        assert!(sources.len() > 5);
+        for (name, text) in sources {
+            for word in ["rayon", "wgpu", "xca_cpu", "xca_gpu", "Cpu"] {
+                assert!(!has_word(&text, word), "{name} has the word `{word}`");
+            }
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn unsafe_code_stands_where_it_is_argued_for() -> TestResult {
+    let mut found = Vec::new();
+    for member in Member::all()? {
+        let inherits = member.manifest.get("lints").and_then(|lints| lints.get("workspace"));
+        assert_eq!(inherits.and_then(Value::as_bool), Some(true), "`{}` has lints of its own", member.name);
+        for folder in ["src", "tests", "examples", "benches"] {
+            for (name, text) in member.sources(folder)? {
+                // What must not compile is no code.
+                if name.contains("/tests/misuse/") || name == "tests/tests/directions.rs" {
+                    continue;
+                }
+                if has_unsafe(&code(&text)) {
+                    assert!(UNSAFE.contains(&&*name), "{name} has unsafe code");
+                    found.push(name);
+                }
+            }
+        }
+    }
+    for file in UNSAFE {
+        assert!(found.iter().any(|name| name == file), "{file} has no unsafe code; take it from the list");
+    }
+    let workspace: Table = fs::read_to_string(root().join("Cargo.toml"))?.parse()?;
+    assert_eq!(workspace["workspace"]["lints"]["rust"]["unsafe_code"].as_str(), Some("deny"));
+    Ok(())
+}
+
+#[test]
+fn words_and_code() {
+    assert!(has_word("use rayon::prelude", "rayon") && has_word("(rayon)", "rayon"));
+    assert!(!has_word("crayons", "rayon") && !has_word("rayon_core", "rayon"));
+    assert_eq!(code("let a = \"unsafe\"; // unsafe\nunsafe {}"), "let a = ; \nunsafe {}\n");
+    assert!(has_unsafe("pub unsafe fn a()") && has_unsafe("#![allow(unsafe_code)]"));
+    assert!(!has_unsafe("yield unsafe as") && !has_unsafe("#![forbid(unsafe_code)]"));
+}

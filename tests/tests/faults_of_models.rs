@@ -1,0 +1,267 @@
+//! Models that cannot be built or started: each mistake has its error, whose message says what to change.
+
+use std::error::Error;
+use xca_core::prelude::*;
+use xca_core::{ModelBuilder, NeighbourhoodError, StartError};
+use xca_tests::suite::engines;
+
+#[derive(Substates, Clone, Copy, Debug, PartialEq)]
+struct Soil {
+    water: Real,
+}
+
+#[derive(Substates, Clone, Copy, Debug, PartialEq)]
+struct Worm {
+    #[position]
+    position: Vector3<Real>,
+}
+
+#[derive(Parameters, Clone, Copy, Debug, PartialEq)]
+struct Weather {
+    rain: Real,
+}
+
+#[elementary_process]
+fn seep(cell: &mut Cell<Soil>) {
+    cell.water *= 0.5;
+}
+
+#[elementary_process]
+fn soak(cell: &mut Cell<Soil>, p: &Weather) {
+    cell.water += p.rain;
+}
+
+#[elementary_process]
+fn crawl(me: &mut Slot<Worm>) {
+    me.position.x += 0.1;
+}
+
+#[elementary_process]
+fn drink(me: &mut Slot<Worm>, cell: &Cell<Soil>) {
+    me.position.z += cell.water;
+}
+
+#[elementary_process]
+fn flee(me: &mut Slot<Worm>) {
+    for other in me.others_within(0.5) {
+        me.position += (me.position - other.position) * 0.1;
+    }
+}
+
+#[migration]
+fn burrow(me: &Slot<Worm>, space: &Space) -> Destination {
+    space.cell_containing(me.position)
+}
+
+#[elementary_process]
+fn dig(cell: &mut Cell<Worm>) {
+    cell.position.x += 1.0;
+}
+
+#[elementary_process]
+fn glide(me: &mut Slot<Soil>) {
+    me.water += 1.0;
+}
+
+fn soil() -> ModelBuilder {
+    Model::builder("garden").extents([4, 4, 4]).substates::<Soil>()
+}
+
+/// Building must fail with this variant, and a message that holds all of these words.
+macro_rules! refused {
+    ($builder:expr, $variant:pat, $($words:literal),+) => {{
+        let error = $builder.build().expect_err("a model that cannot be built");
+        assert!(matches!(error, $variant), "{error:?}");
+        let message = error.to_string();
+        $(assert!(message.contains($words), "`{message}` does not say `{}`", $words);)+
+    }};
+}
+
+#[test]
+fn spaces() {
+    use ModelError::{CellSide, NoExtents, TooManyCells, ZeroExtent};
+    refused!(
+        Model::builder("garden").substates::<Soil>(),
+        NoExtents { .. },
+        "`garden`",
+        "call `.extents([x, y, z])`"
+    );
+    refused!(soil().extents([3, 0, 2]), ZeroExtent { axis: 'y', .. }, "along y", "[3, 0, 2]", "at least 1");
+    refused!(soil().extents([65_536, 65_536, 1]), TooManyCells { .. }, "too large", "at most 4294967293");
+    refused!(soil().extents([usize::MAX, usize::MAX, 2]), TooManyCells { .. }, "too large");
+    for side in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        refused!(soil().cell_side(side), CellSide { .. }, "the cell side is", "must be a positive number");
+    }
+}
+
+#[test]
+fn neighbourhoods() {
+    use ModelError::{NeighbourhoodTooWide, OddHexagonalTorus, ReflectedHexagons};
+    let flat = soil().extents([4, 2, 4]).neighbourhood(Neighbourhood::moore(3));
+    refused!(
+        flat,
+        NeighbourhoodTooWide { axis: 'y', reach: 3, extent: 2, .. },
+        "Moore, radius 3",
+        "along y",
+        "2 cells",
+        "flat boundary",
+        "use more cells"
+    );
+    let torus =
+        soil().extents([4, 4, 2]).boundary(Boundary::Toroidal).neighbourhood(Neighbourhood::von_neumann(1));
+    refused!(
+        torus,
+        NeighbourhoodTooWide { axis: 'z', reach: 1, extent: 2, .. },
+        "along z",
+        "toroidal",
+        "within one layer for a 2D model"
+    );
+    let mirror =
+        soil().extents([1, 4, 4]).boundary(Boundary::Reflecting).neighbourhood(Neighbourhood::moore(2));
+    refused!(mirror, NeighbourhoodTooWide { axis: 'x', .. }, "reflecting");
+    let hexagons =
+        |hexagons, extents| soil().extents(extents).neighbourhood(Neighbourhood::hexagonal(hexagons));
+    let torus = [Boundary::Toroidal; 3];
+    refused!(
+        hexagons(Hexagons::CornerUp, [4, 5, 1]).boundaries(torus),
+        OddHexagonalTorus { axis: 'y', extent: 5 },
+        "even number of cells along y",
+        "not 5"
+    );
+    refused!(
+        hexagons(Hexagons::SideUp, [7, 4, 1]).boundaries(torus),
+        OddHexagonalTorus { axis: 'x', extent: 7 },
+        "even number of cells along x"
+    );
+    let mirror = [Boundary::Reflecting; 3];
+    refused!(
+        hexagons(Hexagons::CornerUp, [4, 4, 1]).boundaries(mirror),
+        ReflectedHexagons { axis: 'y' },
+        "reflecting boundary along y"
+    );
+    refused!(
+        hexagons(Hexagons::SideUp, [4, 4, 1]).boundaries(mirror),
+        ReflectedHexagons { axis: 'x' },
+        "reflecting boundary along x"
+    );
+    let no_centre = Neighbourhood::custom(vec![[1, 0, 0], [0, 0, 0]]).expect_err("no centre");
+    assert_eq!(no_centre, NeighbourhoodError::NoCentre);
+    assert!(no_centre.to_string().contains("put [0, 0, 0] first"));
+    let twice = Neighbourhood::custom(vec![[0, 0, 0], [1, 2, 0], [1, 2, 0]]).expect_err("twice");
+    assert!(twice.to_string().contains("[1, 2, 0] stands twice"));
+}
+
+#[test]
+fn substates() {
+    use ModelError::{NoSlots, NoSubstates, NotAdded, ReflectedPopulation, SubstatesTwice};
+    refused!(
+        Model::builder("garden").extents([1, 1, 1]),
+        NoSubstates { .. },
+        "`garden`",
+        "call `.substates::<S>()`"
+    );
+    refused!(soil().substates::<Soil>(), SubstatesTwice { substates: "Soil" }, "`Soil`", "twice");
+    refused!(soil().population::<Soil>(2), SubstatesTwice { .. }, "`Soil`");
+    refused!(soil().population::<Worm>(0), NoSlots { substates: "Worm" }, "`Worm`", "at least 1");
+    refused!(soil().items_may_leave::<Worm>(), NotAdded { substates: "Worm" }, "`Worm`", "add it before");
+    refused!(soil().items_may_leave::<Soil>(), NotAdded { substates: "Soil" }, "`Soil`");
+    let mirror =
+        soil().population::<Worm>(2).boundaries([Boundary::Flat, Boundary::Toroidal, Boundary::Reflecting]);
+    refused!(
+        mirror,
+        ReflectedPopulation { substates: "Worm", axis: 'z' },
+        "`Worm`",
+        "along z",
+        "use a flat or toroidal one"
+    );
+}
+
+#[test]
+fn processes() {
+    use ModelError::{
+        CellsOfPopulation, ItemsOfCells, Parameters, SearchOfWritten, UnknownSubstates, ZeroInterval,
+    };
+    refused!(
+        soil().process(crawl),
+        UnknownSubstates { process: "crawl", substates: "Worm" },
+        "`crawl`",
+        "add `.substates::<Worm>()` or `.population::<Worm>(slots)`"
+    );
+    let worms = || Model::builder("worms").extents([4, 4, 4]).population::<Worm>(2);
+    refused!(
+        worms().process(drink),
+        UnknownSubstates { process: "drink", substates: "Soil" },
+        "`drink`",
+        "`Soil`"
+    );
+    refused!(worms().process(burrow).process(seep), UnknownSubstates { process: "seep", .. }, "`seep`");
+    refused!(
+        worms().process(dig),
+        CellsOfPopulation { process: "dig", .. },
+        "`dig`",
+        "take `me: &mut Slot<Worm>`"
+    );
+    refused!(
+        soil().process(glide),
+        ItemsOfCells { process: "glide", .. },
+        "`glide`",
+        "take `cell: &mut Cell<Soil>`"
+    );
+    refused!(
+        worms().population::<Soil>(1).process(drink),
+        CellsOfPopulation { process: "drink", .. },
+        "`Soil` is a population"
+    );
+    refused!(
+        soil().process(soak),
+        Parameters { process: "soak", wanted: "Weather", .. },
+        "`soak`",
+        "call `.parameters(Weather {"
+    );
+    refused!(
+        worms().process(flee),
+        SearchOfWritten { process: "flee", substate: "position" },
+        "`flee`",
+        "`position`",
+        "search in one process, move in the next"
+    );
+    refused!(soil().steer(Schedule::Every(0), |_| Ok(())), ZeroInterval, "at least 1");
+    assert!(soil().parameters(Weather { rain: 1.0 }).process(soak).build().is_ok());
+}
+
+/// Heavy cells.
+#[derive(Substates, Clone, Copy, Debug, PartialEq)]
+struct Lead {
+    a: Vector4<f64>,
+    b: Vector4<f64>,
+    c: Vector4<f64>,
+    d: Vector4<f64>,
+    e: Vector4<f64>,
+    f: Vector4<f64>,
+    g: Vector4<f64>,
+    h: Vector4<f64>,
+    i: Vector4<f64>,
+    j: Vector4<f64>,
+    k: Vector4<f64>,
+    l: Vector4<f64>,
+}
+
+/// A space that no machine holds is refused before any memory is asked for.
+#[test]
+fn too_large_to_start() -> Result<(), Box<dyn Error>> {
+    let model = Model::builder("heavy")
+        .extents([1600, 1600, 1600])
+        .neighbourhood(Neighbourhood::custom(vec![[0, 0, 0], [1600, 1600, 1600]])?)
+        .population::<Worm>(4)
+        .substates::<Lead>()
+        .build()?;
+    for engine in engines::all()? {
+        let error = Simulation::new(&model, &*engine, RunOptions::default()).expect_err("too large");
+        assert!(matches!(error, RunError::Start(StartError::TooLarge { .. })), "{error:?}");
+        let message = error.to_string();
+        for words in [engine.name(), "cannot hold this model", "use fewer cells or slots"] {
+            assert!(message.contains(words), "{message}");
+        }
+    }
+    Ok(())
+}
