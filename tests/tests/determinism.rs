@@ -19,6 +19,7 @@ fn everything() -> Recipe {
         processes: vec![0, 1, 3, 10, 4, 12, 5, 2, 14, 6, 17, 9, 11, 7, 13, 15, 16],
         slots: 40,
         crowding: 6,
+        aligned: false,
         salt: 99,
         tuning: Tuning {
             rate: 0.3,
@@ -63,7 +64,7 @@ fn checksum(snapshot: &Snapshot) -> u64 {
 fn the_bits_of_a_run_are_fixed() -> Result<(), Box<dyn Error>> {
     let model = everything().build()?;
     for (precision, wanted) in
-        [(Precision::F32, 0xe82f_5fcf_8d04_b000), (Precision::F64, 0x8809_308c_dfd8_45cd)]
+        [(Precision::F32, 0xe82f_5fcf_8d04_b000), (Precision::F64, 0xb205_79ea_fb3e_5bd2)]
     {
         for engine in engines::all()? {
             let mut simulation = Simulation::new(&model, &*engine, RunOptions { precision, seed: 1 })?;

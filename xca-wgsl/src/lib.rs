@@ -12,10 +12,13 @@
 //!
 //! # What is the same as in Rust, and what is not
 //! Integers wrap as in a release build, also `u8`, which is a `u32` below 256 here. `usize` has 32 bits. Casts from floats
-//! saturate. `min` and `max` of floats are comparisons and not the processor's own. Every operation stands in the text
-//! as in the source; but WGSL lets a driver contract and reorder float operations, so that equal bits need more than the text: an
-//! engine has to forbid it.
-//! An index beyond an array ends the program in Rust; here it reads or writes some element of the array.
+//! saturate. `min` and `max` of floats are comparisons and not the processor's own; NaN is unequal to everything.
+//!
+//! Every operation stands in the text as in the source; but WGSL lets a driver contract and reorder float operations, so that equal
+//! bits need more than the text: an engine has to forbid it, and to hide zeros from drivers that fold them
+//! ([`Options::opaque_zero`]). Which NaN an operation gives is nowhere defined.
+//!
+//! An index beyond an array ends the run in Rust; here it reads or writes some element of the array.
 //!
 //! # What is refused
 //! `%` of floats, NaN as a constant, empty arrays, comparisons of whole arrays, order comparisons of `bool`, recursion.

@@ -24,6 +24,9 @@ pub struct Recipe {
     pub slots: usize,
     /// How many items the fullest cells have at the start, if there are as many slots.
     pub crowding: usize,
+    /// Whether items start on a grid with three points along each axis of a cell, so that by a radius of a cell side many of them are
+    /// exactly as far apart as the radius, and rounding says whether they are near.
+    pub aligned: bool,
     /// What the initial state is made of.
     pub salt: u32,
     /// What the processes are told.
@@ -74,7 +77,7 @@ impl Recipe {
     pub fn build(&self) -> Result<Model, ModelError> {
         let recipe = self.fit();
         let (extents, side, slots, salt) = (recipe.extents, recipe.side, recipe.slots, recipe.salt);
-        let most = recipe.crowding.min(slots);
+        let (most, aligned) = (recipe.crowding.min(slots), recipe.aligned);
         let mut builder = Model::builder("random")
             .extents(extents)
             .cell_side(side)
@@ -86,7 +89,7 @@ impl Recipe {
         if slots > 0 {
             builder = builder
                 .population::<Walker>(slots)
-                .initialise(move |state| Ok(state.set_items(walkers(extents, side, most, salt))?));
+                .initialise(move |state| Ok(state.set_items(walkers(extents, side, most, aligned, salt))?));
             if recipe.open {
                 builder = builder.items_may_leave::<Walker>();
             }
@@ -157,7 +160,7 @@ fn medium_of(salt: u32) -> Medium {
 }
 
 /// Items in half of the cells, `most` in some. Their labels are in no order.
-fn walkers(extents: [usize; 3], side: f64, most: usize, salt: u32) -> Vec<Item<Walker>> {
+fn walkers(extents: [usize; 3], side: f64, most: usize, aligned: bool, salt: u32) -> Vec<Item<Walker>> {
     let mut items = Vec::new();
     for number in 0..extents.iter().product() {
         let cell =
@@ -170,7 +173,11 @@ fn walkers(extents: [usize; 3], side: f64, most: usize, salt: u32) -> Vec<Item<W
         };
         for slot in 0..count {
             let salt = mix(salt, slot as u32);
-            let place = |axis: usize| (cell[axis] as f64 + 0.01 + 0.98 * fraction(salt, axis as u32)) * side;
+            let place = |axis: usize| {
+                let (first, part) = (cell[axis] as f64, fraction(salt, axis as u32));
+                let part = if aligned { ((3.0 * part).floor() + 0.5) / 3.0 } else { 0.98 * part + 0.01 };
+                (first + part) * side
+            };
             let part = |number| fraction(salt, number) - 0.5;
             let state = Walker {
                 position: Vector3::new(place(0), place(1), place(2)),

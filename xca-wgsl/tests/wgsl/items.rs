@@ -216,6 +216,22 @@ fn reassign() -> Destination {
     assert!(shader.source.contains("    destinations[item] = reassign();\n"));
 }
 
+#[migration]
+fn leap(me: &Slot<Dem>, space: &Space) -> Destination {
+    if me.velocity.length() > space.side() {
+        me.fault(2, me.velocity.x);
+    }
+    match me.id {
+        VOID => Destination::Stay,
+        _ => space.cell_containing(me.position + me.velocity),
+    }
+}
+
+#[test]
+fn a_migration_with_a_fault() {
+    accepted::<leap>();
+}
+
 #[elementary_process]
 fn deposit(cell: &mut Cell<Field>, slots: &Slots<Dem>) {
     let mut sum = 0.0;

@@ -1,6 +1,7 @@
 //! Processes made at random: whatever is written must be accepted by naga.
 //!
 //! They are well typed but senseless, with blocks, branches and loops as values, shadowed names and mixed types everywhere.
+//! The environment variable `SEEDS` says how many are made.
 
 use crate::common::validate;
 use xca_core::ir::{

@@ -1,7 +1,9 @@
 //! Each construct of the accepted subset of Rust.
 
-use crate::common::{accepted, function, written};
+use crate::common::{accepted, function, written, written_with};
+use xca_core::Parity;
 use xca_core::prelude::*;
+use xca_wgsl::Options;
 
 const WEIGHTS: [Real; 3] = [0.25, 0.5, 0.25];
 const STEPS: [Vector2<i32>; 2] = [Vector2::new(1, 0), Vector2::new(0, -1)];
@@ -123,6 +125,8 @@ fn floats_keep_their_types() {
     assert!(text.contains("let double: f64 = f64(x) + 0.1lf;"), "{text}");
     assert!(text.contains("var count: Real = 0.0f;"), "{text}");
     assert!(text.contains("saturate_u8_from_real(y)"), "{text}");
+    // naga's `!=` of floats is false for NaN.
+    assert!(text.contains("!(count == (-0.0f))"), "{text}");
     assert!(text.contains("cell.real = select(-y, count, "), "{text}");
 }
 
@@ -478,6 +482,38 @@ fn neighbours_beyond_the_neighbourhood_are_faults() {
     let shader = written::<neighbours>(Precision::F64);
     assert!(shader.source.contains("report_fault(0xffffffffu, Real(index));"));
     assert!(shader.source.contains("velocity_next[3u * here + 2u] = cell.velocity.z;"));
+}
+
+/// In a hexagonal grid odd rows or columns have neighbours of their own.
+#[test]
+fn neighbours_by_parity() {
+    for (parity, axis) in [(Parity::Row, "y"), (Parity::Column, "x")] {
+        let shader = written_with::<neighbours>(&Options {
+            parity,
+            neighbourhood_size: Some(7),
+            ..Options::default()
+        });
+        let text = function(&shader, "neighbour_at");
+        assert!(
+            text.contains(&format!("neighbour_offsets[index + (u32(here_index.{axis}) & 1u) * 7u]")),
+            "{text}"
+        );
+    }
+}
+
+#[elementary_process]
+fn compound(cell: &mut Cell<State>) {
+    cell.signed -= {
+        cell.signed *= 2;
+        7
+    };
+}
+
+#[test]
+fn the_right_hand_side_comes_first() {
+    let text = function(&written::<compound>(Precision::F64), "compound");
+    let (first, second) = (text.find("cell.signed *= 2i;"), text.find("cell.signed -= value;"));
+    assert!(first.is_some() && first < second, "{text}");
 }
 
 #[elementary_process]
