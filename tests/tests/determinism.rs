@@ -4,7 +4,7 @@
 use std::error::Error;
 use xca_core::prelude::*;
 use xca_core::{GroupSnapshot, Owner, Snapshot, draw_words};
-use xca_tests::suite::engines::{self, PRECISIONS, THREADS, assert_same_state};
+use xca_tests::suite::engines::{self, PRECISIONS, THREADS, assert_same_runs, assert_same_state};
 use xca_tests::suite::medium::{Medium, Tuning};
 use xca_tests::suite::recipe::Recipe;
 use xca_tests::suite::walker::Walker;
@@ -221,6 +221,25 @@ fn what_no_process_writes_keeps_its_bits() -> Result<(), Box<dyn Error>> {
         let before = bits(&mut simulation)?;
         simulation.run(3)?;
         assert_eq!(before, bits(&mut simulation)?, "{}", engines::describe(&*engine));
+    }
+    Ok(())
+}
+
+/// Items on a grid, many of them exactly as far apart as the radius: whether they are near is decided by the last bit of a sum.
+#[test]
+fn near_by_a_rounding() -> Result<(), Box<dyn Error>> {
+    let engines = engines::all()?;
+    for side in [1.0, 0.3, 2.5e-3] {
+        for boundary in [Boundary::Flat, Boundary::Toroidal] {
+            let tuning = Tuning { radius: side, ..everything().tuning };
+            let (boundaries, processes) = ([boundary; 3], vec![10, 13]);
+            let recipe =
+                Recipe { boundaries, side, processes, tuning, crowding: 20, aligned: true, ..everything() };
+            let model = recipe.build()?;
+            for precision in PRECISIONS {
+                assert_same_runs(&model, &engines, RunOptions { precision, seed: 0 }, 1)?;
+            }
+        }
     }
     Ok(())
 }
