@@ -52,7 +52,7 @@ fn same_bits_everywhere() -> TestResult {
             let mut simulation = Simulation::new(&model, &Cpu::with_threads(threads)?, options)?;
             simulation.run(300)?;
             assert!(
-                simulation.snapshot() == reference.snapshot(),
+                simulation.snapshot()? == reference.snapshot()?,
                 "{walls} {integrator} {precision} {threads}"
             );
             assert_eq!(Diagnostics::of(&simulation.state(), walls)?, seen);

@@ -28,7 +28,7 @@ fn the_published_run_begins_alike_on_the_reference_engine() -> TestResult {
         let mut simulation = Simulation::new(&model, engine, RunOptions::default())?;
         simulation.run(40)?;
         assert!(Diagnostics::of(&simulation.state(), configuration.walls)?.wall_contacts > 0);
-        snapshots.push(simulation.snapshot());
+        snapshots.push(simulation.snapshot()?);
     }
     assert!(snapshots[0] == snapshots[1]);
     Ok(())

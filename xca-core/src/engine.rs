@@ -3,6 +3,7 @@
 use crate::geometry::Geometry;
 use crate::kernel::{BEYOND_NEIGHBOURHOOD, RowFault};
 use crate::model::Model;
+use crate::parameters::AnyParameters;
 use crate::process::Process;
 use crate::reduction::{Reduced, Reduction};
 use crate::value::Precision;
@@ -78,6 +79,27 @@ pub struct StepContext<'a> {
     pub seed: u64,
     /// `P::Native<R>` of the parameters.
     pub parameters: &'a (dyn Any + Send + Sync),
+    /// The same parameters by name, for engines that lay them out themselves.
+    pub values: &'a dyn AnyParameters,
+}
+
+/// An engine that cannot go on with a state: its device was lost, or has no memory left.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("the {engine} engine failed: {reason}")]
+pub struct EngineFailure {
+    /// The engine.
+    pub engine: String,
+    /// Why.
+    pub reason: String,
+}
+
+/// A fault in one of several steps.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Interruption {
+    /// How many of the steps were done before.
+    pub done: u64,
+    /// What stopped the next one.
+    pub fault: Fault,
 }
 
 /// All items of a population, in the order of cells, then labels.
@@ -100,25 +122,46 @@ pub trait Execution: Send {
     /// The first fault, by process, then cell, then label. The state is then that of an unfinished step.
     fn run(&mut self, processes: std::ops::Range<usize>, context: &StepContext<'_>) -> Result<(), Fault>;
 
+    /// Runs so many whole steps, with nothing to do between them; the context is that of the first.
+    ///
+    /// # Errors
+    /// The first fault, with the number of steps done before it.
+    fn run_steps(&mut self, steps: u64, context: &StepContext<'_>) -> Result<(), Interruption>;
+
     /// All values of a substate.
-    fn read(&self, substate: SubstateId) -> Vec<u8>;
+    ///
+    /// # Errors
+    /// Where the engine cannot reach its state any more; so with all that follows.
+    fn read(&self, substate: SubstateId) -> Result<Vec<u8>, EngineFailure>;
 
     /// Replaces all values of a substate; as many bytes as [`Self::read`] gives.
-    fn write(&mut self, substate: SubstateId, values: &[u8]);
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    fn write(&mut self, substate: SubstateId, values: &[u8]) -> Result<(), EngineFailure>;
 
     /// The value of a substate in one cell.
-    fn read_cell(&self, substate: SubstateId, cell: usize) -> Vec<u8>;
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    fn read_cell(&self, substate: SubstateId, cell: usize) -> Result<Vec<u8>, EngineFailure>;
 
     /// Replaces the value of a substate in one cell.
-    fn write_cell(&mut self, substate: SubstateId, cell: usize, value: &[u8]);
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    fn write_cell(&mut self, substate: SubstateId, cell: usize, value: &[u8]) -> Result<(), EngineFailure>;
 
     /// All items of a population.
-    fn population(&self, group: usize) -> Population;
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    fn population(&self, group: usize) -> Result<Population, EngineFailure>;
 
     /// Replaces all items of a population.
     ///
     /// # Errors
-    /// [`Fault::CellFull`] where a cell has more items than slots.
+    /// [`Fault::CellFull`] where a cell has more items than slots, and as [`Self::read`].
     fn set_population(&mut self, group: usize, population: &Population) -> Result<(), Fault>;
 
     /// How many items a population has.
@@ -128,10 +171,16 @@ pub trait Execution: Send {
     fn left(&self, group: usize) -> u64;
 
     /// The most items in one cell.
-    fn largest_occupancy(&self, group: usize) -> u32;
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    fn largest_occupancy(&self, group: usize) -> Result<u32, EngineFailure>;
 
     /// Reduces a substate, lane by lane, rows or blocks in order (see [`crate::reduction`]).
-    fn reduce(&self, substate: SubstateId, reduction: &Reduction) -> Vec<Reduced>;
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    fn reduce(&self, substate: SubstateId, reduction: &Reduction) -> Result<Vec<Reduced>, EngineFailure>;
 
     /// The bytes that the state takes.
     fn memory(&self) -> usize;
@@ -142,9 +191,26 @@ pub trait Execution: Send {
     }
 }
 
+/// Runs steps one after the other, for an engine that gains nothing from knowing how many follow.
+///
+/// # Errors
+/// The first fault.
+pub fn step_by_step(
+    steps: u64,
+    context: &StepContext<'_>,
+    mut step: impl FnMut(&StepContext<'_>) -> Result<(), Fault>,
+) -> Result<(), Interruption> {
+    (0..steps).try_for_each(|done| {
+        let context = StepContext { step: context.step + done, ..*context };
+        step(&context).map_err(|fault| Interruption { done, fault })
+    })
+}
+
 /// What stops a run within a step.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Fault {
+    /// The engine cannot go on.
+    Engine(EngineFailure),
     /// A process reported it.
     Reported {
         /// The process.
@@ -219,6 +285,7 @@ pub enum Fault {
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Engine(failure) => failure.fmt(f),
             Self::Reported { process, cell, label: None, code, value } => {
                 write!(f, "`{process}` reports fault {code} with value {value} in cell {cell:?}")
             }
@@ -263,6 +330,12 @@ impl fmt::Display for Fault {
 }
 
 impl std::error::Error for Fault {}
+
+impl From<EngineFailure> for Fault {
+    fn from(failure: EngineFailure) -> Self {
+        Self::Engine(failure)
+    }
+}
 
 impl Fault {
     /// A fault that a kernel recorded, as the host sees it.

@@ -108,7 +108,7 @@ mod value;
 mod vector;
 mod vocabulary;
 
-pub use engine::{Engine, Fault, StartError};
+pub use engine::{Engine, EngineFailure, Fault, StartError};
 pub use geometry::{Boundary, Geometry};
 pub use model::{Model, ModelBuilder, ModelError};
 pub use neighbourhood::{Hexagons, Neighbourhood, NeighbourhoodError, Parity};

@@ -1,7 +1,9 @@
 //! A model on an engine.
 
-use crate::engine::{Engine, Execution, Fault, Population, StartError, StepContext, SubstateId};
-use crate::model::{GroupKind, Model};
+use crate::engine::{
+    Engine, EngineFailure, Execution, Fault, Interruption, Population, StartError, StepContext, SubstateId,
+};
+use crate::model::{Group, GroupKind, Model};
 use crate::parameters::AnyParameters;
 use crate::state::State;
 use crate::steering::{Schedule, SteeringError};
@@ -35,6 +37,9 @@ pub enum RunError {
     /// The engine cannot run the model.
     #[error(transparent)]
     Start(#[from] StartError),
+    /// The engine cannot reach its state any more.
+    #[error(transparent)]
+    Engine(#[from] EngineFailure),
     /// A fault within a step.
     #[error("step {step}: {}{fault}", text.as_ref().map(|text| format!("{text}: ")).unwrap_or_default())]
     Fault {
@@ -156,20 +161,49 @@ impl Simulation {
         Ok(())
     }
 
-    fn run_processes(&mut self, processes: std::ops::Range<usize>) -> Result<(), RunError> {
+    /// Has the engine work on the state, and keeps account of the steps that it did.
+    fn work(
+        &mut self,
+        work: impl FnOnce(&mut dyn Execution, &StepContext<'_>) -> Result<u64, Interruption>,
+    ) -> Result<(), RunError> {
         if self.broken {
             return Err(RunError::Broken { step: self.step + 1 });
         }
         let parameters = self.parameters.kernel_view(self.options.precision);
-        let context = StepContext { step: self.step, seed: self.options.seed, parameters: &*parameters };
-        self.execution.run(processes, &context).map_err(|fault| {
-            self.broken = true;
-            let text = match &fault {
-                Fault::Reported { code, .. } => self.model.fault_text(*code).map(str::to_owned),
-                _ => None,
-            };
-            RunError::Fault { step: self.step + 1, text, fault }
-        })
+        let context = StepContext {
+            step: self.step,
+            seed: self.options.seed,
+            parameters: &*parameters,
+            values: &*self.parameters,
+        };
+        match work(&mut *self.execution, &context) {
+            Ok(done) => {
+                self.step += done;
+                Ok(())
+            }
+            Err(Interruption { done, fault }) => {
+                self.broken = true;
+                self.step += done;
+                let text = match &fault {
+                    Fault::Reported { code, .. } => self.model.fault_text(*code).map(str::to_owned),
+                    _ => None,
+                };
+                Err(RunError::Fault { step: self.step + 1, text, fault })
+            }
+        }
+    }
+
+    /// Does so many steps that have no steering between them, then the steering that is due.
+    fn leap(&mut self, steps: u64) -> Result<(), RunError> {
+        self.work(|execution, context| execution.run_steps(steps, context).map(|()| steps))?;
+        let step = self.step;
+        self.steer(|schedule| schedule.is_due(step))
+    }
+
+    /// How many of the next steps have no steering between them.
+    fn unsteered(&self, most: u64) -> u64 {
+        let due = self.model.steering().iter().filter_map(|steering| steering.schedule.next_after(self.step));
+        due.map(|step| step - self.step).fold(most, u64::min)
     }
 
     /// Does one step: all processes in order, then the steering that is due.
@@ -177,10 +211,7 @@ impl Simulation {
     /// # Errors
     /// A fault of a process, or an error of a steering operation.
     pub fn step(&mut self) -> Result<(), RunError> {
-        self.run_processes(0..self.model.processes().len())?;
-        self.step += 1;
-        let step = self.step;
-        self.steer(|schedule| schedule.is_due(step))
+        self.leap(1)
     }
 
     /// Does at most so many steps; fewer where a steering operation ends the run, and none once one has.
@@ -195,11 +226,11 @@ impl Simulation {
     }
 
     fn run_here(&mut self, steps: u64) -> Result<Outcome, RunError> {
-        for _ in 0..steps {
-            if self.stop.is_some() {
-                break;
-            }
-            self.step()?;
+        let mut left = steps;
+        while left > 0 && self.stop.is_none() {
+            let leap = self.unsteered(left);
+            self.leap(leap)?;
+            left -= leap;
         }
         Ok(match &self.stop {
             Some(reason) => Outcome::Stopped { reason: reason.clone() },
@@ -224,28 +255,29 @@ impl Simulation {
         if index >= processes {
             return Err(RunError::NoSuchProcess { index, processes });
         }
-        self.run_processes(index..index + 1)
+        self.work(|execution, context| {
+            let result = execution.run(index..index + 1, context);
+            result.map(|()| 0).map_err(|fault| Interruption { done: 0, fault })
+        })
     }
 
     /// The whole state as bytes, for comparisons: equal snapshots are equal to the last bit.
-    pub fn snapshot(&self) -> Snapshot {
-        let groups = self
-            .model
-            .groups()
-            .iter()
-            .enumerate()
-            .map(|(group, definition)| match definition.kind() {
-                GroupKind::Cells { .. } => GroupSnapshot::Cells(
-                    (0..definition.schema().fields.len())
-                        .map(|field| self.execution.read(SubstateId { group, field }))
-                        .collect(),
-                ),
-                GroupKind::Population { .. } => {
-                    GroupSnapshot::Population(self.execution.population(group), self.execution.left(group))
-                }
-            })
-            .collect();
-        Snapshot { step: self.step, groups }
+    ///
+    /// # Errors
+    /// Where the engine cannot reach its state any more.
+    pub fn snapshot(&self) -> Result<Snapshot, RunError> {
+        let group = |(group, definition): (usize, &Group)| match definition.kind() {
+            GroupKind::Cells { .. } => (0..definition.schema().fields.len())
+                .map(|field| self.execution.read(SubstateId { group, field }))
+                .collect::<Result<_, _>>()
+                .map(GroupSnapshot::Cells),
+            GroupKind::Population { .. } => self
+                .execution
+                .population(group)
+                .map(|items| GroupSnapshot::Population(items, self.execution.left(group))),
+        };
+        let groups = self.model.groups().iter().enumerate().map(group).collect::<Result<_, _>>()?;
+        Ok(Snapshot { step: self.step, groups })
     }
 }
 

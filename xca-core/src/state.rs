@@ -1,6 +1,6 @@
 //! The state of a run as steering and the host see it.
 
-use crate::engine::{Execution, Fault, Population, SubstateId};
+use crate::engine::{EngineFailure, Execution, Fault, Population, SubstateId};
 use crate::geometry::Geometry;
 use crate::model::Model;
 use crate::parameters::{AnyParameters, ParameterError, ParameterValue, Parameters};
@@ -80,6 +80,9 @@ pub enum StateError {
     /// A parameter that cannot be set.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
+    /// The engine cannot reach its state any more.
+    #[error(transparent)]
+    Engine(#[from] EngineFailure),
     /// Items that do not fit.
     #[error(transparent)]
     Fault(#[from] Fault),
@@ -159,7 +162,7 @@ impl State<'_> {
             }
         }
         for (field, bytes) in fields.iter().enumerate() {
-            self.execution.write(SubstateId { group, field }, bytes);
+            self.execution.write(SubstateId { group, field }, bytes)?;
         }
         Ok(())
     }
@@ -175,7 +178,7 @@ impl State<'_> {
     ) -> Result<V, StateError> {
         self.cells_of::<S>()?;
         let id = self.id(substate)?;
-        let bytes = self.execution.read_cell(id, self.cell(cell)?);
+        let bytes = self.execution.read_cell(id, self.cell(cell)?)?;
         Ok(V::decode(self.model.stored(id, self.precision), &bytes))
     }
 
@@ -195,8 +198,7 @@ impl State<'_> {
         let mut bytes = vec![0; stored.size()];
         value.encode(stored, &mut bytes);
         let cell = self.cell(cell)?;
-        self.execution.write_cell(id, cell, &bytes);
-        Ok(())
+        Ok(self.execution.write_cell(id, cell, &bytes)?)
     }
 
     /// All values of a substate: of cells by linear index (x fastest), of items cell after cell and by label.
@@ -208,7 +210,7 @@ impl State<'_> {
         let stored = self.model.stored(id, self.precision);
         Ok(self
             .execution
-            .read(id)
+            .read(id)?
             .chunks_exact(stored.size())
             .map(|bytes| V::decode(stored, bytes))
             .collect())
@@ -237,8 +239,7 @@ impl State<'_> {
         for (value, bytes) in values.iter().zip(bytes.chunks_exact_mut(stored.size())) {
             value.encode(stored, bytes);
         }
-        self.execution.write(id, &bytes);
-        Ok(())
+        Ok(self.execution.write(id, &bytes)?)
     }
 
     /// The items of a population, cell after cell and by label.
@@ -249,7 +250,7 @@ impl State<'_> {
         let group = self.population_of::<S>()?;
         let sizes: Vec<usize> =
             self.model.groups()[group].stored(self.precision).iter().map(|stored| stored.size()).collect();
-        let population = self.execution.population(group);
+        let population = self.execution.population(group)?;
         let mut items = Vec::with_capacity(population.labels.len());
         let cells =
             population.counts.iter().enumerate().flat_map(|(cell, count)| (0..*count).map(move |_| cell));
@@ -313,7 +314,7 @@ impl State<'_> {
     /// # Errors
     /// Where the model does not have the population.
     pub fn largest_occupancy<S: Substates>(&self) -> Result<u32, StateError> {
-        Ok(self.execution.largest_occupancy(self.population_of::<S>()?))
+        Ok(self.execution.largest_occupancy(self.population_of::<S>()?)?)
     }
 
     /// Any reduction of a substate, lane by lane.
@@ -331,7 +332,7 @@ impl State<'_> {
         if of_bits && matches!(scalar, StoredScalar::F32 | StoredScalar::F64) {
             return Err(StateError::BitsOfFloats(substate.name()));
         }
-        Ok(self.execution.reduce(id, reduction))
+        Ok(self.execution.reduce(id, reduction)?)
     }
 
     /// The sum of a substate: in `f64`, or in `i64` of integers.

@@ -26,6 +26,15 @@ impl Schedule {
             Self::At(steps) => steps.contains(&step),
         }
     }
+
+    /// The first number of steps after this one at which it is time, if that comes.
+    pub(crate) fn next_after(&self, step: u64) -> Option<u64> {
+        match self {
+            Self::Start | Self::End => None,
+            Self::Every(interval) => step.checked_div(*interval)?.checked_add(1)?.checked_mul(*interval),
+            Self::At(steps) => steps.iter().copied().filter(|due| *due > step).min(),
+        }
+    }
 }
 
 /// What went wrong in a steering operation: any error.

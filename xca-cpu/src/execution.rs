@@ -9,7 +9,10 @@ use crate::stages::{Stage, is_doubled, stages};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Arc;
-use xca_core::engine::{Execution, Fault, Population as Items, StartError, StepContext, SubstateId, Workers};
+use xca_core::engine::{
+    EngineFailure, Execution, Fault, Interruption, Population as Items, StartError, StepContext, SubstateId,
+    Workers, step_by_step,
+};
 use xca_core::model::{Group as Definition, GroupKind};
 use xca_core::reduction::{ITEMS_IN_BLOCK, Reduced, Reduction, reduce_values};
 use xca_core::{Model, Precision, ProcessKind};
@@ -106,37 +109,44 @@ impl Execution for CpuExecution {
         pool.install(|| stages.iter().try_for_each(|stage| self.run_stage(stage, context)))
     }
 
-    fn read(&self, substate: SubstateId) -> Vec<u8> {
-        match &self.groups[substate.group] {
-            Group::Cells(planes) => planes[substate.field].read(&self.layout),
-            Group::Population(population) => population.items.fields[substate.field].bytes().to_vec(),
-        }
+    fn run_steps(&mut self, steps: u64, context: &StepContext<'_>) -> Result<(), Interruption> {
+        let processes = self.model.processes().len();
+        step_by_step(steps, context, |context| self.run(0..processes, context))
     }
 
-    fn write(&mut self, substate: SubstateId, values: &[u8]) {
+    fn read(&self, substate: SubstateId) -> Result<Vec<u8>, EngineFailure> {
+        Ok(match &self.groups[substate.group] {
+            Group::Cells(planes) => planes[substate.field].read(&self.layout),
+            Group::Population(population) => population.items.fields[substate.field].bytes().to_vec(),
+        })
+    }
+
+    fn write(&mut self, substate: SubstateId, values: &[u8]) -> Result<(), EngineFailure> {
         match &mut self.groups[substate.group] {
             Group::Cells(planes) => planes[substate.field].write(&self.layout, values),
             Group::Population(population) => {
                 population.items.fields[substate.field].bytes_mut().copy_from_slice(values);
             }
         }
+        Ok(())
     }
 
-    fn read_cell(&self, substate: SubstateId, cell: usize) -> Vec<u8> {
-        match &self.groups[substate.group] {
+    fn read_cell(&self, substate: SubstateId, cell: usize) -> Result<Vec<u8>, EngineFailure> {
+        Ok(match &self.groups[substate.group] {
             Group::Cells(planes) => planes[substate.field].cell(&self.layout, cell).to_vec(),
             Group::Population(_) => Vec::new(),
-        }
+        })
     }
 
-    fn write_cell(&mut self, substate: SubstateId, cell: usize, value: &[u8]) {
+    fn write_cell(&mut self, substate: SubstateId, cell: usize, value: &[u8]) -> Result<(), EngineFailure> {
         if let Group::Cells(planes) = &mut self.groups[substate.group] {
             planes[substate.field].write_cell(&self.layout, cell, value);
         }
+        Ok(())
     }
 
-    fn population(&self, group: usize) -> Items {
-        match &self.groups[group] {
+    fn population(&self, group: usize) -> Result<Items, EngineFailure> {
+        Ok(match &self.groups[group] {
             Group::Cells(_) => Items::default(),
             Group::Population(population) => Items {
                 counts: (0..self.layout.rows())
@@ -145,7 +155,7 @@ impl Execution for CpuExecution {
                 labels: population.items.labels.clone(),
                 fields: population.items.fields.iter().map(|field| field.bytes().to_vec()).collect(),
             },
-        }
+        })
     }
 
     fn set_population(&mut self, group: usize, items: &Items) -> Result<(), Fault> {
@@ -176,18 +186,18 @@ impl Execution for CpuExecution {
         }
     }
 
-    fn largest_occupancy(&self, group: usize) -> u32 {
-        match &self.groups[group] {
+    fn largest_occupancy(&self, group: usize) -> Result<u32, EngineFailure> {
+        Ok(match &self.groups[group] {
             Group::Cells(_) => 0,
             Group::Population(population) => (0..self.layout.rows())
                 .filter(|row| population.row(*row).0 < population.row(*row).1)
                 .flat_map(|row| population.counts(&self.layout, row))
                 .max()
                 .unwrap_or(0),
-        }
+        })
     }
 
-    fn reduce(&self, substate: SubstateId, reduction: &Reduction) -> Vec<Reduced> {
+    fn reduce(&self, substate: SubstateId, reduction: &Reduction) -> Result<Vec<Reduced>, EngineFailure> {
         let stored = self.model.stored(substate, self.precision);
         let parts: Vec<Vec<Reduced>> = self.pool.install(|| match &self.groups[substate.group] {
             Group::Cells(planes) => (0..self.layout.rows())
@@ -206,7 +216,7 @@ impl Execution for CpuExecution {
                 *result = result.combine(part, reduction);
             }
         }
-        results
+        Ok(results)
     }
 
     fn workers(&self) -> Option<Arc<dyn Workers>> {

@@ -19,7 +19,7 @@ use crate::program::{Failure, Observable};
 use crate::set_up::SetUp;
 use crate::view::{ViewError, complete};
 use shown::Shown;
-use xca_core::{Model, Simulation, Snapshot};
+use xca_core::{Model, RunError, Simulation, Snapshot};
 
 /// A part of a run's record that cannot be made or written.
 #[derive(Debug, thiserror::Error)]
@@ -35,6 +35,8 @@ pub enum RecordError {
     Write(#[from] WriteError),
     #[error(transparent)]
     Series(#[from] SeriesError),
+    #[error(transparent)]
+    State(#[from] RunError),
     #[error("the observables cannot be measured after step {step}")]
     Observe { step: u64, source: Failure },
     #[error("the observables after step {step} are not those of the start: {now} instead of {before}")]
@@ -132,7 +134,7 @@ impl Recorder {
 
     /// Records the present state as a row of observables and a frame, unless that is done already.
     pub(crate) fn record(&mut self, simulation: &mut Simulation) -> Result<Snapshot, RecordError> {
-        let snapshot = simulation.snapshot();
+        let snapshot = simulation.snapshot()?;
         if self.recorded != Some(snapshot.step) {
             self.recorded = Some(snapshot.step);
             self.observe(simulation, &snapshot)?;

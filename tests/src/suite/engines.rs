@@ -49,23 +49,23 @@ pub fn assert_same_runs(
         others.iter().map(|engine| Simulation::new(model, &**engine, options)).collect::<Result<_, _>>()?;
     for step in 0..=steps {
         let outcome = if step == 0 { Ok(()) } else { first.step() };
-        let snapshot = first.snapshot();
+        let snapshot = first.snapshot()?;
         for (engine, simulation) in others.iter().zip(&mut rest) {
             let other = if step == 0 { Ok(()) } else { simulation.step() };
             let place = || format!("step {step} of `{}` on {}", model.name(), describe(&**engine));
             assert_eq!(outcome_text(&outcome), outcome_text(&other), "{}", place());
             if outcome.is_ok() {
-                assert_same_state(&snapshot, &simulation.snapshot(), &place);
+                assert_same_state(&snapshot, &simulation.snapshot()?, &place);
             }
         }
         outcome?;
     }
-    let snapshot = first.snapshot();
+    let snapshot = first.snapshot()?;
     for engine in others {
         let place = || format!("all steps of `{}` at once on {}", model.name(), describe(&**engine));
         let mut at_once = Simulation::new(model, &**engine, options)?;
         at_once.run(steps)?;
-        assert_same_state(&snapshot, &at_once.snapshot(), &place);
+        assert_same_state(&snapshot, &at_once.snapshot()?, &place);
     }
     Ok(())
 }

@@ -1,7 +1,9 @@
 //! The state as simulations ask for it.
 
 use super::{GroupState, ReferenceExecution};
-use crate::engine::{Execution, Fault, Population, StepContext, SubstateId};
+use crate::engine::{
+    EngineFailure, Execution, Fault, Interruption, Population, StepContext, SubstateId, step_by_step,
+};
 use crate::process::ProcessKind;
 use crate::reduction::{ITEMS_IN_BLOCK, Reduced, Reduction, reduce_values};
 use std::ops::Range;
@@ -18,41 +20,43 @@ impl Execution for ReferenceExecution {
         Ok(())
     }
 
-    fn read(&self, substate: SubstateId) -> Vec<u8> {
-        let group = &self.groups[substate.group];
-        if !group.is_population() {
-            return group.planes[substate.field].bytes().to_vec();
-        }
-        group.occupied().flat_map(|place| group.value(substate.field, place)).copied().collect()
+    fn run_steps(&mut self, steps: u64, context: &StepContext<'_>) -> Result<(), Interruption> {
+        let processes = self.model.processes().len();
+        step_by_step(steps, context, |context| self.run(0..processes, context))
     }
 
-    fn write(&mut self, substate: SubstateId, values: &[u8]) {
+    fn read(&self, substate: SubstateId) -> Result<Vec<u8>, EngineFailure> {
+        Ok(self.groups[substate.group].values(substate.field))
+    }
+
+    fn write(&mut self, substate: SubstateId, values: &[u8]) -> Result<(), EngineFailure> {
         let group = &mut self.groups[substate.group];
         if !group.is_population() {
             group.planes[substate.field].bytes_mut().copy_from_slice(values);
-            return;
+            return Ok(());
         }
         let places: Vec<usize> = group.occupied().collect();
         let size = group.types[substate.field].size();
         for (place, value) in places.into_iter().zip(values.chunks_exact(size)) {
             group.value_mut(substate.field, place).copy_from_slice(value);
         }
+        Ok(())
     }
 
-    fn read_cell(&self, substate: SubstateId, cell: usize) -> Vec<u8> {
-        self.groups[substate.group].value(substate.field, cell).to_vec()
+    fn read_cell(&self, substate: SubstateId, cell: usize) -> Result<Vec<u8>, EngineFailure> {
+        Ok(self.groups[substate.group].value(substate.field, cell).to_vec())
     }
 
-    fn write_cell(&mut self, substate: SubstateId, cell: usize, value: &[u8]) {
+    fn write_cell(&mut self, substate: SubstateId, cell: usize, value: &[u8]) -> Result<(), EngineFailure> {
         self.groups[substate.group].value_mut(substate.field, cell).copy_from_slice(value);
+        Ok(())
     }
 
-    fn population(&self, group: usize) -> Population {
-        let fields =
-            (0..self.groups[group].types.len()).map(|field| self.read(SubstateId { group, field })).collect();
+    fn population(&self, group: usize) -> Result<Population, EngineFailure> {
         let group = &self.groups[group];
+        let fields = (0..group.types.len()).map(|field| group.values(field)).collect();
         let labels = group.occupied().map(|place| group.labels[place]).collect();
-        Population { counts: group.counts.clone(), labels, fields }
+        Ok(Population { counts: group.counts.clone(), labels, fields })
     }
 
     fn set_population(&mut self, number: usize, population: &Population) -> Result<(), Fault> {
@@ -84,21 +88,21 @@ impl Execution for ReferenceExecution {
         self.groups[group].left
     }
 
-    fn largest_occupancy(&self, group: usize) -> u32 {
-        self.groups[group].counts.iter().copied().max().unwrap_or(0)
+    fn largest_occupancy(&self, group: usize) -> Result<u32, EngineFailure> {
+        Ok(self.groups[group].counts.iter().copied().max().unwrap_or(0))
     }
 
-    fn reduce(&self, substate: SubstateId, reduction: &Reduction) -> Vec<Reduced> {
+    fn reduce(&self, substate: SubstateId, reduction: &Reduction) -> Result<Vec<Reduced>, EngineFailure> {
         let group = &self.groups[substate.group];
         let stored = group.types[substate.field];
         let block = if group.is_population() { ITEMS_IN_BLOCK } else { self.model.geometry().extents()[0] };
         let mut results = vec![Reduced::Nothing; usize::from(stored.lanes)];
-        for values in self.read(substate).chunks(block * stored.size()) {
+        for values in group.values(substate.field).chunks(block * stored.size()) {
             for (result, part) in results.iter_mut().zip(reduce_values(reduction, stored, values)) {
                 *result = result.combine(part, reduction);
             }
         }
-        results
+        Ok(results)
     }
 
     fn memory(&self) -> usize {
@@ -107,6 +111,14 @@ impl Execution for ReferenceExecution {
 }
 
 impl GroupState {
+    /// All values of a field; of items, those in occupied slots.
+    fn values(&self, field: usize) -> Vec<u8> {
+        if !self.is_population() {
+            return self.planes[field].bytes().to_vec();
+        }
+        self.occupied().flat_map(|place| self.value(field, place)).copied().collect()
+    }
+
     fn memory(&self) -> usize {
         let planes: usize = self.planes.iter().map(crate::storage::Buffer::capacity).sum();
         planes + (self.counts.capacity() + self.labels.capacity()) * size_of::<u32>()

@@ -20,7 +20,7 @@ pub(crate) fn step<S: Substates>(model: &Model, precision: Precision) -> Result<
 
 /// The state of all cells of the group `S`.
 pub(crate) fn cells<S: Substates>(simulation: &Simulation, precision: Precision) -> Vec<S> {
-    let snapshot = simulation.snapshot();
+    let snapshot = simulation.snapshot().expect("a state");
     let group = simulation.model().group_of::<S>().expect("the model has the substates");
     let GroupSnapshot::Cells(fields) = &snapshot.groups[group] else { panic!("these are items") };
     let sizes: Vec<usize> =
