@@ -123,7 +123,8 @@ fn same_bits_process_by_process() {
             for (name, simulation) in &mut others {
                 prop_assert_eq!(outcome_text(&outcome), outcome_text(&simulation.run_process(process)));
                 if outcome.is_ok() {
-                    let place = || format!("process {process} alone on {name}");
+                    let called = model.processes()[process].name;
+                    let place = || format!("`{called}` alone on {name}");
                     assert_same_state(&oracle.snapshot()?, &simulation.snapshot()?, &place);
                 }
             }

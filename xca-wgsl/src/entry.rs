@@ -35,9 +35,7 @@ impl Entry<'_> {
     pub(crate) fn text(&self) -> String {
         let [x, y, z] = self.options.workgroup_size;
         let (size, guard) = match self.kind {
-            FunctionKind::Cells => {
-                (format!("{x}, {y}, {z}"), "all(id < vec3<u32>(space.extents))".to_owned())
-            }
+            FunctionKind::Cells => (format!("{x}, {y}, {z}"), "all(id < space.count)".to_owned()),
             _ => ((x * y * z).to_string(), "item < moment.items".to_owned()),
         };
         let mut arguments = vec!["@builtin(global_invocation_id) id: vec3<u32>"];
@@ -56,7 +54,7 @@ impl Entry<'_> {
         if self.kind != FunctionKind::Cells {
             let _ = writeln!(out, "    let item: u32 = id.x + id.y * workgroups.x * {size}u;");
         }
-        let argument = if self.kind == FunctionKind::Cells { "id" } else { "item" };
+        let argument = if self.kind == FunctionKind::Cells { "space.first + id" } else { "item" };
         if self.uses.faults {
             out.push_str(&self.with_faults(&guard, over, argument));
         } else {

@@ -60,13 +60,16 @@ impl Layout {
 }
 
 /// The fields of the description of the space.
-pub(crate) const SPACE: [(&str, ValueType); 8] = [
+pub(crate) const SPACE: [(&str, ValueType); 11] = [
     ("extents", ValueType { scalar: ScalarType::I32, lanes: 3 }),
     ("neighbours", ValueType { scalar: ScalarType::U32, lanes: 1 }),
     ("halo", ValueType { scalar: ScalarType::U32, lanes: 3 }),
     ("row", ValueType { scalar: ScalarType::U32, lanes: 1 }),
-    ("seed", ValueType { scalar: ScalarType::U32, lanes: 2 }),
+    ("first", ValueType { scalar: ScalarType::U32, lanes: 3 }),
+    ("base", ValueType { scalar: ScalarType::U32, lanes: 1 }),
+    ("count", ValueType { scalar: ScalarType::U32, lanes: 3 }),
     ("layer", ValueType { scalar: ScalarType::U32, lanes: 1 }),
+    ("seed", ValueType { scalar: ScalarType::U32, lanes: 2 }),
     ("side", ValueType { scalar: ScalarType::Real, lanes: 1 }),
     ("zero", ValueType { scalar: ScalarType::Real, lanes: 1 }),
 ];

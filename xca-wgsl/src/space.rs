@@ -5,7 +5,8 @@ use xca_core::{Parity, Precision};
 
 /// The number of a cell among the stored ones, from its indices.
 pub(crate) const STORAGE_INDEX: &str = "fn storage_index(index: vec3<u32>) -> u32 {
-    return (index.x + space.halo.x) + (index.y + space.halo.y) * space.row + (index.z + space.halo.z) * space.layer;
+    let number: u32 = (index.x + space.halo.x) + (index.y + space.halo.y) * space.row + (index.z + space.halo.z) * space.layer;
+    return number - space.base;
 }
 ";
 

@@ -5,6 +5,7 @@ use xca_core::{
     Engine, GroupSnapshot, Model, Precision, Reference, RunError, RunOptions, Simulation, Snapshot,
 };
 use xca_cpu::Cpu;
+use xca_gpu::{Arithmetic, Gpu, GpuError, GpuOptions};
 
 /// The thread counts of the parallel engine that must make no difference.
 pub const THREADS: [usize; 4] = [1, 2, 3, 8];
@@ -21,7 +22,16 @@ pub fn all() -> Result<Vec<Box<dyn Engine>>, Box<dyn Error>> {
     for threads in THREADS {
         engines.push(Box::new(Cpu::with_threads(threads)?));
     }
+    engines.push(Box::new(gpu()?));
     Ok(engines)
+}
+
+/// The GPU engine, which must be strict.
+///
+/// # Errors
+/// Where this machine has no adapter with strict arithmetic.
+pub fn gpu() -> Result<Gpu, GpuError> {
+    Gpu::new(&GpuOptions { arithmetic: Arithmetic::Strict, ..GpuOptions::default() })
 }
 
 /// The name of an engine with its number of threads, for messages.
@@ -105,22 +115,40 @@ pub fn assert_same_state(wanted: &Snapshot, found: &Snapshot, place: &dyn Fn() -
         match (wanted, found) {
             (GroupSnapshot::Cells(wanted), GroupSnapshot::Cells(found)) => {
                 for (field, (wanted, found)) in wanted.iter().zip(found).enumerate() {
-                    let byte = wanted.iter().zip(found).position(|(wanted, found)| wanted != found);
-                    assert!(wanted == found, "{}: group {group}, field {field}, byte {byte:?}", place());
+                    assert_same_bytes(wanted, found, &|| {
+                        format!("{}: group {group}, field {field}", place())
+                    });
                 }
             }
             (GroupSnapshot::Population(wanted, left), GroupSnapshot::Population(found, found_left)) => {
                 assert_eq!(wanted.counts, found.counts, "{}: items in each cell", place());
                 assert_eq!(wanted.labels, found.labels, "{}: labels", place());
                 for (field, (wanted, found)) in wanted.fields.iter().zip(&found.fields).enumerate() {
-                    let byte = wanted.iter().zip(found).position(|(wanted, found)| wanted != found);
-                    assert!(wanted == found, "{}: group {group}, field {field}, byte {byte:?}", place());
+                    assert_same_bytes(wanted, found, &|| {
+                        format!("{}: group {group}, field {field}", place())
+                    });
                 }
                 assert_eq!(left, found_left, "{}: items that left", place());
             }
             _ => panic!("{}: group {group} is another kind", place()),
         }
     }
+}
+
+/// Demands that two lists of bytes are the same, and shows the first that are not.
+fn assert_same_bytes(wanted: &[u8], found: &[u8], place: &dyn Fn() -> String) {
+    assert_eq!(wanted.len(), found.len(), "{}: the number of bytes", place());
+    let Some(byte) = wanted.iter().zip(found).position(|(wanted, found)| wanted != found) else { return };
+    let differing = wanted.iter().zip(found).filter(|(wanted, found)| wanted != found).count();
+    let start = byte / 8 * 8;
+    let window = start..wanted.len().min(start + 16);
+    panic!(
+        "{}: {differing} of {} bytes differ, from byte {byte} on; from byte {start} on wanted {:02x?}, found {:02x?}",
+        place(),
+        wanted.len(),
+        &wanted[window.clone()],
+        &found[window]
+    );
 }
 
 /// An outcome as text, in which a value that is no number equals itself.

@@ -33,8 +33,11 @@ struct Space {
     neighbours: u32,
     halo: vec3<u32>,
     row: u32,
-    seed: vec2<u32>,
+    first: vec3<u32>,
+    base: u32,
+    count: vec3<u32>,
     layer: u32,
+    seed: vec2<u32>,
 }
 
 struct Conduction {
@@ -55,7 +58,8 @@ var<private> cell: Heat;
 var<private> here: u32;
 
 fn storage_index(index: vec3<u32>) -> u32 {
-    return (index.x + space.halo.x) + (index.y + space.halo.y) * space.row + (index.z + space.halo.z) * space.layer;
+    let number: u32 = (index.x + space.halo.x) + (index.y + space.halo.y) * space.row + (index.z + space.halo.z) * space.layer;
+    return number - space.base;
 }
 
 fn neighbour_at(index: u32) -> u32 {
@@ -81,8 +85,8 @@ fn process_cell(id: vec3<u32>) {
 fn main(
     @builtin(global_invocation_id) id: vec3<u32>,
 ) {
-    if all(id < vec3<u32>(space.extents)) {
-        process_cell(id);
+    if all(id < space.count) {
+        process_cell(space.first + id);
     }
 }
 ";

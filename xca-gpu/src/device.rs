@@ -1,0 +1,233 @@
+//! The device: adapters, buffers, pipelines, submissions. Nothing outside this module names wgpu, whose interface changes every few
+//! months.
+
+mod adapter;
+mod code;
+mod exact;
+mod recorder;
+mod transfer;
+
+pub use adapter::{Adapter, AdapterChoice, AdapterKind};
+pub(crate) use code::{Access, Code, Pipeline};
+pub(crate) use recorder::{Binding, Bindings, Recorder};
+pub(crate) use transfer::Landing;
+
+use crate::error::GpuError;
+use std::collections::HashMap;
+use std::fmt;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// All adapters of this machine; none where there is no driver.
+pub fn adapters() -> Vec<Adapter> {
+    adapter::all().into_iter().map(|(_, description)| description).collect()
+}
+
+/// An open adapter.
+pub(crate) struct Device {
+    adapter: Adapter,
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    /// Why the device is lost, once it is.
+    lost: Arc<Mutex<Option<String>>>,
+    /// Compiled code by its text.
+    pipelines: Mutex<HashMap<Code, Arc<Pipeline>>>,
+    buffers: AtomicU64,
+}
+
+/// Something that the device refused or failed to do.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum DeviceError {
+    /// The device is gone: switched off, reset by its driver, or too long at work.
+    #[error("the device was lost: {0}")]
+    Lost(String),
+    /// No memory is left.
+    #[error("the device has no memory left: {0}")]
+    OutOfMemory(String),
+    /// More than a buffer can hold, or than code can reach at once.
+    #[error(
+        "{what} would take {wanted} bytes, and this adapter allows {most}; use fewer cells or items, or the cpu engine"
+    )]
+    TooLarge {
+        /// What it is.
+        what: String,
+        /// Its bytes.
+        wanted: u64,
+        /// The limit.
+        most: u64,
+    },
+    /// Anything else: code that does not compile, a limit that is passed.
+    #[error("the device refused {what}: {reason}")]
+    Refused {
+        /// What it should do.
+        what: String,
+        /// Why not.
+        reason: String,
+    },
+}
+
+/// A piece of the device's memory.
+#[derive(Clone)]
+pub(crate) struct Buffer {
+    buffer: wgpu::Buffer,
+    /// No two buffers of a device have the same.
+    number: u64,
+}
+
+impl Buffer {
+    /// The size in bytes.
+    pub(crate) fn size(&self) -> u64 {
+        self.buffer.size()
+    }
+}
+
+impl Device {
+    /// Opens an adapter.
+    pub(crate) fn open(choice: &AdapterChoice) -> Result<Self, GpuError> {
+        let all = adapter::all();
+        let known: Vec<Adapter> = all.iter().map(|(_, description)| description.clone()).collect();
+        if known.is_empty() {
+            return Err(GpuError::NoAdapter);
+        }
+        let missing = || GpuError::NoSuchAdapter { wanted: choice.to_string(), known: list(&known) };
+        let number = choice.of(&known).ok_or_else(missing)?;
+        let (adapter, description) =
+            all.into_iter().find(|(_, description)| description.number == number).ok_or_else(missing)?;
+        let wanted = wgpu::Features::SHADER_F64 | wgpu::Features::PASSTHROUGH_SHADERS;
+        let request = wgpu::DeviceDescriptor {
+            label: Some("xca"),
+            required_features: adapter.features() & wanted,
+            required_limits: adapter.limits(),
+            experimental_features: code::experimental_features(),
+            memory_hints: wgpu::MemoryHints::Performance,
+            trace: wgpu::Trace::Off,
+        };
+        let (device, queue) = pollster::block_on(adapter.request_device(&request)).map_err(|error| {
+            GpuError::CannotOpen { adapter: description.to_string(), reason: error.to_string() }
+        })?;
+        let lost = Arc::new(Mutex::new(None));
+        let note = Arc::clone(&lost);
+        device.set_device_lost_callback(move |_, reason| {
+            let reason = if reason.is_empty() { "its driver does not say why".to_owned() } else { reason };
+            note.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(reason);
+        });
+        // Where no scope waits for an error, it is the next wait that tells of it; without this the library would panic.
+        let note = Arc::clone(&lost);
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+            note.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error.to_string());
+        }));
+        Ok(Self {
+            adapter: description,
+            device,
+            queue,
+            lost,
+            pipelines: Mutex::new(HashMap::new()),
+            buffers: AtomicU64::new(0),
+        })
+    }
+
+    /// What is known of it.
+    pub(crate) fn adapter(&self) -> &Adapter {
+        &self.adapter
+    }
+
+    /// The largest number of workgroups along an axis.
+    pub(crate) fn most_workgroups(&self) -> u32 {
+        self.device.limits().max_compute_workgroups_per_dimension
+    }
+
+    /// Memory full of zeros.
+    pub(crate) fn buffer(&self, name: &str, size: u64) -> Result<Buffer, DeviceError> {
+        self.allocate(name, size, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC)
+    }
+
+    /// Memory for what all invocations read alike.
+    pub(crate) fn uniform(&self, name: &str, values: &[u8]) -> Result<Buffer, DeviceError> {
+        let buffer = self.allocate(name, values.len() as u64, wgpu::BufferUsages::UNIFORM)?;
+        self.upload(&buffer, 0, values)?;
+        Ok(buffer)
+    }
+
+    fn allocate(&self, name: &str, size: u64, usage: wgpu::BufferUsages) -> Result<Buffer, DeviceError> {
+        // No empty buffers; and a multiple of what every type of a uniform is aligned to.
+        let size = size.max(1).next_multiple_of(16);
+        let most = self.adapter.largest_buffer;
+        if size > most {
+            return Err(DeviceError::TooLarge { what: format!("the buffer for {name}"), wanted: size, most });
+        }
+        let description = wgpu::BufferDescriptor {
+            label: Some(name),
+            size,
+            usage: usage | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        };
+        let buffer =
+            self.guarded(&format!("{size} bytes for {name}"), || self.device.create_buffer(&description))?;
+        Ok(Buffer { buffer, number: self.buffers.fetch_add(1, Ordering::Relaxed) })
+    }
+
+    /// Waits until everything that was submitted is done.
+    pub(crate) fn wait(&self) -> Result<(), DeviceError> {
+        let result = self.device.poll(wgpu::PollType::wait_indefinitely());
+        self.alive()?;
+        result.map(|_| ()).map_err(|error| DeviceError::Lost(error.to_string()))
+    }
+
+    fn alive(&self) -> Result<(), DeviceError> {
+        let lost = self.lost.lock().unwrap_or_else(PoisonError::into_inner);
+        lost.as_ref().map_or(Ok(()), |reason| Err(DeviceError::Lost(reason.clone())))
+    }
+
+    /// Does something on the device and looks whether it went wrong.
+    fn guarded<T>(&self, what: &str, work: impl FnOnce() -> T) -> Result<T, DeviceError> {
+        self.alive()?;
+        let filters =
+            [wgpu::ErrorFilter::Validation, wgpu::ErrorFilter::OutOfMemory, wgpu::ErrorFilter::Internal];
+        let scopes = filters.map(|filter| self.device.push_error_scope(filter));
+        let result = work();
+        let mut first = None;
+        for scope in scopes.into_iter().rev() {
+            if let Some(error) = pollster::block_on(scope.pop()) {
+                first.get_or_insert(error);
+            }
+        }
+        match first {
+            None => Ok(result),
+            Some(wgpu::Error::OutOfMemory { .. }) => Err(DeviceError::OutOfMemory(what.to_owned())),
+            Some(error) => Err(DeviceError::Refused { what: what.to_owned(), reason: causes(&error) }),
+        }
+    }
+}
+
+/// An error with its sources, on one line.
+fn causes(error: &dyn std::error::Error) -> String {
+    let mut text = error.to_string();
+    let mut source = error.source();
+    while let Some(cause) = source {
+        let cause_text = cause.to_string();
+        if !text.contains(&cause_text) {
+            text = format!("{text}: {cause_text}");
+        }
+        source = cause.source();
+    }
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// The adapters as one line of a message.
+fn list(adapters: &[Adapter]) -> String {
+    let lines: Vec<String> =
+        adapters.iter().map(|adapter| format!("{}: {adapter}", adapter.number)).collect();
+    lines.join(", ")
+}
+
+impl fmt::Debug for Device {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Device({})", self.adapter)
+    }
+}
+
+impl fmt::Debug for Buffer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Buffer({}, {} bytes)", self.number, self.size())
+    }
+}

@@ -1,0 +1,93 @@
+//! Code whose float operations the driver may not change: SPIR-V with `NoContraction` on each of them.
+//!
+//! WGSL lets a driver contract `a * b + c` to one rounding, and reorder sums. SPIR-V forbids both for operations that are decorated so,
+//! which WGSL cannot say; hence this detour over naga's own SPIR-V.
+
+use naga::back::spv;
+use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
+use naga::valid::{Capabilities, ValidationFlags, Validator};
+
+/// The number of the decoration, and of the instruction that puts one on a result.
+const NO_CONTRACTION: u32 = 42;
+const DECORATE: u32 = 71;
+/// The words before the first instruction.
+const HEADER: usize = 5;
+/// The instructions that declare types: decorations stand before the first of them.
+const TYPES: std::ops::RangeInclusive<u32> = 19..=33;
+/// Float arithmetic: FNegate, FAdd, FSub, FMul, FDiv, FRem, FMod, VectorTimesScalar.
+const ARITHMETIC: [u32; 8] = [127, 129, 131, 133, 136, 140, 141, 142];
+
+/// Translates WGSL.
+pub(super) fn spirv(source: &str) -> Result<Vec<u32>, String> {
+    let module = naga::front::wgsl::parse_str(source).map_err(|error| error.emit_to_string(source))?;
+    let info = Validator::new(ValidationFlags::all(), Capabilities::all())
+        .validate(&module)
+        .map_err(|error| error.emit_to_string(source))?;
+    let options = spv::Options {
+        lang_version: (1, 3),
+        flags: spv::WriterFlags::empty(),
+        // Arrays of a process are indexed by its numbers, which may be anything; buffers by the engine's own, which lie in them.
+        bounds_check_policies: BoundsCheckPolicies {
+            index: BoundsCheckPolicy::Restrict,
+            buffer: BoundsCheckPolicy::Unchecked,
+            ..BoundsCheckPolicies::default()
+        },
+        // The engine's loops end, and those of a process end on the other engines.
+        force_loop_bounding: false,
+        ..spv::Options::default()
+    };
+    let words = spv::write_vec(&module, &info, &options, None).map_err(|error| error.to_string())?;
+    Ok(without_contraction(&words))
+}
+
+/// Decorates all float arithmetic.
+fn without_contraction(words: &[u32]) -> Vec<u32> {
+    let mut results = Vec::new();
+    let mut first_type = words.len();
+    let mut at = HEADER;
+    while let Some(&word) = words.get(at) {
+        let (instruction, length) = (word & 0xffff, (word >> 16) as usize);
+        if TYPES.contains(&instruction) {
+            first_type = first_type.min(at);
+        }
+        if ARITHMETIC.contains(&instruction)
+            && let Some(result) = words.get(at + 2)
+        {
+            results.push(*result);
+        }
+        at += length.max(1);
+    }
+    let mut decorated = words[..first_type].to_vec();
+    for result in results {
+        decorated.extend([DECORATE | 3 << 16, result, NO_CONTRACTION]);
+    }
+    decorated.extend(&words[first_type..]);
+    decorated
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SOURCE: &str = "@group(0) @binding(0) var<storage, read_write> x: array<f32>;
+        @compute @workgroup_size(1) fn main() { x[0] = -x[0] * x[1] + x[2] / x[3] - x[4]; }";
+
+    #[test]
+    fn each_float_operation_is_decorated_once() {
+        let words = spirv(SOURCE).unwrap();
+        let decorations = words
+            .windows(3)
+            .filter(|window| window[0] == (DECORATE | 3 << 16) && window[2] == NO_CONTRACTION);
+        let mut decorated: Vec<u32> = decorations.map(|window| window[1]).collect();
+        decorated.sort_unstable();
+        decorated.dedup();
+        // A negation, a product, a quotient, a sum, a difference.
+        assert_eq!(decorated.len(), 5);
+    }
+
+    #[test]
+    fn wrong_code_says_where() {
+        let error = spirv("fn main() { let x: f32 = 1u; }").unwrap_err();
+        assert!(error.contains("let x: f32 = 1u"), "{error}");
+    }
+}

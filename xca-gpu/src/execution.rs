@@ -1,0 +1,438 @@
+//! A model under way on a device.
+
+use crate::device::{Device, DeviceError, Landing, Recorder};
+use crate::error::NotOnDevice;
+use crate::groups::{Group, Groups, JOURNAL, JOURNAL_WORDS};
+use crate::halo::Halo;
+use crate::migration::Migration;
+use crate::pace::Pace;
+use crate::plane::{Plane, size_on_device};
+use crate::population::Population;
+use crate::program::{Manner, Program};
+use crate::service::{ADVANCE, SEAL, Services};
+use crate::space::{Part, Space};
+use crate::stop::Cause;
+use std::collections::{HashMap, HashSet};
+use std::ops::Range;
+use std::sync::Arc;
+use std::time::Instant;
+use xca_core::engine::{EngineFailure, Fault, Interruption, StepContext, SubstateId};
+use xca_core::model::GroupKind;
+use xca_core::{Model, ParameterValue, ProcessKind, StoredScalar};
+use xca_wgsl::{Content, Dispatch};
+
+/// A model with its state on a device.
+pub(crate) struct GpuExecution {
+    pub(crate) model: Model,
+    pub(crate) manner: Manner,
+    pub(crate) device: Arc<Device>,
+    pub(crate) space: Space,
+    pub(crate) groups: Groups,
+    pub(crate) halo: Halo,
+    pub(crate) services: Services,
+    pub(crate) programs: Vec<Program>,
+    pub(crate) migrations: Vec<Migration>,
+    /// For each process, what its seals say: that it reported, that it aimed wrong, that it overfilled a cell.
+    stamps: HashMap<(usize, Cause), crate::device::Buffer>,
+    /// The substates of cells that processes read at neighbours.
+    looked_at: HashSet<SubstateId>,
+    /// Where the journals land after each submission.
+    landing: Landing,
+    pace: Pace,
+    /// What the device was told last.
+    parameters: Option<Vec<ParameterValue>>,
+    seed: Option<u64>,
+    step: Option<u64>,
+}
+
+impl GpuExecution {
+    pub(crate) fn new(model: &Model, manner: Manner, device: Arc<Device>) -> Result<Self, NotOnDevice> {
+        check_types(model, manner, &device)?;
+        let space = space_of(model, manner, &device)?;
+        let mut programs = Vec::new();
+        for process in model.processes() {
+            programs.push(Program::new(&device, model, &space, *process, manner)?);
+        }
+        let doubled: HashSet<SubstateId> =
+            programs.iter().flat_map(|program| program.doubled(model)).collect();
+        let groups = groups_of(model, manner, &device, (&space, &programs, &doubled))?;
+        let largest =
+            (0..model.groups().len()).flat_map(|group| model.groups()[group].stored(manner.precision));
+        let halo = Halo::new(&device, &space, largest.map(size_on_device).max().unwrap_or(4).max(4))?;
+        let mut migrations = Vec::new();
+        for group in groups.populations().collect::<Vec<_>>() {
+            if let Some(population) = groups.population(group) {
+                migrations.push(Migration::new(&device, &space, group, population)?);
+            }
+        }
+        let mut stamps = HashMap::new();
+        for (index, program) in programs.iter().enumerate() {
+            for cause in Cause::of(program) {
+                let words = [index as u32, cause as u32, 0, 0];
+                stamps.insert((index, cause), device.uniform("stamp", bytemuck::cast_slice(&words))?);
+            }
+        }
+        let landing = device.landing(groups.journals().size())?;
+        let execution = Self {
+            model: model.clone(),
+            manner,
+            device,
+            space,
+            groups,
+            halo,
+            services: Services::default(),
+            programs,
+            migrations,
+            stamps,
+            looked_at: looked_at(model),
+            landing,
+            pace: Pace::new(),
+            parameters: None,
+            seed: None,
+            step: None,
+        };
+        execution.write_outside()?;
+        Ok(execution)
+    }
+
+    /// Writes what stands beyond flat faces.
+    fn write_outside(&self) -> Result<(), DeviceError> {
+        for (number, group) in self.model.groups().iter().enumerate() {
+            let GroupKind::Cells { .. } = group.kind() else { continue };
+            for (field, stored) in group.stored(self.manner.precision).iter().enumerate() {
+                let substate = SubstateId { group: number, field };
+                let outside = self.outside(substate);
+                // The device's memory is full of zeros already.
+                if outside.iter().any(|byte| *byte != 0) && !self.halo.cells().is_empty() {
+                    let zeros = vec![0; stored.size() * self.space.geometry().cells()];
+                    self.groups.plane(substate).write_cells(
+                        &self.device,
+                        &self.space,
+                        self.halo.cells(),
+                        &outside,
+                        &zeros,
+                    )?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The stored bytes of a substate of cells beyond flat faces.
+    pub(crate) fn outside(&self, substate: SubstateId) -> Vec<u8> {
+        let group = &self.model.groups()[substate.group];
+        let mut bytes = vec![0; self.model.stored(substate, self.manner.precision).size()];
+        if let GroupKind::Cells { outside } = group.kind() {
+            outside(substate.field, self.manner.precision, &mut bytes);
+        }
+        bytes
+    }
+
+    /// Tells the device what it does not know yet.
+    fn prepare(&mut self, context: &StepContext<'_>) -> Result<(), DeviceError> {
+        let fields = context.values.schema().fields.len();
+        let parameters: Vec<ParameterValue> =
+            (0..fields).map(|field| context.values.value_of(field)).collect();
+        let precision = self.manner.precision;
+        if self.parameters.as_ref() != Some(&parameters) {
+            for program in &self.programs {
+                program.set_parameters(&self.device, context.values, precision)?;
+            }
+            self.parameters = Some(parameters);
+        }
+        if self.seed != Some(context.seed) {
+            for program in &self.programs {
+                program.set_space(&self.device, &self.space, context.seed, precision)?;
+            }
+            self.seed = Some(context.seed);
+        }
+        if self.step != Some(context.step) {
+            let words = [context.step as u32, (context.step >> 32) as u32];
+            for journal in 0..=self.model.groups().len() as u64 {
+                self.device.upload(
+                    self.groups.journals(),
+                    journal * JOURNAL,
+                    bytemuck::cast_slice(&words),
+                )?;
+            }
+            self.step = Some(context.step);
+        }
+        Ok(())
+    }
+
+    /// Runs processes of one step.
+    pub(crate) fn run_processes(
+        &mut self,
+        processes: Range<usize>,
+        context: &StepContext<'_>,
+    ) -> Result<(), Fault> {
+        let result = self.processes(processes, context).map_err(|error| Fault::Engine(failure(&error)))?;
+        result.map_or(Ok(()), |(_, fault)| Err(fault))
+    }
+
+    fn processes(
+        &mut self,
+        processes: Range<usize>,
+        context: &StepContext<'_>,
+    ) -> Result<Option<(u64, Fault)>, DeviceError> {
+        self.prepare(context)?;
+        let mut recorder = self.device.recorder();
+        for index in processes {
+            self.record(&mut recorder, index)?;
+        }
+        self.finish(recorder)
+    }
+
+    /// Runs whole steps, several in one submission.
+    pub(crate) fn steps(&mut self, steps: u64, context: &StepContext<'_>) -> Result<(), Interruption> {
+        let mut done = 0;
+        while done < steps {
+            let several = self.pace.steps(steps - done);
+            let started = Instant::now();
+            let context = StepContext { step: context.step + done, ..*context };
+            let outcome = self
+                .several(several, &context)
+                .map_err(|error| Interruption { done, fault: Fault::Engine(failure(&error)) })?;
+            if let Some((step, fault)) = outcome {
+                return Err(Interruption { done: done + step.saturating_sub(context.step), fault });
+            }
+            self.pace.learn(several, started);
+            done += several;
+        }
+        Ok(())
+    }
+
+    fn several(
+        &mut self,
+        steps: u64,
+        context: &StepContext<'_>,
+    ) -> Result<Option<(u64, Fault)>, DeviceError> {
+        self.prepare(context)?;
+        let mut recorder = self.device.recorder();
+        for _ in 0..steps {
+            for index in 0..self.programs.len() {
+                self.record(&mut recorder, index)?;
+                if self.pace.apart() {
+                    let recorded = std::mem::replace(&mut recorder, self.device.recorder());
+                    self.device.submit(recorded)?;
+                    self.device.wait()?;
+                }
+            }
+            let parts = [self.groups.journals().into(), self.groups.faults().into()];
+            let journals = self.model.groups().len() + 1;
+            self.services.run(&self.device, &mut recorder, ADVANCE, (&[], &parts), journals)?;
+        }
+        self.step = self.step.map(|step| step + steps);
+        self.finish(recorder)
+    }
+
+    /// Records a process with all that follows from it.
+    fn record(&mut self, recorder: &mut Recorder, index: usize) -> Result<(), DeviceError> {
+        let program = &mut self.programs[index];
+        let (device, model) = (&self.device, &self.model);
+        for (bindings, workgroups) in program.dispatches(device, model, &self.space, &self.groups)? {
+            recorder.run(&bindings, workgroups);
+            if self.stamps.contains_key(&(index, Cause::Reported)) {
+                // After each part: so that it is the first part with a fault whose records are kept.
+                seal(
+                    device,
+                    recorder,
+                    &mut self.services,
+                    (&self.groups, &self.stamps),
+                    (index, Cause::Reported),
+                )?;
+            }
+        }
+        let program = &self.programs[index];
+        if program.process.kind == ProcessKind::Migration {
+            return self.record_migration(recorder, index);
+        }
+        let doubled: Vec<SubstateId> = program.doubled(model).collect();
+        let written: Vec<SubstateId> = program.written(model).collect();
+        for substate in doubled {
+            self.groups.plane_mut(substate).swap();
+        }
+        for substate in written {
+            if self.looked_at.contains(&substate) {
+                self.halo.fill(device, recorder, &mut self.services, self.groups.plane(substate))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn record_migration(&mut self, recorder: &mut Recorder, index: usize) -> Result<(), DeviceError> {
+        let group = self.programs[index].population(&self.model);
+        let device = &self.device;
+        let Some(migration) = self.migrations.iter().find(|migration| Some(migration.group()) == group)
+        else {
+            return Ok(());
+        };
+        let services = &mut self.services;
+        migration.aim(device, recorder, services, &self.groups)?;
+        seal(device, recorder, services, (&self.groups, &self.stamps), (index, Cause::Aimed))?;
+        migration.arrange(device, recorder, services, (&self.groups, &self.space))?;
+        seal(device, recorder, services, (&self.groups, &self.stamps), (index, Cause::Full))?;
+        migration.settle(device, recorder, services, (&mut self.groups, &self.halo))
+    }
+
+    /// Submits what was recorded, waits for it, and reads the journals. What stopped the run comes with the number of its step.
+    fn finish(&mut self, mut recorder: Recorder) -> Result<Option<(u64, Fault)>, DeviceError> {
+        recorder.land(self.groups.journals(), 0, &self.landing);
+        self.device.submit(recorder)?;
+        let bytes = self.device.landed(&self.landing)?;
+        let words: Vec<u32> = bytemuck::pod_collect_to_vec(&bytes);
+        let journals: Vec<&[u32]> =
+            words.chunks((JOURNAL / 4) as usize).map(|words| &words[..JOURNAL_WORDS]).collect();
+        for group in 0..self.model.groups().len() {
+            if let Some(population) = self.groups.population_mut(group) {
+                let journal = journals[group + 1];
+                population.items = journal[2] as usize;
+                population.left = long(journal[4], journal[5]);
+            }
+        }
+        let journal = journals[0];
+        if journal[6] == 0 {
+            return Ok(None);
+        }
+        let process = (journal[6] - 1) as usize;
+        let fault = self.fault(process, journal[7], journal[10])?;
+        Ok(Some((long(journal[8], journal[9]), fault)))
+    }
+
+    /// Tells the device and all that is bound how many items a population has now.
+    pub(crate) fn items_changed(&mut self, group: usize) -> Result<(), DeviceError> {
+        let items = self.groups.items(group);
+        for migration in self.migrations.iter_mut().filter(|migration| migration.group() == group) {
+            migration.make_room(&self.device, items)?;
+        }
+        let (groups, model) = (&self.groups, &self.model);
+        let of = |program: &Program| program.population(model).map_or(0, |group| groups.items(group));
+        let records = records(&self.space, &self.programs, of);
+        self.groups.make_room(&self.device, records)?;
+        self.services.forget();
+        self.programs.iter_mut().for_each(Program::forget);
+        let journal = (group as u64 + 1) * JOURNAL;
+        self.device.upload(self.groups.journals(), journal + 8, bytemuck::bytes_of(&(items as u32)))
+    }
+}
+
+/// Records a look for faults.
+fn seal(
+    device: &Device,
+    recorder: &mut Recorder,
+    services: &mut Services,
+    (groups, stamps): (&Groups, &HashMap<(usize, Cause), crate::device::Buffer>),
+    stamp: (usize, Cause),
+) -> Result<(), DeviceError> {
+    let Some(stamp) = stamps.get(&stamp) else { return Ok(()) };
+    let parts = [stamp.into(), groups.journal(None), groups.faults().into()];
+    services.run(device, recorder, SEAL, (&[], &parts), 1)
+}
+
+fn long(low: u32, high: u32) -> u64 {
+    u64::from(high) << 32 | u64::from(low)
+}
+
+/// What the host hears of an error of the device.
+pub(crate) fn failure(error: &DeviceError) -> EngineFailure {
+    EngineFailure { engine: "gpu".to_owned(), reason: error.to_string() }
+}
+
+/// Whether the device knows all types of the model.
+fn check_types(model: &Model, manner: Manner, device: &Device) -> Result<(), NotOnDevice> {
+    if device.adapter().has_f64 {
+        return Ok(());
+    }
+    if manner.precision == xca_core::Precision::F64 {
+        return Err(NotOnDevice::NoF64 { what: "this precision".to_owned() });
+    }
+    for group in model.groups() {
+        for (field, stored) in group.schema().fields.iter().zip(group.stored(manner.precision)) {
+            if stored.scalar == StoredScalar::F64 {
+                return Err(NotOnDevice::NoF64 { what: format!("the substate `{}`", field.name) });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The space, cut so that the largest substate of cells can be reached.
+fn space_of(model: &Model, manner: Manner, device: &Device) -> Result<Space, NotOnDevice> {
+    let of_cells = model.groups().iter().filter(|group| matches!(group.kind(), GroupKind::Cells { .. }));
+    let sizes = of_cells.flat_map(|group| group.stored(manner.precision)).map(size_on_device);
+    let largest = sizes.max().unwrap_or(4);
+    let most = device.adapter().largest_binding;
+    Space::new(model.geometry(), most / largest as u64).map_err(|too_large| NotOnDevice::TooLarge {
+        what: "a substate with its neighbours".to_owned(),
+        wanted: too_large.wanted * largest as u128,
+        most,
+    })
+}
+
+/// Memory for all substates.
+fn groups_of(
+    model: &Model,
+    manner: Manner,
+    device: &Device,
+    (space, programs, doubled): (&Space, &[Program], &HashSet<SubstateId>),
+) -> Result<Groups, NotOnDevice> {
+    let mut groups = Vec::new();
+    for (number, group) in model.groups().iter().enumerate() {
+        let types = group.stored(manner.precision);
+        let fields = group.schema().fields;
+        let doubled = |field| doubled.contains(&SubstateId { group: number, field });
+        groups.push(match group.kind() {
+            GroupKind::Cells { .. } => {
+                let planes = types.iter().enumerate().map(|(field, stored)| {
+                    Plane::new(device, fields[field].name, *stored, space.stored(), doubled(field))
+                });
+                Group::Cells(planes.collect::<Result<_, _>>()?)
+            }
+            GroupKind::Population { slots, may_leave } => {
+                let moves = programs.iter().any(|program| {
+                    program.process.kind == ProcessKind::Migration
+                        && program.population(model) == Some(number)
+                });
+                let doubled = (0..types.len()).map(doubled).collect();
+                let rules = (*slots, *may_leave);
+                Group::Population(Population::new(device, space, fields, types, rules, (doubled, moves))?)
+            }
+        });
+    }
+    Ok(Groups::new(device, groups, records(space, programs, |_| 0))?)
+}
+
+/// The bytes of the records of faults: one for each workgroup of a process over cells, or over the items that there are.
+fn records(space: &Space, programs: &[Program], items: impl Fn(&Program) -> usize) -> u64 {
+    let of = |program: &Program| {
+        let layout = program.shader.bindings.iter().find_map(|binding| match &binding.content {
+            Content::Faults(layout) => Some(layout),
+            _ => None,
+        })?;
+        let workgroups = match program.shader.dispatch {
+            Dispatch::Cells(size) => {
+                let along =
+                    |part: &Part, axis: usize| (part.count[axis] as u64).div_ceil(u64::from(size[axis]));
+                let of_parts =
+                    space.parts().iter().map(|part| (0..3).map(|axis| along(part, axis)).product());
+                of_parts.max().unwrap_or(1)
+            }
+            Dispatch::Items(size) => (items(program) as u64).div_ceil(u64::from(size)).max(1),
+        };
+        Some(workgroups * u64::from(layout.size))
+    };
+    programs.iter().filter_map(of).max().unwrap_or(0)
+}
+
+/// The substates of cells that some process reads at neighbours.
+fn looked_at(model: &Model) -> HashSet<SubstateId> {
+    let accesses = model
+        .processes()
+        .iter()
+        .flat_map(|process| process.access.iter().map(move |access| (process, access)));
+    accesses
+        .filter(|(_, access)| access.others)
+        .map(|(process, access)| model.substate(process, access))
+        .filter(|substate| matches!(model.groups()[substate.group].kind(), GroupKind::Cells { .. }))
+        .collect()
+}

@@ -1,0 +1,254 @@
+//! A process on the device: its shader, compiled, and what it is bound to.
+
+use crate::device::{Access, Binding, Bindings, Buffer, Code, Device, DeviceError, Pipeline};
+use crate::error::NotOnDevice;
+use crate::groups::{Group, Groups};
+use crate::service;
+use crate::space::{Part, Space};
+use crate::values;
+use std::collections::HashMap;
+use std::sync::Arc;
+use xca_core::engine::SubstateId;
+use xca_core::kernel::Of;
+use xca_core::{AnyParameters, Boundary, Model, Precision, Process, ProcessKind};
+use xca_wgsl::{BindingAccess, Content, Dispatch, Layout, Options, Shader, State};
+
+/// The invocations of a workgroup.
+const WORKGROUP: u32 = 64;
+
+/// How processes are compiled.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Manner {
+    pub(crate) precision: Precision,
+    /// Whether the driver must not change float arithmetic.
+    pub(crate) strict: bool,
+}
+
+/// A compiled process.
+#[derive(Debug)]
+pub(crate) struct Program {
+    pub(crate) process: Process,
+    pub(crate) shader: Shader,
+    pipeline: Arc<Pipeline>,
+    parameters: Option<(Layout, Buffer)>,
+    /// The description of the space for each part.
+    spaces: Option<(Layout, Vec<Buffer>)>,
+    offsets: Option<Buffer>,
+    /// Bound pipelines by the buffers that they are bound to.
+    bound: HashMap<Vec<(u64, u64)>, Bindings>,
+}
+
+/// The text of a process for a model.
+pub(crate) fn shader_of(model: &Model, process: &Process, manner: Manner) -> Result<Shader, xca_wgsl::Error> {
+    let geometry = model.geometry();
+    let [width, height, _] = geometry.extents();
+    // Workgroups as long along x as the space allows.
+    let x = width.next_power_of_two().min(WORKGROUP as usize) as u32;
+    let y = height.next_power_of_two().min((WORKGROUP / x) as usize) as u32;
+    let options = Options {
+        precision: manner.precision,
+        neighbourhood_size: u32::try_from(geometry.neighbourhood().size()).ok(),
+        workgroup_size: [x, y, WORKGROUP / (x * y)],
+        toroidal: geometry.boundaries().map(|boundary| boundary == Boundary::Toroidal),
+        parity: geometry.neighbourhood().parity(),
+        opaque_zero: manner.strict,
+    };
+    xca_wgsl::shader(&(process.body)(), &options)
+}
+
+impl Program {
+    /// Compiles a process.
+    pub(crate) fn new(
+        device: &Device,
+        model: &Model,
+        space: &Space,
+        process: Process,
+        manner: Manner,
+    ) -> Result<Self, NotOnDevice> {
+        let shader = shader_of(model, &process, manner)?;
+        if shader.needs_f64 && !device.adapter().has_f64 {
+            return Err(NotOnDevice::NoF64 { what: format!("the process `{}`", process.name) });
+        }
+        let most = device.adapter().buffers as usize;
+        let storage =
+            shader.bindings.iter().filter(|binding| binding.access != BindingAccess::Uniform).count();
+        if storage > most {
+            let process = process.name;
+            return Err(NotOnDevice::TooManyBuffers { process, wanted: storage, most });
+        }
+        let workgroup = match shader.dispatch {
+            Dispatch::Cells(size) => size,
+            Dispatch::Items(size) => [size, 1, 1],
+        };
+        let code = Code {
+            name: format!("the process `{}`", process.name),
+            source: shader.source.clone(),
+            workgroup,
+            buffers: shader.bindings.iter().map(|binding| access(binding.access)).collect(),
+            strict: manner.strict,
+        };
+        let pipeline = device.pipeline(&code)?;
+        let (mut parameters, mut spaces, mut offsets) = (None, None, None);
+        for binding in &shader.bindings {
+            match &binding.content {
+                Content::Parameters(layout) => {
+                    let buffer = device.uniform("parameters", &vec![0; layout.size as usize])?;
+                    parameters = Some((layout.clone(), buffer));
+                }
+                Content::Space(layout) => {
+                    let zeros = vec![0; layout.size as usize];
+                    let buffers = space.parts().iter().map(|_| device.uniform("space", &zeros));
+                    spaces = Some((layout.clone(), buffers.collect::<Result<_, _>>()?));
+                }
+                Content::NeighbourOffsets => {
+                    let numbers = space.offsets();
+                    let buffer = device.buffer("neighbours", size_of_val(&*numbers) as u64)?;
+                    device.upload(&buffer, 0, bytemuck::cast_slice(&numbers))?;
+                    offsets = Some(buffer);
+                }
+                _ => {}
+            }
+        }
+        Ok(Self { process, shader, pipeline, parameters, spaces, offsets, bound: HashMap::new() })
+    }
+
+    /// The substates whose results go to a second buffer.
+    pub(crate) fn doubled<'a>(&'a self, model: &'a Model) -> impl Iterator<Item = SubstateId> + 'a {
+        self.shader.bindings.iter().filter_map(|binding| match binding.content {
+            Content::Substate { of, field, state: State::After, .. } => self.substate(model, of, field),
+            _ => None,
+        })
+    }
+
+    /// The substates of cells that it writes.
+    pub(crate) fn written<'a>(&'a self, model: &'a Model) -> impl Iterator<Item = SubstateId> + 'a {
+        self.shader.bindings.iter().filter_map(|binding| match binding.content {
+            Content::Substate { of, field, state: State::After | State::Both, .. } => {
+                self.substate(model, of, field)
+            }
+            _ => None,
+        })
+    }
+
+    fn substate(&self, model: &Model, of: Of, field: usize) -> Option<SubstateId> {
+        let group = model.group_number((self.process.group(of).type_id)())?;
+        Some(SubstateId { group, field })
+    }
+
+    /// The population whose items it runs for or reads.
+    pub(crate) fn population(&self, model: &Model) -> Option<usize> {
+        let group = match self.process.kind {
+            ProcessKind::Cells => self.process.companion?,
+            ProcessKind::Items | ProcessKind::Migration => self.process.subject,
+        };
+        model.group_number((group.type_id)())
+    }
+
+    /// Whether it may report faults.
+    pub(crate) fn may_fault(&self) -> bool {
+        self.shader.bindings.iter().any(|binding| matches!(binding.content, Content::Faults(_)))
+    }
+
+    /// Hands it the parameters.
+    pub(crate) fn set_parameters(
+        &self,
+        device: &Device,
+        parameters: &dyn AnyParameters,
+        precision: Precision,
+    ) -> Result<(), DeviceError> {
+        let Some((layout, buffer)) = &self.parameters else { return Ok(()) };
+        device.upload(buffer, 0, &values::parameters(layout, parameters, precision))
+    }
+
+    /// Hands it the space and the seed.
+    pub(crate) fn set_space(
+        &self,
+        device: &Device,
+        space: &Space,
+        seed: u64,
+        precision: Precision,
+    ) -> Result<(), DeviceError> {
+        let Some((layout, buffers)) = &self.spaces else { return Ok(()) };
+        space.parts().iter().zip(buffers).try_for_each(|(part, buffer)| {
+            // Items are not bound part by part: their cells have the numbers of the whole space.
+            let whole = Part { base: 0, ..part.clone() };
+            let part = if self.process.kind == ProcessKind::Cells { part } else { &whole };
+            device.upload(buffer, 0, &values::space(layout, space, part, seed, precision))
+        })
+    }
+
+    /// The runs of the process: for each part of the space one, or one for all items.
+    pub(crate) fn dispatches(
+        &mut self,
+        device: &Device,
+        model: &Model,
+        space: &Space,
+        groups: &Groups,
+    ) -> Result<Vec<(Bindings, [u32; 3])>, DeviceError> {
+        match self.shader.dispatch {
+            Dispatch::Items(size) => {
+                let items = self.population(model).map_or(0, |group| groups.items(group));
+                let workgroups = service::workgroups(device, items.div_ceil(size as usize));
+                let parts = self.buffers(model, groups, 0, None);
+                Ok(vec![(self.bind(device, parts)?, workgroups)])
+            }
+            Dispatch::Cells(size) => (0..space.parts().len())
+                .map(|number| {
+                    let part = &space.parts()[number];
+                    let workgroups =
+                        std::array::from_fn(|axis| (part.count[axis] as u32).div_ceil(size[axis]));
+                    let parts = self.buffers(model, groups, number, Some(part));
+                    Ok((self.bind(device, parts)?, workgroups))
+                })
+                .collect(),
+        }
+    }
+
+    fn bind(&mut self, device: &Device, parts: Vec<Binding>) -> Result<Bindings, DeviceError> {
+        let key: Vec<_> = parts.iter().map(Binding::key).collect();
+        if let Some(bindings) = self.bound.get(&key) {
+            return Ok(bindings.clone());
+        }
+        let bindings = device.bind(&self.pipeline, &parts)?;
+        self.bound.insert(key, bindings.clone());
+        Ok(bindings)
+    }
+
+    /// Forgets buffers that are no longer there.
+    pub(crate) fn forget(&mut self) {
+        self.bound.clear();
+    }
+
+    /// The buffers in the order of their numbers.
+    fn buffers(&self, model: &Model, groups: &Groups, number: usize, part: Option<&Part>) -> Vec<Binding> {
+        let population = self.population(model);
+        let bindings = self.shader.bindings.iter();
+        bindings
+            .filter_map(|binding| match &binding.content {
+                Content::Space(_) => {
+                    self.spaces.as_ref().and_then(|(_, parts)| parts.get(number)).map(Binding::from)
+                }
+                Content::Parameters(_) => self.parameters.as_ref().map(|(_, buffer)| buffer.into()),
+                Content::NeighbourOffsets => self.offsets.as_ref().map(Binding::from),
+                Content::Moment(_) => Some(groups.journal(population)),
+                Content::Faults(_) => Some(groups.faults().into()),
+                Content::Substate { of, field, state, .. } => {
+                    let id = self.substate(model, *of, *field)?;
+                    groups.substate(id, *state == State::After, part)
+                }
+                content => match groups.group(population?) {
+                    Group::Cells(_) => None,
+                    Group::Population(population) => population.binding(content, part),
+                },
+            })
+            .collect()
+    }
+}
+
+fn access(access: BindingAccess) -> Access {
+    match access {
+        BindingAccess::Uniform => Access::Uniform,
+        BindingAccess::Read => Access::Read,
+        BindingAccess::ReadWrite => Access::Write,
+    }
+}

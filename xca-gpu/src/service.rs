@@ -1,0 +1,143 @@
+//! The engine's own shaders: what happens between processes. They compute with integers alone.
+
+use crate::device::{Access, Binding, Bindings, Code, Device, DeviceError, Recorder};
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+use std::fmt::Write as _;
+
+const COMMON: &str = include_str!("shaders/common.wgsl");
+
+/// A shader of the engine.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Service {
+    name: &'static str,
+    source: &'static str,
+    workgroup: u32,
+    buffers: &'static [Access],
+}
+
+use Access::{Read, Uniform, Write};
+
+macro_rules! services {
+    ($($constant:ident = $file:literal, $workgroup:literal, [$($access:ident),+];)*) => {$(
+        pub(crate) const $constant: Service = Service {
+            name: $file,
+            source: include_str!(concat!("shaders/", $file, ".wgsl")),
+            workgroup: $workgroup,
+            buffers: &[$($access),+],
+        };
+    )*
+
+        #[cfg(test)]
+        const ALL: &[Service] = &[$($constant),*];
+    };
+}
+
+services! {
+    ADVANCE = "advance", 1, [Write, Write];
+    AIM = "aim", 256, [Uniform, Write, Write, Read, Read, Read, Write, Write];
+    DEPART = "depart", 1, [Write, Write];
+    FERRY = "ferry", 256, [Read, Write, Write];
+    GATHER = "gather", 256, [Write, Write, Read, Read, Write];
+    MIRROR = "mirror", 256, [Read, Write];
+    OCCUPANCY = "occupancy", 64, [Uniform, Read, Read, Write];
+    PLACE = "place", 256, [Write, Write, Read, Read, Write, Write];
+    SEAL = "seal", 1, [Uniform, Write, Write];
+    SORT = "sort", 256, [Uniform, Write, Write, Read, Write, Read, Write];
+    SPREAD_BLOCKS = "spread_blocks", 64, [Read, Read, Write];
+    SUM_BLOCKS = "sum_blocks", 64, [Read, Write];
+}
+
+/// What [`SUM_BLOCKS`] and [`SPREAD_BLOCKS`] work on in one workgroup.
+pub(crate) const BLOCK: usize = 1024;
+
+/// The engine's shaders with what they are bound to.
+#[derive(Debug, Default)]
+pub(crate) struct Services {
+    bound: HashMap<Key, Bindings>,
+}
+
+/// A shader, its constants, and its buffers.
+type Key = (&'static str, Vec<usize>, Vec<(u64, u64)>);
+
+impl Services {
+    /// Records a shader with its constants and buffers for so many invocations.
+    pub(crate) fn run(
+        &mut self,
+        device: &Device,
+        recorder: &mut Recorder,
+        service: Service,
+        (constants, parts): (&[(&str, usize)], &[Binding]),
+        invocations: usize,
+    ) -> Result<(), DeviceError> {
+        let values = constants.iter().map(|(_, value)| *value).collect();
+        let key = (service.name, values, parts.iter().map(Binding::key).collect());
+        let bindings = match self.bound.entry(key) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(place) => place.insert(service.bind(device, constants, parts)?),
+        };
+        recorder.run(bindings, workgroups(device, invocations.div_ceil(service.workgroup as usize)));
+        Ok(())
+    }
+
+    /// Forgets buffers that are no longer there.
+    pub(crate) fn forget(&mut self) {
+        self.bound.clear();
+    }
+}
+
+impl Service {
+    fn bind(
+        self,
+        device: &Device,
+        constants: &[(&str, usize)],
+        parts: &[Binding],
+    ) -> Result<Bindings, DeviceError> {
+        let code = Code {
+            name: format!("the engine's shader `{}`", self.name),
+            source: self.text(constants),
+            workgroup: [self.workgroup, 1, 1],
+            buffers: self.buffers.to_vec(),
+            strict: false,
+        };
+        device.bind(&device.pipeline(&code)?, parts)
+    }
+
+    /// The whole text.
+    fn text(self, constants: &[(&str, usize)]) -> String {
+        let mut text = COMMON.to_owned();
+        for (name, value) in constants {
+            // A condition that is known before is a constant too.
+            let value = if *name == "PICK_UP" { (*value != 0).to_string() } else { format!("{value}u") };
+            let _ = writeln!(text, "const {name} = {value};");
+        }
+        text + self.source
+    }
+}
+
+/// So many workgroups in a row, or where a row does not hold them, in several.
+pub(crate) fn workgroups(device: &Device, number: usize) -> [u32; 3] {
+    let most = device.most_workgroups() as usize;
+    let rows = number.div_ceil(most).max(1);
+    [number.div_ceil(rows) as u32, rows as u32, 1]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_are_valid_wgsl() {
+        let constants = [("WORDS", 2), ("PAIRS", 3), ("CROSSINGS", 3), ("FIRST", 1), ("PICK_UP", 1)];
+        for service in ALL {
+            let text = service.text(&constants);
+            let module = naga::front::wgsl::parse_str(&text)
+                .unwrap_or_else(|error| panic!("{}: {}", service.name, error.emit_to_string(&text)));
+            let mut validator = naga::valid::Validator::new(
+                naga::valid::ValidationFlags::all(),
+                naga::valid::Capabilities::empty(),
+            );
+            validator.validate(&module).unwrap_or_else(|error| panic!("{}: {error:?}", service.name));
+        }
+    }
+}

@@ -1,0 +1,41 @@
+// The sum of all values before each, from the sums before each block of 1024. One workgroup for each block.
+
+@group(0) @binding(0) var<storage, read> values: array<u32>;
+@group(0) @binding(1) var<storage, read> before: array<u32>;
+@group(0) @binding(2) var<storage, read_write> results: array<u32>;
+
+var<workgroup> parts: array<u32, 64>;
+
+@compute @workgroup_size(64)
+fn main(
+    @builtin(workgroup_id) id: vec3<u32>,
+    @builtin(num_workgroups) workgroups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let block = id.x + id.y * workgroups.x;
+    let first = block * 1024u + local * 16u;
+    let end = min(first + 16u, arrayLength(&values));
+    var sum = 0u;
+    for (var i = first; i < end; i += 1u) {
+        sum += values[i];
+    }
+    parts[local] = sum;
+    workgroupBarrier();
+    for (var step = 1u; step < 64u; step *= 2u) {
+        var earlier = 0u;
+        if local >= step {
+            earlier = parts[local - step];
+        }
+        workgroupBarrier();
+        parts[local] += earlier;
+        workgroupBarrier();
+    }
+    if block >= arrayLength(&before) {
+        return;
+    }
+    var running = before[block] + parts[local] - sum;
+    for (var i = first; i < end; i += 1u) {
+        results[i] = running;
+        running += values[i];
+    }
+}

@@ -1,0 +1,129 @@
+//! What stopped a run, as the device noted it.
+
+use crate::device::DeviceError;
+use crate::execution::GpuExecution;
+use crate::program::Program;
+use xca_core::engine::Fault;
+use xca_core::kernel::{NOWHERE, OUTSIDE, RowFault};
+use xca_core::{Precision, ProcessKind};
+use xca_wgsl::{Content, Dispatch};
+
+/// How a process stopped a run; the number is what the device notes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Cause {
+    /// It reported a fault.
+    Reported = 0,
+    /// A migration sent an item where it cannot go.
+    Aimed = 1,
+    /// A migration sent more items into a cell than it has slots.
+    Full = 2,
+}
+
+impl Cause {
+    /// How this process may stop a run.
+    pub(crate) fn of(program: &Program) -> Vec<Self> {
+        let mut causes = Vec::new();
+        if program.may_fault() {
+            causes.push(Self::Reported);
+        }
+        if program.process.kind == ProcessKind::Migration {
+            causes.extend([Self::Aimed, Self::Full]);
+        }
+        causes
+    }
+}
+
+impl GpuExecution {
+    /// The fault of a process, from the cause and the cell or item that the device noted.
+    pub(crate) fn fault(&self, process: usize, cause: u32, at: u32) -> Result<Fault, DeviceError> {
+        match cause {
+            0 => self.reported(process, at),
+            1 => self.aimed(process, at),
+            _ => self.full(process, at),
+        }
+    }
+
+    /// The record that the workgroup of the cell or item wrote.
+    fn reported(&self, index: usize, at: u32) -> Result<Fault, DeviceError> {
+        let program = &self.programs[index];
+        let workgroup = match program.shader.dispatch {
+            Dispatch::Items(size) => u64::from(at / size),
+            Dispatch::Cells(size) => {
+                let cell = self.space.geometry().indices(at as usize);
+                let part = self.space.part_of(cell);
+                let [x, y, z] = std::array::from_fn(|axis| {
+                    let first = part.map_or(0, |part| part.first[axis]);
+                    (cell[axis] - first) as u64 / u64::from(size[axis])
+                });
+                let [width, height, _]: [u64; 3] = std::array::from_fn(|axis| {
+                    part.map_or(1, |part| part.count[axis] as u64).div_ceil(u64::from(size[axis]))
+                });
+                (z * height + y) * width + x
+            }
+        };
+        let layout = program.shader.bindings.iter().find_map(|binding| match &binding.content {
+            Content::Faults(layout) => Some(layout),
+            _ => None,
+        });
+        let size = layout.map_or(0, |layout| u64::from(layout.size));
+        let start = 8 + workgroup * size;
+        let bytes = self.device.download(self.groups.faults(), start..start + size)?;
+        let field = |name: &str| {
+            let offset =
+                layout.and_then(|layout| layout.field(name)).map_or(0, |field| field.offset as usize);
+            bytes.get(offset..).unwrap_or_default()
+        };
+        let word = |name: &str| field(name).first_chunk().map_or(0, |bytes| u32::from_ne_bytes(*bytes));
+        let value = match self.manner.precision {
+            Precision::F32 => {
+                field("value").first_chunk().map_or(0.0, |bytes| f32::from_ne_bytes(*bytes).into())
+            }
+            Precision::F64 => field("value").first_chunk().map_or(0.0, |bytes| f64::from_ne_bytes(*bytes)),
+        };
+        let label = Some(word("label")).filter(|_| program.process.kind != ProcessKind::Cells);
+        let fault = RowFault { cell: word("cell"), label, code: word("code"), value };
+        Ok(Fault::reported(&program.process, fault, self.space.geometry()))
+    }
+
+    /// An item that was sent where it cannot go.
+    fn aimed(&self, index: usize, item: u32) -> Result<Fault, DeviceError> {
+        let program = &self.programs[index];
+        let process = program.process.name;
+        let population = program.population(&self.model).and_then(|group| self.groups.population(group));
+        let Some(population) = population else {
+            return Ok(Fault::Nowhere { process, label: 0, cell: [0; 3] });
+        };
+        let number = |buffer| -> Result<u32, DeviceError> {
+            let start = u64::from(item) * 4;
+            let bytes = self.device.download(buffer, start..start + 4)?;
+            Ok(bytemuck::pod_read_unaligned(&bytes))
+        };
+        let label = number(population.labels.now())?;
+        let cell = self.space.cell(number(population.cells.now())? as usize);
+        Ok(match number(&population.destinations)? {
+            NOWHERE => Fault::Nowhere { process, label, cell },
+            OUTSIDE => Fault::Left { process, label, cell },
+            there => {
+                let to = self.space.geometry().indices(there as usize);
+                Fault::TooFar { process, label, from: cell, to }
+            }
+        })
+    }
+
+    /// A cell with too many items.
+    fn full(&self, index: usize, cell: u32) -> Result<Fault, DeviceError> {
+        let population =
+            self.programs[index].population(&self.model).and_then(|group| self.groups.population(group));
+        let number = |buffer| -> Result<u32, DeviceError> {
+            let start = u64::from(cell) * 4;
+            Ok(bytemuck::pod_read_unaligned(&self.device.download(buffer, start..start + 4)?))
+        };
+        let (items, slots) = match population {
+            Some(population) => {
+                ((number(&population.ends)? - number(&population.starts)?) as usize, population.slots)
+            }
+            None => (0, 0),
+        };
+        Ok(Fault::CellFull { cell: self.space.cell(cell as usize), items, slots })
+    }
+}
