@@ -1,6 +1,6 @@
 //! A model under way on a device.
 
-use crate::device::{Device, DeviceError, Landing, Recorder};
+use crate::device::{Binding, Buffer, Device, DeviceError, Landing, Recorder};
 use crate::error::NotOnDevice;
 use crate::groups::{Group, Groups, JOURNAL, JOURNAL_WORDS};
 use crate::halo::Halo;
@@ -9,7 +9,7 @@ use crate::pace::Pace;
 use crate::plane::{Plane, size_on_device};
 use crate::population::Population;
 use crate::program::{Manner, Program};
-use crate::service::{ADVANCE, SEAL, Services};
+use crate::service::{ADVANCE, SEAL, SEAL_AIM, Services};
 use crate::space::{Part, Space};
 use crate::stop::Cause;
 use std::collections::{HashMap, HashSet};
@@ -33,7 +33,7 @@ pub(crate) struct GpuExecution {
     pub(crate) programs: Vec<Program>,
     pub(crate) migrations: Vec<Migration>,
     /// For each process, what its seals say: that it reported, that it aimed wrong, that it overfilled a cell.
-    stamps: HashMap<(usize, Cause), crate::device::Buffer>,
+    stamps: HashMap<(usize, Cause), Buffer>,
     /// The substates of cells that processes read at neighbours.
     looked_at: HashSet<SubstateId>,
     /// Where the journals land after each submission.
@@ -239,7 +239,7 @@ impl GpuExecution {
                     recorder,
                     &mut self.services,
                     (&self.groups, &self.stamps),
-                    (index, Cause::Reported),
+                    ((index, Cause::Reported), None),
                 )?;
             }
         }
@@ -269,9 +269,9 @@ impl GpuExecution {
         };
         let services = &mut self.services;
         migration.aim(device, recorder, services, &self.groups)?;
-        seal(device, recorder, services, (&self.groups, &self.stamps), (index, Cause::Aimed))?;
+        seal(device, recorder, services, (&self.groups, &self.stamps), ((index, Cause::Aimed), group))?;
         migration.arrange(device, recorder, services, (&self.groups, &self.space))?;
-        seal(device, recorder, services, (&self.groups, &self.stamps), (index, Cause::Full))?;
+        seal(device, recorder, services, (&self.groups, &self.stamps), ((index, Cause::Full), group))?;
         migration.settle(device, recorder, services, (&mut self.groups, &self.halo))
     }
 
@@ -295,7 +295,7 @@ impl GpuExecution {
             return Ok(None);
         }
         let process = (journal[6] - 1) as usize;
-        let fault = self.fault(process, journal[7], journal[10])?;
+        let fault = self.fault(process, journal[7], journal[10], [journal[11], journal[12], journal[13]])?;
         Ok(Some((long(journal[8], journal[9]), fault)))
     }
 
@@ -321,12 +321,21 @@ fn seal(
     device: &Device,
     recorder: &mut Recorder,
     services: &mut Services,
-    (groups, stamps): (&Groups, &HashMap<(usize, Cause), crate::device::Buffer>),
-    stamp: (usize, Cause),
+    (groups, stamps): (&Groups, &HashMap<(usize, Cause), Buffer>),
+    (stamp, moved): ((usize, Cause), Option<usize>),
 ) -> Result<(), DeviceError> {
-    let Some(stamp) = stamps.get(&stamp) else { return Ok(()) };
-    let parts = [stamp.into(), groups.journal(None), groups.faults().into()];
-    services.run(device, recorder, SEAL, (&[], &parts), 1)
+    let (index, cause) = stamp;
+    let Some(stamp) = stamps.get(&(index, cause)) else { return Ok(()) };
+    let mut parts = vec![stamp.into(), groups.journal(None), groups.faults().into()];
+    let service = match (cause, moved.and_then(|group| groups.population(group))) {
+        (Cause::Aimed, Some(population)) => {
+            let items = [population.labels.now(), population.cells.now(), &population.destinations];
+            parts.extend(items.map(Binding::from));
+            SEAL_AIM
+        }
+        _ => SEAL,
+    };
+    services.run(device, recorder, service, (&[], &parts), 1)
 }
 
 fn long(low: u32, high: u32) -> u64 {

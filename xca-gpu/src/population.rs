@@ -117,7 +117,11 @@ impl Population {
         };
         let mut counts = vec![0; space.geometry().cells()];
         for number in numbers(&self.cells)? {
-            counts[space.geometry().linear(space.cell(number as usize))] += 1;
+            // After a fault within a migration the numbers may be none of cells.
+            let cell = space.geometry().linear(space.cell(number as usize));
+            if let Some(count) = counts.get_mut(cell) {
+                *count += 1;
+            }
         }
         let fields = self.fields.iter().map(|plane| plane.read_items(device, self.items));
         Ok(Items { counts, labels: numbers(&self.labels)?, fields: fields.collect::<Result<_, _>>()? })

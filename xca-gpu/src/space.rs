@@ -134,11 +134,8 @@ impl Space {
     /// The cell with this stored number, which is no halo cell.
     pub(crate) fn cell(&self, number: usize) -> [usize; 3] {
         let rest = number % self.layer;
-        [
-            rest % self.row - self.reach[0],
-            rest / self.row - self.reach[1],
-            number / self.layer - self.reach[2],
-        ]
+        let padded = [rest % self.row, rest / self.row, number / self.layer];
+        std::array::from_fn(|axis| padded[axis].saturating_sub(self.reach[axis]))
     }
 
     /// The distances of the neighbours in stored cells, for cells in even and in odd rows or columns.

@@ -34,11 +34,18 @@ impl Cause {
 }
 
 impl GpuExecution {
-    /// The fault of a process, from the cause and the cell or item that the device noted.
-    pub(crate) fn fault(&self, process: usize, cause: u32, at: u32) -> Result<Fault, DeviceError> {
+    /// The fault of a process, from the cause and the cell or item that the device noted; of a migration, the item's label, cell and
+    /// destination.
+    pub(crate) fn fault(
+        &self,
+        process: usize,
+        cause: u32,
+        at: u32,
+        item: [u32; 3],
+    ) -> Result<Fault, DeviceError> {
         match cause {
             0 => self.reported(process, at),
-            1 => self.aimed(process, at),
+            1 => Ok(self.aimed(process, item)),
             _ => self.full(process, at),
         }
     }
@@ -86,28 +93,17 @@ impl GpuExecution {
     }
 
     /// An item that was sent where it cannot go.
-    fn aimed(&self, index: usize, item: u32) -> Result<Fault, DeviceError> {
-        let program = &self.programs[index];
-        let process = program.process.name;
-        let population = program.population(&self.model).and_then(|group| self.groups.population(group));
-        let Some(population) = population else {
-            return Ok(Fault::Nowhere { process, label: 0, cell: [0; 3] });
-        };
-        let number = |buffer| -> Result<u32, DeviceError> {
-            let start = u64::from(item) * 4;
-            let bytes = self.device.download(buffer, start..start + 4)?;
-            Ok(bytemuck::pod_read_unaligned(&bytes))
-        };
-        let label = number(population.labels.now())?;
-        let cell = self.space.cell(number(population.cells.now())? as usize);
-        Ok(match number(&population.destinations)? {
+    fn aimed(&self, index: usize, [label, cell, destination]: [u32; 3]) -> Fault {
+        let process = self.programs[index].process.name;
+        let cell = self.space.cell(cell as usize);
+        match destination {
             NOWHERE => Fault::Nowhere { process, label, cell },
             OUTSIDE => Fault::Left { process, label, cell },
             there => {
                 let to = self.space.geometry().indices(there as usize);
                 Fault::TooFar { process, label, from: cell, to }
             }
-        })
+        }
     }
 
     /// A cell with too many items.

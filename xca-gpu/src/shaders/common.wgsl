@@ -27,6 +27,10 @@ struct Journal {
     how: u32,
     stopped_in: vec2<u32>,
     stopped_at: u32,
+    // Of an item that a migration sent where it cannot go: its label, its cell, and where it should go.
+    label: u32,
+    cell: u32,
+    destination: u32,
 }
 
 struct Faults {
