@@ -59,11 +59,13 @@ macro_rules! tried {
             fn random(words: [u32; 4]) -> Self {
                 let random: fn([u32; 4]) -> $bits = $random;
                 let bits = random(words);
-                // Half of them of like size, so that sums round.
-                if words[3] & 1 == 0 {
-                    Self::from_bits(bits)
-                } else {
-                    1.0 + Self::from_bits(bits).abs() % 8.0
+                // Most of them of like size, so that sums round: with the exponent of one.
+                let fraction = (1 << (Self::MANTISSA_DIGITS - 1)) - 1;
+                let near = Self::from_bits(bits & fraction | (1.0 as Self).to_bits());
+                match words[3] % 4 {
+                    0 => Self::from_bits(bits),
+                    1 => -near,
+                    _ => near,
                 }
             }
 
