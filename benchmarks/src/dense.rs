@@ -99,6 +99,38 @@ pub(crate) struct Comparison {
     pub(crate) by_hand: Times,
 }
 
+fn heat_at([x, y, z]: [usize; 3]) -> f64 {
+    ((x * 31 + y * 17 + z * 7) % 101) as f64
+}
+
+fn life_at([x, y, _]: [usize; 3]) -> u8 {
+    u8::from((x * 2_654_435_761 + y * 40_503) % 97 < 30)
+}
+
+/// Heat in a cube of `size` cells along each side.
+pub(crate) fn heat_model(size: usize) -> Result<Model, ModelError> {
+    Model::builder("heat")
+        .extents([size; 3])
+        .neighbourhood(Neighbourhood::von_neumann(1))
+        .substates::<Heat>()
+        .parameters(Conduction { alpha: ALPHA })
+        .process(diffuse)
+        .fill(move |cell| Heat { temperature: heat_at(cell) })
+        .build()
+}
+
+/// Life on a square torus of `size` cells along each side.
+pub(crate) fn life_model(size: usize) -> Result<Model, ModelError> {
+    Model::builder("life")
+        .extents([size, size, 1])
+        .neighbourhood(Neighbourhood::moore_2d(1))
+        .boundaries([Boundary::Toroidal, Boundary::Toroidal, Boundary::Flat])
+        .substates::<Life>()
+        .process(evolve)
+        .fill(move |cell| Life { alive: life_at(cell) })
+        .build()
+}
+
 /// Heat in a cube of `size` cells along each side, in f64.
 pub(crate) fn heat(
     size: usize,
@@ -106,22 +138,14 @@ pub(crate) fn heat(
     rounds: usize,
     steps: usize,
 ) -> Result<Comparison, Box<dyn Error>> {
-    let start = |[x, y, z]: [usize; 3]| ((x * 31 + y * 17 + z * 7) % 101) as f64;
-    let model = Model::builder("heat")
-        .extents([size; 3])
-        .neighbourhood(Neighbourhood::von_neumann(1))
-        .substates::<Heat>()
-        .parameters(Conduction { alpha: ALPHA })
-        .process(diffuse)
-        .fill(move |cell| Heat { temperature: start(cell) })
-        .build()?;
+    let model = heat_model(size)?;
     let mut simulation = Simulation::new(&model, &Cpu::with_threads(threads)?, RunOptions::default())?;
     let line = size + 2;
     let mut old = vec![0.0; line * line * line];
     for z in 0..size {
         for y in 0..size {
             for x in 0..size {
-                old[((z + 1) * line + y + 1) * line + x + 1] = start([x, y, z]);
+                old[((z + 1) * line + y + 1) * line + x + 1] = heat_at([x, y, z]);
             }
         }
     }
@@ -155,21 +179,13 @@ pub(crate) fn life(
     rounds: usize,
     steps: usize,
 ) -> Result<Comparison, Box<dyn Error>> {
-    let start = |[x, y, _]: [usize; 3]| u8::from((x * 2_654_435_761 + y * 40_503) % 97 < 30);
-    let model = Model::builder("life")
-        .extents([size, size, 1])
-        .neighbourhood(Neighbourhood::moore_2d(1))
-        .boundaries([Boundary::Toroidal, Boundary::Toroidal, Boundary::Flat])
-        .substates::<Life>()
-        .process(evolve)
-        .fill(move |cell| Life { alive: start(cell) })
-        .build()?;
+    let model = life_model(size)?;
     let mut simulation = Simulation::new(&model, &Cpu::with_threads(threads)?, RunOptions::default())?;
     let line = size + 2;
     let mut old = vec![0_u8; line * line];
     for y in 0..size {
         for x in 0..size {
-            old[(y + 1) * line + x + 1] = start([x, y, 0]);
+            old[(y + 1) * line + x + 1] = life_at([x, y, 0]);
         }
     }
     let mut new = old.clone();

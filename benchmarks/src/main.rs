@@ -2,6 +2,7 @@
 #![allow(clippy::print_stdout, reason = "printing is what this program does")]
 
 mod dense;
+mod engines;
 mod particles;
 mod timing;
 
@@ -25,6 +26,12 @@ struct Arguments {
 enum Benchmark {
     /// Heat 256^3 and Life 4096^2 against loops written by hand with rayon.
     Dense,
+    /// The GPU engine against the CPU engine for CADEM, mod2 256^3, Life 4096^2 and heat 256^3.
+    Engines {
+        /// How many steps make a round.
+        #[arg(long, default_value_t = 5)]
+        steps: u64,
+    },
     /// CADEM at the start: a step's time, and the cost of a particle for systems of different size.
     Particles {
         /// The cells along each side of the cubes: 50, 100 and 200 hold some 40,000, 316,000 and 2,500,000 particles.
@@ -61,6 +68,26 @@ fn main() -> Result<(), Box<dyn Error>> {
                     comparison.engine.median() / comparison.by_hand.median(),
                     comparison.cells as f64 / comparison.engine.median() / 1e6,
                 );
+            }
+        }
+        Benchmark::Engines { steps } => {
+            for comparison in engines::compare(arguments.threads, arguments.rounds, steps)? {
+                let bits = if comparison.same { "the same bits" } else { "OTHER BITS" };
+                println!("{} ({}), {bits}:", comparison.name, comparison.things);
+                for cost in &comparison.costs {
+                    let (low, high) = cost.step.spread();
+                    println!(
+                        "  {}: set-up {:.2} s, transfer {:.3} s, {:.2} ms a step ({:.2} to {:.2}), {:.1} million a second; state {:.0} MB",
+                        cost.engine,
+                        cost.set_up,
+                        cost.transfer,
+                        cost.step.median() * 1e3,
+                        low * 1e3,
+                        high * 1e3,
+                        comparison.things as f64 / cost.step.median() / 1e6,
+                        cost.memory as f64 / 1e6,
+                    );
+                }
             }
         }
         Benchmark::Particles { cells, after, steps } => {

@@ -19,10 +19,16 @@ pub(crate) struct Cost {
 
 /// The paper's benchmark in a cube of `cells` cells along each side, with the state at the start.
 pub(crate) fn simulation(cells: usize, threads: usize) -> Result<Simulation, Box<dyn Error>> {
+    let (model, _) = model(cells)?;
+    Ok(Simulation::new(&model, &Cpu::with_threads(threads)?, RunOptions::default())?)
+}
+
+/// The same as a model, with the number of its particles.
+pub(crate) fn model(cells: usize) -> Result<(Model, usize), Box<dyn Error>> {
     let configuration = Configuration { cells: [cells; 3], ..Case::Table1.configuration() };
     let particles = configuration.authors_particles()?;
-    let model = cadem::model(&configuration, particles)?;
-    Ok(Simulation::new(&model, &Cpu::with_threads(threads)?, RunOptions::default())?)
+    let count = particles.len();
+    Ok((cadem::model(&configuration, particles)?, count))
 }
 
 /// Steps that are timed together.
