@@ -5,7 +5,7 @@ use crate::layout::Layout;
 use crate::migration;
 use crate::population::Population;
 use crate::rows::{self, Group};
-use crate::stages::{Stage, is_doubled, stages};
+use crate::stages::{Stage, is_doubled, is_read_elsewhere, stages};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Arc;
@@ -34,13 +34,14 @@ impl CpuExecution {
         let layout = Layout::new(model.geometry());
         check_size(model, &layout, precision)?;
         let groups = model.groups().iter().enumerate();
-        let groups = groups.map(|(number, group)| state(model, number, group, &layout, precision)).collect();
+        let groups = pool.install(|| {
+            groups.map(|(number, group)| state(model, number, group, &layout, precision)).collect()
+        });
         let stages = stages(model, 0..model.processes().len());
         Ok(Self { model: model.clone(), precision, pool, layout, groups, stages })
     }
 
     fn run_stage(&mut self, stage: &Stage, context: &StepContext<'_>) -> Result<(), Fault> {
-        let threads = self.pool.current_num_threads();
         let movers = rows::run(
             &self.model,
             &self.layout,
@@ -48,7 +49,6 @@ impl CpuExecution {
             &mut self.groups,
             stage.processes.clone(),
             context,
-            threads,
         )?;
         // A migration is the last of its stage.
         let Some(process) = self.model.processes()[stage.processes.clone()].last() else { return Ok(()) };
@@ -87,7 +87,10 @@ fn state(model: &Model, number: usize, group: &Definition, layout: &Layout, prec
                 .map(|(field, stored)| {
                     let mut bytes = vec![0; stored.size()];
                     outside(field, precision, &mut bytes);
-                    Plane::new(stored, layout, &bytes, is_doubled(model, SubstateId { group: number, field }))
+                    let substate = SubstateId { group: number, field };
+                    let (doubled, elsewhere) =
+                        (is_doubled(model, substate), is_read_elsewhere(model, substate));
+                    Plane::new(stored, layout, &bytes, doubled, elsewhere)
                 })
                 .collect(),
         ),
@@ -157,7 +160,7 @@ impl Execution for CpuExecution {
                     slots: population.slots,
                 });
             }
-            population.set(&self.layout, items);
+            self.pool.install(|| population.set(&self.layout, items));
         }
         Ok(())
     }

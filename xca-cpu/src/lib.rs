@@ -6,6 +6,7 @@
 //! - processes that do not disturb each other run together, row by row, while a row is in the processor's cache;
 //! - a substate that is read at the centre only is written in place, any other is written to a second buffer.
 
+mod blocks;
 mod dense;
 mod execution;
 mod layout;
