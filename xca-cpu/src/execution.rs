@@ -155,6 +155,7 @@ impl Execution for CpuExecution {
         if let Group::Population(population) = &mut self.groups[group] {
             if let Some(cell) = items.counts.iter().position(|count| *count as usize > population.slots) {
                 return Err(Fault::CellFull {
+                    process: None,
                     cell: self.model.geometry().indices(cell),
                     items: items.counts[cell] as usize,
                     slots: population.slots,

@@ -35,7 +35,7 @@ pub(crate) fn migrate(
     }
     let (mut arrivals, left) = arrivals(population, geometry, process, movers)?;
     arrivals.par_sort_unstable();
-    check_slots(population, layout, geometry, movers, &arrivals)?;
+    check_slots(population, layout, geometry, process, movers, &arrivals)?;
     let rows = new_rows(population, layout, movers, &arrivals);
     let mut next = std::mem::take(&mut population.next);
     next.resize(rows[layout.rows()] as usize, &population.types);
@@ -81,6 +81,7 @@ fn check_slots(
     population: &Population,
     layout: &Layout,
     geometry: &Geometry,
+    process: &Process,
     mut movers: &[Mover],
     arrivals: &[Arrival],
 ) -> Result<(), Fault> {
@@ -91,11 +92,8 @@ fn check_slots(
         let padded = layout.padded(cell as usize);
         let items = (population.ends[padded] - population.starts[padded]) as usize - leaving + coming.len();
         if items > population.slots {
-            return Err(Fault::CellFull {
-                cell: geometry.indices(cell as usize),
-                items,
-                slots: population.slots,
-            });
+            let (process, cell) = (Some(process.name), geometry.indices(cell as usize));
+            return Err(Fault::CellFull { process, cell, items, slots: population.slots });
         }
     }
     Ok(())

@@ -15,7 +15,7 @@ use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use xca_core::engine::{Fault, StepContext, SubstateId};
 use xca_core::kernel::{
-    Access, CellFilter, Entry, Frame, Of, Row, RowFault, RowItems, RowKernel, STAY, Scratch,
+    Access, CellFilter, Entry, Frame, Of, Row, RowFault, RowItems, RowKernel, STAY, Scratch, StoppedAt,
 };
 use xca_core::{Boundary, Model, Parity, Precision, Process, ProcessKind};
 
@@ -285,7 +285,7 @@ impl Pass<'_> {
         while let Err(panic) = catch_unwind(AssertUnwindSafe(|| {
             self.rows(model, rows.clone(), processes, &now, &mut found);
         })) {
-            let (number, row) = (now.process.get(), now.row.get());
+            let (number, row, at) = (now.process.get(), now.row.get(), now.stopped.get());
             let Prepared { process, index, .. } = self.prepared[number];
             // What the row had reported before comes first.
             match now.reported.get() {
@@ -293,8 +293,9 @@ impl Pass<'_> {
                     found.keep(index, fault.cell, Fault::reported(process, fault, model.geometry()));
                 }
                 None => {
-                    let cell = (row * self.layout.width()) as u32;
-                    found.keep(index, cell, Fault::panicked(process.name, &*panic));
+                    let first = StoppedAt { cell: (row * self.layout.width()) as u32, label: None };
+                    let at = at.unwrap_or(first);
+                    found.keep(index, at.cell, Fault::panicked(process, at, &*panic, model.geometry()));
                 }
             }
             // The fault of an earlier process comes first, in whatever row.
@@ -477,6 +478,8 @@ struct Now {
     row: Cell<usize>,
     /// The first fault that the process has reported in the row.
     reported: Cell<Option<RowFault>>,
+    /// Where the process was when it ended or panicked.
+    stopped: Cell<Option<StoppedAt>>,
 }
 
 impl Now {
@@ -484,6 +487,7 @@ impl Now {
         self.process.set(process);
         self.row.set(row);
         self.reported.set(None);
+        self.stopped.set(None);
     }
 }
 
@@ -498,6 +502,7 @@ impl Drop for Report<'_> {
         if self.now.reported.get().is_none() {
             self.now.reported.set(self.row.first_fault());
         }
+        self.now.stopped.set(Some(self.row.stopped_at()));
     }
 }
 
