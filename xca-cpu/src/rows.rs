@@ -95,7 +95,7 @@ pub(crate) fn run(
     let prepared: Vec<Prepared<'_>> =
         processes.map(|index| prepare(model, groups, index, precision, &written)).collect();
     let offsets = layout.offsets(geometry);
-    let filter = filter(model, layout, groups, &prepared);
+    let filter = filter(model, layout, precision, groups, &prepared);
     let frames: [Frame<'_>; 2] = std::array::from_fn(|odd| Frame {
         extents: geometry.extents().map(|extent| extent as u32),
         side: geometry.side(),
@@ -139,7 +139,13 @@ pub(crate) fn run(
 }
 
 /// Which cells searches can leave out, where a process of the pass searches.
-fn filter(model: &Model, layout: &Layout, groups: &[Group], prepared: &[Prepared<'_>]) -> Option<CellFilter> {
+fn filter(
+    model: &Model,
+    layout: &Layout,
+    precision: Precision,
+    groups: &[Group],
+    prepared: &[Prepared<'_>],
+) -> Option<CellFilter> {
     let position = |process: &Process| {
         let field = process.subject.schema.position?;
         let reads = process
@@ -158,14 +164,7 @@ fn filter(model: &Model, layout: &Layout, groups: &[Group], prepared: &[Prepared
             searched = true;
         }
     }
-    let geometry = model.geometry();
-    // Round a torus, an item outside its cell may be near to others on the far side, where a sphere around it does not reach. A slack that is
-    // but a rounding is within the filter's own margin.
-    let far_side = geometry.boundaries().contains(&Boundary::Toroidal) && slack > 1e-4 * geometry.side();
-    if !searched || far_side {
-        return None;
-    }
-    CellFilter::new(geometry.neighbourhood(), layout.steps(), slack)
+    if searched { CellFilter::new(model.geometry(), precision, layout.steps(), slack) } else { None }
 }
 
 /// Fills halos that will be read and makes second buffers; gives the substates that the pass writes, and whether to a second buffer.
