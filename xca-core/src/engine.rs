@@ -18,6 +18,12 @@ pub trait Engine: fmt::Debug + Send + Sync {
     /// How many threads it uses.
     fn threads(&self) -> usize;
 
+    /// The bytes that a model takes at least when it is started, so that a program can compare them with the memory there is before it asks
+    /// for them. Items count where room for them is made in advance; an engine that does not know says 0.
+    fn least_memory(&self, _model: &Model, _precision: Precision) -> u128 {
+        0
+    }
+
     /// Makes room for the state of a model. All substates are zero and all populations empty.
     ///
     /// # Errors

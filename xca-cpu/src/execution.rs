@@ -12,7 +12,7 @@ use std::sync::Arc;
 use xca_core::engine::{Execution, Fault, Population as Items, StartError, StepContext, SubstateId, Workers};
 use xca_core::model::{Group as Definition, GroupKind};
 use xca_core::reduction::{ITEMS_IN_BLOCK, Reduced, Reduction, reduce_values};
-use xca_core::{Model, Precision, ProcessKind};
+use xca_core::{Model, Precision, ProcessKind, StoredType};
 
 /// A model under way.
 pub(crate) struct CpuExecution {
@@ -69,12 +69,25 @@ fn check_size(model: &Model, layout: &Layout, precision: Precision) -> Result<()
         wanted,
         limit,
     };
-    let cells = layout.checked_cells().unwrap_or(usize::MAX);
-    let of_cells = model.groups().iter().filter(|group| matches!(group.kind(), GroupKind::Cells { .. }));
-    let size: usize =
-        of_cells.flat_map(|group| group.stored(precision)).map(|stored| 2 * stored.size()).sum();
-    let bytes = cells as u128 * size.max(8) as u128;
+    let cells = layout.checked_cells().unwrap_or(usize::MAX) as u128;
+    let bytes = least_memory(model, layout, precision).max(cells);
     if bytes > 1 << 46 { Err(too_large("the bytes of the state", bytes, 1 << 46)) } else { Ok(()) }
+}
+
+/// The bytes of a model without items: planes, some of them twice, and the ranges of the cells' items.
+pub(crate) fn least_memory(model: &Model, layout: &Layout, precision: Precision) -> u128 {
+    let of_field = |group: usize, (field, stored): (usize, StoredType)| {
+        let planes = if is_doubled(model, SubstateId { group, field }) { 2 } else { 1 };
+        planes * stored.size()
+    };
+    let of_group = |(number, group): (usize, &Definition)| match group.kind() {
+        GroupKind::Cells { .. } => {
+            group.stored(precision).into_iter().enumerate().map(|field| of_field(number, field)).sum()
+        }
+        GroupKind::Population { .. } => 2 * size_of::<u32>(),
+    };
+    let size: usize = model.groups().iter().enumerate().map(of_group).sum();
+    layout.checked_cells().unwrap_or(usize::MAX) as u128 * size as u128
 }
 
 fn state(model: &Model, number: usize, group: &Definition, layout: &Layout, precision: Precision) -> Group {

@@ -17,6 +17,7 @@ mod slack;
 mod stages;
 
 use execution::CpuExecution;
+use layout::Layout;
 use std::fmt;
 use std::sync::Arc;
 use xca_core::engine::{Engine, Execution, StartError};
@@ -84,6 +85,10 @@ impl Engine for Cpu {
 
     fn threads(&self) -> usize {
         self.pool.current_num_threads()
+    }
+
+    fn least_memory(&self, model: &Model, precision: Precision) -> u128 {
+        execution::least_memory(model, &Layout::new(model.geometry()), precision)
     }
 
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {
