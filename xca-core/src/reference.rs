@@ -83,8 +83,8 @@ fn group_state(
     }
     // A quarter of the address space is more than any machine has; below that the system says what it has.
     let bytes = places * size as u128;
-    if bytes > 1 << 46 {
-        return Err(too_large("the bytes of the state", bytes, 1 << 46));
+    if bytes > 1 << 45 {
+        return Err(too_large("the bytes of the state", bytes, 1 << 45));
     }
     let places = cells * slots;
     Ok(GroupState {

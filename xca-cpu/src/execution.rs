@@ -71,7 +71,7 @@ fn check_size(model: &Model, layout: &Layout, precision: Precision) -> Result<()
     };
     let cells = layout.checked_cells().unwrap_or(usize::MAX) as u128;
     let bytes = least_memory(model, layout, precision).max(cells);
-    if bytes > 1 << 46 { Err(too_large("the bytes of the state", bytes, 1 << 46)) } else { Ok(()) }
+    if bytes > 1 << 45 { Err(too_large("the bytes of the state", bytes, 1 << 45)) } else { Ok(()) }
 }
 
 /// The bytes of a model without items: planes, some of them twice, and the ranges of the cells' items.
