@@ -3,7 +3,7 @@
 use std::error::Error;
 use xca_core::HostValue;
 use xca_core::prelude::*;
-use xca_tests::suite::engines::{self, PRECISIONS, assert_same_runs, outcome_text};
+use xca_tests::suite::engines::{self, PRECISIONS, assert_same_runs};
 use xca_tests::suite::lattice::Shape;
 use xca_tests::suite::site::{self, Site};
 
@@ -80,26 +80,11 @@ fn assert_found<V: HostValue>(
         [4, 3, 5],
         [Boundary::Toroidal, Boundary::Flat, Boundary::Reflecting],
     )?;
-    let mut reports = Vec::new();
-    for engine in engines::all()? {
-        let mut simulation = Simulation::new(&model, &*engine, RunOptions::default())?;
-        simulation.step()?;
-        (0..before).try_for_each(|process| simulation.run_process(process))?;
+    engines::assert_found(&model, before, &substate, |state| {
         let cell = [3, 1, 4];
-        let value = simulation.state().get(substate, cell)?;
-        simulation.state().set(substate, cell, change(value))?;
-        let outcome =
-            (before..model.processes().len()).try_for_each(|process| simulation.run_process(process));
-        assert!(
-            matches!(&outcome, Err(RunError::Fault { step: 2, fault: xca_core::Fault::Reported { .. }, .. })),
-            "{substate:?} on {}: {outcome:?}",
-            engines::describe(&*engine)
-        );
-        reports.push(outcome_text(&outcome));
-    }
-    reports.dedup();
-    assert_eq!(reports.len(), 1, "{reports:?}");
-    Ok(())
+        let value = state.get(substate, cell)?;
+        Ok(state.set(substate, cell, change(value))?)
+    })
 }
 
 /// The automaton itself is tested: it notices a wrong value in any substate.

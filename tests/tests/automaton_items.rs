@@ -3,7 +3,7 @@
 use std::error::Error;
 use xca_core::HostValue;
 use xca_core::prelude::*;
-use xca_tests::suite::engines::{self, PRECISIONS, assert_same_runs, outcome_text};
+use xca_tests::suite::engines::{self, PRECISIONS, assert_same_runs};
 use xca_tests::suite::lattice::{Lattice, Shape};
 use xca_tests::suite::traveller::{self, SIDE, Traveller};
 
@@ -69,27 +69,12 @@ fn assert_found<V: HostValue>(
     change: impl Fn(V) -> V,
 ) -> Result<(), Box<dyn Error>> {
     let model = journey(JOURNEYS[2], 5, 3, 12)?;
-    let mut reports = Vec::new();
-    for engine in engines::all()? {
-        let mut simulation = Simulation::new(&model, &*engine, RunOptions::default())?;
-        simulation.step()?;
-        (0..before).try_for_each(|process| simulation.run_process(process))?;
-        let mut values = simulation.state().read(substate)?;
+    engines::assert_found(&model, before, &substate, |state| {
+        let mut values = state.read(substate)?;
         let middle = values.len() / 2;
         values[middle] = change(values[middle]);
-        simulation.state().write(substate, &values)?;
-        let outcome =
-            (before..model.processes().len()).try_for_each(|process| simulation.run_process(process));
-        assert!(
-            matches!(&outcome, Err(RunError::Fault { step: 2, fault: xca_core::Fault::Reported { .. }, .. })),
-            "{substate:?} on {}: {outcome:?}",
-            engines::describe(&*engine)
-        );
-        reports.push(outcome_text(&outcome));
-    }
-    reports.dedup();
-    assert_eq!(reports.len(), 1, "{reports:?}");
-    Ok(())
+        Ok(state.write(substate, &values)?)
+    })
 }
 
 /// The population itself is tested: it notices a wrong value in any substate.

@@ -78,8 +78,8 @@ fn a_full_cell_stops_the_run() -> TestResult {
     let (step, fault, message) = fault_of(simulation.run(100).expect_err("two particles, one slot"));
     // 1.5 mm at 0.11 mm a step.
     assert_eq!(step, 14);
-    assert_eq!(fault, Fault::CellFull { cell: [1, 1, 1], items: 2, slots: 1 });
-    for part in ["step 14", "[1, 1, 1]", "2 items", "1 slot"] {
+    assert_eq!(fault, Fault::CellFull { process: Some("reassign"), cell: [1, 1, 1], items: 2, slots: 1 });
+    for part in ["step 14", "`reassign`", "[1, 1, 1]", "2 items", "1 slot"] {
         assert!(message.contains(part), "{message}");
     }
     // The same at the start.

@@ -53,8 +53,22 @@ fn stare(cell: &mut Cell<Spot>, p: &Plan, space: &Space) {
 
 #[elementary_process]
 fn divide(cell: &mut Cell<Spot>, p: &Plan, space: &Space) {
-    if space.step() == p.step {
+    if space.step() == p.step && cell.value > 231.0 {
         cell.value = (6 / cell.zero) as Real;
+    }
+}
+
+#[elementary_process]
+fn divide_at_neighbours(cell: &mut Cell<Spot>) {
+    if cell.neighbour(2).value + cell.value > 4.0 {
+        cell.value = (6 / cell.zero) as Real;
+    }
+}
+
+#[elementary_process]
+fn divide_for_items(me: &mut Slot<Mote>, p: &Plan, space: &Space) {
+    if space.step() == p.step && me.label() % 4 == 2 {
+        me.position.y = (6 / (me.label() / 8)) as Real;
     }
 }
 
@@ -188,8 +202,15 @@ fn a_neighbour_beyond_the_neighbourhood() -> Result<(), Box<dyn Error>> {
 #[test]
 fn a_full_cell() -> Result<(), Box<dyn Error>> {
     let (step, fault, message) = fault(base(1, [0.0; 3]).process(push_left).process(land))?;
-    assert_eq!((step, fault), (1, Fault::CellFull { cell: [0, 0, 0], items: 3, slots: 2 }));
-    for words in ["step 1: cell [0, 0, 0] would hold 3 items", "2 slots", "give the population more slots"] {
+    assert_eq!(
+        (step, fault),
+        (1, Fault::CellFull { process: Some("land"), cell: [0, 0, 0], items: 3, slots: 2 })
+    );
+    for words in [
+        "step 1: `land` moves too many items into one cell: cell [0, 0, 0] would hold 3 items",
+        "2 slots",
+        "give the population more slots",
+    ] {
         assert!(message.contains(words), "{message}");
     }
     Ok(())
@@ -235,10 +256,31 @@ fn out_of_a_closed_space() -> Result<(), Box<dyn Error>> {
 
 #[test]
 fn a_panic() -> Result<(), Box<dyn Error>> {
-    let (step, fault, message) = fault(base(1, [0.0; 3]).process(divide))?;
-    assert_eq!(step, 2);
-    assert_eq!(fault, Fault::Panicked { process: "divide", message: "attempt to divide by zero".to_owned() });
-    assert_eq!(message, "step 2: the code of `divide` panicked: attempt to divide by zero");
+    let (step, found, message) = fault(base(1, [0.0; 3]).process(divide))?;
+    let zero = || "attempt to divide by zero".to_owned();
+    let wanted = Fault::Panicked { process: "divide", cell: [2, 3, 2], label: None, message: zero() };
+    assert_eq!((step, found), (2, wanted));
+    assert_eq!(message, "step 2: the code of `divide` panicked in cell [2, 3, 2]: attempt to divide by zero");
+    let (step, found, message) = fault(base(1, [0.0; 3]).process(divide_for_items))?;
+    let wanted =
+        Fault::Panicked { process: "divide_for_items", cell: [0; 3], label: Some(6), message: zero() };
+    assert_eq!((step, found), (2, wanted));
+    assert_eq!(
+        message,
+        "step 2: the code of `divide_for_items` panicked for item 6 in cell [0, 0, 0]: attempt to divide by zero"
+    );
+    // Where the neighbourhood changes from column to column.
+    let hexagons = Model::builder("hexagons")
+        .extents([6, 2, 1])
+        .neighbourhood(Neighbourhood::hexagonal(Hexagons::SideUp))
+        .substates::<Spot>()
+        .fill(|[x, _, _]| Spot { value: x as f64, zero: 0 })
+        .process(divide_at_neighbours);
+    let cell = match fault(hexagons)? {
+        (1, Fault::Panicked { process: "divide_at_neighbours", cell, label: None, .. }, _) => cell,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(cell, [3, 0, 0]);
     Ok(())
 }
 

@@ -123,7 +123,7 @@ fn items() -> Result<(), Box<dyn Error>> {
     refused(&StateError::LabelTwice(5), "the label 5 is given to two items", |state| {
         state.set_items(vec![worm(5, [0, 0, 0]), worm(6, [0, 0, 0]), worm(5, [2, 1, 1])])
     })?;
-    let full = StateError::Fault(Fault::CellFull { cell: [1, 1, 0], items: 3, slots: 2 });
+    let full = StateError::Fault(Fault::CellFull { process: None, cell: [1, 1, 0], items: 3, slots: 2 });
     refused(&full, &full.to_string(), |state| {
         let crowd = (0..3).map(|label| worm(label, [1, 1, 0]));
         state.set_items(crowd.chain([worm(9, [0, 0, 0])]).collect())

@@ -291,7 +291,7 @@ fn no_numbers_and_zeros() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Nothing comes of nothing.
+/// Nothing comes of nothing, but a sum of 0 and a product of 1.
 #[test]
 fn an_empty_population() -> Result<(), Box<dyn Error>> {
     let model = Model::builder("empty").extents([3, 3, 3]).population::<Entry>(1).build()?;
@@ -300,6 +300,8 @@ fn an_empty_population() -> Result<(), Box<dyn Error>> {
         let state = simulation.state();
         assert_eq!(state.reduce(Entry::QUAD, &Reduction::Maximum)?, [Reduced::Nothing; 4]);
         assert_eq!(state.sum(Entry::SIGNED)?, 0);
+        assert_eq!(state.product(Entry::SIGNED)?, 1);
+        assert_eq!(state.product(Entry::QUAD)?, Vector4::splat(1.0));
         assert_eq!(state.minimum(Entry::DOUBLE)?, None);
         assert_eq!(state.maximum(Entry::QUAD)?, None);
         assert_eq!(state.count(Entry::BYTE, 0)?, 0);

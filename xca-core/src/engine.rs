@@ -1,7 +1,7 @@
 //! What an engine is to a simulation.
 
 use crate::geometry::Geometry;
-use crate::kernel::{BEYOND_NEIGHBOURHOOD, RowFault};
+use crate::kernel::{BEYOND_NEIGHBOURHOOD, RowFault, StoppedAt};
 use crate::model::Model;
 use crate::parameters::AnyParameters;
 use crate::process::Process;
@@ -18,6 +18,12 @@ pub trait Engine: fmt::Debug + Send + Sync {
 
     /// How many threads it uses.
     fn threads(&self) -> usize;
+
+    /// The bytes that a model takes at least when it is started, so that a program can compare them with the memory there is before it asks
+    /// for them. Items count where room for them is made in advance; an engine that does not know says 0.
+    fn least_memory(&self, _model: &Model, _precision: Precision) -> u128 {
+        0
+    }
 
     /// Makes room for the state of a model. All substates are zero and all populations empty.
     ///
@@ -237,6 +243,8 @@ pub enum Fault {
     },
     /// More items in a cell than it has slots.
     CellFull {
+        /// The migration that moves them there; nothing where they are set from outside.
+        process: Option<&'static str>,
         /// The indices of the cell.
         cell: [usize; 3],
         /// How many items there would be.
@@ -277,6 +285,10 @@ pub enum Fault {
     Panicked {
         /// The process.
         process: &'static str,
+        /// The indices of the cell.
+        cell: [usize; 3],
+        /// The item, in a process over items.
+        label: Option<u32>,
         /// The panic's message.
         message: String,
     },
@@ -302,7 +314,10 @@ impl fmt::Display for Fault {
                     size.saturating_sub(1)
                 )
             }
-            Self::CellFull { cell, items, slots } => {
+            Self::CellFull { process, cell, items, slots } => {
+                if let Some(process) = process {
+                    write!(f, "`{process}` moves too many items into one cell: ")?;
+                }
                 write!(
                     f,
                     "cell {cell:?} would hold {items} items, but a cell has {slots} slot{}; give the population more slots",
@@ -324,7 +339,12 @@ impl fmt::Display for Fault {
                     "`{process}` moves item {label} of cell {cell:?} out of the space, which this model does not allow"
                 )
             }
-            Self::Panicked { process, message } => write!(f, "the code of `{process}` panicked: {message}"),
+            Self::Panicked { process, cell, label: None, message } => {
+                write!(f, "the code of `{process}` panicked in cell {cell:?}: {message}")
+            }
+            Self::Panicked { process, cell, label: Some(label), message } => {
+                write!(f, "the code of `{process}` panicked for item {label} in cell {cell:?}: {message}")
+            }
         }
     }
 }
@@ -360,12 +380,13 @@ impl Fault {
     }
 
     /// The fault that a panic of a process's code is.
-    pub fn panicked(process: &'static str, panic: &(dyn Any + Send)) -> Self {
+    pub fn panicked(process: &Process, at: StoppedAt, panic: &(dyn Any + Send), geometry: &Geometry) -> Self {
         let message = panic
             .downcast_ref::<&str>()
             .map(|text| (*text).to_owned())
             .or_else(|| panic.downcast_ref::<String>().cloned())
             .unwrap_or_else(|| "without a message".to_owned());
-        Self::Panicked { process, message }
+        let cell = geometry.indices(at.cell as usize);
+        Self::Panicked { process: process.name, cell, label: at.label, message }
     }
 }

@@ -129,6 +129,41 @@ pub struct RowFault {
     pub value: f64,
 }
 
+/// Where a kernel has panicked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct StoppedAt {
+    /// The linear index of the cell.
+    pub cell: u32,
+    /// The label of the item, in a process over items.
+    pub label: Option<u32>,
+}
+
+/// Where a kernel is in its row. It tells the row when it is dropped, which only a panic does; a kernel that arrives leaves it by
+/// [`Self::leave`]. So it lives in registers, and costs nothing where nothing can panic.
+#[derive(Debug)]
+pub struct Place<'r, 'a> {
+    /// The number of the cell in the row.
+    pub x: usize,
+    /// The number of the item, in a process over items.
+    pub item: Option<usize>,
+    row: &'r Row<'a>,
+}
+
+impl Place<'_, '_> {
+    /// At the end of the row.
+    #[inline(always)]
+    pub fn leave(self) {
+        std::mem::forget(self);
+    }
+}
+
+impl Drop for Place<'_, '_> {
+    #[inline(always)]
+    fn drop(&mut self) {
+        self.row.stop(self.x, self.item);
+    }
+}
+
 /// A row of cells as a kernel sees it.
 pub struct Row<'a> {
     frame: &'a Frame<'a>,
@@ -139,6 +174,7 @@ pub struct Row<'a> {
     origin: [u32; 3],
     length: usize,
     fault: Cell<Option<RowFault>>,
+    stopped: Cell<Option<StoppedAt>>,
 }
 
 impl std::fmt::Debug for Row<'_> {
@@ -181,12 +217,30 @@ impl<'a> Row<'a> {
             origin,
             length,
             fault: Cell::new(None),
+            stopped: Cell::new(None),
         }
     }
 
     /// The first fault in the row, in the order of cells and labels.
     pub fn first_fault(&self) -> Option<RowFault> {
         self.fault.get()
+    }
+
+    /// Where the kernel was when it panicked: in the first cell if that was before it began.
+    pub fn stopped_at(&self) -> StoppedAt {
+        self.stopped.get().unwrap_or_else(|| StoppedAt { cell: self.cell(0), label: None })
+    }
+
+    /// Where a kernel is that is about to begin.
+    #[inline(always)]
+    pub fn place(&self) -> Place<'_, 'a> {
+        Place { x: 0, item: None, row: self }
+    }
+
+    #[cold]
+    fn stop(&self, x: usize, item: Option<usize>) {
+        let label = self.items.zip(item).and_then(|(items, item)| items.labels.get(item).copied());
+        self.stopped.set(Some(StoppedAt { cell: self.cell(x), label }));
     }
 
     /// The number of cells.
@@ -216,10 +270,7 @@ impl<'a> Row<'a> {
     /// The neighbourhood: of exactly `K` cells, or of any number where `K` is 0.
     #[inline(always)]
     pub fn offsets<const K: usize>(&self) -> Offsets<'a, K> {
-        let mut fixed = [0; K];
-        for (fixed, offset) in fixed.iter_mut().zip(self.frame.offsets) {
-            *fixed = *offset;
-        }
+        let fixed = self.frame.offsets.first_chunk().copied().unwrap_or([0; K]);
         Offsets { fixed, any: self.frame.offsets }
     }
 

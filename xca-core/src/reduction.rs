@@ -120,8 +120,8 @@ pub trait Reducible: HostValue {
     /// The type of a sum: `i64` for integers, `f64` for floating numbers, or a vector of these.
     type Sum;
 
-    /// The sum from the results of the lanes.
-    fn sum(results: &[Reduced]) -> Self::Sum;
+    /// The sum or product from the results of the lanes; where there was no value, in each lane what it is of nothing: 0 or 1.
+    fn total(results: &[Reduced], of_nothing: u8) -> Self::Sum;
 
     /// A value of the same type from the results of the lanes; nothing where there was no value.
     fn same(results: &[Reduced]) -> Option<Self>;
@@ -132,9 +132,9 @@ macro_rules! reducible {
         impl Reducible for $type {
             type Sum = $sum;
 
-            fn sum(results: &[Reduced]) -> $sum {
+            fn total(results: &[Reduced], of_nothing: u8) -> $sum {
                 match results[0] {
-                    Reduced::Nothing => $sum::default(),
+                    Reduced::Nothing => $sum::from(of_nothing),
                     Reduced::Integer(value) => value as $sum,
                     Reduced::Float(value) => value as $sum,
                 }
@@ -161,8 +161,8 @@ macro_rules! reducible_vector {
         {
             type Sum = crate::vector::$vector<T::Sum>;
 
-            fn sum(results: &[Reduced]) -> Self::Sum {
-                crate::vector::$vector::new($(T::sum(&results[$index..])),+)
+            fn total(results: &[Reduced], of_nothing: u8) -> Self::Sum {
+                crate::vector::$vector::new($(T::total(&results[$index..], of_nothing)),+)
             }
 
             fn same(results: &[Reduced]) -> Option<Self> {

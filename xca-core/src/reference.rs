@@ -27,6 +27,21 @@ impl Engine for Reference {
         1
     }
 
+    fn least_memory(&self, model: &Model, precision: Precision) -> u128 {
+        let cells = model.geometry().cells() as u128;
+        let of_group = |group: &crate::model::Group| {
+            let size: usize = group.stored(precision).iter().map(|stored| stored.size()).sum();
+            let labels_and_counts = size_of::<u32>() as u128;
+            match group.kind() {
+                GroupKind::Cells { .. } => cells * size as u128,
+                GroupKind::Population { slots, .. } => {
+                    cells * (*slots as u128 * (size as u128 + labels_and_counts) + labels_and_counts)
+                }
+            }
+        };
+        model.groups().iter().map(of_group).sum()
+    }
+
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {
         let cells = model.geometry().cells();
         let groups = model
@@ -68,8 +83,8 @@ fn group_state(
     }
     // A quarter of the address space is more than any machine has; below that the system says what it has.
     let bytes = places * size as u128;
-    if bytes > 1 << 46 {
-        return Err(too_large("the bytes of the state", bytes, 1 << 46));
+    if bytes > 1 << 45 {
+        return Err(too_large("the bytes of the state", bytes, 1 << 45));
     }
     let places = cells * slots;
     Ok(GroupState {

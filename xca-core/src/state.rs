@@ -340,10 +340,10 @@ impl State<'_> {
     /// # Errors
     /// Where the model does not have the substate.
     pub fn sum<S: Substates, V: Reducible>(&self, substate: Substate<S, V>) -> Result<V::Sum, StateError> {
-        Ok(V::sum(&self.reduce(substate, &Reduction::Sum)?))
+        Ok(V::total(&self.reduce(substate, &Reduction::Sum)?, 0))
     }
 
-    /// The product of a substate: in `f64`, or in `i64` of integers.
+    /// The product of a substate: in `f64`, or in `i64` of integers; 1 of an empty population.
     ///
     /// # Errors
     /// Where the model does not have the substate.
@@ -351,7 +351,7 @@ impl State<'_> {
         &self,
         substate: Substate<S, V>,
     ) -> Result<V::Sum, StateError> {
-        Ok(V::sum(&self.reduce(substate, &Reduction::Product)?))
+        Ok(V::total(&self.reduce(substate, &Reduction::Product)?, 1))
     }
 
     /// The smallest value of a substate, lane by lane; nothing of an empty population.

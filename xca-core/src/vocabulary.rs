@@ -38,11 +38,15 @@ impl<S: 'static> Cell<S> {
     }
 
     /// A random number in [0, 1): a function of seed, step, cell and `draw`, the same on every engine.
+    ///
+    /// The process is not part of it: two processes that ask for the same draw in one step get the same number, and so does one that asks
+    /// twice. Where numbers have to be independent, give each its own `draw` in the whole model.
     pub fn random(&self, _draw: u32) -> Real {
         match self.never {}
     }
 
-    /// 32 random bits: a function of seed, step, cell and `draw`, the same on every engine.
+    /// 32 random bits: a function of seed, step, cell and `draw`, the same on every engine. Equal draws give equal bits, as with
+    /// [`Self::random`], whose number is made of the same ones.
     pub fn random_bits(&self, _draw: u32) -> u32 {
         match self.never {}
     }
@@ -86,11 +90,15 @@ impl<S: 'static> Slot<S> {
     }
 
     /// A random number in [0, 1): a function of seed, step, label and `draw`, the same on every engine.
+    ///
+    /// The process is not part of it: two processes that ask for the same draw in one step get the same number, and so does one that asks
+    /// twice. Where numbers have to be independent, give each its own `draw` in the whole model.
     pub fn random(&self, _draw: u32) -> Real {
         match self.never {}
     }
 
-    /// 32 random bits: a function of seed, step, label and `draw`, the same on every engine.
+    /// 32 random bits: a function of seed, step, label and `draw`, the same on every engine. Equal draws give equal bits, as with
+    /// [`Self::random`], whose number is made of the same ones.
     pub fn random_bits(&self, _draw: u32) -> u32 {
         match self.never {}
     }

@@ -10,37 +10,59 @@ pub(crate) struct Plane {
     pub(crate) current: Buffer,
     /// Where a process writes that also reads neighbours; made when there is such a process.
     pub(crate) next: Option<Buffer>,
-    /// Whether the halo of `current` is that of its cells.
-    fresh: bool,
+    /// Whether a process of the model reads the substate elsewhere, so that it reads the halo.
+    pub(crate) read_elsewhere: bool,
+    halo: Halo,
+}
+
+/// How much of a plane's halo is that of its cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Halo {
+    /// All of it.
+    Whole,
+    /// What continues the rows of the space along x.
+    Rows,
+    /// Nothing of it.
+    Stale,
 }
 
 impl Plane {
-    pub(crate) fn new(stored: StoredType, layout: &Layout, outside: &[u8], doubled: bool) -> Self {
+    pub(crate) fn new(
+        stored: StoredType,
+        layout: &Layout,
+        outside: &[u8],
+        doubled: bool,
+        read_elsewhere: bool,
+    ) -> Self {
         let mut current = Buffer::zeroed(layout.cells() * stored.size());
-        fill(&mut current, stored.size(), layout, Some(outside));
+        layout.fill_halo(current.bytes_mut(), stored.size(), Some(outside), false);
         let next = doubled.then(|| current.clone());
-        Self { stored, current, next, fresh: true }
+        Self { stored, current, next, read_elsewhere, halo: Halo::Whole }
     }
 
-    /// After cells were written.
+    /// After cells were written, or while they are.
     pub(crate) fn touch(&mut self) {
-        self.fresh = false;
+        self.halo = Halo::Stale;
     }
 
-    /// After all cells were written to the second buffer.
-    pub(crate) fn swap(&mut self) {
-        if let Some(next) = &mut self.next {
+    /// After a pass in which all rows were written, and continued into the halo if anyone reads it there.
+    pub(crate) fn written(&mut self, second: bool) {
+        if let Some(next) = &mut self.next
+            && second
+        {
             std::mem::swap(&mut self.current, next);
         }
-        self.fresh = false;
+        self.halo = if self.read_elsewhere { Halo::Rows } else { Halo::Stale };
     }
 
     /// Makes the halo that of the cells. What lies beyond flat faces never changes.
     pub(crate) fn refresh(&mut self, layout: &Layout) {
-        if !self.fresh && layout.halo_follows() {
-            fill(&mut self.current, self.stored.size(), layout, None);
+        let [along_rows, elsewhere] = layout.halo_follows();
+        let continued = self.halo == Halo::Rows;
+        if self.halo != Halo::Whole && (elsewhere || (along_rows && !continued)) {
+            layout.fill_halo(self.current.bytes_mut(), self.stored.size(), None, continued);
         }
-        self.fresh = true;
+        self.halo = Halo::Whole;
     }
 
     pub(crate) fn read(&self, layout: &Layout) -> Vec<u8> {
@@ -83,34 +105,4 @@ impl Plane {
     pub(crate) fn memory(&self) -> usize {
         self.current.capacity() + self.next.as_ref().map_or(0, Buffer::capacity)
     }
-}
-
-/// Fills the halo; beyond flat faces with the outside value, where one is given.
-fn fill(buffer: &mut Buffer, size: usize, layout: &Layout, outside: Option<&[u8]>) {
-    let bytes = buffer.bytes_mut();
-    layout.fill_halo(|target, source, count| match (source, outside) {
-        (Some(source), _) if count == 1 => copy_one(bytes, size, source, target),
-        (Some(source), _) => bytes.copy_within(source * size..(source + count) * size, target * size),
-        (None, Some(outside)) => {
-            for value in bytes[target * size..(target + count) * size].chunks_exact_mut(size) {
-                value.copy_from_slice(outside);
-            }
-        }
-        (None, None) => {}
-    });
-}
-
-/// Copies one value. Along x the halo is made of single values, for which a call to the system's copy would cost more than the values.
-fn copy_one(bytes: &mut [u8], size: usize, source: usize, target: usize) {
-    match size {
-        1 => bytes[target] = bytes[source],
-        4 => copy_chunk::<4>(bytes, source, target),
-        8 => copy_chunk::<8>(bytes, source, target),
-        _ => bytes.copy_within(source * size..(source + 1) * size, target * size),
-    }
-}
-
-fn copy_chunk<const SIZE: usize>(bytes: &mut [u8], source: usize, target: usize) {
-    let (chunks, _) = bytes.as_chunks_mut::<SIZE>();
-    chunks[target] = chunks[source];
 }

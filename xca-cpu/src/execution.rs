@@ -5,7 +5,7 @@ use crate::layout::Layout;
 use crate::migration;
 use crate::population::Population;
 use crate::rows::{self, Group};
-use crate::stages::{Stage, is_doubled, stages};
+use crate::stages::{Stage, is_doubled, is_read_elsewhere, stages};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use xca_core::engine::{
 };
 use xca_core::model::{Group as Definition, GroupKind};
 use xca_core::reduction::{ITEMS_IN_BLOCK, Reduced, Reduction, reduce_values};
-use xca_core::{Model, Precision, ProcessKind};
+use xca_core::{Model, Precision, ProcessKind, StoredType};
 
 /// A model under way.
 pub(crate) struct CpuExecution {
@@ -37,13 +37,14 @@ impl CpuExecution {
         let layout = Layout::new(model.geometry());
         check_size(model, &layout, precision)?;
         let groups = model.groups().iter().enumerate();
-        let groups = groups.map(|(number, group)| state(model, number, group, &layout, precision)).collect();
+        let groups = pool.install(|| {
+            groups.map(|(number, group)| state(model, number, group, &layout, precision)).collect()
+        });
         let stages = stages(model, 0..model.processes().len());
         Ok(Self { model: model.clone(), precision, pool, layout, groups, stages })
     }
 
     fn run_stage(&mut self, stage: &Stage, context: &StepContext<'_>) -> Result<(), Fault> {
-        let threads = self.pool.current_num_threads();
         let movers = rows::run(
             &self.model,
             &self.layout,
@@ -51,7 +52,6 @@ impl CpuExecution {
             &mut self.groups,
             stage.processes.clone(),
             context,
-            threads,
         )?;
         // A migration is the last of its stage.
         let Some(process) = self.model.processes()[stage.processes.clone()].last() else { return Ok(()) };
@@ -72,12 +72,25 @@ fn check_size(model: &Model, layout: &Layout, precision: Precision) -> Result<()
         wanted,
         limit,
     };
-    let cells = layout.checked_cells().unwrap_or(usize::MAX);
-    let of_cells = model.groups().iter().filter(|group| matches!(group.kind(), GroupKind::Cells { .. }));
-    let size: usize =
-        of_cells.flat_map(|group| group.stored(precision)).map(|stored| 2 * stored.size()).sum();
-    let bytes = cells as u128 * size.max(8) as u128;
-    if bytes > 1 << 46 { Err(too_large("the bytes of the state", bytes, 1 << 46)) } else { Ok(()) }
+    let cells = layout.checked_cells().unwrap_or(usize::MAX) as u128;
+    let bytes = least_memory(model, layout, precision).max(cells);
+    if bytes > 1 << 45 { Err(too_large("the bytes of the state", bytes, 1 << 45)) } else { Ok(()) }
+}
+
+/// The bytes of a model without items: planes, some of them twice, and the ranges of the cells' items.
+pub(crate) fn least_memory(model: &Model, layout: &Layout, precision: Precision) -> u128 {
+    let of_field = |group: usize, (field, stored): (usize, StoredType)| {
+        let planes = if is_doubled(model, SubstateId { group, field }) { 2 } else { 1 };
+        planes * stored.size()
+    };
+    let of_group = |(number, group): (usize, &Definition)| match group.kind() {
+        GroupKind::Cells { .. } => {
+            group.stored(precision).into_iter().enumerate().map(|field| of_field(number, field)).sum()
+        }
+        GroupKind::Population { .. } => 2 * size_of::<u32>(),
+    };
+    let size: usize = model.groups().iter().enumerate().map(of_group).sum();
+    layout.checked_cells().unwrap_or(usize::MAX) as u128 * size as u128
 }
 
 fn state(model: &Model, number: usize, group: &Definition, layout: &Layout, precision: Precision) -> Group {
@@ -90,7 +103,10 @@ fn state(model: &Model, number: usize, group: &Definition, layout: &Layout, prec
                 .map(|(field, stored)| {
                     let mut bytes = vec![0; stored.size()];
                     outside(field, precision, &mut bytes);
-                    Plane::new(stored, layout, &bytes, is_doubled(model, SubstateId { group: number, field }))
+                    let substate = SubstateId { group: number, field };
+                    let (doubled, elsewhere) =
+                        (is_doubled(model, substate), is_read_elsewhere(model, substate));
+                    Plane::new(stored, layout, &bytes, doubled, elsewhere)
                 })
                 .collect(),
         ),
@@ -162,12 +178,13 @@ impl Execution for CpuExecution {
         if let Group::Population(population) = &mut self.groups[group] {
             if let Some(cell) = items.counts.iter().position(|count| *count as usize > population.slots) {
                 return Err(Fault::CellFull {
+                    process: None,
                     cell: self.model.geometry().indices(cell),
                     items: items.counts[cell] as usize,
                     slots: population.slots,
                 });
             }
-            population.set(&self.layout, items);
+            self.pool.install(|| population.set(&self.layout, items));
         }
         Ok(())
     }

@@ -1,6 +1,10 @@
 //! Where cells lie in memory: rows along x, with a halo around the space.
 
+use rayon::prelude::*;
 use xca_core::{Boundary, Geometry, Parity};
+
+/// The bytes that are worth a thread's start when a halo is filled.
+const BYTES_WORTH_A_START: usize = 1 << 15;
 
 /// The padded space.
 #[derive(Debug, Clone)]
@@ -82,30 +86,60 @@ impl Layout {
         })
     }
 
-    /// Whether what lies in the halo follows what lies in the space.
-    pub(crate) fn halo_follows(&self) -> bool {
-        (0..3).any(|axis| self.reach[axis] > 0 && self.boundaries[axis] != Boundary::Flat)
+    /// Whether what lies in the halo follows what lies in the space: along x, where it continues each row, and along y or z.
+    pub(crate) fn halo_follows(&self) -> [bool; 2] {
+        let [x, y, z] = [0, 1, 2].map(|axis| self.reach[axis] > 0 && self.boundaries[axis] != Boundary::Flat);
+        [x, y || z]
     }
 
-    /// Fills the halo: each halo cell is told by the number of its source, or by nothing where it lies beyond a flat face.
-    /// Runs of cells along x come in one call: `fill(target, source, count)`.
-    pub(crate) fn fill_halo(&self, mut fill: impl FnMut(usize, Option<usize>, usize)) {
-        let [line, layer] = [self.padded[0], self.padded[0] * self.padded[1]];
+    /// The cells that continue each row into the halo, where they follow the space: for each its place and that of its source, counted
+    /// from the row's first cell.
+    pub(crate) fn continuation(&self) -> Vec<(isize, isize)> {
+        let counted = |index: usize| index as isize - self.reach[0] as isize;
+        self.along(0).filter_map(|(target, source)| Some((counted(target), counted(source?)))).collect()
+    }
+
+    /// Fills the halo of a plane with so many values a cell: by the boundary rule, and beyond flat faces with the outside value, where
+    /// one is given. Along x it does so unless the rows are `continued` already.
+    pub(crate) fn fill_halo<T: Copy + Send + Sync>(
+        &self,
+        plane: &mut [T],
+        values: usize,
+        outside: Option<&[T]>,
+        continued: bool,
+    ) {
+        let line = self.padded[0] * values;
+        let layer = line * self.padded[1];
+        let worth = |work: usize| (BYTES_WORTH_A_START / (work * size_of::<T>()).max(1)).max(1);
+        let (below, rest) = plane.split_at_mut(self.reach[2] * layer);
+        let (space, above) = rest.split_at_mut(self.extents[2] * layer);
         // Along x, for the rows of the space; then whole rows along y; then whole layers along z.
-        for row in 0..self.rows() {
-            let first = self.first(row);
-            for (target, source) in self.along(0) {
-                let start = first - self.reach[0];
-                fill(start + target, source.map(|source| start + source), 1);
+        let across = if continued { 0 } else { self.extents[1] * 2 * self.reach[0] * values };
+        let work = across + 2 * self.reach[1] * line;
+        space.par_chunks_mut(layer).with_min_len(worth(work)).for_each(|layer| {
+            if !continued {
+                for row in layer.chunks_exact_mut(line).skip(self.reach[1]).take(self.extents[1]) {
+                    self.fill_along(0, row, values, outside);
+                }
             }
-        }
-        for z in self.reach[2]..self.reach[2] + self.extents[2] {
-            for (target, source) in self.along(1) {
-                fill(z * layer + target * line, source.map(|source| z * layer + source * line), line);
+            self.fill_along(1, layer, line, outside);
+        });
+        let space = &*space;
+        let layers = below.par_chunks_mut(layer).chain(above.par_chunks_mut(layer));
+        let places: Vec<_> = self.along(2).collect();
+        layers.zip(places).with_min_len(worth(layer)).for_each(|(target, (_, source))| match source {
+            Some(source) => target.copy_from_slice(&space[(source - self.reach[2]) * layer..][..layer]),
+            None => fill_outside(target, outside),
+        });
+    }
+
+    /// Fills the halo along an axis, within parts that are one padded line of pieces of this length.
+    fn fill_along<T: Copy>(&self, axis: usize, line: &mut [T], piece: usize, outside: Option<&[T]>) {
+        for (target, source) in self.along(axis) {
+            match source {
+                Some(source) => line.copy_within(source * piece..(source + 1) * piece, target * piece),
+                None => fill_outside(&mut line[target * piece..(target + 1) * piece], outside),
             }
-        }
-        for (target, source) in self.along(2) {
-            fill(target * layer, source.map(|source| source * layer), layer);
         }
     }
 
@@ -121,5 +155,13 @@ impl Layout {
             };
             (target, source)
         })
+    }
+}
+
+fn fill_outside<T: Copy>(cells: &mut [T], outside: Option<&[T]>) {
+    if let Some(outside) = outside {
+        for value in cells.chunks_exact_mut(outside.len()) {
+            value.copy_from_slice(outside);
+        }
     }
 }

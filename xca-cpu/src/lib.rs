@@ -6,6 +6,7 @@
 //! - processes that do not disturb each other run together, row by row, while a row is in the processor's cache;
 //! - a substate that is read at the centre only is written in place, any other is written to a second buffer.
 
+mod blocks;
 mod dense;
 mod execution;
 mod layout;
@@ -16,6 +17,7 @@ mod slack;
 mod stages;
 
 use execution::CpuExecution;
+use layout::Layout;
 use std::fmt;
 use std::sync::Arc;
 use xca_core::engine::{Engine, Execution, StartError};
@@ -83,6 +85,10 @@ impl Engine for Cpu {
 
     fn threads(&self) -> usize {
         self.pool.current_num_threads()
+    }
+
+    fn least_memory(&self, model: &Model, precision: Precision) -> u128 {
+        execution::least_memory(model, &Layout::new(model.geometry()), precision)
     }
 
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {

@@ -3,14 +3,16 @@
 //! Few items move in a step. The rest keeps its order, so a row that none enters or leaves is copied as it is, and the items of any
 //! other row are merged by label. Rows are independent once it is known how many items each of them will have.
 
+use crate::blocks::blocks;
 use crate::layout::Layout;
-use crate::population::Population;
+use crate::population::{Arrays, Population};
 use crate::rows::Mover;
 use rayon::prelude::*;
 use std::ops::Range;
 use xca_core::engine::Fault;
 use xca_core::kernel::{NOWHERE, OUTSIDE};
-use xca_core::{Geometry, Process};
+use xca_core::storage::Buffer;
+use xca_core::{Geometry, Process, StoredType};
 
 /// An item on its way into a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -32,29 +34,12 @@ pub(crate) fn migrate(
         return Ok(());
     }
     let (mut arrivals, left) = arrivals(population, geometry, process, movers)?;
-    arrivals.sort_unstable();
-    let width = layout.width() as u32;
-    let mut rows = vec![0_u32; layout.rows() + 1];
-    for row in 0..layout.rows() {
-        let (first, end) = population.row(row);
-        rows[row + 1] = (end - first) as u32;
-    }
-    for mover in movers {
-        rows[(mover.from / width) as usize + 1] -= 1;
-    }
-    for arrival in &arrivals {
-        rows[(arrival.cell / width) as usize + 1] += 1;
-    }
-    for row in 0..layout.rows() {
-        rows[row + 1] += rows[row];
-    }
-    let items = rows[layout.rows()] as usize;
+    arrivals.par_sort_unstable();
+    check_slots(population, layout, geometry, process, movers, &arrivals)?;
+    let rows = new_rows(population, layout, movers, &arrivals);
     let mut next = std::mem::take(&mut population.next);
-    next.resize(items, &population.types);
-    let plan = plan(population, layout, &rows, movers, &arrivals);
-    let sources = order(population, layout, &plan, movers, &arrivals)?;
-    copy(population, &mut next, &plan, &sources);
-    update_ranges(population, layout, &plan, &sources);
+    next.resize(rows[layout.rows()] as usize, &population.types);
+    rearrange(population, &mut next, layout, &rows, movers, &arrivals);
     population.next = std::mem::replace(&mut population.items, next);
     population.rows = rows;
     population.left += left;
@@ -91,186 +76,231 @@ fn arrivals(
     Ok((arrivals, left))
 }
 
-/// What happens to one row that has items, before or after.
-struct RowPlan {
-    row: usize,
-    old: Range<usize>,
-    new: Range<usize>,
-    /// Its part of the movers.
-    movers: Range<usize>,
-    /// Its part of the arrivals.
-    arrivals: Range<usize>,
-}
-
-impl RowPlan {
-    fn is_unchanged(&self) -> bool {
-        self.movers.is_empty() && self.arrivals.is_empty()
-    }
-}
-
-fn plan(
+/// Whether all cells that items enter have slots for them.
+fn check_slots(
     population: &Population,
+    layout: &Layout,
+    geometry: &Geometry,
+    process: &Process,
+    mut movers: &[Mover],
+    arrivals: &[Arrival],
+) -> Result<(), Fault> {
+    for coming in arrivals.chunk_by(|one, next| one.cell == next.cell) {
+        let cell = coming[0].cell;
+        movers = &movers[movers.iter().take_while(|mover| mover.from < cell).count()..];
+        let leaving = movers.iter().take_while(|mover| mover.from == cell).count();
+        let padded = layout.padded(cell as usize);
+        let items = (population.ends[padded] - population.starts[padded]) as usize - leaving + coming.len();
+        if items > population.slots {
+            let (process, cell) = (Some(process.name), geometry.indices(cell as usize));
+            return Err(Fault::CellFull { process, cell, items, slots: population.slots });
+        }
+    }
+    Ok(())
+}
+
+/// For each row its first item after the migration, and at the end the number of items.
+fn new_rows(population: &Population, layout: &Layout, movers: &[Mover], arrivals: &[Arrival]) -> Vec<u32> {
+    let width = layout.width() as u32;
+    let mut rows = vec![0_u32; layout.rows() + 1];
+    for row in 0..layout.rows() {
+        let (first, end) = population.row(row);
+        rows[row + 1] = (end - first) as u32;
+    }
+    for mover in movers {
+        rows[(mover.from / width) as usize + 1] -= 1;
+    }
+    for arrival in arrivals {
+        rows[(arrival.cell / width) as usize + 1] += 1;
+    }
+    for row in 0..layout.rows() {
+        rows[row + 1] += rows[row];
+    }
+    rows
+}
+
+/// Copies all items to their new places and sets the cells' ranges, in parallel over blocks of rows.
+fn rearrange(
+    population: &mut Population,
+    next: &mut Arrays,
     layout: &Layout,
     rows: &[u32],
     movers: &[Mover],
     arrivals: &[Arrival],
-) -> Vec<RowPlan> {
-    let width = layout.width() as u32;
-    let (mut mover, mut arrival) = (0, 0);
-    let mut plan = Vec::new();
-    for row in 0..layout.rows() {
-        let (first_mover, first_arrival) = (mover, arrival);
-        while mover < movers.len() && (movers[mover].from / width) as usize == row {
-            mover += 1;
-        }
-        while arrival < arrivals.len() && (arrivals[arrival].cell / width) as usize == row {
-            arrival += 1;
-        }
-        let (first, end) = population.row(row);
-        let new = rows[row] as usize..rows[row + 1] as usize;
-        if first < end || !new.is_empty() {
-            plan.push(RowPlan {
-                row,
-                old: first..end,
-                new,
-                movers: first_mover..mover,
-                arrivals: first_arrival..arrival,
-            });
-        }
-    }
-    plan
-}
-
-/// The changed rows' items in their new order, and their new number in each cell.
-struct Sources {
-    items: Vec<u32>,
-    counts: Vec<u32>,
-}
-
-/// For each changed row, where its items come from.
-fn order(
-    population: &Population,
-    layout: &Layout,
-    plan: &[RowPlan],
-    movers: &[Mover],
-    arrivals: &[Arrival],
-) -> Result<Vec<Option<Sources>>, Fault> {
-    let results: Vec<Result<Option<Sources>, (u32, usize)>> = plan
-        .par_iter()
-        .map(|row| {
-            if row.is_unchanged() {
-                return Ok(None);
-            }
-            merge(population, layout, row, &movers[row.movers.clone()], &arrivals[row.arrivals.clone()])
-                .map(Some)
-        })
-        .collect();
-    // The first in the order of rows is the first in the order of cells.
-    results.into_iter().collect::<Result<_, _>>().map_err(|(cell, items)| {
-        let (width, height) = (layout.width(), layout.rows());
-        let row = cell as usize / width;
-        debug_assert!(row < height);
-        let [y, z] = layout.row(row);
-        Fault::CellFull { cell: [cell as usize % width, y, z], items, slots: population.slots }
-    })
-}
-
-/// Merges those that stay and those that come, cell by cell and by label.
-fn merge(
-    population: &Population,
-    layout: &Layout,
-    row: &RowPlan,
-    mut leaving: &[Mover],
-    mut coming: &[Arrival],
-) -> Result<Sources, (u32, usize)> {
-    let labels = &population.items.labels;
-    let first_cell = (row.row * layout.width()) as u32;
-    let padded = layout.first(row.row);
-    let mut sources =
-        Sources { items: Vec::with_capacity(row.new.len()), counts: Vec::with_capacity(layout.width()) };
-    for x in 0..layout.width() {
-        let cell = first_cell + x as u32;
-        let before = sources.items.len();
-        for item in population.starts[padded + x]..population.ends[padded + x] {
-            if let [mover, rest @ ..] = leaving
-                && mover.item == item
-            {
-                leaving = rest;
-                continue;
-            }
-            while let [arrival, rest @ ..] = coming
-                && arrival.cell == cell
-                && arrival.label < labels[item as usize]
-            {
-                sources.items.push(arrival.item);
-                coming = rest;
-            }
-            sources.items.push(item);
-        }
-        while let [arrival, rest @ ..] = coming
-            && arrival.cell == cell
-        {
-            sources.items.push(arrival.item);
-            coming = rest;
-        }
-        let count = sources.items.len() - before;
-        if count > population.slots {
-            return Err((cell, count));
-        }
-        sources.counts.push(count as u32);
-    }
-    Ok(sources)
-}
-
-/// Copies labels and fields to their new places, in parallel over parts of the new arrays that belong to one row each.
-fn copy(
-    population: &Population,
-    next: &mut crate::population::Arrays,
-    plan: &[RowPlan],
-    sources: &[Option<Sources>],
 ) {
-    let old = &population.items;
-    let chunks = |size: usize| plan.iter().map(move |row| row.new.len() * size);
-    {
-        let parts = split(bytemuck::cast_slice_mut(&mut next.labels), chunks(4));
-        parts.into_par_iter().with_min_len(16).zip(plan).zip(sources).for_each(|((part, row), sources)| {
-            copy_row(bytemuck::cast_slice(&old.labels), part, row, sources.as_ref(), 4);
-        });
-    }
-    for ((field, new), stored) in old.fields.iter().zip(&mut next.fields).zip(&population.types) {
-        let size = stored.size();
-        let parts = split(new.bytes_mut(), chunks(size));
-        parts.into_par_iter().with_min_len(16).zip(plan).zip(sources).for_each(|((part, row), sources)| {
-            copy_row(field.bytes(), part, row, sources.as_ref(), size);
-        });
-    }
-}
-
-fn split(mut bytes: &mut [u8], lengths: impl Iterator<Item = usize>) -> Vec<&mut [u8]> {
-    lengths
-        .map(|length| {
-            let (part, rest) = std::mem::take(&mut bytes).split_at_mut(length);
-            bytes = rest;
+    let blocks = blocks(layout, &[population], rayon::current_num_threads());
+    let Population { types, items, starts, ends, rows: old_rows, .. } = population;
+    let old = Old { types, items, rows: old_rows };
+    // What a block writes is cut off from what the blocks after it write.
+    let Arrays { labels, fields } = next;
+    let mut labels = labels.as_mut_slice();
+    let mut fields: Vec<&mut [u8]> = fields.iter_mut().map(Buffer::bytes_mut).collect();
+    let (mut starts, mut ends) = (starts.as_mut_slice(), ends.as_mut_slice());
+    let mut cut = 0;
+    let parts: Vec<Part<'_>> = blocks
+        .into_iter()
+        .map(|block| {
+            let items = (rows[block.end] - rows[block.start]) as usize;
+            let cells = layout.first(block.end - 1) + layout.width() - cut;
+            let part = Part {
+                labels: split_off(&mut labels, items),
+                fields: fields
+                    .iter_mut()
+                    .zip(old.types)
+                    .map(|(field, stored)| split_off(field, items * stored.size()))
+                    .collect(),
+                starts: split_off(&mut starts, cells),
+                ends: split_off(&mut ends, cells),
+                first_cell: cut,
+                rows: block,
+            };
+            cut += cells;
             part
         })
-        .collect()
+        .collect();
+    parts.into_par_iter().with_max_len(1).for_each(|part| part.fill(&old, layout, rows, movers, arrivals));
 }
 
-fn copy_row(old: &[u8], new: &mut [u8], row: &RowPlan, sources: Option<&Sources>, size: usize) {
-    let Some(sources) = sources else {
-        new.copy_from_slice(&old[row.old.start * size..row.old.end * size]);
-        return;
-    };
-    // Sizes known to the compiler make the copy a move of a register or two.
+fn split_off<'a, T>(rest: &mut &'a mut [T], length: usize) -> &'a mut [T] {
+    let (part, after) = std::mem::take(rest).split_at_mut(length);
+    *rest = after;
+    part
+}
+
+/// The items before the migration.
+struct Old<'a> {
+    types: &'a [StoredType],
+    items: &'a Arrays,
+    rows: &'a [u32],
+}
+
+/// A block of rows, with what it writes.
+struct Part<'a> {
+    rows: Range<usize>,
+    /// The labels and fields of the rows' new items.
+    labels: &'a mut [u32],
+    fields: Vec<&'a mut [u8]>,
+    /// The ranges of padded cells, those of the rows among them.
+    starts: &'a mut [u32],
+    ends: &'a mut [u32],
+    /// The padded number of the first of these cells.
+    first_cell: usize,
+}
+
+impl Part<'_> {
+    fn fill(mut self, old: &Old<'_>, layout: &Layout, rows: &[u32], movers: &[Mover], arrivals: &[Arrival]) {
+        let width = layout.width() as u32;
+        let first_cell = self.rows.start as u32 * width;
+        let mut movers = &movers[movers.partition_point(|mover| mover.from < first_cell)..];
+        let mut arrivals = &arrivals[arrivals.partition_point(|arrival| arrival.cell < first_cell)..];
+        let first_item = rows[self.rows.start];
+        let mut sources = Vec::new();
+        for row in self.rows.clone() {
+            let end = (row as u32 + 1) * width;
+            let leaving = take_first(&mut movers, |mover| mover.from < end);
+            let coming = take_first(&mut arrivals, |arrival| arrival.cell < end);
+            let before = old.rows[row] as usize..old.rows[row + 1] as usize;
+            let after = (rows[row] - first_item) as usize..(rows[row + 1] - first_item) as usize;
+            let cells = layout.first(row) - self.first_cell;
+            let cells = cells..cells + layout.width();
+            if leaving.is_empty() && coming.is_empty() {
+                self.labels[after.clone()].copy_from_slice(&old.items.labels[before.clone()]);
+                for (number, stored) in old.types.iter().enumerate() {
+                    let size = stored.size();
+                    self.fields[number][after.start * size..after.end * size].copy_from_slice(
+                        &old.items.fields[number].bytes()[before.start * size..before.end * size],
+                    );
+                }
+                let shift = rows[row].wrapping_sub(old.rows[row]);
+                if shift != 0 && !before.is_empty() {
+                    for range in self.starts[cells.clone()].iter_mut().chain(&mut self.ends[cells]) {
+                        *range = range.wrapping_add(shift);
+                    }
+                }
+                continue;
+            }
+            sources.clear();
+            let ranges = self.starts[cells.clone()].iter_mut().zip(&mut self.ends[cells]);
+            let changes = Changes { first_cell: row as u32 * width, leaving, coming };
+            changes.merge(&old.items.labels, ranges, rows[row], &mut sources);
+            for (label, &item) in self.labels[after.clone()].iter_mut().zip(&sources) {
+                *label = old.items.labels[item as usize];
+            }
+            for (number, stored) in old.types.iter().enumerate() {
+                let size = stored.size();
+                let new = &mut self.fields[number][after.start * size..after.end * size];
+                gather_values(size, old.items.fields[number].bytes(), new, &sources);
+            }
+        }
+    }
+}
+
+/// Takes from the front while the condition holds.
+fn take_first<'a, T>(rest: &mut &'a [T], condition: impl Fn(&T) -> bool) -> &'a [T] {
+    let count = rest.iter().take_while(|one| condition(one)).count();
+    let (first, after) = rest.split_at(count);
+    *rest = after;
+    first
+}
+
+/// What changes in a row.
+struct Changes<'a> {
+    /// The row's first cell.
+    first_cell: u32,
+    leaving: &'a [Mover],
+    coming: &'a [Arrival],
+}
+
+impl Changes<'_> {
+    /// Merges those that stay and those that come, cell by cell and by label, and sets the cells' ranges, from the row's new first item on.
+    fn merge<'a>(
+        mut self,
+        labels: &[u32],
+        ranges: impl Iterator<Item = (&'a mut u32, &'a mut u32)>,
+        first_item: u32,
+        sources: &mut Vec<u32>,
+    ) {
+        for (cell, (start, end)) in (self.first_cell..).zip(ranges) {
+            let before = *start..*end;
+            *start = first_item + sources.len() as u32;
+            for item in before {
+                if let [mover, rest @ ..] = self.leaving
+                    && mover.item == item
+                {
+                    self.leaving = rest;
+                    continue;
+                }
+                self.arrive(cell, labels[item as usize], sources);
+                sources.push(item);
+            }
+            self.arrive(cell, u32::MAX, sources);
+            *end = first_item + sources.len() as u32;
+        }
+    }
+
+    /// Adds those that come to the cell with labels up to this one.
+    fn arrive(&mut self, cell: u32, label: u32, sources: &mut Vec<u32>) {
+        while let [arrival, rest @ ..] = self.coming
+            && arrival.cell == cell
+            && arrival.label <= label
+        {
+            sources.push(arrival.item);
+            self.coming = rest;
+        }
+    }
+}
+
+/// Gathers values of one field. Sizes known to the compiler make the copy a move of a register or two.
+fn gather_values(size: usize, old: &[u8], new: &mut [u8], sources: &[u32]) {
     match size {
-        1 => gather::<1>(old, new, &sources.items),
-        4 => gather::<4>(old, new, &sources.items),
-        8 => gather::<8>(old, new, &sources.items),
-        12 => gather::<12>(old, new, &sources.items),
-        16 => gather::<16>(old, new, &sources.items),
-        24 => gather::<24>(old, new, &sources.items),
+        1 => gather::<1>(old, new, sources),
+        4 => gather::<4>(old, new, sources),
+        8 => gather::<8>(old, new, sources),
+        12 => gather::<12>(old, new, sources),
+        16 => gather::<16>(old, new, sources),
+        24 => gather::<24>(old, new, sources),
         _ => {
-            for (value, &item) in new.chunks_exact_mut(size).zip(&sources.items) {
+            for (value, &item) in new.chunks_exact_mut(size).zip(sources) {
                 value.copy_from_slice(&old[item as usize * size..(item as usize + 1) * size]);
             }
         }
@@ -282,37 +312,5 @@ fn gather<const SIZE: usize>(old: &[u8], new: &mut [u8], sources: &[u32]) {
     let (new, _) = new.as_chunks_mut::<SIZE>();
     for (value, &item) in new.iter_mut().zip(sources) {
         *value = old[item as usize];
-    }
-}
-
-/// Sets the cells' ranges of items.
-fn update_ranges(
-    population: &mut Population,
-    layout: &Layout,
-    plan: &[RowPlan],
-    sources: &[Option<Sources>],
-) {
-    let (starts, ends) = (&mut population.starts, &mut population.ends);
-    for (row, sources) in plan.iter().zip(sources) {
-        let cells = layout.first(row.row)..layout.first(row.row) + layout.width();
-        match sources {
-            None => {
-                let shift = (row.new.start as u32).wrapping_sub(row.old.start as u32);
-                if shift != 0 {
-                    for cell in cells {
-                        starts[cell] = starts[cell].wrapping_add(shift);
-                        ends[cell] = ends[cell].wrapping_add(shift);
-                    }
-                }
-            }
-            Some(sources) => {
-                let mut item = row.new.start as u32;
-                for (cell, count) in cells.zip(&sources.counts) {
-                    starts[cell] = item;
-                    item += count;
-                    ends[cell] = item;
-                }
-            }
-        }
     }
 }

@@ -100,20 +100,10 @@ impl Population {
 
     /// Lets the halo cells stand for the cells that they repeat.
     pub(crate) fn fill_halo(&mut self, layout: &Layout) {
-        if !layout.halo_follows() {
-            return;
+        if layout.halo_follows().contains(&true) {
+            layout.fill_halo(&mut self.starts, 1, Some(&[0]), false);
+            layout.fill_halo(&mut self.ends, 1, Some(&[0]), false);
         }
-        let (starts, ends) = (&mut self.starts, &mut self.ends);
-        layout.fill_halo(|target, source, count| match source {
-            Some(source) => {
-                starts.copy_within(source..source + count, target);
-                ends.copy_within(source..source + count, target);
-            }
-            None => {
-                starts[target..target + count].fill(0);
-                ends[target..target + count].fill(0);
-            }
-        });
     }
 
     pub(crate) fn memory(&self) -> usize {

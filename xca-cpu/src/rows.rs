@@ -4,6 +4,7 @@
 //! result: a row writes only what is its own, and faults are compared by process and cell.
 #![allow(unsafe_code)]
 
+use crate::blocks::blocks;
 use crate::dense::Plane;
 use crate::layout::Layout;
 use crate::population::Population;
@@ -14,7 +15,7 @@ use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use xca_core::engine::{Fault, StepContext, SubstateId};
 use xca_core::kernel::{
-    Access, CellFilter, Entry, Frame, Of, Row, RowFault, RowItems, RowKernel, STAY, Scratch,
+    Access, CellFilter, Entry, Frame, Of, Row, RowFault, RowItems, RowKernel, STAY, Scratch, StoppedAt,
 };
 use xca_core::{Boundary, Model, Parity, Precision, Process, ProcessKind};
 
@@ -24,8 +25,12 @@ pub(crate) enum Group {
     Population(Population),
 }
 
-/// Blocks a thread: enough that an uneven load evens out, few enough that a block is worth its start.
-const BLOCKS_PER_THREAD: usize = 32;
+fn population(group: &Group) -> Option<&Population> {
+    match group {
+        Group::Population(population) => Some(population),
+        Group::Cells(_) => None,
+    }
+}
 
 /// Where a substate's memory starts, shared by the threads.
 #[derive(Clone, Copy)]
@@ -34,6 +39,8 @@ struct Memory {
     write: *mut u8,
     size: usize,
     of_items: bool,
+    /// Whether what is written has to go on into the halo along x.
+    continued: bool,
 }
 
 // SAFETY: the pointers lead to memory that is written through rows alone, and rows are disjoint, see `run_row`.
@@ -82,14 +89,13 @@ pub(crate) fn run(
     groups: &mut [Group],
     processes: Range<usize>,
     context: &StepContext<'_>,
-    threads: usize,
 ) -> Result<Vec<Mover>, Fault> {
     let geometry = model.geometry();
-    let doubled = prepare_buffers(model, layout, groups, &processes);
+    let written = prepare_buffers(model, layout, groups, &processes);
     let prepared: Vec<Prepared<'_>> =
-        processes.map(|index| prepare(model, groups, index, precision, &doubled)).collect();
+        processes.map(|index| prepare(model, groups, index, precision, &written)).collect();
     let offsets = layout.offsets(geometry);
-    let filter = filter(model, layout, groups, &prepared);
+    let filter = filter(model, layout, precision, groups, &prepared);
     let frames: [Frame<'_>; 2] = std::array::from_fn(|odd| Frame {
         extents: geometry.extents().map(|extent| extent as u32),
         side: geometry.side(),
@@ -100,15 +106,12 @@ pub(crate) fn run(
         offsets: &offsets[odd],
         filter: filter.as_ref(),
     });
-    let pass = Pass { layout, parity: geometry.neighbourhood().parity(), frames, prepared, groups };
-    let rows = layout.rows();
-    let per_block = rows.div_ceil(threads * BLOCKS_PER_THREAD).max(1);
-    let found: Vec<Found> = (0..rows.div_ceil(per_block))
-        .into_par_iter()
-        // Each block can go to another thread: the items may all be in a few of them.
-        .with_max_len(1)
-        .map(|block| pass.block(model, block * per_block..((block + 1) * per_block).min(rows)))
-        .collect();
+    let continuation = layout.continuation();
+    let parity = geometry.neighbourhood().parity();
+    let pass = Pass { layout, parity, frames, prepared, continuation, groups };
+    // Each block can go to another thread.
+    let blocks = pass.blocks().into_par_iter().with_max_len(1);
+    let found: Vec<Found> = blocks.map(|rows| pass.block(model, rows)).collect();
     let mut movers = Vec::new();
     let mut first = Found::default();
     for block in found {
@@ -120,22 +123,29 @@ pub(crate) fn run(
     if let Some((.., fault)) = first.fault {
         return Err(fault);
     }
-    for substate in doubled {
+    for (substate, second) in written {
         match &mut groups[substate.group] {
-            Group::Cells(planes) => planes[substate.field].swap(),
-            Group::Population(population) => {
+            Group::Cells(planes) => planes[substate.field].written(second),
+            Group::Population(population) if second => {
                 std::mem::swap(
                     &mut population.items.fields[substate.field],
                     &mut population.next.fields[substate.field],
                 );
             }
+            Group::Population(_) => {}
         }
     }
     Ok(movers)
 }
 
 /// Which cells searches can leave out, where a process of the pass searches.
-fn filter(model: &Model, layout: &Layout, groups: &[Group], prepared: &[Prepared<'_>]) -> Option<CellFilter> {
+fn filter(
+    model: &Model,
+    layout: &Layout,
+    precision: Precision,
+    groups: &[Group],
+    prepared: &[Prepared<'_>],
+) -> Option<CellFilter> {
     let position = |process: &Process| {
         let field = process.subject.schema.position?;
         let reads = process
@@ -154,24 +164,17 @@ fn filter(model: &Model, layout: &Layout, groups: &[Group], prepared: &[Prepared
             searched = true;
         }
     }
-    let geometry = model.geometry();
-    // Round a torus, an item outside its cell may be near to others on the far side, where a sphere around it does not reach. A slack that is
-    // but a rounding is within the filter's own margin.
-    let far_side = geometry.boundaries().contains(&Boundary::Toroidal) && slack > 1e-4 * geometry.side();
-    if !searched || far_side {
-        return None;
-    }
-    CellFilter::new(geometry.neighbourhood(), layout.steps(), slack)
+    if searched { CellFilter::new(model.geometry(), precision, layout.steps(), slack) } else { None }
 }
 
-/// Fills halos that will be read and makes second buffers; gives the substates that the pass writes to a second buffer.
+/// Fills halos that will be read and makes second buffers; gives the substates that the pass writes, and whether to a second buffer.
 fn prepare_buffers(
     model: &Model,
     layout: &Layout,
     groups: &mut [Group],
     processes: &Range<usize>,
-) -> Vec<SubstateId> {
-    let mut doubled = Vec::new();
+) -> Vec<(SubstateId, bool)> {
+    let mut written: Vec<(SubstateId, bool)> = Vec::new();
     for process in &model.processes()[processes.clone()] {
         for access in process.access {
             let substate = model.substate(process, access);
@@ -184,21 +187,21 @@ fn prepare_buffers(
                 }
                 Group::Population(_) => {}
             }
-            if access.others && access.write {
-                doubled.push(substate);
+            if access.write {
+                match written.iter_mut().find(|(known, _)| *known == substate) {
+                    Some((_, second)) => *second |= access.others,
+                    None => written.push((substate, access.others)),
+                }
             }
         }
     }
-    // A plane that is written in place no longer has the halo of its cells.
-    for process in &model.processes()[processes.clone()] {
-        for access in process.access.iter().filter(|access| access.write) {
-            let substate = model.substate(process, access);
-            if let Group::Cells(planes) = &mut groups[substate.group] {
-                planes[substate.field].touch();
-            }
+    // A plane that is written no longer has the halo of its cells.
+    for (substate, _) in &written {
+        if let Group::Cells(planes) = &mut groups[substate.group] {
+            planes[substate.field].touch();
         }
     }
-    doubled
+    written
 }
 
 fn prepare<'a>(
@@ -206,11 +209,11 @@ fn prepare<'a>(
     groups: &mut [Group],
     index: usize,
     precision: Precision,
-    doubled: &[SubstateId],
+    written: &[(SubstateId, bool)],
 ) -> Prepared<'a> {
     let process = &model.processes()[index];
     let memory =
-        process.access.iter().map(|access| memory(model, groups, process, access, doubled)).collect();
+        process.access.iter().map(|access| memory(model, groups, process, access, written)).collect();
     let population = match process.kind {
         ProcessKind::Cells => process.companion,
         ProcessKind::Items | ProcessKind::Migration => Some(process.subject),
@@ -224,29 +227,30 @@ fn memory(
     groups: &mut [Group],
     process: &Process,
     access: &Access,
-    doubled: &[SubstateId],
+    written: &[(SubstateId, bool)],
 ) -> Memory {
     let substate = model.substate(process, access);
-    let (current, next, size, of_items) = match &mut groups[substate.group] {
+    let (current, next, size, of_items, continued) = match &mut groups[substate.group] {
         Group::Cells(planes) => {
             let plane = &mut planes[substate.field];
-            (&mut plane.current, plane.next.as_mut(), plane.stored.size(), false)
+            let continued = access.write && plane.read_elsewhere;
+            (&mut plane.current, plane.next.as_mut(), plane.stored.size(), false, continued)
         }
         Group::Population(population) => {
             let size = population.types[substate.field].size();
             let next = &mut population.next.fields[substate.field];
-            (&mut population.items.fields[substate.field], Some(next), size, true)
+            (&mut population.items.fields[substate.field], Some(next), size, true, false)
         }
     };
     let (read, write) = match next {
         _ if !access.write => (current.as_ptr(), std::ptr::null_mut()),
-        Some(next) if doubled.contains(&substate) => (current.as_ptr(), next.as_mut_ptr()),
+        Some(next) if written.contains(&(substate, true)) => (current.as_ptr(), next.as_mut_ptr()),
         _ => {
             let write = current.as_mut_ptr();
             (write.cast_const(), write)
         }
     };
-    Memory { read, write, size, of_items }
+    Memory { read, write, size, of_items, continued }
 }
 
 /// Everything that the rows of a pass share.
@@ -255,10 +259,23 @@ struct Pass<'a> {
     parity: Parity,
     frames: [Frame<'a>; 2],
     prepared: Vec<Prepared<'a>>,
+    /// The cells of the halo that continue a row, with their sources.
+    continuation: Vec<(isize, isize)>,
     groups: &'a [Group],
 }
 
 impl Pass<'_> {
+    /// Shares the rows among the threads.
+    fn blocks(&self) -> Vec<Range<usize>> {
+        let mut numbers: Vec<usize> =
+            self.prepared.iter().filter_map(|prepared| prepared.population).collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        let populations: Vec<&Population> =
+            numbers.into_iter().filter_map(|number| population(&self.groups[number])).collect();
+        blocks(self.layout, &populations, rayon::current_num_threads())
+    }
+
     /// Runs all processes over a block of rows, one row after the other.
     fn block(&self, model: &Model, rows: Range<usize>) -> Found {
         let mut found = Found::default();
@@ -267,7 +284,7 @@ impl Pass<'_> {
         while let Err(panic) = catch_unwind(AssertUnwindSafe(|| {
             self.rows(model, rows.clone(), processes, &now, &mut found);
         })) {
-            let (number, row) = (now.process.get(), now.row.get());
+            let (number, row, at) = (now.process.get(), now.row.get(), now.stopped.get());
             let Prepared { process, index, .. } = self.prepared[number];
             // What the row had reported before comes first.
             match now.reported.get() {
@@ -275,8 +292,9 @@ impl Pass<'_> {
                     found.keep(index, fault.cell, Fault::reported(process, fault, model.geometry()));
                 }
                 None => {
-                    let cell = (row * self.layout.width()) as u32;
-                    found.keep(index, cell, Fault::panicked(process.name, &*panic));
+                    let first = StoppedAt { cell: (row * self.layout.width()) as u32, label: None };
+                    let at = at.unwrap_or(first);
+                    found.keep(index, at.cell, Fault::panicked(process, at, &*panic, model.geometry()));
                 }
             }
             // The fault of an earlier process comes first, in whatever row.
@@ -307,6 +325,7 @@ impl Pass<'_> {
                 let cells =
                     Cells { first, origin: [0, y as u32, z as u32], length: self.layout.width(), own };
                 self.run_row(prepared, &cells, *population, &mut work);
+                self.continue_row(prepared, first);
                 if let Some(fault) = now.reported.get() {
                     found.keep(
                         prepared.index,
@@ -322,9 +341,24 @@ impl Pass<'_> {
     }
 
     fn population(&self, prepared: &Prepared<'_>) -> Option<&Population> {
-        match &self.groups[prepared.population?] {
-            Group::Population(population) => Some(population),
-            Group::Cells(_) => None,
+        population(&self.groups[prepared.population?])
+    }
+
+    /// Continues what a process has written to a row into the halo along x, while the row is in the cache.
+    fn continue_row(&self, prepared: &Prepared<'_>, first: usize) {
+        for memory in prepared.memory.iter().filter(|memory| memory.continued) {
+            let start = memory.write.wrapping_add(first * memory.size);
+            let size = memory.size as isize;
+            for (target, source) in &self.continuation {
+                // SAFETY:
+                // - Source and target are cells of one padded line of a plane: the source in the row, the target in the halo beside it.
+                // - No kernel writes the halo, and this is the only thread that has the row, so no one writes either of them meanwhile.
+                // - No one reads the target meanwhile: a plane that is read elsewhere in this pass is written to the second buffer, of which
+                //   nothing is read, or not written at all (`stages`).
+                unsafe {
+                    copy_value(memory.size, start.offset(source * size), start.offset(target * size));
+                }
+            }
         }
     }
 
@@ -410,6 +444,22 @@ impl Pass<'_> {
     }
 }
 
+/// Copies one value. A size that the compiler knows makes it a move of a register.
+///
+/// # Safety
+/// So many bytes can be read at `from` and written at `to`, and they do not overlap.
+unsafe fn copy_value(size: usize, from: *const u8, to: *mut u8) {
+    // SAFETY: as the function.
+    unsafe {
+        match size {
+            1 => std::ptr::copy_nonoverlapping(from, to, 1),
+            4 => std::ptr::copy_nonoverlapping(from, to, 4),
+            8 => std::ptr::copy_nonoverlapping(from, to, 8),
+            _ => std::ptr::copy_nonoverlapping(from, to, size),
+        }
+    }
+}
+
 /// Lists that are kept from row to row.
 struct Work<'a> {
     entries: Vec<Entry>,
@@ -427,6 +477,8 @@ struct Now {
     row: Cell<usize>,
     /// The first fault that the process has reported in the row.
     reported: Cell<Option<RowFault>>,
+    /// Where the process was when it ended or panicked.
+    stopped: Cell<Option<StoppedAt>>,
 }
 
 impl Now {
@@ -434,6 +486,7 @@ impl Now {
         self.process.set(process);
         self.row.set(row);
         self.reported.set(None);
+        self.stopped.set(None);
     }
 }
 
@@ -448,6 +501,7 @@ impl Drop for Report<'_> {
         if self.now.reported.get().is_none() {
             self.now.reported.set(self.row.first_fault());
         }
+        self.now.stopped.set(Some(self.row.stopped_at()));
     }
 }
 

@@ -1,5 +1,6 @@
 //! How far items are outside their cells: what a search has to add to its radius.
 
+use crate::blocks::blocks;
 use crate::layout::Layout;
 use crate::population::Population;
 use rayon::prelude::*;
@@ -9,8 +10,10 @@ use xca_core::{Geometry, StoredScalar};
 /// number. `field` is the position.
 pub(crate) fn slack(population: &Population, field: usize, layout: &Layout, geometry: &Geometry) -> f64 {
     let bytes = population.items.fields[field].bytes();
-    let rows = (0..layout.rows()).into_par_iter().with_min_len(16).with_max_len(64);
-    let of_rows = |row: &(dyn Fn(usize) -> f64 + Sync)| rows.map(row).reduce(|| 0.0, largest);
+    let blocks = blocks(layout, &[population], rayon::current_num_threads()).into_par_iter().with_max_len(1);
+    let of_rows = |row: &(dyn Fn(usize) -> f64 + Sync)| {
+        blocks.map(|rows| rows.map(row).fold(0.0, largest)).reduce(|| 0.0, largest)
+    };
     match population.types[field].scalar {
         StoredScalar::F32 => {
             let positions: &[[f32; 3]] = bytemuck::cast_slice(bytes);

@@ -62,7 +62,18 @@ fn uses(model: &Model, process: &Process) -> Vec<(SubstateId, bool, bool)> {
 
 /// Whether a process of the model reads the substate elsewhere and writes it.
 pub(crate) fn is_doubled(model: &Model, substate: SubstateId) -> bool {
+    any_use(model, substate, |others, write| others && write)
+}
+
+/// Whether a process of the model reads the substate elsewhere.
+pub(crate) fn is_read_elsewhere(model: &Model, substate: SubstateId) -> bool {
+    any_use(model, substate, |others, _| others)
+}
+
+fn any_use(model: &Model, substate: SubstateId, wanted: impl Fn(bool, bool) -> bool) -> bool {
     model.processes().iter().any(|process| {
-        uses(model, process).iter().any(|(known, others, write)| *known == substate && *others && *write)
+        uses(model, process)
+            .iter()
+            .any(|(known, others, write)| *known == substate && wanted(*others, *write))
     })
 }

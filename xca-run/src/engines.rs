@@ -2,8 +2,7 @@
 
 use clap::ValueEnum;
 use std::fmt;
-use xca_core::model::GroupKind;
-use xca_core::{Engine, Model, Precision, Reference};
+use xca_core::{Engine, Reference};
 use xca_cpu::{Cpu, CpuError};
 
 /// The most threads that can be asked for; many more than cores only cost memory.
@@ -44,22 +43,6 @@ impl EngineName {
             (Self::Cpu, None) => Ok(Box::new(Cpu::new()?)),
             (Self::Cpu, Some(threads)) => Ok(Box::new(Cpu::with_threads(threads)?)),
         }
-    }
-
-    /// The bytes that the initial state of a model takes at least, its items not counted where they are stored compactly.
-    pub(crate) fn least_memory(self, model: &Model, precision: Precision) -> u128 {
-        let cells = model.geometry().cells() as u128;
-        let of_group = |group: &xca_core::model::Group| {
-            let size: usize = group.stored(precision).iter().map(|stored| stored.size()).sum();
-            match (self, group.kind()) {
-                (_, GroupKind::Cells { .. }) => cells * size as u128,
-                (Self::Reference, GroupKind::Population { slots, .. }) => {
-                    cells * (*slots as u128 * (size as u128 + 4) + 4)
-                }
-                (Self::Cpu, GroupKind::Population { .. }) => cells * 4,
-            }
-        };
-        model.groups().iter().map(of_group).sum()
     }
 }
 

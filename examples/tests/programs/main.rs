@@ -8,3 +8,4 @@ mod misuse;
 mod physics;
 mod running;
 mod same_bits;
+mod shaders;

@@ -1,8 +1,10 @@
 //! The engines that every suite runs on, and how their runs are compared.
 
 use std::error::Error;
+use std::fmt::Debug;
 use xca_core::{
-    Engine, GroupSnapshot, Model, Precision, Reference, RunError, RunOptions, Simulation, Snapshot,
+    Engine, Fault, GroupSnapshot, Model, Precision, Reference, RunError, RunOptions, Simulation, Snapshot,
+    State,
 };
 use xca_cpu::Cpu;
 use xca_gpu::{Arithmetic, Gpu, GpuError, GpuOptions};
@@ -161,4 +163,38 @@ pub fn outcome_text(outcome: &Result<(), RunError>) -> String {
 
 fn error_text(error: &RunError) -> String {
     format!("{error}; {error:?}")
+}
+
+/// Changes the state after the first so many processes of the second step, and demands that the rest of the step ends with a fault that a
+/// process reports: the same on every engine. `what` is changed, for messages.
+///
+/// # Errors
+/// Where the change cannot be made.
+///
+/// # Panics
+/// Where no fault comes, or not the same.
+pub fn assert_found(
+    model: &Model,
+    before: usize,
+    what: &dyn Debug,
+    change: impl Fn(&mut State<'_>) -> Result<(), Box<dyn Error>>,
+) -> Result<(), Box<dyn Error>> {
+    let mut reports = Vec::new();
+    for engine in all()? {
+        let mut simulation = Simulation::new(model, &*engine, RunOptions::default())?;
+        simulation.step()?;
+        (0..before).try_for_each(|process| simulation.run_process(process))?;
+        change(&mut simulation.state())?;
+        let outcome =
+            (before..model.processes().len()).try_for_each(|process| simulation.run_process(process));
+        assert!(
+            matches!(&outcome, Err(RunError::Fault { step: 2, fault: Fault::Reported { .. }, .. })),
+            "{what:?} on {}: {outcome:?}",
+            describe(&*engine)
+        );
+        reports.push(outcome_text(&outcome));
+    }
+    reports.dedup();
+    assert_eq!(reports.len(), 1, "{reports:?}");
+    Ok(())
 }

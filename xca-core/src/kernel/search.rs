@@ -5,7 +5,8 @@
 
 use super::Row;
 use super::wide::{self, Wide};
-use crate::neighbourhood::{Neighbourhood, Parity};
+use crate::geometry::{Boundary, Geometry};
+use crate::neighbourhood::Parity;
 use crate::value::{Float, Precision};
 use crate::vector::Vector3;
 use std::cell::RefCell;
@@ -51,7 +52,8 @@ pub struct CellFilter {
     reach: [i32; 3],
     /// For a neighbourhood that is a whole box: the offsets of a step along y and along z.
     steps: Option<[isize; 2]>,
-    slack: f64,
+    /// What is added to every radius, in metres: the slack, and the margin for rounding.
+    beyond: f64,
     /// The processor's way to look at several items at a time, where it has one.
     wide: Option<Wide>,
 }
@@ -65,12 +67,16 @@ struct Touched {
 
 impl CellFilter {
     /// For a neighbourhood that is the same for all cells, and items at most so far outside their cells, in metres; nothing where that
-    /// is no number.
+    /// is no number, or too much round a torus.
     ///
     /// `steps` are the offsets from a cell to the next one along y and along z. An engine that gives this filter stores the items of each
     /// row of the space together, in the order of its cells.
-    pub fn new(neighbourhood: &Neighbourhood, steps: [isize; 2], slack: f64) -> Option<Self> {
-        if !slack.is_finite() || neighbourhood.parity() != Parity::None {
+    pub fn new(geometry: &Geometry, precision: Precision, steps: [isize; 2], slack: f64) -> Option<Self> {
+        let neighbourhood = geometry.neighbourhood();
+        // Round a torus, an item far outside its cell may be near to others on the far side, where a sphere around it does not reach.
+        let far_side = geometry.boundaries().contains(&Boundary::Toroidal)
+            && slack > SLACK_ROUND_TORUS * geometry.side();
+        if !slack.is_finite() || far_side || neighbourhood.parity() != Parity::None {
             return None;
         }
         let reach = neighbourhood.reach();
@@ -83,7 +89,7 @@ impl CellFilter {
             displacements,
             reach: reach.map(|reach| reach as i32),
             steps,
-            slack,
+            beyond: slack + margin(geometry, precision),
             wide: Wide::detect(),
         })
     }
@@ -91,9 +97,7 @@ impl CellFilter {
     /// What a sphere around a position in the cell with these indices can touch.
     #[inline(always)]
     fn touched(&self, cell: [u32; 3], side: f64, position: [f64; 3], radius: f64) -> Touched {
-        // Rounding can put an item that lies on a face into the cell on either side of it, and the comparison of distances
-        // rounds as well; a thousandth of a cell is more than both, in f32 up to some thousand cells along an axis.
-        let radius = radius.abs() + self.slack + 1e-3 * side;
+        let radius = radius.abs() + self.beyond;
         let mut touched = Touched { low: [0; 3], high: [0; 3] };
         for axis in 0..3 {
             let first = f64::from(cell[axis]) * side;
@@ -107,6 +111,33 @@ impl CellFilter {
         }
         touched
     }
+}
+
+/// The slack with which cells can still be left out round a torus, in sides of a cell.
+const SLACK_ROUND_TORUS: f64 = 1e-4;
+
+/// How much further than radius and slack a cell has to be, in metres, so that rounding cannot bring its items near.
+///
+/// Let a cell not be touched along an axis: between the position and every item of the cell there are at least radius and margin. The
+/// item is near where `fl(d^2) < fl(r^2)`, `d` being the computed vector. Products and sums of what is not negative are rounded
+/// monotonically, so it is not near if the component of `d` along the axis is not below `r`. That component is
+/// - without a torus the rounded difference of two positions: not below `r`, which is a number of the precision, if the true one is not.
+///   It remains that `f64` rounds the faces of cells here and where the slack is measured, by some units in the last place of the
+///   axis' length: below 1e-5 of a cell for any number of cells that an index can count.
+/// - round a torus of length L perhaps that difference and a period, `n * side`, each of the three rounded, as is `side`, and their sum.
+///   Each error is at most half an epsilon of L, and a slack more: in all below 3 epsilon L. The item may also be compared the other way
+///   round. With 2 reach + 1 cells along the axis that is no shorter way than radius and margin, less two slacks.
+///
+/// So a thousandth of a cell is enough for the faces and for two slacks of [`SLACK_ROUND_TORUS`], and 4 epsilon L for the torus.
+fn margin(geometry: &Geometry, precision: Precision) -> f64 {
+    let epsilon = match precision {
+        Precision::F32 => f64::from(f32::EPSILON),
+        Precision::F64 => f64::EPSILON,
+    };
+    let toroidal = geometry.boundaries().into_iter().zip(geometry.extents());
+    let cells =
+        toroidal.filter(|(boundary, _)| *boundary == Boundary::Toroidal).map(|(_, extent)| extent).max();
+    (1e-3 + 4.0 * epsilon * cells.unwrap_or(0) as f64) * geometry.side()
 }
 
 impl Touched {

@@ -65,7 +65,7 @@ impl Execution for ReferenceExecution {
         let slots = group.slots;
         if let Some(cell) = population.counts.iter().position(|count| *count as usize > slots) {
             let items = population.counts[cell] as usize;
-            return Err(Fault::CellFull { cell: geometry.indices(cell), items, slots });
+            return Err(Fault::CellFull { process: None, cell: geometry.indices(cell), items, slots });
         }
         group.counts.clone_from(&population.counts);
         let places: Vec<usize> = group.occupied().collect();

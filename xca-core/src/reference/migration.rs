@@ -40,7 +40,8 @@ impl ReferenceExecution {
         }
         for (cell, places) in arrivals.iter_mut().enumerate() {
             if places.len() > slots {
-                return Err(Fault::CellFull { cell: geometry.indices(cell), items: places.len(), slots });
+                let (process, items) = (Some(process.name), places.len());
+                return Err(Fault::CellFull { process, cell: geometry.indices(cell), items, slots });
             }
             places.sort_unstable_by_key(|place| group.labels[*place]);
         }

@@ -74,7 +74,7 @@ impl ReferenceExecution {
                 return Err(Fault::reported(process, fault, &geometry));
             }
             if let Some(panic) = panic {
-                return Err(Fault::panicked(process.name, &*panic));
+                return Err(Fault::panicked(process, row.stopped_at(), &*panic, &geometry));
             }
         }
         for pass in passes {

@@ -150,15 +150,15 @@ fn look_up(cell: &mut Cell<Numbers>) {
 fn panics_are_errors_of_the_run() {
     assert_eq!(
         failure(increment, Numbers { byte: 255, ..Numbers::default() }),
-        "step 1: the code of `increment` panicked: attempt to add with overflow"
+        "step 1: the code of `increment` panicked in cell [0, 0, 0]: attempt to add with overflow"
     );
     assert_eq!(
         failure(divide, Numbers::default()),
-        "step 1: the code of `divide` panicked: attempt to divide by zero"
+        "step 1: the code of `divide` panicked in cell [0, 0, 0]: attempt to divide by zero"
     );
     assert_eq!(
         failure(look_up, Numbers { unsigned: 3, ..Numbers::default() }),
-        "step 1: the code of `look_up` panicked: index out of bounds: the len is 3 but the index is 3"
+        "step 1: the code of `look_up` panicked in cell [0, 0, 0]: index out of bounds: the len is 3 but the index is 3"
     );
     assert_eq!(run(look_up, Numbers { unsigned: 2, ..Numbers::default() }).signed, 3);
 }

@@ -94,7 +94,8 @@ fn space(real: &TokenStream, span: Span) -> TokenStream {
 
 fn cells(function: &Function, uses: &Uses, real: &TokenStream, size: &Ident) -> TokenStream {
     let span = function.name.span();
-    let [row, x, offsets, length] = ["row", "x", "offsets", "length"].map(|name| hidden(name, span));
+    let [row, x, place, offsets, length] =
+        ["row", "x", "place", "offsets", "length"].map(|name| hidden(name, span));
     let space = space(real, span);
     let mut shorten = TokenStream::new();
     let mut load = TokenStream::new();
@@ -124,18 +125,21 @@ fn cells(function: &Function, uses: &Uses, real: &TokenStream, size: &Ident) -> 
         let #offsets = #row.offsets::<#size>();
         let #length = #row.length();
         #shorten
+        let mut #place = #row.place();
         for #x in 0..#length {
+            #place.x = #x;
             #load
             'body: #body
             #store
         }
+        #place.leave();
     }
 }
 
 fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
     let span = function.name.span();
-    let [row, x, item, first, destinations, answer] =
-        ["row", "x", "item", "first", "destinations", "answer"].map(|name| hidden(name, span));
+    let [row, x, item, place, first, destinations, answer] =
+        ["row", "x", "item", "place", "first", "destinations", "answer"].map(|name| hidden(name, span));
     let space = space(real, span);
     let mut load = TokenStream::new();
     let mut store = TokenStream::new();
@@ -172,12 +176,16 @@ fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
         #lists
         #take
         let #first = #row.first_item();
+        let mut #place = #row.place();
         for #x in 0..#row.length() {
+            #place.x = #x;
             for #item in #row.items(#x) {
+                #place.item = ::core::option::Option::Some(#item);
                 #load
                 #run
                 #store
             }
         }
+        #place.leave();
     }
 }

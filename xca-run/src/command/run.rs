@@ -26,7 +26,7 @@ pub(super) fn run(invocation: Invocation<'_>) -> Result<Ended, Unable> {
     let begin = Instant::now();
     let engine = invocation.engine.engine.with_threads(invocation.engine.threads).map_err(Unable::refused)?;
     let given = invocation.model.given(invocation.run.steps);
-    let set_up = set_up(&invocation, &given)?;
+    let set_up = set_up(&invocation, &given, &*engine)?;
     let steps = given.steps.unwrap_or(set_up.steps);
     let recorder = Recorder::new(set_up).map_err(Unable::refused)?;
     let path =
@@ -52,7 +52,7 @@ pub(super) fn run(invocation: Invocation<'_>) -> Result<Ended, Unable> {
 }
 
 /// The model with its parameters set.
-fn set_up(invocation: &Invocation<'_>, given: &Given) -> Result<SetUp, Unable> {
+fn set_up(invocation: &Invocation<'_>, given: &Given, engine: &dyn Engine) -> Result<SetUp, Unable> {
     let mut set_up = invocation.set_up(given.clone())?;
     if let (Some(parameter), []) = (given.parameters.first(), set_up.model.parameters().schema().fields) {
         return Err(Unable::refused(format!("this model has no parameters; `{parameter}` cannot be set")));
@@ -60,9 +60,8 @@ fn set_up(invocation: &Invocation<'_>, given: &Given) -> Result<SetUp, Unable> {
     for parameter in &given.parameters {
         set_up.model.set_parameter(&parameter.name, &parameter.value).map_err(Unable::refused)?;
     }
-    let engine = invocation.engine.engine;
     let memory = engine.least_memory(&set_up.model, given.precision);
-    check_memory(memory, &format!("this model on the {engine} engine")).map_err(Unable::refused)?;
+    check_memory(memory, &format!("this model on the {} engine", engine.name())).map_err(Unable::refused)?;
     Ok(set_up)
 }
 

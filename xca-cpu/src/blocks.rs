@@ -1,0 +1,97 @@
+//! How the rows of a pass are shared among the threads.
+
+use crate::layout::Layout;
+use crate::population::Population;
+use std::ops::Range;
+
+/// Blocks a thread: enough that the last one is not waited for long, few enough that a block is worth its start.
+const BLOCKS_PER_THREAD: usize = 32;
+
+/// The work of an item, counted in cells.
+const CELLS_PER_ITEM: usize = 16;
+
+/// Blocks of consecutive rows, which have about the same work: the items of the populations may all be in a few of the rows.
+pub(crate) fn blocks(layout: &Layout, populations: &[&Population], threads: usize) -> Vec<Range<usize>> {
+    let rows = layout.rows();
+    let work_before = |row: usize| {
+        let items: usize = populations.iter().map(|population| population.rows[row] as usize).sum();
+        row * layout.width() + items * CELLS_PER_ITEM
+    };
+    let work = work_before(rows) as u128;
+    let count = (threads * BLOCKS_PER_THREAD).min(rows) as u128;
+    let mut blocks = Vec::with_capacity(count as usize);
+    let mut start = 0;
+    for number in 1..=count {
+        let share = (work * number / count) as usize;
+        let end = first(start..rows, |row| work_before(row) >= share);
+        if start < end {
+            blocks.push(start..end);
+            start = end;
+        }
+    }
+    blocks
+}
+
+/// The first number from which on the condition holds, or the range's end.
+fn first(mut range: Range<usize>, condition: impl Fn(usize) -> bool) -> usize {
+    while !range.is_empty() {
+        let middle = range.start + range.len() / 2;
+        if condition(middle) {
+            range.end = middle;
+        } else {
+            range.start = middle + 1;
+        }
+    }
+    range.start
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{BLOCKS_PER_THREAD, CELLS_PER_ITEM, blocks};
+    use crate::layout::Layout;
+    use crate::population::Population;
+    use xca_core::engine::Population as Items;
+    use xca_core::prelude::*;
+
+    #[derive(Substates, Clone, Copy)]
+    struct Site {
+        value: u32,
+    }
+
+    fn layout(extents: [usize; 3]) -> Layout {
+        let model = Model::builder("rows").extents(extents).substates::<Site>().build().unwrap();
+        Layout::new(model.geometry())
+    }
+
+    fn work(layout: &Layout, population: &Population, rows: std::ops::Range<usize>) -> usize {
+        let items = population.row(rows.end - 1).1 - population.row(rows.start).0;
+        rows.len() * layout.width() + items * CELLS_PER_ITEM
+    }
+
+    #[test]
+    fn items_in_a_few_rows_are_shared_evenly() {
+        let layout = layout([10, 40, 50]);
+        let mut population = Population::new(Vec::new(), 8, false, &layout);
+        // All items are in the last tenth of the rows, more and more from row to row.
+        let counts: Vec<u32> = (0..20_000_u32)
+            .map(|cell| if cell < 18_000 { 0 } else { (cell / 10 - 1800) % 8 + (cell % 3) })
+            .collect();
+        let items: u32 = counts.iter().sum();
+        population.set(&layout, &Items { counts, labels: (0..items).collect(), fields: Vec::new() });
+        let heaviest_row = (0..2000).map(|row| work(&layout, &population, row..row + 1)).max().unwrap();
+        for threads in [1, 2, 3, 16] {
+            let blocks = blocks(&layout, &[&population], threads);
+            let all: Vec<usize> = blocks.iter().cloned().flatten().collect();
+            assert_eq!(all, (0..2000).collect::<Vec<_>>(), "every row once, in order");
+            let share = work(&layout, &population, 0..2000) / (threads * BLOCKS_PER_THREAD);
+            for block in blocks {
+                assert!(work(&layout, &population, block) <= share + heaviest_row + 1);
+            }
+        }
+    }
+
+    #[test]
+    fn fewer_rows_than_blocks() {
+        assert_eq!(blocks(&layout([5, 3, 1]), &[], 4), [0..1, 1..2, 2..3]);
+    }
+}
