@@ -60,7 +60,12 @@ impl Execution for GpuExecution {
         let slots = population.slots;
         if let Some(cell) = items.counts.iter().position(|count| *count as usize > slots) {
             let cell_of = self.space.geometry().indices(cell);
-            return Err(Fault::CellFull { cell: cell_of, items: items.counts[cell] as usize, slots });
+            return Err(Fault::CellFull {
+                process: None,
+                cell: cell_of,
+                items: items.counts[cell] as usize,
+                slots,
+            });
         }
         population
             .set(&self.device, &self.space, self.halo.cells(), items)

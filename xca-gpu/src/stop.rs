@@ -120,6 +120,7 @@ impl GpuExecution {
             }
             None => (0, 0),
         };
-        Ok(Fault::CellFull { cell: self.space.cell(cell as usize), items, slots })
+        let process = Some(self.programs[index].process.name);
+        Ok(Fault::CellFull { process, cell: self.space.cell(cell as usize), items, slots })
     }
 }
