@@ -81,7 +81,7 @@ pub struct StepContext<'a> {
 }
 
 /// All items of a population, in the order of cells, then labels.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 pub struct Population {
     /// How many items each cell has.
     pub counts: Vec<u32>,
