@@ -60,6 +60,7 @@
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
+mod checkpoint;
 mod command;
 mod engines;
 pub mod interrupt;
@@ -74,6 +75,7 @@ mod set_up;
 mod terminal;
 mod view;
 
+pub use checkpoint::CheckpointError;
 pub use command::{ConfigError, main, main_of};
 pub use engines::{EngineError, EngineName, MOST_THREADS};
 pub use machine::{NotEnoughMemory, check_memory};

@@ -76,6 +76,12 @@ impl Progress {
         self.bar.set_position(steps);
     }
 
+    /// `steps` were done before, by a run that this one goes on with.
+    pub fn begin_at(&self, steps: u64) {
+        self.bar.set_position(steps);
+        self.bar.reset_eta();
+    }
+
     /// Shows a text at the end of the line, such as what is being written.
     pub fn message(&self, text: &str) {
         self.bar.set_message(text.to_owned());

@@ -43,8 +43,9 @@ pub enum WriteError {
 /// Writes a file so that its name never shows half of it.
 ///
 /// `fill` receives a buffered file with a temporary name in the same folder. If it succeeds, the file is flushed to the
-/// disk and renamed to `path`, which replaces an earlier file in one move; else the temporary file is removed and an
-/// earlier file of that name stays as it was.
+/// disk and renamed to `path`, which replaces an earlier file in one move, and on Unix the folder is flushed too, so that
+/// the new name outlives a loss of power; else the temporary file is removed and an earlier file of that name stays as it
+/// was.
 ///
 /// # Errors
 /// [`WriteError::File`] with `path` and the error of `fill` or of the system.
@@ -70,7 +71,34 @@ fn fill_and_rename(
     let mut writer = BufWriter::with_capacity(1 << 18, File::create(temporary)?);
     fill(&mut writer)?;
     writer.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()?;
-    fs::rename(temporary, path)
+    fs::rename(temporary, path)?;
+    sync_folder(path)
+}
+
+/// Flushes the names of the folder that a file lies in. Not every system lets one open a folder.
+fn sync_folder(file: &Path) -> io::Result<()> {
+    if cfg!(unix) {
+        let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+        File::open(folder.unwrap_or(Path::new(".")))?.sync_all()?;
+    }
+    Ok(())
+}
+
+/// Removes what [`write_atomically`] left in a folder when the process that called it was killed.
+pub(crate) fn remove_leftovers(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries.filter_map(Result::ok) {
+        if entry.file_name().to_str().is_some_and(is_temporary) {
+            // One that stays does no harm.
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+fn is_temporary(name: &str) -> bool {
+    let numbers = || name.strip_prefix('.')?.strip_suffix(".part")?.rsplit_once('.')?.1.split_once('-');
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    numbers().is_some_and(|(process, count)| is_number(process) && is_number(count))
 }
 
 /// `folder/name.csv` gives `folder/.name.csv.PROCESS-COUNT.part`, unlike any other in use.
@@ -218,6 +246,20 @@ mod tests {
         assert_eq!(error.source().unwrap().to_string(), "no more paper");
         assert_eq!(fs::read(&path).unwrap(), b"old");
         assert_eq!(names(folder.path()), ["a.txt"]);
+    }
+
+    #[test]
+    fn what_a_killed_process_left_is_removed_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let left = temporary_name(&folder.path().join("a.b.csv")).unwrap();
+        fs::write(&left, "half").unwrap();
+        let kept = [".a.csv.1-2", ".a.csv.1-.part", ".part", "a.csv.1-2.part", ".hidden"];
+        for name in kept {
+            fs::write(folder.path().join(name), "").unwrap();
+        }
+        remove_leftovers(folder.path());
+        assert!(!left.exists());
+        assert_eq!(names(folder.path()).len(), kept.len());
     }
 
     #[test]
