@@ -36,3 +36,6 @@ impl Checkpoint {
         Ok(Self { description, snapshot })
     }
 }
+
+#[cfg(test)]
+mod tests;

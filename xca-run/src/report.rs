@@ -1,5 +1,6 @@
 //! `run.json`: everything about a run but its results.
 
+use crate::checkpoint::Difference;
 use crate::machine::cores;
 use crate::output::atomic::{WriteError, write_atomically};
 use crate::program::Observable;
@@ -94,6 +95,7 @@ impl Report {
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(default)]
 pub(crate) struct Earlier {
+    command_line: Option<Vec<String>>,
     started: Option<String>,
     resumed: Vec<Value>,
     progress: EarlierProgress,
@@ -119,6 +121,12 @@ impl Earlier {
     /// Whether there is nothing left to do.
     pub(crate) fn has_ended(&self) -> bool {
         ["done", "stopped"].contains(&self.progress.outcome.as_str())
+    }
+
+    /// How this is the report of another run than one with this command line.
+    pub(crate) fn difference(&self, command_line: &[String]) -> Option<Difference> {
+        let own = self.command_line.as_ref().filter(|own| *own != command_line)?;
+        Some(Difference { what: "command line", found: command_line.join(" "), wanted: own.join(" ") })
     }
 
     /// What the run had taken.

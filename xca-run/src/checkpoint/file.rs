@@ -97,8 +97,18 @@ impl Lengths {
 /// The description and the data of a checkpoint, once its checksum is known to be right.
 pub(super) fn read(path: &Path) -> Result<(Description, Vec<u8>), CheckpointError> {
     let failed = |source| CheckpointError::Read { path: path.to_owned(), source };
-    let mut file = BufReader::with_capacity(1 << 18, File::open(path).map_err(failed)?);
-    let found = file.get_ref().metadata().map_err(failed)?.len();
+    let file = File::open(path).map_err(failed)?;
+    let found = file.metadata().map_err(failed)?.len();
+    read_from(path, BufReader::with_capacity(1 << 18, file), found)
+}
+
+/// As [`read`], from a file that has been opened and has so many bytes.
+pub(super) fn read_from(
+    path: &Path,
+    mut file: impl Read + Seek,
+    found: u64,
+) -> Result<(Description, Vec<u8>), CheckpointError> {
+    let failed = |source| CheckpointError::Read { path: path.to_owned(), source };
     let lengths = first_line(path, &mut file, found)?;
     let altered = |what: String| CheckpointError::Altered { path: path.to_owned(), what };
     let wanted = lengths.whole().ok_or_else(|| altered("its first line makes no sense".to_owned()))?;

@@ -44,12 +44,15 @@ impl Choice<'_> {
 /// The whole command.
 pub(super) fn command(definition: &Definition<'_>) -> Command {
     let Definition { name, about, version, .. } = definition;
+    let examples = format!("Examples:\n  {name} run\n  {name} resume out/{name}");
     Command::new(*name)
         .about(*about)
         .version(*version)
         .subcommand_required(true)
         .arg_required_else_help(true)
-        .after_help(format!("`{name} run --help` lists the options of a run.\n\n{EXIT_CODES}"))
+        .after_help(format!(
+            "`{name} run --help` lists the options of a run, and so for each command.\n\n{examples}\n\n{EXIT_CODES}"
+        ))
         .subcommands([run::command(definition), resume::command(definition)])
 }
 

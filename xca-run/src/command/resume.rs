@@ -19,9 +19,10 @@ pub(super) const NAME: &str = "resume";
 
 const ABOUT: &str = "Go on with a run that was interrupted or killed, from its latest checkpoint";
 
-const FILES: &str = "The files of the run become those that it would have had without the interruption, byte by byte. What changes the
-results (the model, its parameters, seed, precision, number of steps) is that of the run; engine and threads do
-not change them.";
+const FILES: &str = "\
+The files of the run become those that it would have had without the interruption,
+byte by byte. What the results depend on (the model with its options, seed,
+precision, steps) is what the run was told; engine and threads are free.";
 
 pub(super) fn command(definition: &Definition<'_>) -> Command {
     let name = definition.name;
@@ -30,7 +31,8 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
         format!("{name} resume out/{name} --engine reference"),
         format!("{name} resume out/{name} --checkpoint out/{name}/checkpoints/step_00000500.checkpoint"),
     ];
-    with_help(ResumeArguments::augment_args(Command::new(NAME)), ABOUT, &examples).before_long_help(FILES)
+    with_help(ResumeArguments::augment_args(Command::new(NAME)), ABOUT, &examples)
+        .long_about(format!("{ABOUT}\n\n{FILES}"))
 }
 
 /// Goes on with a run.
@@ -79,6 +81,7 @@ impl Found<'_> {
         let Checkpoint { description, snapshot } = &checkpoint;
         let of_program = description.run.other_program(self.definition.identity());
         self.same(of_program, description)?;
+        self.same(earlier.difference(&description.run.command_line), description)?;
         let run = parse::recorded(self.definition, &description.run.command_line).map_err(told)?;
         let on = self.arguments.engine(&run.engine);
         let Prepared { engine, mut recorder, options, origin, mut report } = Prepared::new(&run, &on)?;
