@@ -7,7 +7,7 @@ mod file;
 mod folder;
 mod planes;
 
-pub(crate) use description::{Description, Difference, Origin};
+pub(crate) use description::{Description, Difference, GroupShape, Origin, Parameter};
 pub use file::CheckpointError;
 pub(crate) use folder::{CHECKPOINTS, CheckpointFolder};
 

@@ -2,7 +2,9 @@
 
 mod arguments;
 mod config;
+mod inspect;
 mod interval;
+mod list;
 mod parse;
 mod prepare;
 mod resume;
@@ -25,7 +27,7 @@ use std::sync::{Mutex, PoisonError};
 /// What every program's `--help` says of its exit codes.
 const EXIT_CODES: &str = "\
 Exit codes:
-  0    the run is done, or the model stopped it
+  0    what was asked for is done: of a run, all steps, or the model stopped it
   1    the run failed: a fault of the model, or files that could not be written
   2    the command line, a file, a checkpoint or the model makes no sense, or does
        not fit; nothing was run
@@ -161,6 +163,8 @@ fn main_with(definition: &Definition<'_>) -> ExitCode {
 fn execute(invocation: Invocation<'_>) -> Result<Ended, Unable> {
     match invocation {
         Invocation::Run(invocation) => run::run(*invocation),
+        Invocation::List(choice, arguments) => list::list(&choice, &arguments),
+        Invocation::Inspect(arguments) => inspect::inspect(&arguments),
         Invocation::Resume(definition, arguments) => resume::resume(definition, &arguments),
     }
 }

@@ -72,6 +72,7 @@ pub mod progress;
 mod record;
 mod report;
 mod set_up;
+mod table;
 mod terminal;
 mod view;
 

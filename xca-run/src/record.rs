@@ -21,6 +21,7 @@ use crate::program::{Failure, Observable};
 use crate::set_up::SetUp;
 use crate::view::{ViewError, complete};
 use shown::Shown;
+pub(crate) use values::Plane;
 use xca_core::{Model, Simulation, Snapshot};
 
 /// A part of a run's record that cannot be made or written.

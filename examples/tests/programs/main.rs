@@ -6,6 +6,7 @@ mod checkpoints;
 mod files;
 mod interrupted;
 mod killed;
+mod looked_at;
 mod misuse;
 mod physics;
 mod resumed;

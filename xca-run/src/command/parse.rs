@@ -1,7 +1,9 @@
 //! From the words of a command line to what they mean.
 
 use super::arguments::{EngineArguments, ModelArguments, ResumeArguments, RunArguments};
-use super::{Definition, EXIT_CODES, Unable, config, resume, run};
+use super::inspect::InspectArguments;
+use super::list::ListArguments;
+use super::{Definition, EXIT_CODES, Unable, config, inspect, list, resume, run};
 use crate::program::Given;
 use crate::set_up::SetUp;
 use clap::error::ErrorKind;
@@ -14,6 +16,8 @@ use std::path::PathBuf;
 pub(super) enum Invocation<'a> {
     Run(Box<RunInvocation<'a>>),
     Resume(&'a Definition<'a>, ResumeArguments),
+    List(Box<Choice<'a>>, ListArguments),
+    Inspect(InspectArguments),
 }
 
 /// A model with the options that the command line gives it.
@@ -34,17 +38,33 @@ pub(super) struct RunInvocation<'a> {
     pub(super) command_line: Vec<String>,
 }
 
-impl Choice<'_> {
-    /// Makes the model.
-    pub(super) fn set_up(&self, given: Given) -> Result<SetUp, Unable> {
-        (self.definition.set_up)(&self.matches, given)
+impl<'a> Choice<'a> {
+    fn new(definition: &'a Definition<'a>, matches: &ArgMatches) -> Result<Self, Unable> {
+        let (arguments, options) = (from(matches)?, options(definition, matches));
+        Ok(Self { definition, arguments, options, matches: matches.clone() })
+    }
+
+    /// Makes the model, with its parameters set.
+    pub(super) fn set_up(&self, given: &Given) -> Result<SetUp, Unable> {
+        let mut set_up = (self.definition.set_up)(&self.matches, given.clone())?;
+        if let (Some(parameter), []) = (given.parameters.first(), set_up.model.parameters().schema().fields) {
+            return Err(Unable::refused(format!(
+                "this model has no parameters; `{parameter}` cannot be set"
+            )));
+        }
+        for parameter in &given.parameters {
+            set_up.model.set_parameter(&parameter.name, &parameter.value).map_err(Unable::refused)?;
+        }
+        Ok(set_up)
     }
 }
 
 /// The whole command.
 pub(super) fn command(definition: &Definition<'_>) -> Command {
     let Definition { name, about, version, .. } = definition;
-    let examples = format!("Examples:\n  {name} run\n  {name} resume out/{name}");
+    let examples = format!(
+        "Examples:\n  {name} run\n  {name} resume out/{name}\n  {name} list\n  {name} inspect out/{name}"
+    );
     Command::new(*name)
         .about(*about)
         .version(*version)
@@ -53,7 +73,12 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
         .after_help(format!(
             "`{name} run --help` lists the options of a run, and so for each command.\n\n{examples}\n\n{EXIT_CODES}"
         ))
-        .subcommands([run::command(definition), resume::command(definition)])
+        .subcommands([
+            run::command(definition),
+            resume::command(definition),
+            list::command(definition),
+            inspect::command(definition),
+        ])
 }
 
 /// Adds the options of the model, its own and those of every model.
@@ -107,9 +132,7 @@ pub(super) fn recorded<'a>(
     let arguments: Vec<OsString> = command_line.iter().map(OsString::from).collect();
     match complete(definition, &command(definition), &arguments)? {
         Invocation::Run(run) => Ok(*run),
-        Invocation::Resume(..) => {
-            Err(Unable::refused("the command line of the checkpoint is not that of a run"))
-        }
+        _ => Err(Unable::refused("the command line of the checkpoint is not that of a run")),
     }
 }
 
@@ -121,16 +144,15 @@ fn complete<'a>(
     let matches = command.clone().try_get_matches_from(arguments).map_err(Unable::CommandLine)?;
     match matches.subcommand() {
         Some((run::NAME, matches)) => Ok(Invocation::Run(Box::new(RunInvocation {
-            model: Choice {
-                definition,
-                arguments: from(matches)?,
-                options: options(definition, matches),
-                matches: matches.clone(),
-            },
+            model: Choice::new(definition, matches)?,
             engine: from(matches)?,
             run: from(matches)?,
             command_line: arguments.iter().map(|argument| argument.to_string_lossy().into_owned()).collect(),
         }))),
+        Some((list::NAME, matches)) => {
+            Ok(Invocation::List(Box::new(Choice::new(definition, matches)?), from(matches)?))
+        }
+        Some((inspect::NAME, matches)) => Ok(Invocation::Inspect(from(matches)?)),
         Some((resume::NAME, matches)) => Ok(Invocation::Resume(definition, from(matches)?)),
         _ => Err(Unable::refused("no command is given")),
     }

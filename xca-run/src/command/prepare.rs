@@ -46,15 +46,9 @@ impl Prepared {
     }
 }
 
-/// The model with its parameters set.
+/// The model, where the machine has room for it.
 fn set_up(invocation: &RunInvocation<'_>, on: &EngineArguments, given: &Given) -> Result<SetUp, Unable> {
-    let mut set_up = invocation.model.set_up(given.clone())?;
-    if let (Some(parameter), []) = (given.parameters.first(), set_up.model.parameters().schema().fields) {
-        return Err(Unable::refused(format!("this model has no parameters; `{parameter}` cannot be set")));
-    }
-    for parameter in &given.parameters {
-        set_up.model.set_parameter(&parameter.name, &parameter.value).map_err(Unable::refused)?;
-    }
+    let set_up = invocation.model.set_up(given)?;
     let memory = on.engine.least_memory(&set_up.model, given.precision);
     check_memory(memory, &format!("this model on the {} engine", on.engine)).map_err(Unable::refused)?;
     Ok(set_up)
