@@ -31,7 +31,7 @@ fn compare(program: &str, options: &str, every: u64) {
 fn compare_on(parts: &[(&str, &str)], program: &str, options: &str, every: u64) {
     let place = Workplace::new();
     place.succeed(program, &format!("{options} --engine cpu --threads 2 --out whole"));
-    for (begun, resumed) in parts.iter().copied() {
+    for (begun, resumed) in parts {
         let name = format!("{program} {options} on {begun}, then on {resumed}");
         let run = place.path("here");
         place.succeed(program, &format!("{options} --engine {begun} --checkpoint-every {every} --out here"));

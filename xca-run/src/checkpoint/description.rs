@@ -39,6 +39,8 @@ pub(crate) struct Origin {
     pub(crate) every: u64,
     /// The shape of the model, as in `run.json`.
     pub(crate) model: Value,
+    /// The CRC-32 of the bodies of the processes.
+    pub(crate) processes: u32,
     /// The parameters before the first step.
     pub(crate) parameters: Vec<Parameter>,
 }
@@ -187,6 +189,19 @@ fn of_models<'a>(
     keys.map(move |key| ("model", text(key, found), text(key, wanted)))
 }
 
+/// The CRC-32 of the bodies of all processes. Helpers that they call are told by their addresses, which are left out.
+fn of_processes(model: &Model) -> u32 {
+    let mut sum = crc32fast::Hasher::new();
+    for process in model.processes() {
+        let body = format!("{:?}", (process.body)());
+        for (number, part) in body.split("0x").enumerate() {
+            let is_address = |character: char| number > 0 && character.is_ascii_hexdigit();
+            sum.update(part.trim_start_matches(is_address).as_bytes());
+        }
+    }
+    sum.finalize()
+}
+
 fn listed(parameters: &[Parameter]) -> String {
     parameters.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }
@@ -210,6 +225,7 @@ impl Origin {
             steps_wanted,
             every,
             model: serde_json::to_value(report::of_model(model)).unwrap_or_default(),
+            processes: of_processes(model),
             parameters: Parameter::all(model.parameters()),
         }
     }
@@ -233,6 +249,10 @@ impl Origin {
             ("interval of outputs", text(self.every), text(own.every)),
         ])
         .or_else(|| first_difference(of_models(&self.model, &own.model)))
+        .or_else(|| {
+            let sum = |origin: &Self| format!("of the checksum {:08x}", origin.processes);
+            first_difference([("code of the processes", sum(self), sum(own))])
+        })
         .or_else(|| first_difference([("parameters", listed(&self.parameters), listed(&own.parameters))]))
     }
 }

@@ -5,7 +5,7 @@ use crate::set_up::SetUp;
 use std::fs;
 use std::io::Cursor;
 use xca_core::prelude::*;
-use xca_core::{GroupSnapshot, ParameterError};
+use xca_core::{GroupSnapshot, ModelBuilder, ParameterError};
 
 #[derive(Substates, Clone, Copy)]
 struct Field {
@@ -30,6 +30,25 @@ struct Weather {
 #[elementary_process]
 fn warm(cell: &mut Cell<Field>, p: &Weather) {
     cell.heat += p.rain;
+}
+
+mod edited {
+    use super::*;
+
+    #[elementary_process]
+    pub(super) fn warm(cell: &mut Cell<Field>, p: &Weather) {
+        cell.heat += 2.0 * p.rain;
+    }
+}
+
+#[helper]
+fn twice(value: Real) -> Real {
+    value + value
+}
+
+#[elementary_process]
+fn warm_twice(cell: &mut Cell<Field>, p: &Weather) {
+    cell.heat += twice(p.rain);
 }
 
 const ODD_HEAT: u64 = 0x7ff8_0000_0bad_cafe;
@@ -233,6 +252,16 @@ fn another_run_is_known_by_what_differs() -> Result<(), ParameterError> {
         text(run.mismatch(&own(&wider, 0, [10, 2]))).unwrap(),
         "model: cells [2,1,1], not cells [3,1,1]"
     );
+    // The same process with another body.
+    let with = |process: fn(ModelBuilder) -> ModelBuilder| {
+        let builder = Model::builder("field").extents([2, 1, 1]).substates::<Field>();
+        let parameters = Weather { rain: 0.25, days: 3 };
+        own(&process(builder.parameters(parameters)).build().unwrap(), 0, [10, 2])
+    };
+    let difference = with(|builder| builder.process(warm)).mismatch(&with(|b| b.process(edited::warm)));
+    assert_eq!(difference.unwrap().what, "code of the processes");
+    let helped = || with(|builder| builder.process(warm_twice));
+    assert_eq!(helped().mismatch(&helped()), None);
     assert_eq!(text(run.other_program(["0.1.0", "field", "1.2.3"])), None);
     let newer = run.other_program(["0.2.0", "field", "1.2.3"]);
     assert_eq!(text(newer).unwrap(), "version of the framework: 0.1.0, not 0.2.0");

@@ -95,7 +95,7 @@ impl Found<'_> {
         let checkpoints = checkpoints.transpose().map_err(Unable::refused)?;
         recorder.resume(folder.clone(), &description.recorded).map_err(|error| refused(error.into()))?;
         report.checkpoint_every = every.map(|interval| interval.to_string());
-        report.files.push(CheckpointFolder::files());
+        report.files.insert(0, CheckpointFolder::files());
         report.go_on(&earlier, description.step, self.path);
         Ok(UnderWay {
             simulation,

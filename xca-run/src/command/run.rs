@@ -33,7 +33,10 @@ pub(super) fn run(invocation: RunInvocation<'_>) -> Result<Ended, Unable> {
         Prepared::new(&invocation, &invocation.engine)?;
     let RunInvocation { model, run, .. } = invocation;
     report.checkpoint_every = run.checkpoint_every.map(|interval| interval.to_string());
-    report.files.extend(run.checkpoint_every.map(|_| CheckpointFolder::files()));
+    if run.checkpoint_every.is_some() {
+        // The first, so that they are gone first when another run takes the folder: without their files they are of no use.
+        report.files.insert(0, CheckpointFolder::files());
+    }
     let path = run.out.unwrap_or_else(|| PathBuf::from("out").join(model.definition.name));
     let folder = RunFolder::prepare(&path, &report.files, &recorder.set_up().inputs);
     let folder = folder.map_err(Unable::refused)?;
