@@ -93,6 +93,9 @@ pub struct Population {
 
 /// The state of a model on an engine. Values pass as stored bytes: of cells in the order of linear indices, of items cell after cell
 /// and by label.
+///
+/// Nothing may carry over from step to step but what these methods give and take: a run goes on from a snapshot made of them, on this engine
+/// or another, as if it had never been interrupted.
 pub trait Execution: Send {
     /// Runs processes by their numbers in the model, in order.
     ///

@@ -1,6 +1,6 @@
 //! Checkpoints that a run cannot go on from are refused with the reason, nothing is changed, and another one is offered.
 
-use crate::running::{HEAT, LIFE, MOD2, Workplace, results};
+use crate::running::{HEAT, LIFE, MOD2, Workplace, report, results};
 use std::fs;
 use std::path::PathBuf;
 
@@ -105,6 +105,23 @@ fn those_of_others() {
     run.place.write("here/run.json", &report);
     let said = run.refuse(HEAT, &format!("resume here --checkpoint {theirs}"));
     assert!(said.contains("bytes are not those that were written"), "{said}");
+}
+
+/// The report only adds what the run took until then.
+#[test]
+fn a_lost_report_is_no_obstacle() {
+    for text in [None, Some(""), Some("[1]"), Some("{\"progress\": 3}")] {
+        let run = Killed::new();
+        let wanted = results(&run.place.path("here"));
+        match text {
+            Some(text) => run.place.write("here/run.json", text),
+            None => fs::remove_file(run.place.path("here/run.json")).unwrap(),
+        }
+        fs::remove_file(run.place.path("here/final.png")).unwrap();
+        run.resume("");
+        assert!(results(&run.place.path("here")) == wanted, "{text:?}");
+        assert_eq!(report(&run.place.path("here"))["resumed"][0]["step"], 20);
+    }
 }
 
 #[test]

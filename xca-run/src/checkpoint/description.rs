@@ -1,7 +1,7 @@
 //! What a checkpoint says of itself: whose it is, and what its data are.
 
 use crate::numbers::Exact;
-use crate::record::Recorded;
+use crate::record::{Recorded, Recorder};
 use crate::report;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -16,6 +16,8 @@ pub(crate) struct Description {
     pub(crate) run: Origin,
     /// The number of steps done.
     pub(crate) step: u64,
+    /// Simulated time, in s where the model knows it.
+    pub(crate) time: Exact,
     /// Why a steering operation has ended the run, if one has.
     pub(crate) stop: Option<String>,
     /// The present values of the parameters.
@@ -84,11 +86,13 @@ pub(crate) struct SubstateShape {
 }
 
 impl Description {
-    pub(crate) fn new(run: Origin, model: &Model, snapshot: &Snapshot, recorded: Recorded) -> Self {
+    pub(crate) fn new(run: Origin, recorder: &Recorder, snapshot: &Snapshot, recorded: Recorded) -> Self {
+        let model = recorder.model();
         let groups = model.groups().iter().zip(&snapshot.groups);
         let parameters = model.parameters().schema().fields.iter().zip(&snapshot.parameters);
         Self {
             step: snapshot.step,
+            time: Exact(recorder.time(snapshot.step)),
             stop: snapshot.stop.clone(),
             parameters: parameters
                 .map(|(field, bits)| Parameter {

@@ -76,13 +76,13 @@ fn simulation() -> Simulation {
 }
 
 fn checkpoint(simulation: &Simulation) -> Checkpoint {
-    let recorder = Recorder::new(SetUp::new(model(), 10)).unwrap();
+    let recorder = Recorder::new(SetUp::new(model(), 10).time_step(0.25)).unwrap();
     let line = vec!["field".to_owned(), "run".to_owned()];
     let identity = ["0.1.0", "field", "1.2.3"];
     let run = Origin::new(identity, line, &model(), simulation.options(), [10, 2]);
     let snapshot = simulation.snapshot();
     let recorded = recorder.recorded().unwrap();
-    Checkpoint { description: Description::new(run, &model(), &snapshot, recorded), snapshot }
+    Checkpoint { description: Description::new(run, &recorder, &snapshot, recorded), snapshot }
 }
 
 #[test]
@@ -119,6 +119,7 @@ fn the_format_is_the_documented_one() {
     let json: serde_json::Value = serde_json::from_slice(&bytes[end + 1..start]).unwrap();
     for (pointer, value) in [
         ("/step", "3"),
+        ("/time", "0.75"),
         ("/run/program", "\"field\""),
         ("/run/steps_wanted", "10"),
         ("/run/parameters/0/lanes/0", "0.25"),

@@ -6,6 +6,7 @@ mod words;
 use super::parse::with_help;
 use super::{Definition, Ended, Unable};
 use crate::checkpoint::{Checkpoint, CheckpointFolder, Parameter};
+use crate::numbers::Exact;
 use crate::record::REPORT;
 use crate::terminal;
 use clap::{Args, Command};
@@ -84,6 +85,7 @@ struct Inside {
     program: String,
     version: String,
     step: u64,
+    time: Exact,
     steps_wanted: u64,
     parameters: Vec<Parameter>,
     substates: Vec<Statistics>,
@@ -150,6 +152,7 @@ fn inside(path: &Path, checkpoint: &Checkpoint, arguments: &InspectArguments) ->
         program: description.run.program.clone(),
         version: description.run.version.clone(),
         step: description.step,
+        time: description.time,
         steps_wanted: description.run.steps_wanted,
         parameters: description.parameters.clone(),
         substates: state::statistics(checkpoint),

@@ -124,7 +124,7 @@ impl UnderWay {
         let Some(checkpoints) = &mut self.checkpoints else { return Ok(()) };
         let snapshot = self.simulation.snapshot();
         let recorded = self.recorder.recorded()?;
-        let description = Description::new(self.origin.clone(), self.simulation.model(), &snapshot, recorded);
+        let description = Description::new(self.origin.clone(), &self.recorder, &snapshot, recorded);
         checkpoints.write(&Checkpoint { description, snapshot })?;
         self.complete_report();
         self.report.write(&self.folder.report())?;

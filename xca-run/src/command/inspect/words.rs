@@ -59,8 +59,10 @@ fn of_run(report: &Value) -> String {
 
 impl fmt::Display for Inside {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { path, program, version, step, steps_wanted, parameters, substates, places } = self;
-        write!(f, "{}: {program} {version} after {step} of {steps_wanted} steps", path.display())?;
+        let Self { path, program, version, step, time, steps_wanted, parameters, substates, places } = self;
+        let time = significant(time.0, 6);
+        let path = path.display();
+        write!(f, "{path}: {program} {version} after {step} of {steps_wanted} steps, time {time}")?;
         for parameter in parameters {
             write!(f, "\n  {parameter}")?;
         }
