@@ -33,6 +33,7 @@ impl CheckpointFolder {
     pub(crate) fn write(&mut self, checkpoint: &Checkpoint) -> Result<(), WriteError> {
         let path = self.folder.numbered(STEM, checkpoint.description.step, EXTENSION);
         checkpoint.write(&path)?;
+        self.folder.sync()?;
         let name = path.file_name().map(OsString::from);
         if self.last == name {
             return Ok(());

@@ -43,9 +43,8 @@ pub enum WriteError {
 /// Writes a file so that its name never shows half of it.
 ///
 /// `fill` receives a buffered file with a temporary name in the same folder. If it succeeds, the file is flushed to the
-/// disk and renamed to `path`, which replaces an earlier file in one move, and on Unix the folder is flushed too, so that
-/// the new name outlives a loss of power; else the temporary file is removed and an earlier file of that name stays as it
-/// was.
+/// disk and renamed to `path`, which replaces an earlier file in one move; else the temporary file is removed and an
+/// earlier file of that name stays as it was.
 ///
 /// # Errors
 /// [`WriteError::File`] with `path` and the error of `fill` or of the system.
@@ -71,17 +70,7 @@ fn fill_and_rename(
     let mut writer = BufWriter::with_capacity(1 << 18, File::create(temporary)?);
     fill(&mut writer)?;
     writer.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()?;
-    fs::rename(temporary, path)?;
-    sync_folder(path)
-}
-
-/// Flushes the names of the folder that a file lies in. Not every system lets one open a folder.
-fn sync_folder(file: &Path) -> io::Result<()> {
-    if cfg!(unix) {
-        let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
-        File::open(folder.unwrap_or(Path::new(".")))?.sync_all()?;
-    }
-    Ok(())
+    fs::rename(temporary, path)
 }
 
 /// Removes what [`write_atomically`] left in a folder when the process that called it was killed.
@@ -178,6 +167,17 @@ impl OutputFolder {
     #[must_use]
     pub fn numbered(&self, stem: &str, step: u64, extension: &str) -> PathBuf {
         self.file(&format!("{stem}_{step:08}.{extension}"))
+    }
+
+    /// Flushes the names of the folder to the disk, so that they outlive a loss of power. Only Unix lets one do that; elsewhere nothing
+    /// happens.
+    ///
+    /// # Errors
+    /// [`WriteError::File`] with the folder.
+    pub fn sync(&self) -> Result<(), WriteError> {
+        let synced =
+            if cfg!(unix) { File::open(&self.path).and_then(|folder| folder.sync_all()) } else { Ok(()) };
+        synced.map_err(|source| WriteError::File { path: self.path.clone(), source })
     }
 
     /// A folder inside this one, created and checked like this one.

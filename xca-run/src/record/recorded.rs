@@ -49,6 +49,10 @@ impl Recorder {
     /// What has been written until now; all of it is on the disk then.
     pub(crate) fn recorded(&self) -> Result<Recorded, RecordError> {
         let series = self.series.as_ref().map(SeriesWriter::written).transpose()?;
+        if let Some(folder) = &self.folder {
+            folder.top.sync()?;
+            folder.frames.sync()?;
+        }
         Ok(Recorded {
             steps: self.steps.clone(),
             series: series.unwrap_or_default(),
