@@ -109,7 +109,7 @@ pub struct Interruption {
 }
 
 /// All items of a population, in the order of cells, then labels.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 pub struct Population {
     /// How many items each cell has.
     pub counts: Vec<u32>,
@@ -121,6 +121,9 @@ pub struct Population {
 
 /// The state of a model on an engine. Values pass as stored bytes: of cells in the order of linear indices, of items cell after cell
 /// and by label.
+///
+/// Nothing may carry over from step to step but what these methods give and take: a run goes on from a snapshot made of them, on this engine
+/// or another, as if it had never been interrupted.
 pub trait Execution: Send {
     /// Runs processes by their numbers in the model, in order.
     ///

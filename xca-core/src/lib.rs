@@ -117,7 +117,7 @@ pub use process::{ElementaryProcess, Process, ProcessKind};
 pub use random::{Owner, draw_words, philox};
 pub use reference::Reference;
 pub use schema::{Field, Schema};
-pub use simulation::{GroupSnapshot, Outcome, RunError, RunOptions, Simulation, Snapshot};
+pub use simulation::{GroupSnapshot, Outcome, RunError, RunOptions, Simulation, Snapshot, SnapshotError};
 pub use state::{Item, State, StateError};
 pub use steering::{Schedule, SteeringError};
 pub use substates::{HasSubstate, Substate, Substates};

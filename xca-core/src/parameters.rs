@@ -106,6 +106,11 @@ impl ParameterValue {
         Self { value_type, lanes: (0..V::LANES).map(|lane| value.lane(lane).into()).collect() }
     }
 
+    /// A value with these lanes; nothing where the type has another number of them.
+    pub fn from_lanes(value_type: ValueType, lanes: Vec<f64>) -> Option<Self> {
+        (lanes.len() == usize::from(value_type.lanes)).then_some(Self { value_type, lanes })
+    }
+
     /// The value of a field; for the derive.
     #[doc(hidden)]
     pub fn to<V: HostValue>(&self) -> V
@@ -211,6 +216,9 @@ pub trait AnyParameters: Any + fmt::Debug + Send + Sync {
     /// The value of the field with this number.
     fn value_of(&self, field: usize) -> ParameterValue;
 
+    /// Sets the field with this number; the value has as many lanes as the field and fits its type.
+    fn set_value_of(&mut self, field: usize, value: &ParameterValue);
+
     /// Sets the parameter with this name from text.
     ///
     /// # Errors
@@ -237,6 +245,10 @@ impl<P: Parameters> AnyParameters for P {
 
     fn value_of(&self, field: usize) -> ParameterValue {
         self.value(field)
+    }
+
+    fn set_value_of(&mut self, field: usize, value: &ParameterValue) {
+        self.set_value(field, value);
     }
 
     fn set_by_name(&mut self, name: &str, text: &str) -> Result<(), ParameterError> {

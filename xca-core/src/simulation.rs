@@ -1,9 +1,11 @@
 //! A model on an engine.
 
-use crate::engine::{
-    Engine, EngineFailure, Execution, Fault, Interruption, Population, StartError, StepContext, SubstateId,
-};
-use crate::model::{Group, GroupKind, Model};
+mod snapshot;
+
+pub use snapshot::{GroupSnapshot, Snapshot, SnapshotError};
+
+use crate::engine::{Engine, EngineFailure, Execution, Fault, Interruption, StartError, StepContext};
+use crate::model::Model;
 use crate::parameters::AnyParameters;
 use crate::state::State;
 use crate::steering::{Schedule, SteeringError};
@@ -74,16 +76,20 @@ pub enum RunError {
         /// How many there are.
         processes: usize,
     },
+    /// A snapshot that the simulation cannot go on from.
+    #[error(transparent)]
+    Snapshot(#[from] SnapshotError),
 }
 
 /// A model with its state on an engine.
 pub struct Simulation {
     model: Model,
     execution: Box<dyn Execution>,
+    /// How many items of each population had left, beyond those that the engine has counted, when a snapshot was restored.
+    left_before: Vec<u64>,
     parameters: Box<dyn AnyParameters>,
     options: RunOptions,
     step: u64,
-    started: bool,
     broken: bool,
     stop: Option<String>,
 }
@@ -94,22 +100,24 @@ impl Simulation {
     /// # Errors
     /// Where the engine cannot run the model, or making the initial state fails.
     pub fn new(model: &Model, engine: &dyn Engine, options: RunOptions) -> Result<Self, RunError> {
-        let execution = engine.start(model, options.precision)?;
-        let parameters = model.parameters().duplicate();
-        let mut simulation = Self {
-            model: model.clone(),
-            execution,
-            parameters,
-            options,
-            step: 0,
-            started: false,
-            broken: false,
-            stop: None,
-        };
+        let mut simulation = Self::empty(model, engine, options)?;
         simulation.steer(|schedule| *schedule == Schedule::Start)?;
         simulation.steer(|schedule| schedule.is_due(0))?;
-        simulation.started = true;
         Ok(simulation)
+    }
+
+    /// A model on an engine, before anything is in it.
+    fn empty(model: &Model, engine: &dyn Engine, options: RunOptions) -> Result<Self, StartError> {
+        Ok(Self {
+            model: model.clone(),
+            execution: engine.start(model, options.precision)?,
+            left_before: vec![0; model.groups().len()],
+            parameters: model.parameters().duplicate(),
+            options,
+            step: 0,
+            broken: false,
+            stop: None,
+        })
     }
 
     /// The model.
@@ -142,6 +150,7 @@ impl Simulation {
         State {
             model: &self.model,
             execution: &mut *self.execution,
+            left_before: &self.left_before,
             parameters: &mut self.parameters,
             precision: self.options.precision,
             seed: self.options.seed,
@@ -260,25 +269,6 @@ impl Simulation {
             result.map(|()| 0).map_err(|fault| Interruption { done: 0, fault })
         })
     }
-
-    /// The whole state as bytes, for comparisons: equal snapshots are equal to the last bit.
-    ///
-    /// # Errors
-    /// Where the engine cannot reach its state any more.
-    pub fn snapshot(&self) -> Result<Snapshot, RunError> {
-        let group = |(group, definition): (usize, &Group)| match definition.kind() {
-            GroupKind::Cells { .. } => (0..definition.schema().fields.len())
-                .map(|field| self.execution.read(SubstateId { group, field }))
-                .collect::<Result<_, _>>()
-                .map(GroupSnapshot::Cells),
-            GroupKind::Population { .. } => self
-                .execution
-                .population(group)
-                .map(|items| GroupSnapshot::Population(items, self.execution.left(group))),
-        };
-        let groups = self.model.groups().iter().enumerate().map(group).collect::<Result<_, _>>()?;
-        Ok(Snapshot { step: self.step, groups })
-    }
 }
 
 impl fmt::Debug for Simulation {
@@ -289,22 +279,4 @@ impl fmt::Debug for Simulation {
             .field("step", &self.step)
             .finish_non_exhaustive()
     }
-}
-
-/// The whole state of a run.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Snapshot {
-    /// The number of steps done.
-    pub step: u64,
-    /// The groups in the model's order.
-    pub groups: Vec<GroupSnapshot>,
-}
-
-/// The state of one group.
-#[derive(Debug, Clone, PartialEq)]
-pub enum GroupSnapshot {
-    /// The stored bytes of each substate of cells.
-    Cells(Vec<Vec<u8>>),
-    /// The items, and how many have left.
-    Population(Population, u64),
 }

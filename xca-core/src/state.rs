@@ -13,6 +13,7 @@ use crate::value::{HostValue, Precision, StoredScalar};
 pub struct State<'a> {
     pub(crate) model: &'a Model,
     pub(crate) execution: &'a mut dyn Execution,
+    pub(crate) left_before: &'a [u64],
     pub(crate) parameters: &'a mut Box<dyn AnyParameters>,
     pub(crate) precision: Precision,
     pub(crate) seed: u64,
@@ -306,7 +307,8 @@ impl State<'_> {
     /// # Errors
     /// Where the model does not have the population.
     pub fn count_left<S: Substates>(&self) -> Result<u64, StateError> {
-        Ok(self.execution.left(self.population_of::<S>()?))
+        let group = self.population_of::<S>()?;
+        Ok(self.left_before[group].wrapping_add(self.execution.left(group)))
     }
 
     /// The most items that a cell holds.

@@ -46,7 +46,8 @@ pub struct ValueType {
 }
 
 /// The machine type of a stored scalar, after `Real` has been resolved by the run's precision.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum StoredScalar {
     U8,
@@ -57,7 +58,7 @@ pub enum StoredScalar {
 }
 
 /// The machine type of a stored substate.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 pub struct StoredType {
     /// The scalar.
     pub scalar: StoredScalar,

@@ -2,8 +2,14 @@
 
 mod arguments;
 mod config;
+mod inspect;
+mod interval;
+mod list;
 mod parse;
+mod prepare;
+mod resume;
 mod run;
+mod under_way;
 
 pub use config::ConfigError;
 
@@ -12,6 +18,7 @@ use crate::program::{Failure, Given, Program};
 use crate::set_up::SetUp;
 use crate::terminal;
 use clap::{ArgMatches, Command};
+use parse::Invocation;
 use std::ffi::OsString;
 use std::panic::{self, RefUnwindSafe};
 use std::process::ExitCode;
@@ -20,9 +27,10 @@ use std::sync::{Mutex, PoisonError};
 /// What every program's `--help` says of its exit codes.
 const EXIT_CODES: &str = "\
 Exit codes:
-  0    the run is done, or the model stopped it
+  0    what was asked for is done: of a run, all steps, or the model stopped it
   1    the run failed: a fault of the model, or files that could not be written
-  2    the command line, a file or the model makes no sense; nothing was run
+  2    the command line, a file, a checkpoint or the model makes no sense, or does
+       not fit; nothing was run
   130  interrupted: the first Ctrl-C (or SIGTERM) ends the run after its current
        step with all files complete, a second one ends it at once";
 
@@ -42,6 +50,8 @@ enum Ended {
 enum Unable {
     /// Nothing was run.
     Refused(Failure),
+    /// Nothing was run, but this would do.
+    RefusedOffering(Failure, String),
     /// The run failed.
     Failed(Failure),
     /// The run failed, and this is left of it.
@@ -69,6 +79,13 @@ struct Definition<'a> {
     /// Adds the options of the model.
     options: fn(Command) -> Command,
     set_up: &'a SetUpModel<'a>,
+}
+
+impl Definition<'_> {
+    /// The version of the framework, the name of the program, and its version.
+    fn identity(&self) -> [&'static str; 3] {
+        [env!("CARGO_PKG_VERSION"), self.name, self.version]
+    }
 }
 
 type SetUpModel<'a> = dyn Fn(&ArgMatches, Given) -> Result<SetUp, Unable> + RefUnwindSafe + 'a;
@@ -110,11 +127,16 @@ pub fn main_of(
 fn main_with(definition: &Definition<'_>) -> ExitCode {
     let arguments: Vec<OsString> = std::env::args_os().collect();
     let panics = Panics::caught();
-    match panic::catch_unwind(|| parse::invocation(definition, &arguments).and_then(run::run)) {
+    match panic::catch_unwind(|| parse::invocation(definition, &arguments).and_then(execute)) {
         Ok(Ok(Ended::Done)) => ExitCode::SUCCESS,
         Ok(Ok(Ended::Interrupted)) => ExitCode::from(EXIT_INTERRUPTED),
         Ok(Err(Unable::Refused(error))) => {
             terminal::complain(&*error);
+            ExitCode::from(REFUSED)
+        }
+        Ok(Err(Unable::RefusedOffering(error, other))) => {
+            terminal::complain(&*error);
+            terminal::remark(&other);
             ExitCode::from(REFUSED)
         }
         Ok(Err(Unable::Failed(error))) => {
@@ -135,6 +157,15 @@ fn main_with(definition: &Definition<'_>) -> ExitCode {
             terminal::remark(&format!("error: {}", panics.last()));
             ExitCode::from(FAILED)
         }
+    }
+}
+
+fn execute(invocation: Invocation<'_>) -> Result<Ended, Unable> {
+    match invocation {
+        Invocation::Run(invocation) => run::run(*invocation),
+        Invocation::List(choice, arguments) => list::list(&choice, &arguments),
+        Invocation::Inspect(arguments) => inspect::inspect(&arguments),
+        Invocation::Resume(definition, arguments) => resume::resume(definition, &arguments),
     }
 }
 

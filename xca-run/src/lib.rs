@@ -46,7 +46,8 @@
 //! | `run.json` | everything about the run: options, parameters, engine, seed, times, why it ended |
 //!
 //! Every program has the same command line: `--engine`, `--threads`, `--precision`, `--steps`, `--seed`, `--set`, `--config`, `--out`, `--every`,
-//! `--quiet`. A model that has options of its own is a struct that implements [`Program`]; what is saved and drawn is refined with
+//! `--checkpoint-every`, `--quiet`; and `life resume out/life` goes on with a run that was interrupted or killed,
+//! `life inspect out/life` tells what it holds, and `life list` what there is. A model that has options of its own is a struct that implements [`Program`]; what is saved and drawn is refined with
 //! [`ItemView`] and [`CellView`].
 //!
 //! # The parts
@@ -60,6 +61,7 @@
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
+mod checkpoint;
 mod command;
 mod engines;
 pub mod interrupt;
@@ -71,9 +73,11 @@ pub mod progress;
 mod record;
 mod report;
 mod set_up;
+mod table;
 mod terminal;
 mod view;
 
+pub use checkpoint::CheckpointError;
 pub use command::{ConfigError, main, main_of};
 pub use engines::{EngineError, EngineName, MOST_THREADS};
 pub use machine::{NotEnoughMemory, check_memory};

@@ -70,7 +70,8 @@ pub trait Program: clap::Args {
     /// Command lines to try, for `--help`: the arguments of `run`, one example a line.
     const EXAMPLES: &'static str = "--steps 500 --engine reference";
 
-    /// Makes the model, and says how long it is run and what is shown of it.
+    /// Makes the model, and says how long it is run and what is shown of it. To resume a run, this is done again, and the state is replaced
+    /// by that of the checkpoint; so the same options must make the same model.
     ///
     /// # Errors
     /// Where the options make no sense. The program then ends with exit code 2.

@@ -1,13 +1,12 @@
 //! What a run shows of itself: a line while it goes on, a table at its end.
 
-use std::fmt::Write as _;
 use std::io::IsTerminal;
 use std::time::Duration;
 
-use comfy_table::{CellAlignment, ContentLineStyle, LineStyle, Table, TableStyle};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 use crate::numbers::significant;
+use crate::table::table;
 
 /// The line that shows how far a run has come: steps done and to do, steps a second, time left.
 ///
@@ -76,6 +75,12 @@ impl Progress {
         self.bar.set_position(steps);
     }
 
+    /// `steps` were done before, by a run that this one goes on with.
+    pub fn begin_at(&self, steps: u64) {
+        self.bar.set_position(steps);
+        self.bar.reset_eta();
+    }
+
     /// Shows a text at the end of the line, such as what is being written.
     pub fn message(&self, text: &str) {
         self.bar.set_message(text.to_owned());
@@ -134,26 +139,11 @@ pub struct Diagnostic {
 /// Lines do not end in blanks; there is no line end after the last.
 #[must_use]
 pub fn summary(diagnostics: &[Diagnostic]) -> String {
-    let line = LineStyle::none().fill('─').junction('─');
-    let rows = ContentLineStyle::none();
-    let mut table = Table::new();
-    table.load_style(TableStyle::new().header_lines(rows).header_separator(line).content_lines(rows));
-    table.set_header(["quantity", "unit", "initial", "final"]);
     let text = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| significant(value, 6));
-    for Diagnostic { name, unit, initial, last } in diagnostics {
-        table.add_row([name.clone(), unit.clone(), text(*initial), text(*last)]);
-    }
-    for column in [2, 3] {
-        if let Some(column) = table.column_mut(column) {
-            column.set_cell_alignment(CellAlignment::Right);
-        }
-    }
-    let mut out = String::new();
-    for line in table.lines() {
-        // Writing to a string cannot fail.
-        let _ = write!(out, "{}{}", if out.is_empty() { "" } else { "\n" }, line.trim_end());
-    }
-    out
+    let rows = diagnostics.iter().map(|Diagnostic { name, unit, initial, last }| {
+        [name.clone(), unit.clone(), text(*initial), text(*last)]
+    });
+    table(["quantity", "unit", "initial", "final"], rows, &[2, 3])
 }
 
 #[cfg(test)]

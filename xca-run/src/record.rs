@@ -4,11 +4,13 @@ mod cells;
 mod folder;
 mod items;
 mod measure;
+mod recorded;
 mod shown;
 mod values;
 
 pub use folder::FolderError;
-pub(crate) use folder::RunFolder;
+pub(crate) use folder::{REPORT, RunFolder, numbered_files};
+pub(crate) use recorded::Recorded;
 
 use crate::output::atomic::WriteError;
 use crate::output::particle_csv::WriteParticlesError;
@@ -19,6 +21,7 @@ use crate::program::{Failure, Observable};
 use crate::set_up::SetUp;
 use crate::view::{ViewError, complete};
 use shown::Shown;
+pub(crate) use values::Plane;
 use xca_core::{Model, RunError, Simulation, Snapshot};
 
 /// A part of a run's record that cannot be made or written.
@@ -37,6 +40,8 @@ pub enum RecordError {
     Series(#[from] SeriesError),
     #[error(transparent)]
     State(#[from] RunError),
+    #[error(transparent)]
+    Folder(#[from] FolderError),
     #[error("the observables cannot be measured after step {step}")]
     Observe { step: u64, source: Failure },
     #[error("the observables after step {step} are not those of the start: {now} instead of {before}")]
@@ -51,8 +56,8 @@ pub(crate) struct Recorder {
     series: Option<SeriesWriter>,
     first: Vec<Observable>,
     last: Vec<Observable>,
-    recorded: Option<u64>,
-    frames: usize,
+    /// The steps after which the state was recorded.
+    steps: Vec<u64>,
 }
 
 impl Recorder {
@@ -67,8 +72,7 @@ impl Recorder {
             series: None,
             first: Vec::new(),
             last: Vec::new(),
-            recorded: None,
-            frames: 0,
+            steps: Vec::new(),
         })
     }
 
@@ -88,7 +92,7 @@ impl Recorder {
             if shown.is_of_items() {
                 files.push(self.numbered_file("final", number, "csv"));
             }
-            files.push(format!("{name}.pvd"));
+            files.push(shown.collection_file());
             files.push(format!("{}/{name}_*.{}", folder::FRAMES, shown.extension()));
             files.push(self.numbered_file("initial", number, "png"));
             files.push(self.numbered_file("final", number, "png"));
@@ -113,12 +117,17 @@ impl Recorder {
 
     /// How many frames there are, the observables before the first step and the last ones.
     pub(crate) fn results(&self) -> (usize, &[Observable], &[Observable]) {
-        (self.frames, &self.first, &self.last)
+        (self.steps.len(), &self.first, &self.last)
     }
 
     /// The simulated time after so many steps: in seconds, or in steps where the model does not know better.
     pub(crate) fn time(&self, step: u64) -> f64 {
         step as f64 * self.set_up.time_step.unwrap_or(1.0)
+    }
+
+    /// Whether the initial state has been recorded.
+    pub(crate) fn has_begun(&self) -> bool {
+        self.folder.is_some()
     }
 
     /// Records the initial state.
@@ -135,10 +144,10 @@ impl Recorder {
     /// Records the present state as a row of observables and a frame, unless that is done already.
     pub(crate) fn record(&mut self, simulation: &mut Simulation) -> Result<Snapshot, RecordError> {
         let snapshot = simulation.snapshot()?;
-        if self.recorded != Some(snapshot.step) {
-            self.recorded = Some(snapshot.step);
+        if self.steps.last() != Some(&snapshot.step) {
             self.observe(simulation, &snapshot)?;
             self.write_frames(simulation, &snapshot)?;
+            self.steps.push(snapshot.step);
         }
         Ok(snapshot)
     }
@@ -193,21 +202,19 @@ impl Recorder {
         let time = self.time(snapshot.step);
         let Some(folder) = &self.folder else { return Ok(()) };
         for shown in &mut self.shown {
-            let path = folder.frames.numbered(shown.view.name(), snapshot.step, shown.extension());
+            let path = shown.frame(folder, snapshot.step);
             if let Some(items) = shown.items(simulation, snapshot) {
                 items.write_frame(&path, time)?;
             } else if let Some(cells) = shown.cells(simulation, snapshot) {
                 cells.write_frame(&path, time)?;
             }
+            let list = folder.top.file(&shown.collection_file());
             let collection = match &mut shown.collection {
                 Some(collection) => collection,
-                none => {
-                    none.insert(Collection::create(&folder.top.file(&format!("{}.pvd", shown.view.name())))?)
-                }
+                none => none.insert(Collection::create(&list)?),
             };
             collection.add(time, &path)?;
         }
-        self.frames += 1;
         Ok(())
     }
 

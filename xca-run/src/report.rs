@@ -1,9 +1,11 @@
 //! `run.json`: everything about a run but its results.
 
+use crate::checkpoint::Difference;
 use crate::machine::cores;
 use crate::output::atomic::{WriteError, write_atomically};
 use crate::program::Observable;
-use serde::Serialize;
+use crate::record::REPORT;
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 use std::io::{self, Write as _};
 use std::path::Path;
@@ -31,8 +33,12 @@ pub(crate) struct Report {
     pub(crate) precision: Precision,
     pub(crate) seed: u64,
     pub(crate) every: u64,
+    /// Steps or time.
+    pub(crate) checkpoint_every: Option<String>,
     pub(crate) host: Host,
     pub(crate) started: String,
+    /// When and from where the run was resumed.
+    pub(crate) resumed: Vec<Value>,
     pub(crate) progress: Progress,
     pub(crate) observables: Vec<ObservableReport>,
     pub(crate) files: Vec<String>,
@@ -67,6 +73,65 @@ impl Report {
             serde_json::to_writer_pretty(&mut *file, self).map_err(io::Error::from)?;
             file.write_all(b"\n")
         })
+    }
+
+    /// Makes this the report of a run that goes on from a checkpoint after that step.
+    pub(crate) fn go_on(&mut self, earlier: &Earlier, step: u64, checkpoint: &Path) {
+        if let Some(started) = &earlier.started {
+            self.started.clone_from(started);
+        }
+        self.resumed.clone_from(&earlier.resumed);
+        self.resumed.push(json!({
+            "at": now(),
+            "step": step,
+            "checkpoint": checkpoint.file_name().map(|name| name.to_string_lossy()),
+            "engine": self.engine,
+            "threads": self.threads,
+        }));
+    }
+}
+
+/// What `run.json` tells of a run before it was resumed; all nothing where there is no such file.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(default)]
+pub(crate) struct Earlier {
+    command_line: Option<Vec<String>>,
+    started: Option<String>,
+    resumed: Vec<Value>,
+    progress: EarlierProgress,
+}
+
+/// What the run had taken when this was written last: after its last checkpoint, or at its end.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(default)]
+pub(crate) struct EarlierProgress {
+    outcome: String,
+    pub(crate) set_up_seconds: f64,
+    pub(crate) step_seconds: f64,
+    pub(crate) wall_seconds: f64,
+}
+
+impl Earlier {
+    /// Reads the report in the folder of a run.
+    pub(crate) fn read(folder: &Path) -> Self {
+        let text = std::fs::read(folder.join(REPORT)).unwrap_or_default();
+        serde_json::from_slice(&text).unwrap_or_default()
+    }
+
+    /// Whether there is nothing left to do.
+    pub(crate) fn has_ended(&self) -> bool {
+        ["done", "stopped"].contains(&self.progress.outcome.as_str())
+    }
+
+    /// How this is the report of another run than one with this command line.
+    pub(crate) fn difference(&self, command_line: &[String]) -> Option<Difference> {
+        let own = self.command_line.as_ref().filter(|own| *own != command_line)?;
+        Some(Difference { what: "command line", found: command_line.join(" "), wanted: own.join(" ") })
+    }
+
+    /// What the run had taken.
+    pub(crate) fn taken(&self) -> &EarlierProgress {
+        &self.progress
     }
 }
 

@@ -53,7 +53,8 @@ impl SetUp {
         self
     }
 
-    /// What is measured before the first step, every so many steps and after the last: always the same quantities in the same order.
+    /// What is measured before the first step, every so many steps and after the last: always the same quantities in the same order, and
+    /// as a function of the state alone, or a run that is resumed would show others.
     #[must_use]
     pub fn observables(
         mut self,

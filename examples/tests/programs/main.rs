@@ -2,10 +2,14 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should")]
 
+mod checkpoints;
 mod files;
 mod interrupted;
+mod killed;
+mod looked_at;
 mod misuse;
 mod physics;
+mod resumed;
 mod running;
 mod same_bits;
 mod shaders;

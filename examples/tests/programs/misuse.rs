@@ -179,6 +179,15 @@ fn help_is_there_for_everyone() {
         ] {
             assert!(help.contains(text), "{program} {text}");
         }
+        for command in ["run", "resume", "list", "inspect"] {
+            let output = Command::new(program).args([command, "--help"]).output().unwrap();
+            let help = String::from_utf8(output.stdout).unwrap();
+            assert!(output.status.success());
+            let name = program.rsplit('/').next().unwrap();
+            for text in ["Examples:\n", "Exit codes:\n", &format!("\n  {name} {command}")] {
+                assert!(help.contains(text), "{program} {command}: {text}");
+            }
+        }
         assert_eq!(Command::new(program).output().unwrap().status.code(), Some(2));
     }
 }

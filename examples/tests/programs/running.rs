@@ -35,8 +35,13 @@ impl Workplace {
 
     /// The command `PROGRAM run OPTIONS`, the options being divided by blanks.
     pub(crate) fn command(&self, program: &str, options: &str) -> Command {
+        self.invocation(program, &format!("run {options}"))
+    }
+
+    /// The command `PROGRAM WORDS`.
+    pub(crate) fn invocation(&self, program: &str, words: &str) -> Command {
         let mut command = Command::new(program);
-        command.arg("run").args(options.split_whitespace()).current_dir(self.folder.path());
+        command.args(words.split_whitespace()).current_dir(self.folder.path());
         command.env_remove("RUST_BACKTRACE");
         command
     }
@@ -65,6 +70,35 @@ impl Workplace {
             assert!(!said.contains(word), "{program} run {options}: {said}");
         }
         said
+    }
+}
+
+/// The files of a run that do not tell times, with their bytes.
+pub(crate) fn results(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut results = Vec::new();
+    for folder in [folder.to_owned(), folder.join("frames")] {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+            if path.is_file() && name != "run.json" {
+                results.push((name, fs::read(path).unwrap()));
+            }
+        }
+    }
+    results.sort();
+    results
+}
+
+/// Demands that two runs left the same files with the same bytes.
+pub(crate) fn assert_same_results(one: &Path, other: &Path, place: &str) {
+    let (one, other) = (results(one), results(other));
+    let names = |results: &[(String, Vec<u8>)]| -> Vec<String> {
+        results.iter().map(|(name, _)| name.clone()).collect()
+    };
+    assert!(one.len() >= 5);
+    assert_eq!(names(&one), names(&other), "{place}");
+    for (one, other) in one.iter().zip(&other) {
+        assert!(one.1 == other.1, "{place}: {} differs", one.0);
     }
 }
 

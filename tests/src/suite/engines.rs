@@ -41,8 +41,8 @@ pub fn describe(engine: &dyn Engine) -> String {
     format!("{} with {} threads", engine.name(), engine.threads())
 }
 
-/// Runs a model on each engine and demands that all agree with the first to the last bit, after every step and in a run of all steps at
-/// once. Where the first stops with an error, the others must stop in the same step with the same one; that error is the result.
+/// Runs a model on each engine and demands that all agree with the first to the last bit, after every step, in a run of all steps at
+/// once, and in a run that goes on from a snapshot of the first. Where the first stops with an error, the others must stop in the same step with the same one; that error is the result.
 ///
 /// # Errors
 /// What the run ends with on all engines.
@@ -59,9 +59,13 @@ pub fn assert_same_runs(
     let mut first = Simulation::new(model, &**oracle, options)?;
     let mut rest: Vec<Simulation> =
         others.iter().map(|engine| Simulation::new(model, &**engine, options)).collect::<Result<_, _>>()?;
+    let mut halfway = None;
     for step in 0..=steps {
         let outcome = if step == 0 { Ok(()) } else { first.step() };
         let snapshot = first.snapshot()?;
+        if step == steps / 2 {
+            halfway = Some(snapshot.clone());
+        }
         for (engine, simulation) in others.iter().zip(&mut rest) {
             let other = if step == 0 { Ok(()) } else { simulation.step() };
             let place = || format!("step {step} of `{}` on {}", model.name(), describe(&**engine));
@@ -78,6 +82,15 @@ pub fn assert_same_runs(
         let mut at_once = Simulation::new(model, &**engine, options)?;
         at_once.run(steps)?;
         assert_same_state(&snapshot, &at_once.snapshot()?, &place);
+    }
+    let Some(halfway) = &halfway else { return Ok(()) };
+    for engine in engines {
+        let place =
+            || format!("`{}` resumed after step {} on {}", model.name(), halfway.step, describe(&**engine));
+        let mut resumed = Simulation::resume(model, &**engine, options, halfway)?;
+        assert_same_state(halfway, &resumed.snapshot()?, &place);
+        resumed.run(steps - halfway.step)?;
+        assert_same_state(&snapshot, &resumed.snapshot()?, &place);
     }
     Ok(())
 }
@@ -113,6 +126,8 @@ pub fn assert_same_fault(
 /// Where they are not, with the place and what differs.
 pub fn assert_same_state(wanted: &Snapshot, found: &Snapshot, place: &dyn Fn() -> String) {
     assert_eq!(wanted.step, found.step, "{}: the number of steps", place());
+    assert_eq!(wanted.parameters, found.parameters, "{}: the parameters", place());
+    assert_eq!(wanted.stop, found.stop, "{}: the reason to stop", place());
     for (group, (wanted, found)) in wanted.groups.iter().zip(&found.groups).enumerate() {
         match (wanted, found) {
             (GroupSnapshot::Cells(wanted), GroupSnapshot::Cells(found)) => {

@@ -1,5 +1,6 @@
 //! The options that every model's program has.
 
+use super::interval::Interval;
 use crate::engines::{EngineName, MOST_THREADS};
 use crate::program::{Assignment, Given};
 use clap::Args;
@@ -53,9 +54,52 @@ pub(crate) struct RunArguments {
     #[arg(long, value_name = "N", value_parser = interval)]
     pub(crate) every: Option<u64>,
 
+    /// Write a checkpoint every so many steps (500) or after so much time (30s, 10min, 2h), from which `resume` goes on; the last two are
+    /// kept. None unless it is given
+    #[arg(long, value_name = "N|TIME")]
+    pub(crate) checkpoint_every: Option<Interval>,
+
     /// Say nothing but errors
     #[arg(long, short)]
     pub(crate) quiet: bool,
+}
+
+/// Which run goes on, and on what.
+#[derive(Args, Debug, Clone)]
+pub(crate) struct ResumeArguments {
+    /// The folder of the run
+    #[arg(value_name = "DIR")]
+    pub(crate) folder: PathBuf,
+
+    /// The checkpoint to go on from; the latest of the folder unless it is given
+    #[arg(long, value_name = "FILE")]
+    pub(crate) checkpoint: Option<PathBuf>,
+
+    /// What runs the model; the run's own engine unless it is given
+    #[arg(long, value_enum, value_name = "ENGINE")]
+    pub(crate) engine: Option<EngineName>,
+
+    /// How many threads the engine uses; as many as the run was told unless it is given
+    #[arg(long, value_name = "N", value_parser = threads)]
+    pub(crate) threads: Option<usize>,
+
+    /// Write a checkpoint every so many steps or after so much time; as often as the run was told unless it is given
+    #[arg(long, value_name = "N|TIME")]
+    pub(crate) checkpoint_every: Option<Interval>,
+
+    /// Say nothing but errors
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+}
+
+impl ResumeArguments {
+    /// The engine of a run that was begun on that one.
+    pub(crate) fn engine(&self, begun: &EngineArguments) -> EngineArguments {
+        let engine = self.engine.unwrap_or(begun.engine);
+        // Another engine need not be able to use as many threads.
+        let threads = if engine == begun.engine { begun.threads } else { None };
+        EngineArguments { engine, threads: self.threads.or(threads) }
+    }
 }
 
 impl ModelArguments {

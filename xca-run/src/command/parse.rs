@@ -1,7 +1,9 @@
 //! From the words of a command line to what they mean.
 
-use super::arguments::{EngineArguments, ModelArguments, RunArguments};
-use super::{Definition, EXIT_CODES, Unable, config};
+use super::arguments::{EngineArguments, ModelArguments, ResumeArguments, RunArguments};
+use super::inspect::InspectArguments;
+use super::list::ListArguments;
+use super::{Definition, EXIT_CODES, Unable, config, inspect, list, resume, run};
 use crate::program::Given;
 use crate::set_up::SetUp;
 use clap::error::ErrorKind;
@@ -10,56 +12,94 @@ use serde_json::{Map, Value};
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-/// The name of the subcommand.
-pub(super) const RUN: &str = "run";
-
-const RUN_ABOUT: &str = "Run the model, and write what comes of it to a folder";
-
 /// What a command line asks for.
-pub(super) struct Invocation<'a> {
+pub(super) enum Invocation<'a> {
+    Run(Box<RunInvocation<'a>>),
+    Resume(&'a Definition<'a>, ResumeArguments),
+    List(Box<Choice<'a>>, ListArguments),
+    Inspect(InspectArguments),
+}
+
+/// A model with the options that the command line gives it.
+pub(super) struct Choice<'a> {
     pub(super) definition: &'a Definition<'a>,
-    pub(super) model: ModelArguments,
-    pub(super) engine: EngineArguments,
-    pub(super) run: RunArguments,
+    pub(super) arguments: ModelArguments,
     /// The model's own options, for the report.
     pub(super) options: Map<String, Value>,
-    pub(super) command_line: Vec<String>,
     matches: ArgMatches,
 }
 
-impl Invocation<'_> {
-    /// Makes the model.
-    pub(super) fn set_up(&self, given: Given) -> Result<SetUp, Unable> {
-        (self.definition.set_up)(&self.matches, given)
+/// A run.
+pub(super) struct RunInvocation<'a> {
+    pub(super) model: Choice<'a>,
+    pub(super) engine: EngineArguments,
+    pub(super) run: RunArguments,
+    /// The command line, with what a configuration file added to it.
+    pub(super) command_line: Vec<String>,
+}
+
+impl<'a> Choice<'a> {
+    fn new(definition: &'a Definition<'a>, matches: &ArgMatches) -> Result<Self, Unable> {
+        let (arguments, options) = (from(matches)?, options(definition, matches));
+        Ok(Self { definition, arguments, options, matches: matches.clone() })
+    }
+
+    /// Makes the model, with its parameters set.
+    pub(super) fn set_up(&self, given: &Given) -> Result<SetUp, Unable> {
+        let mut set_up = (self.definition.set_up)(&self.matches, given.clone())?;
+        if let (Some(parameter), []) = (given.parameters.first(), set_up.model.parameters().schema().fields) {
+            return Err(Unable::refused(format!(
+                "this model has no parameters; `{parameter}` cannot be set"
+            )));
+        }
+        for parameter in &given.parameters {
+            set_up.model.set_parameter(&parameter.name, &parameter.value).map_err(Unable::refused)?;
+        }
+        Ok(set_up)
     }
 }
 
 /// The whole command.
 pub(super) fn command(definition: &Definition<'_>) -> Command {
-    let Definition { name, about, version, examples, options, .. } = definition;
-    let run = Command::new(RUN);
-    let run = options(run.next_help_heading("Options of this model"));
-    let run = ModelArguments::augment_args(run.next_help_heading("Options of every model"));
-    let run = EngineArguments::augment_args(run);
-    let run = RunArguments::augment_args(run).next_help_heading(None::<&str>);
-    let examples: String = examples.lines().map(|line| format!("\n  {name} run {}", line.trim())).collect();
-    let run = run
+    let Definition { name, about, version, .. } = definition;
+    let examples = format!(
+        "Examples:\n  {name} run\n  {name} resume out/{name}\n  {name} list\n  {name} inspect out/{name}"
+    );
+    Command::new(*name)
+        .about(*about)
+        .version(*version)
+        .subcommand_required(true)
+        .arg_required_else_help(true)
+        .after_help(format!(
+            "`{name} run --help` lists the options of a run, and so for each command.\n\n{examples}\n\n{EXIT_CODES}"
+        ))
+        .subcommands([
+            run::command(definition),
+            resume::command(definition),
+            list::command(definition),
+            inspect::command(definition),
+        ])
+}
+
+/// Adds the options of the model, its own and those of every model.
+pub(super) fn with_model(command: Command, definition: &Definition<'_>) -> Command {
+    let command = (definition.options)(command.next_help_heading("Options of this model"));
+    ModelArguments::augment_args(command.next_help_heading("Options of every model"))
+}
+
+/// What is the same in the help of all subcommands.
+pub(super) fn with_help(command: Command, about: &'static str, examples: &[String]) -> Command {
+    let examples: String = examples.iter().map(|example| format!("\n  {example}")).collect();
+    command
         // An option's text comes from its own description, never from that of the struct.
-        .about(RUN_ABOUT)
+        .about(about)
         .long_about(None::<&str>)
         .mut_args(|option| {
             // `--steps -1` is a wrong number, not an unknown option.
             let takes_values = option.get_action().takes_values();
             if takes_values { option.allow_negative_numbers(true) } else { option }
         })
-        .after_help(format!("Examples:\n  {name} run{examples}\n\n{EXIT_CODES}"));
-    Command::new(*name)
-        .about(*about)
-        .version(*version)
-        .subcommand_required(true)
-        .arg_required_else_help(true)
-        .after_help(format!("`{name} run --help` lists the options of a run.\n\n{EXIT_CODES}"))
-        .subcommand(run)
+        .after_help(format!("Examples:{examples}\n\n{EXIT_CODES}"))
 }
 
 /// Reads the command line, and the configuration file that it names.
@@ -72,25 +112,50 @@ pub(super) fn invocation<'a>(
     if let Some(path) = config_file(&command, &arguments)? {
         let lenient = command.clone().ignore_errors(true).try_get_matches_from(&arguments);
         let lenient = lenient.map_err(Unable::CommandLine)?;
-        if let (Some((name, matches)), Some(run)) = (lenient.subcommand(), command.find_subcommand(RUN)) {
-            let from_file = config::arguments(&path, run, matches).map_err(Unable::refused)?;
+        let chosen = lenient.subcommand();
+        let chosen = chosen.and_then(|(name, matches)| Some((name, matches, command.find_subcommand(name)?)));
+        if let Some((name, matches, subcommand)) = chosen {
+            let from_file = config::arguments(&path, subcommand, matches).map_err(Unable::refused)?;
             let place =
                 1 + arguments.iter().position(|argument| argument.to_str() == Some(name)).unwrap_or(0);
             arguments.splice(place..place, from_file);
         }
     }
-    let matches = command.try_get_matches_from(&arguments).map_err(Unable::CommandLine)?;
-    let (_, matches) = matches.subcommand().ok_or_else(|| Unable::refused("no command is given"))?;
-    let command_line = arguments.iter().map(|argument| argument.to_string_lossy().into_owned()).collect();
-    Ok(Invocation {
-        definition,
-        model: from(matches)?,
-        engine: from(matches)?,
-        run: from(matches)?,
-        options: options(definition, matches),
-        command_line,
-        matches: matches.clone(),
-    })
+    complete(definition, &command, &arguments)
+}
+
+/// Reads a command line to which nothing is to be added: that of an earlier run.
+pub(super) fn recorded<'a>(
+    definition: &'a Definition<'a>,
+    command_line: &[String],
+) -> Result<RunInvocation<'a>, Unable> {
+    let arguments: Vec<OsString> = command_line.iter().map(OsString::from).collect();
+    match complete(definition, &command(definition), &arguments)? {
+        Invocation::Run(run) => Ok(*run),
+        _ => Err(Unable::refused("the command line of the checkpoint is not that of a run")),
+    }
+}
+
+fn complete<'a>(
+    definition: &'a Definition<'a>,
+    command: &Command,
+    arguments: &[OsString],
+) -> Result<Invocation<'a>, Unable> {
+    let matches = command.clone().try_get_matches_from(arguments).map_err(Unable::CommandLine)?;
+    match matches.subcommand() {
+        Some((run::NAME, matches)) => Ok(Invocation::Run(Box::new(RunInvocation {
+            model: Choice::new(definition, matches)?,
+            engine: from(matches)?,
+            run: from(matches)?,
+            command_line: arguments.iter().map(|argument| argument.to_string_lossy().into_owned()).collect(),
+        }))),
+        Some((list::NAME, matches)) => {
+            Ok(Invocation::List(Box::new(Choice::new(definition, matches)?), from(matches)?))
+        }
+        Some((inspect::NAME, matches)) => Ok(Invocation::Inspect(from(matches)?)),
+        Some((resume::NAME, matches)) => Ok(Invocation::Resume(definition, from(matches)?)),
+        _ => Err(Unable::refused("no command is given")),
+    }
 }
 
 fn from<A: FromArgMatches>(matches: &ArgMatches) -> Result<A, Unable> {
@@ -107,12 +172,13 @@ fn config_file(command: &Command, arguments: &[OsString]) -> Result<Option<PathB
         other => other,
     };
     let matches = matches.map_err(Unable::CommandLine)?;
-    Ok(matches.subcommand().and_then(|(_, run)| run.get_one::<PathBuf>("config").cloned()))
+    let config = |matches: &ArgMatches| matches.try_get_one::<PathBuf>("config").ok().flatten().cloned();
+    Ok(matches.subcommand().and_then(|(_, matches)| config(matches)))
 }
 
 /// The values of a model's own options: numbers and truth values as such, all others as text.
 fn options(definition: &Definition<'_>, matches: &ArgMatches) -> Map<String, Value> {
-    let own = (definition.options)(Command::new(RUN));
+    let own = (definition.options)(Command::new(run::NAME));
     let name = |option: &clap::Arg| option.get_long().unwrap_or(option.get_id().as_str()).to_owned();
     own.get_arguments()
         .map(|option| {

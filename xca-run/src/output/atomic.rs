@@ -73,6 +73,23 @@ fn fill_and_rename(
     fs::rename(temporary, path)
 }
 
+/// Removes what [`write_atomically`] left in a folder when the process that called it was killed.
+pub(crate) fn remove_leftovers(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries.filter_map(Result::ok) {
+        if entry.file_name().to_str().is_some_and(is_temporary) {
+            // One that stays does no harm.
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+fn is_temporary(name: &str) -> bool {
+    let numbers = || name.strip_prefix('.')?.strip_suffix(".part")?.rsplit_once('.')?.1.split_once('-');
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    numbers().is_some_and(|(process, count)| is_number(process) && is_number(count))
+}
+
 /// `folder/name.csv` gives `folder/.name.csv.PROCESS-COUNT.part`, unlike any other in use.
 fn temporary_name(path: &Path) -> io::Result<PathBuf> {
     static COUNT: AtomicU64 = AtomicU64::new(0);
@@ -152,6 +169,17 @@ impl OutputFolder {
         self.file(&format!("{stem}_{step:08}.{extension}"))
     }
 
+    /// Flushes the names of the folder to the disk, so that they outlive a loss of power. Only Unix lets one do that; elsewhere nothing
+    /// happens.
+    ///
+    /// # Errors
+    /// [`WriteError::File`] with the folder.
+    pub fn sync(&self) -> Result<(), WriteError> {
+        let synced =
+            if cfg!(unix) { File::open(&self.path).and_then(|folder| folder.sync_all()) } else { Ok(()) };
+        synced.map_err(|source| WriteError::File { path: self.path.clone(), source })
+    }
+
     /// A folder inside this one, created and checked like this one.
     ///
     /// # Errors
@@ -218,6 +246,20 @@ mod tests {
         assert_eq!(error.source().unwrap().to_string(), "no more paper");
         assert_eq!(fs::read(&path).unwrap(), b"old");
         assert_eq!(names(folder.path()), ["a.txt"]);
+    }
+
+    #[test]
+    fn what_a_killed_process_left_is_removed_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let left = temporary_name(&folder.path().join("a.b.csv")).unwrap();
+        fs::write(&left, "half").unwrap();
+        let kept = [".a.csv.1-2", ".a.csv.1-.part", ".part", "a.csv.1-2.part", ".hidden"];
+        for name in kept {
+            fs::write(folder.path().join(name), "").unwrap();
+        }
+        remove_leftovers(folder.path());
+        assert!(!left.exists());
+        assert_eq!(names(folder.path()).len(), kept.len());
     }
 
     #[test]

@@ -5,7 +5,7 @@
 //! machine's power aside, the file holds complete rows. Numbers are the shortest decimals that give back the same `f64`.
 
 use std::fs::File;
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// A time series that cannot be written.
@@ -30,6 +30,14 @@ pub enum SeriesError {
         expected: usize,
         /// The number of values.
         found: usize,
+    },
+    /// The file does not begin with the rows that it is to go on from.
+    #[error("cannot go on with the time series {}: its first {bytes} bytes are not those that were written", path.display())]
+    Changed {
+        /// The file.
+        path: PathBuf,
+        /// The length of those rows.
+        bytes: u64,
     },
     /// Two columns have one name.
     #[error("cannot write the time series {}: the name `{name}` is used twice", path.display())]
@@ -64,6 +72,16 @@ pub struct SeriesWriter {
     path: PathBuf,
     file: File,
     names: usize,
+    written: Written,
+}
+
+/// How much of a time series has been written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+pub struct Written {
+    /// The length of the file.
+    pub bytes: u64,
+    /// The CRC-32 of the file.
+    pub crc32: u32,
 }
 
 impl SeriesWriter {
@@ -78,9 +96,39 @@ impl SeriesWriter {
         }
         let file =
             File::create(path).map_err(|source| SeriesError::Write { path: path.to_owned(), source })?;
-        let mut series = Self { path: path.to_owned(), file, names: names.len() };
+        let mut series =
+            Self { path: path.to_owned(), file, names: names.len(), written: Written::default() };
         series.write_row(&header)?;
         Ok(series)
+    }
+
+    /// Goes on with a file that has so many names. What it holds beyond `written` is cut off.
+    ///
+    /// # Errors
+    /// [`SeriesError::Write`], and [`SeriesError::Changed`] where the file does not begin with what was written.
+    pub fn resume(path: &Path, names: usize, written: Written) -> Result<Self, SeriesError> {
+        let resumed = File::options().read(true).write(true).open(path).and_then(|mut file| {
+            let mut start = Vec::new();
+            Read::by_ref(&mut file).take(written.bytes).read_to_end(&mut start)?;
+            Ok((file, start))
+        });
+        let failed = |source| SeriesError::Write { path: path.to_owned(), source };
+        let (file, start) = resumed.map_err(failed)?;
+        if start.len() as u64 != written.bytes || crc32fast::hash(&start) != written.crc32 {
+            return Err(SeriesError::Changed { path: path.to_owned(), bytes: written.bytes });
+        }
+        file.set_len(written.bytes).map_err(failed)?;
+        Ok(Self { path: path.to_owned(), file, names, written })
+    }
+
+    /// How much has been written, once all of it is on the disk.
+    ///
+    /// # Errors
+    /// [`SeriesError::Write`].
+    pub fn written(&self) -> Result<Written, SeriesError> {
+        let synced = self.file.sync_data();
+        synced.map_err(|source| SeriesError::Write { path: self.path.clone(), source })?;
+        Ok(self.written)
     }
 
     /// Appends a row and hands it to the system. The values stand in the order of the names; `NaN` and `inf` are
@@ -104,8 +152,12 @@ impl SeriesWriter {
             .write_record(fields)
             .map_err(io::Error::from)
             .and_then(|()| csv.into_inner().map_err(|error| io::Error::other(error.to_string())));
-        row.and_then(|row| self.file.write_all(&row))
-            .map_err(|source| SeriesError::Write { path: self.path.clone(), source })
+        let row = row.and_then(|row| self.file.write_all(&row).map(|()| row));
+        let row = row.map_err(|source| SeriesError::Write { path: self.path.clone(), source })?;
+        let mut sum = crc32fast::Hasher::new_with_initial_len(self.written.crc32, self.written.bytes);
+        sum.update(&row);
+        self.written = Written { bytes: self.written.bytes + row.len() as u64, crc32: sum.finalize() };
+        Ok(())
     }
 }
 
@@ -131,6 +183,32 @@ mod tests {
         series.append(1, 1.118_034e-5, &[1.0e22, f64::NAN]).unwrap();
         let text = fs::read_to_string(&path).unwrap();
         assert!(text.ends_with("\n0,0,0.25,-3\n1,1.118034e-5,1e22,NaN\n"), "{text}");
+    }
+
+    #[test]
+    fn a_series_goes_on_where_it_was() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("o.csv");
+        let mut series = SeriesWriter::create(&path, &["energy"]).unwrap();
+        series.append(0, 0.0, &[1.0]).unwrap();
+        let written = series.written().unwrap();
+        let text = fs::read(&path).unwrap();
+        assert_eq!(written, Written { bytes: text.len() as u64, crc32: crc32fast::hash(&text) });
+        series.append(5, 0.5, &[2.0]).unwrap();
+        let whole = fs::read(&path).unwrap();
+        // A row that was cut off by the end of the process.
+        fs::write(&path, &whole[..whole.len() - 1]).unwrap();
+        let mut series = SeriesWriter::resume(&path, 1, written).unwrap();
+        assert_eq!(fs::read(&path).unwrap(), text);
+        series.append(5, 0.5, &[2.0]).unwrap();
+        assert_eq!(fs::read(&path).unwrap(), whole);
+        assert!(series.append(6, 0.6, &[]).is_err());
+        for changed in [&whole[..text.len() - 1], b"step,time,energy\n0,0,7\n"] {
+            fs::write(&path, changed).unwrap();
+            let error = SeriesWriter::resume(&path, 1, written).unwrap_err().to_string();
+            assert!(error.contains("its first 23 bytes are not those that were written"), "{error}");
+            assert_eq!(fs::read(&path).unwrap(), changed);
+        }
     }
 
     #[test]

@@ -1,15 +1,17 @@
 //! The folder of a run, and what an earlier run left in it.
 
-use crate::output::atomic::{OutputFolder, WriteError};
-use std::fs;
+use crate::checkpoint::CHECKPOINTS;
+use crate::output::atomic::{OutputFolder, WriteError, remove_leftovers};
+use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// The folder, below the run's own, that holds the frames.
 pub(super) const FRAMES: &str = "frames";
 
 /// The report, by which a folder is known to be a run's.
-const REPORT: &str = "run.json";
+pub(crate) const REPORT: &str = "run.json";
 
 /// The folders of a run, ready to be written to.
 #[derive(Debug, Clone)]
@@ -18,6 +20,8 @@ pub(crate) struct RunFolder {
     pub(crate) top: OutputFolder,
     /// For one file for each time and view.
     pub(crate) frames: OutputFolder,
+    /// The folder itself, locked until the run ends in whatever way; nothing where the system does not lock folders.
+    _lock: Option<Arc<File>>,
 }
 
 /// A folder that a run must not or cannot write to.
@@ -36,6 +40,8 @@ pub enum FolderError {
         file.display()
     )]
     Input { file: PathBuf },
+    #[error("another run is writing to {}", folder.display())]
+    InUse { folder: PathBuf },
     #[error("cannot remove {}, which an earlier run left", path.display())]
     Remove { path: PathBuf, source: io::Error },
 }
@@ -66,23 +72,49 @@ impl RunFolder {
                 return Err(FolderError::Input { file: input.clone() });
             }
         }
+        let folder = Self::open(path)?;
+        remove(old.into_iter().chain(new))?;
+        Ok(folder)
+    }
+
+    /// The folder of a run that goes on, and what was killed in it removed.
+    pub(crate) fn open(path: &Path) -> Result<Self, FolderError> {
         let top = OutputFolder::create(path)?;
+        let lock = lock(path)?;
         let frames = top.subfolder(FRAMES)?;
-        for path in old.into_iter().chain(new) {
-            match fs::remove_file(&path) {
-                Err(source) if source.kind() != io::ErrorKind::NotFound => {
-                    return Err(FolderError::Remove { path, source });
-                }
-                _ => {}
-            }
+        for folder in [top.path(), frames.path(), &top.file(CHECKPOINTS)] {
+            remove_leftovers(folder);
         }
-        Ok(Self { top, frames })
+        Ok(Self { top, frames, _lock: lock })
     }
 
     /// Where the report stands.
     pub(crate) fn report(&self) -> PathBuf {
         self.top.file(REPORT)
     }
+}
+
+/// Locks a folder for this process.
+fn lock(folder: &Path) -> Result<Option<Arc<File>>, FolderError> {
+    let Ok(file) = File::open(folder) else { return Ok(None) };
+    match file.try_lock() {
+        Ok(()) => Ok(Some(Arc::new(file))),
+        Err(TryLockError::WouldBlock) => Err(FolderError::InUse { folder: folder.to_owned() }),
+        Err(TryLockError::Error(_)) => Ok(None),
+    }
+}
+
+/// Removes files, where they are there.
+pub(super) fn remove(files: impl IntoIterator<Item = PathBuf>) -> Result<(), FolderError> {
+    for path in files {
+        match fs::remove_file(&path) {
+            Err(source) if source.kind() != io::ErrorKind::NotFound => {
+                return Err(FolderError::Remove { path, source });
+            }
+            _ => {}
+        }
+    }
+    Ok(())
 }
 
 /// The files that the report of an earlier run lists; nothing where there is no such report.
@@ -103,7 +135,12 @@ fn existing(folder: &Path, name: &str) -> Vec<PathBuf> {
     let Some((before, after)) = name.rsplit('/').next().and_then(|last| last.split_once('*')) else {
         return if path.is_file() { vec![path] } else { Vec::new() };
     };
-    let Some(Ok(entries)) = path.parent().map(fs::read_dir) else { return Vec::new() };
+    path.parent().map(|folder| numbered_files(folder, before, after)).unwrap_or_default()
+}
+
+/// The files of a folder whose names have only digits between `before` and `after`, in the order of these numbers.
+pub(crate) fn numbered_files(folder: &Path, before: &str, after: &str) -> Vec<PathBuf> {
+    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
     let is_meant = |file: &str| {
         let middle = file.strip_prefix(before).and_then(|rest| rest.strip_suffix(after));
         middle.is_some_and(|middle| !middle.is_empty() && middle.bytes().all(|byte| byte.is_ascii_digit()))
@@ -114,7 +151,7 @@ fn existing(folder: &Path, name: &str) -> Vec<PathBuf> {
         .map(|entry| entry.path())
         .filter(|path| path.is_file())
         .collect();
-    files.sort();
+    files.sort_by_key(|file| (file.as_os_str().len(), file.clone()));
     files
 }
 

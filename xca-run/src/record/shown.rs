@@ -2,8 +2,10 @@
 
 use super::cells::Cells;
 use super::items::Items;
+use super::{RunFolder, numbered_files};
 use crate::output::vtk::Collection;
 use crate::view::AnyView;
+use std::path::PathBuf;
 use xca_core::{GroupSnapshot, Simulation, Snapshot};
 
 /// A view with its files.
@@ -29,6 +31,26 @@ impl Shown {
     /// Of the names of its frames.
     pub(super) fn extension(&self) -> &'static str {
         if self.is_of_items() { "vtp" } else { "vti" }
+    }
+
+    /// The file of the frame of a step.
+    pub(super) fn frame(&self, folder: &RunFolder, step: u64) -> PathBuf {
+        folder.frames.numbered(self.view.name(), step, self.extension())
+    }
+
+    /// The files of all frames that are there.
+    pub(super) fn frames(&self, folder: &RunFolder) -> Vec<PathBuf> {
+        let first = self.frame(folder, 0);
+        let (Some(parent), Some(name)) = (first.parent(), first.file_name()) else { return Vec::new() };
+        let after = format!(".{}", self.extension());
+        let name = name.to_string_lossy();
+        let before = name.trim_end_matches(&after).trim_end_matches('0');
+        numbered_files(parent, before, &after)
+    }
+
+    /// The file that lists the frames with their times.
+    pub(super) fn collection_file(&self) -> String {
+        format!("{}.pvd", self.view.name())
     }
 
     /// The items, if it is a view of items.

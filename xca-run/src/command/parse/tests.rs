@@ -27,24 +27,30 @@ const FOREST: Definition<'static> = Definition {
     set_up: &|_, _| Err(Unable::refused("not here")),
 };
 
-fn parsed(words: &[&str]) -> Result<Invocation<'static>, Unable> {
+fn parsed(words: &[&str]) -> Result<RunInvocation<'static>, Unable> {
     let arguments: Vec<OsString> = ["forest", "run"].iter().chain(words).map(OsString::from).collect();
-    invocation(&FOREST, &arguments)
+    match invocation(&FOREST, &arguments)? {
+        Invocation::Run(run) => Ok(*run),
+        _ => panic!("this is no run"),
+    }
 }
 
 fn message(words: &[&str]) -> String {
     match parsed(words) {
         Err(Unable::CommandLine(error)) => error.to_string(),
-        Err(Unable::Refused(error) | Unable::Failed(error) | Unable::FailedLeaving(error, _)) => {
-            error.to_string()
-        }
+        Err(
+            Unable::Refused(error)
+            | Unable::RefusedOffering(error, _)
+            | Unable::Failed(error)
+            | Unable::FailedLeaving(error, _),
+        ) => error.to_string(),
         Ok(_) => "no error".to_owned(),
     }
 }
 
 /// The program of the options of a struct.
-fn forest(invocation: &Invocation<'_>) -> Forest {
-    Forest::from_arg_matches(&invocation.matches).unwrap()
+fn forest(invocation: &RunInvocation<'_>) -> Forest {
+    Forest::from_arg_matches(&invocation.model.matches).unwrap()
 }
 
 #[test]
@@ -55,13 +61,13 @@ fn the_definition_of_the_command_is_sound() {
 #[test]
 fn what_is_not_given_has_a_default() {
     let invocation = parsed(&[]).unwrap();
-    let given = invocation.model.given(None);
+    let given = invocation.model.arguments.given(None);
     assert_eq!((given.seed, given.precision, given.parameters.len()), (1, Precision::F64, 0));
     assert_eq!((invocation.engine.engine, invocation.engine.threads), (EngineName::Cpu, None));
     assert_eq!(invocation.run.every, None);
     assert!(!invocation.run.quiet);
     assert_eq!(forest(&invocation).size, 200);
-    let options = serde_json::to_string(&invocation.options).unwrap();
+    let options = serde_json::to_string(&invocation.model.options).unwrap();
     assert_eq!(options, r#"{"name":null,"size":200,"tree":[],"wet":false}"#);
 }
 
@@ -82,9 +88,10 @@ fn options_are_told_as_what_they_are() {
         "--set=b=2",
     ];
     let invocation = parsed(&words).unwrap();
-    let options = serde_json::to_string(&invocation.options).unwrap();
+    let options = serde_json::to_string(&invocation.model.options).unwrap();
     assert_eq!(options, r#"{"name":"8 a","size":7,"tree":["oak","fir"],"wet":true}"#);
-    let set: Vec<String> = invocation.model.given(None).parameters.iter().map(ToString::to_string).collect();
+    let set: Vec<String> =
+        invocation.model.arguments.given(None).parameters.iter().map(ToString::to_string).collect();
     assert_eq!(set, ["a=1", "b=2"]);
 }
 
@@ -110,7 +117,7 @@ fn config(text: &str) -> (tempfile::TempDir, String) {
     (folder, path)
 }
 
-fn with_config(text: &str, words: &[&str]) -> Result<Invocation<'static>, Unable> {
+fn with_config(text: &str, words: &[&str]) -> Result<RunInvocation<'static>, Unable> {
     let (_folder, path) = config(text);
     let words: Vec<&str> = words.iter().copied().chain(["--config", &path]).collect();
     parsed(&words)
@@ -134,13 +141,13 @@ fn a_file_gives_options_and_the_command_line_wins() {
     let forest = forest(&invocation);
     assert_eq!((forest.size, forest.wet, forest.tree.len()), (50, true, 2));
     assert_eq!((invocation.engine.threads, invocation.run.quiet), (Some(2), false));
-    let given = invocation.model.given(None);
+    let given = invocation.model.arguments.given(None);
     assert_eq!(given.seed, 4);
     let set: Vec<String> = given.parameters.iter().map(ToString::to_string).collect();
     assert_eq!(set, ["alpha=0.25", "wind=1,-2.5", "alpha=0.5"]);
     // A list on the command line takes the place of the file's.
     let invocation = with_config(text, &["--tree", "elm"]).unwrap();
-    assert_eq!(invocation.options["tree"], serde_json::json!(["elm"]));
+    assert_eq!(invocation.model.options["tree"], serde_json::json!(["elm"]));
 }
 
 #[test]
@@ -190,5 +197,5 @@ fn the_help_tells_options_examples_and_exit_codes() {
         assert!(help.contains(text), "{text}: {help}");
     }
     // Not the description of the struct of options.
-    assert!(help.starts_with(RUN_ABOUT), "{help}");
+    assert!(help.starts_with(run::ABOUT), "{help}");
 }

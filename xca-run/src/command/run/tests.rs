@@ -1,8 +1,9 @@
 //! Runs of a model with substates of cells and two populations, of which the frame is told nothing.
 
 use super::*;
-use crate::command::{Definition, parse};
-use crate::program::{Failure, Observable};
+use crate::command::{Definition, execute, parse};
+use crate::program::{Failure, Given, Observable};
+use crate::set_up::SetUp;
 use crate::view::{CellView, ItemView};
 use serde_json::Value;
 use std::ffi::OsString;
@@ -95,7 +96,7 @@ fn run_model(make: &Make, words: &[&str], out: &Path) -> (Result<Ended, Unable>,
     let first = ["meadow", "run", "--quiet", "--out", out_text];
     let words = first.iter().chain(words);
     let words: Vec<OsString> = words.map(OsString::from).collect();
-    let ended = parse::invocation(&definition, &words).and_then(run);
+    let ended = parse::invocation(&definition, &words).and_then(execute);
     let report = fs::read_to_string(out.join("run.json")).unwrap_or_else(|_| "null".to_owned());
     (ended, serde_json::from_str(&report).unwrap())
 }
@@ -106,9 +107,12 @@ fn plain(_: Given) -> Result<SetUp, Failure> {
 
 fn message(ended: &Result<Ended, Unable>) -> String {
     match ended {
-        Err(Unable::Refused(error) | Unable::Failed(error) | Unable::FailedLeaving(error, _)) => {
-            error.to_string()
-        }
+        Err(
+            Unable::Refused(error)
+            | Unable::RefusedOffering(error, _)
+            | Unable::Failed(error)
+            | Unable::FailedLeaving(error, _),
+        ) => error.to_string(),
         Err(Unable::CommandLine(error)) => error.to_string(),
         Ok(_) => "no error".to_owned(),
     }
@@ -269,19 +273,4 @@ fn observables_must_stay_the_same() {
         message(&ended),
         "the observables after step 2 are not those of the start: late instead of early"
     );
-}
-
-#[test]
-fn batches_follow_the_time_that_a_step_takes() {
-    let mut batch = Batch::default();
-    for _ in 0..6 {
-        batch.adapt(Duration::from_millis(1));
-    }
-    assert_eq!(batch.steps, 64);
-    batch.adapt(Duration::from_millis(50));
-    assert_eq!(batch.steps, 64);
-    for _ in 0..10 {
-        batch.adapt(Duration::from_millis(500));
-    }
-    assert_eq!(batch.steps, 1);
 }

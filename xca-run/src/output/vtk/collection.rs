@@ -41,7 +41,18 @@ impl Collection {
     /// # Errors
     /// [`VtkError::Write`] with the path.
     pub fn create(path: &Path) -> Result<Self, VtkError> {
-        let collection = Self { path: path.to_owned(), entries: String::new() };
+        Self::of(path, &[])
+    }
+
+    /// Makes a collection of these times and files, in place of an earlier one.
+    ///
+    /// # Errors
+    /// As [`Collection::add`].
+    pub fn of(path: &Path, entries: &[(f64, PathBuf)]) -> Result<Self, VtkError> {
+        let mut collection = Self { path: path.to_owned(), entries: String::new() };
+        for (time, file) in entries {
+            collection.enter(*time, file)?;
+        }
         collection.write()?;
         Ok(collection)
     }
@@ -52,6 +63,11 @@ impl Collection {
     /// # Errors
     /// [`VtkError::OutsideFolder`], [`VtkError::Geometry`] for a time that is not finite, [`VtkError::Write`].
     pub fn add(&mut self, time: f64, file: &Path) -> Result<(), VtkError> {
+        self.enter(time, file)?;
+        self.write()
+    }
+
+    fn enter(&mut self, time: f64, file: &Path) -> Result<(), VtkError> {
         if !time.is_finite() {
             return Err(VtkError::Geometry { path: self.path.clone(), what: "the time", value: time });
         }
@@ -68,7 +84,7 @@ impl Collection {
         }
         let name = escaped(&parts.join("/"));
         self.entries.push_str(&format!("<DataSet timestep=\"{time:?}\" part=\"0\" file=\"{name}\"/>\n"));
-        self.write()
+        Ok(())
     }
 
     fn write(&self) -> Result<(), VtkError> {
@@ -111,6 +127,10 @@ mod tests {
                 r#"<DataSet timestep="1.118e-5" part="0" file="below/c.vtp"/>"#
             ]
         );
+        // A collection that is made at once has the same bytes.
+        let files = [(0.0, folder.path().join("a&b.vtp")), (1.118e-5, folder.path().join("below/c.vtp"))];
+        Collection::of(&path, &files).unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), text);
     }
 
     #[test]

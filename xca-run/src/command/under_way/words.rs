@@ -1,28 +1,45 @@
 //! What a run says of itself at its start and at its end.
 
-use super::Run;
+use super::UnderWay;
 use crate::numbers::significant;
 use crate::progress::{self, Diagnostic};
 use crate::report::Report;
 use std::time::Duration;
 use xca_core::Model;
 
-impl Run {
+impl UnderWay {
     /// The line at the start.
     pub(super) fn headline(&self) -> String {
-        let Report { engine, threads, precision, progress, .. } = &self.report;
+        let Report { engine, threads, precision, progress, resumed, .. } = &self.report;
         let threads = match threads {
             1 => "1 thread".to_owned(),
             threads => format!("{threads} threads"),
         };
+        let resumed =
+            (!resumed.is_empty()).then(|| format!(", resumed after step {}", self.simulation.step_number()));
         let time_step = progress.time_step.map(|seconds| format!(" of {} s", significant(seconds, 4)));
         format!(
-            "{}, {}, {engine} engine with {threads}, {precision}, {} steps{}",
+            "{}, {}, {engine} engine with {threads}, {precision}, {} steps{}{}",
             self.recorder.set_up().title,
             cells(self.recorder.model()),
             progress.steps_wanted,
             time_step.unwrap_or_default(),
+            resumed.unwrap_or_default(),
         )
+    }
+
+    /// What is left of a run that failed.
+    pub(super) fn remains(&self) -> String {
+        let folder = self.folder.top.path().display();
+        format!(
+            "{} steps are done; what was written until then is in {folder}",
+            self.simulation.step_number()
+        )
+    }
+
+    fn how_to_go_on(&self) -> String {
+        let folder = self.folder.top.path().display();
+        format!("; `{} resume {folder}` goes on", self.report.program)
     }
 
     /// The table of observables, how it ended, and where the files are.
@@ -38,6 +55,7 @@ impl Run {
             })
             .collect();
         let progress = &self.report.progress;
+        let again = self.checkpoints.as_ref().map(|_| self.how_to_go_on()).unwrap_or_default();
         let end = match (progress.outcome, &progress.reason) {
             ("interrupted", _) => {
                 format!("interrupted after {} of {} steps", progress.steps, progress.steps_wanted)
@@ -51,10 +69,11 @@ impl Run {
         let plain = self.report.files.iter().filter(|file| !file.contains('*')).map(String::as_str);
         let files: Vec<&str> = plain.chain(["run.json"]).collect();
         format!(
-            "\n{}\n\n{end}{} in {wall}{}\n{}: {}; {frames} {}",
+            "\n{}\n\n{end}{} in {wall}{}{}\n{}: {}; {frames} {}",
             progress::summary(&diagnostics),
             time.unwrap_or_default(),
             rate.unwrap_or_default(),
+            if progress.outcome == "interrupted" { again } else { String::new() },
             self.folder.top.path().display(),
             files.join(", "),
             if frames == 1 { "frame" } else { "frames" },

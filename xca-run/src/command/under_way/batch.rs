@@ -23,3 +23,23 @@ impl Batch {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn batches_follow_the_time_that_a_step_takes() {
+        let mut batch = Batch::default();
+        for _ in 0..6 {
+            batch.adapt(Duration::from_millis(1));
+        }
+        assert_eq!(batch.steps, 64);
+        batch.adapt(Duration::from_millis(50));
+        assert_eq!(batch.steps, 64);
+        for _ in 0..10 {
+            batch.adapt(Duration::from_millis(500));
+        }
+        assert_eq!(batch.steps, 1);
+    }
+}

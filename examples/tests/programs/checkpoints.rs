@@ -1,0 +1,150 @@
+//! Checkpoints that a run cannot go on from are refused with the reason, nothing is changed, and another one is offered.
+
+use crate::running::{HEAT, LIFE, MOD2, Workplace, report, results};
+use std::fs;
+use std::path::PathBuf;
+
+/// A run that was killed, with two checkpoints.
+struct Killed {
+    place: Workplace,
+    older: PathBuf,
+    latest: PathBuf,
+}
+
+const OFFER: &str = "another checkpoint is whole; go on from it with\n  heat resume here --checkpoint here/checkpoints/step_00000010.checkpoint\n";
+
+impl Killed {
+    fn new() -> Self {
+        let place = Workplace::new();
+        place.succeed(HEAT, "--size 10 --steps 22 --until 0 --checkpoint-every 10 --out here");
+        let report = place.read("here/run.json").replace("\"outcome\": \"done\"", "\"outcome\": \"running\"");
+        place.write("here/run.json", &report);
+        let path = |step: u64| place.path(&format!("here/checkpoints/step_{step:08}.checkpoint"));
+        Self { older: path(10), latest: path(20), place }
+    }
+
+    /// What a command says that must refuse and change nothing.
+    fn refuse(&self, program: &str, words: &str) -> String {
+        let before = (results(&self.place.path("here")), self.place.read("here/run.json"));
+        let output = self.place.invocation(program, words).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{words}: {said}");
+        assert!(
+            output.stdout.is_empty() && said.starts_with("error: ") && !said.contains("panicked"),
+            "{said}"
+        );
+        assert!(before == (results(&self.place.path("here")), self.place.read("here/run.json")), "{words}");
+        said
+    }
+
+    fn resume(&self, words: &str) {
+        let output = self.place.invocation(HEAT, &format!("resume here --quiet {words}")).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+}
+
+#[test]
+fn truncated_or_altered_ones() {
+    let run = Killed::new();
+    let whole = fs::read(&run.latest).unwrap();
+    let wanted = results(&run.place.path("here"));
+    let line = whole.iter().position(|byte| *byte == b'\n').unwrap();
+    for length in [0, 5, line, line + 1, line + 300, whole.len() / 2, whole.len() - 4, whole.len() - 1] {
+        fs::write(&run.latest, &whole[..length]).unwrap();
+        let said = run.refuse(HEAT, "resume here");
+        let file = "error: here/checkpoints/step_00000020.checkpoint is truncated: ";
+        assert!(said.starts_with(&format!("{file}{length} bytes of ")) && said.ends_with(OFFER), "{said}");
+    }
+    for place in [line + 30, whole.len() - 2000, whole.len() - 1] {
+        let mut altered = whole.clone();
+        altered[place] ^= 16;
+        fs::write(&run.latest, altered).unwrap();
+        let said = run.refuse(HEAT, "resume here");
+        assert!(
+            said.contains("has been altered: its checksum is not that of its content\n")
+                && said.ends_with(OFFER),
+            "{said}"
+        );
+    }
+    fs::write(&run.latest, [&whole[..], b"\n"].concat()).unwrap();
+    assert!(run.refuse(HEAT, "resume here").contains("has been altered: it has "));
+    fs::write(&run.latest, "label,x,y,z\n").unwrap();
+    assert!(run.refuse(HEAT, "resume here").contains("is no checkpoint of an xca program\n"));
+    let newer = [b"xca-checkpoint 2 ", &whole[17..]].concat();
+    fs::write(&run.latest, newer).unwrap();
+    assert!(run.refuse(HEAT, "resume here").contains("has format 2; this program reads format 1\n"));
+    // The one that is offered does.
+    run.resume("--checkpoint here/checkpoints/step_00000010.checkpoint");
+    assert!(results(&run.place.path("here")) == wanted);
+    assert!(fs::read(&run.latest).unwrap() == whole);
+    // Where there is no other one, none is offered.
+    fs::write(&run.latest, "").unwrap();
+    fs::remove_file(&run.older).unwrap();
+    let said = run.refuse(HEAT, "resume here --checkpoint here/checkpoints/step_00000020.checkpoint");
+    assert_eq!(said.lines().count(), 1, "{said}");
+}
+
+#[test]
+fn those_of_others() {
+    let run = Killed::new();
+    let said = run.refuse(MOD2, "resume here");
+    assert!(said.ends_with("belongs to another run: its program is heat, not mod2\n"), "{said}");
+    // Of the same program, with other parameters.
+    run.place
+        .succeed(HEAT, "--size 10 --steps 22 --until 0 --set alpha=0.1 --checkpoint-every 10 --out there");
+    let theirs = "there/checkpoints/step_00000010.checkpoint";
+    let said = run.refuse(HEAT, &format!("resume here --checkpoint {theirs}"));
+    assert!(
+        said.contains("belongs to another run: its command line is ") && said.contains("alpha=0.1"),
+        "{said}"
+    );
+    assert!(said.ends_with(&OFFER.replace("00000010", "00000020")), "{said}");
+    // Also where nothing else tells that the run was another one.
+    fs::copy(run.place.path("there/run.json"), run.place.path("here/run.json")).unwrap();
+    let report = run.place.read("here/run.json").replace("\"done\"", "\"running\"");
+    run.place.write("here/run.json", &report);
+    let said = run.refuse(HEAT, &format!("resume here --checkpoint {theirs}"));
+    assert!(said.contains("bytes are not those that were written"), "{said}");
+}
+
+/// The report only adds what the run took until then.
+#[test]
+fn a_lost_report_is_no_obstacle() {
+    for text in [None, Some(""), Some("[1]"), Some("{\"progress\": 3}")] {
+        let run = Killed::new();
+        let wanted = results(&run.place.path("here"));
+        match text {
+            Some(text) => run.place.write("here/run.json", text),
+            None => fs::remove_file(run.place.path("here/run.json")).unwrap(),
+        }
+        fs::remove_file(run.place.path("here/final.png")).unwrap();
+        run.resume("");
+        assert!(results(&run.place.path("here")) == wanted, "{text:?}");
+        assert_eq!(report(&run.place.path("here"))["resumed"][0]["step"], 20);
+    }
+}
+
+#[test]
+fn none_at_all() {
+    let run = Killed::new();
+    for (words, wanted) in [
+        ("resume", "the following required arguments were not provided:\n  <DIR>"),
+        ("resume away", "error: there is no folder away\n"),
+        ("resume here --steps 5", "unexpected argument '--steps'"),
+        ("resume here --seed 5", "unexpected argument '--seed'"),
+        ("resume here --threads 0", "0 threads do nothing"),
+        ("resume here --engine reference --threads 2", "the reference engine is serial"),
+        ("resume here --checkpoint away", "error: cannot read the checkpoint away\ncaused by: "),
+        ("run --checkpoint-every soon", "it must be a number of steps, such as 500, or a time"),
+        ("run --checkpoint-every 0", "every 0 steps never comes"),
+    ] {
+        let said = run.refuse(HEAT, words);
+        assert!(said.contains(wanted), "{words}: {said}");
+    }
+    run.place.succeed(LIFE, "--steps 3");
+    let said = run.place.invocation(LIFE, "resume out/life --checkpoint here/checkpoints").output().unwrap();
+    assert_eq!(said.status.code(), Some(2));
+    fs::remove_dir_all(run.place.path("here/checkpoints")).unwrap();
+    let said = run.refuse(HEAT, "resume here");
+    assert_eq!(said, "error: there is no checkpoint in here; `run --checkpoint-every` writes them\n");
+}

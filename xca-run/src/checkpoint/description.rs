@@ -1,0 +1,262 @@
+//! What a checkpoint says of itself: whose it is, and what its data are.
+
+use crate::numbers::Exact;
+use crate::record::{Recorded, Recorder};
+use crate::report;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use xca_core::model::Group;
+use xca_core::{
+    AnyParameters, GroupSnapshot, Model, ParameterValue, Precision, RunOptions, Snapshot, StoredType,
+};
+
+/// The JSON part of a checkpoint.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Description {
+    pub(crate) run: Origin,
+    /// The number of steps done.
+    pub(crate) step: u64,
+    /// Simulated time, in s where the model knows it.
+    pub(crate) time: Exact,
+    /// Why a steering operation has ended the run, if one has.
+    pub(crate) stop: Option<String>,
+    /// The present values of the parameters.
+    pub(crate) parameters: Vec<Parameter>,
+    pub(crate) groups: Vec<GroupShape>,
+    pub(crate) recorded: Recorded,
+}
+
+/// The run that a checkpoint belongs to: the same in all checkpoints of a run, whatever engine it was resumed on.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Origin {
+    /// The version of the framework.
+    pub(crate) xca: String,
+    pub(crate) program: String,
+    pub(crate) version: String,
+    /// The command line, with what a configuration file added to it.
+    pub(crate) command_line: Vec<String>,
+    pub(crate) precision: Precision,
+    pub(crate) seed: u64,
+    pub(crate) steps_wanted: u64,
+    pub(crate) every: u64,
+    /// The shape of the model, as in `run.json`.
+    pub(crate) model: Value,
+    /// The CRC-32 of the bodies of the processes.
+    pub(crate) processes: u32,
+    /// The parameters before the first step.
+    pub(crate) parameters: Vec<Parameter>,
+}
+
+/// A parameter with its value.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Parameter {
+    pub(crate) name: String,
+    #[serde(rename = "type")]
+    pub(crate) value_type: String,
+    pub(crate) lanes: Vec<Exact>,
+}
+
+/// The substates of one struct.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct GroupShape {
+    pub(crate) name: String,
+    #[serde(flatten)]
+    pub(crate) kind: Kind,
+    pub(crate) substates: Vec<SubstateShape>,
+}
+
+/// What the substates belong to, and how many there are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(tag = "of", rename_all = "lowercase")]
+pub(crate) enum Kind {
+    Cells { cells: usize },
+    Items { cells: usize, items: usize, left: u64 },
+}
+
+/// A substate.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct SubstateShape {
+    pub(crate) name: String,
+    /// As the model says it.
+    #[serde(rename = "type")]
+    pub(crate) value_type: String,
+    /// As it is stored.
+    #[serde(flatten)]
+    pub(crate) stored: StoredType,
+}
+
+impl Description {
+    pub(crate) fn new(run: Origin, recorder: &Recorder, snapshot: &Snapshot, recorded: Recorded) -> Self {
+        let model = recorder.model();
+        let groups = model.groups().iter().zip(&snapshot.groups);
+        let parameters = model.parameters().schema().fields.iter().zip(&snapshot.parameters);
+        Self {
+            step: snapshot.step,
+            time: Exact(recorder.time(snapshot.step)),
+            stop: snapshot.stop.clone(),
+            parameters: parameters
+                .map(|(field, bits)| Parameter {
+                    name: field.name.to_owned(),
+                    value_type: field.value_type.to_string(),
+                    lanes: bits.iter().map(|bits| Exact(f64::from_bits(*bits))).collect(),
+                })
+                .collect(),
+            groups: groups
+                .map(|(group, state)| GroupShape::new(group, state, model, run.precision))
+                .collect(),
+            run,
+            recorded,
+        }
+    }
+
+    /// How many bytes the data are.
+    pub(super) fn data_bytes(&self) -> usize {
+        let number = size_of::<u32>();
+        let of_group = |group: &GroupShape| {
+            let size: usize = group.substates.iter().map(|substate| substate.stored.size()).sum();
+            match group.kind {
+                Kind::Cells { cells } => cells * size,
+                Kind::Items { cells, items, .. } => cells * number + items * (number + size),
+            }
+        };
+        self.groups.iter().map(of_group).sum()
+    }
+}
+
+impl GroupShape {
+    fn new(group: &Group, state: &GroupSnapshot, model: &Model, precision: Precision) -> Self {
+        let cells = model.geometry().cells();
+        let kind = match state {
+            GroupSnapshot::Cells(_) => Kind::Cells { cells },
+            GroupSnapshot::Population(population, left) => {
+                Kind::Items { cells, items: population.labels.len(), left: *left }
+            }
+        };
+        let substates = group.schema().fields.iter().map(|field| SubstateShape {
+            name: field.name.to_owned(),
+            value_type: field.value_type.to_string(),
+            stored: field.value_type.stored(precision),
+        });
+        Self { name: group.schema().name.to_owned(), kind, substates: substates.collect() }
+    }
+}
+
+impl Parameter {
+    /// The parameters of a model that has not been run.
+    fn all(parameters: &dyn AnyParameters) -> Vec<Self> {
+        let fields = parameters.schema().fields.iter().enumerate();
+        let lanes = |value: ParameterValue| value.lanes().iter().copied().map(Exact).collect();
+        fields
+            .map(|(index, field)| Self {
+                name: field.name.to_owned(),
+                value_type: field.value_type.to_string(),
+                lanes: lanes(parameters.value_of(index)),
+            })
+            .collect()
+    }
+
+    pub(super) fn bits(&self) -> Vec<u64> {
+        self.lanes.iter().map(|lane| lane.0.to_bits()).collect()
+    }
+}
+
+impl std::fmt::Display for Parameter {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let lanes: Vec<String> = self.lanes.iter().map(|lane| format!("{:?}", lane.0)).collect();
+        write!(f, "{} = {}", self.name, lanes.join(","))
+    }
+}
+
+/// What is not the same in a checkpoint and in the program that is to go on from it.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct Difference {
+    pub(crate) what: &'static str,
+    pub(crate) found: String,
+    pub(crate) wanted: String,
+}
+
+/// The first of some properties that differs.
+fn first_difference(
+    properties: impl IntoIterator<Item = (&'static str, String, String)>,
+) -> Option<Difference> {
+    let mut different = properties.into_iter().filter(|(_, found, wanted)| found != wanted);
+    different.next().map(|(what, found, wanted)| Difference { what, found, wanted })
+}
+
+/// The properties of two models.
+fn of_models<'a>(
+    found: &'a Value,
+    wanted: &'a Value,
+) -> impl Iterator<Item = (&'static str, String, String)> {
+    let keys = wanted.as_object().into_iter().flat_map(serde_json::Map::keys);
+    let text = |key: &str, model: &Value| format!("{key} {}", model.get(key).unwrap_or(&Value::Null));
+    keys.map(move |key| ("model", text(key, found), text(key, wanted)))
+}
+
+/// The CRC-32 of the bodies of all processes. Helpers that they call are told by their addresses, which are left out.
+fn of_processes(model: &Model) -> u32 {
+    let mut sum = crc32fast::Hasher::new();
+    for process in model.processes() {
+        let body = format!("{:?}", (process.body)());
+        for (number, part) in body.split("0x").enumerate() {
+            let is_address = |character: char| number > 0 && character.is_ascii_hexdigit();
+            sum.update(part.trim_start_matches(is_address).as_bytes());
+        }
+    }
+    sum.finalize()
+}
+
+fn listed(parameters: &[Parameter]) -> String {
+    parameters.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+}
+
+impl Origin {
+    /// The run of a model, with what the command line chose for it.
+    pub(crate) fn new(
+        [xca, program, version]: [&str; 3],
+        command_line: Vec<String>,
+        model: &Model,
+        options: RunOptions,
+        [steps_wanted, every]: [u64; 2],
+    ) -> Self {
+        Self {
+            xca: xca.to_owned(),
+            program: program.to_owned(),
+            version: version.to_owned(),
+            command_line,
+            precision: options.precision,
+            seed: options.seed,
+            steps_wanted,
+            every,
+            model: serde_json::to_value(report::of_model(model)).unwrap_or_default(),
+            processes: of_processes(model),
+            parameters: Parameter::all(model.parameters()),
+        }
+    }
+
+    /// How the program that wrote this is not the one with this name and these versions.
+    pub(crate) fn other_program(&self, [xca, program, version]: [&str; 3]) -> Option<Difference> {
+        first_difference([
+            ("program", self.program.clone(), program.to_owned()),
+            ("version of the framework", self.xca.clone(), xca.to_owned()),
+            ("version of the program", self.version.clone(), version.to_owned()),
+        ])
+    }
+
+    /// How this run is not the one that the program would do with its command line.
+    pub(crate) fn mismatch(&self, own: &Self) -> Option<Difference> {
+        let text = |number: u64| number.to_string();
+        first_difference([
+            ("precision", self.precision.to_string(), own.precision.to_string()),
+            ("seed", text(self.seed), text(own.seed)),
+            ("number of steps", text(self.steps_wanted), text(own.steps_wanted)),
+            ("interval of outputs", text(self.every), text(own.every)),
+        ])
+        .or_else(|| first_difference(of_models(&self.model, &own.model)))
+        .or_else(|| {
+            let sum = |origin: &Self| format!("of the checksum {:08x}", origin.processes);
+            first_difference([("code of the processes", sum(self), sum(own))])
+        })
+        .or_else(|| first_difference([("parameters", listed(&self.parameters), listed(&own.parameters))]))
+    }
+}

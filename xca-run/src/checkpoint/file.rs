@@ -1,0 +1,182 @@
+//! The frame of the file: a line, a description, binary data, a checksum.
+
+use super::Description;
+use super::planes::Plane;
+use crate::output::atomic::{WriteError, write_atomically};
+use std::fs::File;
+use std::io::{self, BufReader, Read, Seek, Write};
+use std::path::{Path, PathBuf};
+
+/// The format that this program writes and reads.
+const FORMAT: u32 = 1;
+
+/// How every checkpoint begins.
+const MAGIC: &str = "xca-checkpoint ";
+
+/// No first line is longer.
+const LONGEST_LINE: u64 = 100;
+
+/// The bytes of the checksum, a CRC-32.
+const CHECKSUM: u64 = 4;
+
+/// A checkpoint that cannot be used.
+#[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages explain the fields")]
+pub enum CheckpointError {
+    #[error("cannot read the checkpoint {}", path.display())]
+    Read { path: PathBuf, source: io::Error },
+    #[error("{} is no checkpoint of an xca program", path.display())]
+    NoCheckpoint { path: PathBuf },
+    #[error("{} has format {format}; this program reads format {FORMAT}", path.display())]
+    OtherFormat { path: PathBuf, format: u32 },
+    #[error("{} is truncated: {found} bytes of {wanted}", path.display())]
+    Truncated { path: PathBuf, found: u64, wanted: u64 },
+    #[error("{} has been altered: {what}", path.display())]
+    Altered { path: PathBuf, what: String },
+    #[error("{} belongs to another run: its {what} is {found}, not {wanted}", path.display())]
+    Foreign { path: PathBuf, what: &'static str, found: String, wanted: String },
+}
+
+/// Hands on what is written or read, and sums it up.
+struct Summed<T> {
+    inner: T,
+    sum: crc32fast::Hasher,
+}
+
+impl<T> Summed<T> {
+    fn new(inner: T) -> Self {
+        Self { inner, sum: crc32fast::Hasher::new() }
+    }
+}
+
+impl<T: Write> Write for Summed<T> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.inner.write(bytes)?;
+        self.sum.update(&bytes[..written]);
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.inner.flush()
+    }
+}
+
+/// Writes a checkpoint with so many bytes of data in these planes.
+pub(super) fn write(
+    path: &Path,
+    description: &Description,
+    planes: &[Plane<'_>],
+    data: usize,
+) -> Result<(), WriteError> {
+    write_atomically(path, |file| {
+        let description = serde_json::to_vec_pretty(description)?;
+        let mut file = Summed::new(file);
+        writeln!(file, "{MAGIC}{FORMAT} {} {data}", description.len())?;
+        file.write_all(&description)?;
+        for plane in planes {
+            plane.write(&mut file)?;
+        }
+        let sum = file.sum.finalize();
+        file.inner.write_all(&sum.to_le_bytes())
+    })
+}
+
+/// The lengths that the first line tells.
+struct Lengths {
+    line: u64,
+    description: u64,
+    data: u64,
+}
+
+impl Lengths {
+    fn whole(&self) -> Option<u64> {
+        [self.description, self.data, CHECKSUM].into_iter().try_fold(self.line, u64::checked_add)
+    }
+}
+
+/// The description and the data of a checkpoint, once its checksum is known to be right.
+pub(super) fn read(path: &Path) -> Result<(Description, Vec<u8>), CheckpointError> {
+    let failed = |source| CheckpointError::Read { path: path.to_owned(), source };
+    let file = File::open(path).map_err(failed)?;
+    let found = file.metadata().map_err(failed)?.len();
+    read_from(path, BufReader::with_capacity(1 << 18, file), found)
+}
+
+/// As [`read`], from a file that has been opened and has so many bytes.
+pub(super) fn read_from(
+    path: &Path,
+    mut file: impl Read + Seek,
+    found: u64,
+) -> Result<(Description, Vec<u8>), CheckpointError> {
+    let failed = |source| CheckpointError::Read { path: path.to_owned(), source };
+    let lengths = first_line(path, &mut file, found)?;
+    let altered = |what: String| CheckpointError::Altered { path: path.to_owned(), what };
+    let wanted = lengths.whole().ok_or_else(|| altered("its first line makes no sense".to_owned()))?;
+    if found < wanted {
+        return Err(CheckpointError::Truncated { path: path.to_owned(), found, wanted });
+    }
+    if found > wanted {
+        return Err(altered(format!("it has {found} bytes, but its first line says {wanted}")));
+    }
+    file.rewind().map_err(failed)?;
+    let mut sum = Summed::new(io::sink());
+    io::copy(&mut file.by_ref().take(wanted - CHECKSUM), &mut sum).map_err(failed)?;
+    let mut stored = [0; CHECKSUM as usize];
+    file.read_exact(&mut stored).map_err(failed)?;
+    if sum.sum.finalize().to_le_bytes() != stored {
+        return Err(altered("its checksum is not that of its content".to_owned()));
+    }
+    file.seek(io::SeekFrom::Start(lengths.line)).map_err(failed)?;
+    let mut part = |length: u64| -> io::Result<Vec<u8>> {
+        let mut bytes = Vec::with_capacity(usize::try_from(length).unwrap_or(0));
+        file.by_ref().take(length).read_to_end(&mut bytes)?;
+        Ok(bytes)
+    };
+    let description = part(lengths.description).map_err(failed)?;
+    let data = part(lengths.data).map_err(failed)?;
+    let description = serde_json::from_slice(&description);
+    let description =
+        description.map_err(|error| altered(format!("its description makes no sense: {error}")))?;
+    Ok((description, data))
+}
+
+fn first_line(path: &Path, file: &mut impl Read, found: u64) -> Result<Lengths, CheckpointError> {
+    let mut start = Vec::new();
+    let read = file.take(LONGEST_LINE).read_to_end(&mut start);
+    read.map_err(|source| CheckpointError::Read { path: path.to_owned(), source })?;
+    let line = start.split(|byte| *byte == b'\n').next().unwrap_or_default();
+    let has_end = line.len() < start.len();
+    let text = String::from_utf8_lossy(line).into_owned();
+    let no_checkpoint = || CheckpointError::NoCheckpoint { path: path.to_owned() };
+    let Some(numbers) = text.strip_prefix(MAGIC) else {
+        let is_beginning = !has_end && MAGIC.starts_with(&text);
+        return Err(if is_beginning { cut_off(path, found) } else { no_checkpoint() });
+    };
+    if !has_end {
+        return Err(if found < LONGEST_LINE { cut_off(path, found) } else { no_checkpoint() });
+    }
+    let (format, lengths) = numbers.split_once(' ').ok_or_else(no_checkpoint)?;
+    let format: u32 = format.parse().map_err(|_| no_checkpoint())?;
+    if format != FORMAT {
+        return Err(CheckpointError::OtherFormat { path: path.to_owned(), format });
+    }
+    let lengths = lengths.split_once(' ').and_then(|(description, data)| {
+        let line = line.len() as u64 + 1;
+        Some(Lengths { line, description: description.parse().ok()?, data: data.parse().ok()? })
+    });
+    lengths.ok_or_else(|| CheckpointError::Altered {
+        path: path.to_owned(),
+        what: "its first line makes no sense".to_owned(),
+    })
+}
+
+/// A file that ends within its first line.
+fn cut_off(path: &Path, found: u64) -> CheckpointError {
+    CheckpointError::Truncated { path: path.to_owned(), found, wanted: LONGEST_LINE }
+}
+
+/// A checkpoint whose checksum is right, and whose parts still contradict each other.
+pub(super) fn inconsistent(path: &Path) -> CheckpointError {
+    let what = "its data are not those of its description".to_owned();
+    CheckpointError::Altered { path: path.to_owned(), what }
+}

@@ -1,0 +1,117 @@
+//! A snapshot as binary planes, little-endian, and back.
+
+use super::Description;
+use super::description::{GroupShape, Kind};
+use std::borrow::Cow;
+use std::io::{self, Write};
+use xca_core::engine::Population;
+use xca_core::{GroupSnapshot, Snapshot, StoredType};
+
+/// Numbers of so many bytes, one after the other, in the order of this machine.
+pub(super) struct Plane<'a> {
+    size: usize,
+    bytes: Cow<'a, [u8]>,
+}
+
+impl<'a> Plane<'a> {
+    fn of_substate(stored: StoredType, bytes: &'a [u8]) -> Self {
+        Self { size: stored.scalar.size(), bytes: Cow::Borrowed(bytes) }
+    }
+
+    fn of_numbers(numbers: &[u32]) -> Self {
+        let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_ne_bytes()).collect();
+        Self { size: size_of::<u32>(), bytes: Cow::Owned(bytes) }
+    }
+
+    pub(super) fn write(&self, file: &mut impl Write) -> io::Result<()> {
+        if cfg!(target_endian = "little") {
+            file.write_all(&self.bytes)
+        } else {
+            file.write_all(&turned(self.bytes.to_vec(), self.size))
+        }
+    }
+}
+
+/// Each number of so many bytes with its bytes in the other order.
+fn turned(mut bytes: Vec<u8>, size: usize) -> Vec<u8> {
+    bytes.chunks_exact_mut(size).for_each(<[u8]>::reverse);
+    bytes
+}
+
+/// The planes of a snapshot in the order of the file: of each group the substates, of a population before them how many items each cell has,
+/// and the labels.
+pub(super) fn of<'a>(description: &Description, snapshot: &'a Snapshot) -> Vec<Plane<'a>> {
+    let mut planes = Vec::new();
+    for (shape, state) in description.groups.iter().zip(&snapshot.groups) {
+        let fields = match state {
+            GroupSnapshot::Cells(fields) => fields,
+            GroupSnapshot::Population(population, _) => {
+                planes.push(Plane::of_numbers(&population.counts));
+                planes.push(Plane::of_numbers(&population.labels));
+                &population.fields
+            }
+        };
+        let stored = shape.substates.iter().map(|substate| substate.stored);
+        planes.extend(stored.zip(fields).map(|(stored, bytes)| Plane::of_substate(stored, bytes)));
+    }
+    planes
+}
+
+/// The data of a file, plane after plane.
+struct Data<'a> {
+    rest: &'a [u8],
+}
+
+impl Data<'_> {
+    /// The next plane of so many values; nothing where there is less.
+    fn plane(&mut self, count: usize, lanes: usize, size: usize) -> Option<Vec<u8>> {
+        let length = count.checked_mul(lanes)?.checked_mul(size)?;
+        let (bytes, rest) = self.rest.split_at_checked(length)?;
+        self.rest = rest;
+        Some(if cfg!(target_endian = "little") { bytes.to_vec() } else { turned(bytes.to_vec(), size) })
+    }
+
+    fn numbers(&mut self, count: usize) -> Option<Vec<u32>> {
+        let bytes = self.plane(count, 1, size_of::<u32>())?;
+        Some(bytes.as_chunks().0.iter().map(|bytes| u32::from_ne_bytes(*bytes)).collect())
+    }
+
+    fn substates(&mut self, shape: &GroupShape, count: usize) -> Option<Vec<Vec<u8>>> {
+        let stored = shape.substates.iter().map(|substate| substate.stored);
+        stored.map(|stored| self.plane(count, usize::from(stored.lanes), stored.scalar.size())).collect()
+    }
+}
+
+/// The snapshot that these data are; nothing where the description says otherwise.
+pub(super) fn snapshot(description: &Description, data: &[u8]) -> Option<Snapshot> {
+    let mut data = Data { rest: data };
+    let mut groups = Vec::new();
+    for shape in &description.groups {
+        groups.push(match shape.kind {
+            Kind::Cells { cells } => GroupSnapshot::Cells(data.substates(shape, cells)?),
+            Kind::Items { cells, items, left, .. } => {
+                let (counts, labels) = (data.numbers(cells)?, data.numbers(items)?);
+                let fields = data.substates(shape, items)?;
+                GroupSnapshot::Population(Population { counts, labels, fields }, left)
+            }
+        });
+    }
+    data.rest.is_empty().then(|| Snapshot {
+        step: description.step,
+        groups,
+        parameters: description.parameters.iter().map(super::description::Parameter::bits).collect(),
+        stop: description.stop.clone(),
+        broken: false,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::turned;
+
+    #[test]
+    fn bytes_can_be_turned() {
+        assert_eq!(turned(vec![1, 2, 3, 4, 5, 6, 7, 8], 4), [4, 3, 2, 1, 8, 7, 6, 5]);
+        assert_eq!(turned(vec![1, 2], 1), [1, 2]);
+    }
+}

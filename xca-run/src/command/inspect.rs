@@ -1,0 +1,161 @@
+//! The subcommand `inspect`.
+
+mod state;
+mod words;
+
+use super::parse::with_help;
+use super::{Definition, Ended, Unable};
+use crate::checkpoint::{Checkpoint, CheckpointFolder, Parameter};
+use crate::numbers::Exact;
+use crate::record::REPORT;
+use crate::terminal;
+use clap::{Args, Command};
+use serde::Serialize;
+use serde_json::Value;
+use state::{Place, Statistics};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+pub(super) const NAME: &str = "inspect";
+
+const ABOUT: &str = "Tell what the folder of a run or a checkpoint holds";
+
+/// What is looked at, and how it is told.
+#[derive(Args, Debug, Clone)]
+pub(super) struct InspectArguments {
+    /// The folder of a run, or a checkpoint. The state that is told of is that of the latest checkpoint
+    #[arg(value_name = "DIR|CHECKPOINT")]
+    path: PathBuf,
+
+    /// Tell the values in this cell and of the items in it
+    #[arg(long, value_name = "X,Y,Z", value_parser = cell)]
+    cell: Option<[usize; 3]>,
+
+    /// Tell the values of the items with this label
+    #[arg(long, value_name = "N")]
+    label: Option<u32>,
+
+    /// As JSON
+    #[arg(long)]
+    json: bool,
+}
+
+pub(super) fn command(definition: &Definition<'_>) -> Command {
+    let name = definition.name;
+    let examples = [
+        format!("{name} inspect out/{name}"),
+        format!("{name} inspect out/{name}/checkpoints/step_00000500.checkpoint --cell 3,4,0"),
+        format!("{name} inspect out/{name} --label 17 --json"),
+    ];
+    with_help(InspectArguments::augment_args(Command::new(NAME)), ABOUT, &examples)
+}
+
+fn cell(text: &str) -> Result<[usize; 3], &'static str> {
+    const WANTED: &str = "it must be three whole numbers, such as 3,4,0";
+    let indices: Result<Vec<usize>, _> = text.split(',').map(|index| index.trim().parse()).collect();
+    indices.map_err(|_| WANTED)?.try_into().map_err(|_| WANTED)
+}
+
+/// What there is to tell.
+#[derive(Debug, Serialize)]
+struct Findings {
+    /// `run.json`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    run: Option<Value>,
+    /// The checkpoints of the folder, the latest first.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    checkpoints: Vec<Listed>,
+    /// The one that is looked into.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    state: Option<Inside>,
+}
+
+/// A checkpoint of a folder.
+#[derive(Debug, Serialize)]
+struct Listed {
+    path: PathBuf,
+    /// Why it cannot be used.
+    problem: Option<String>,
+}
+
+/// What is in a checkpoint.
+#[derive(Debug, Serialize)]
+struct Inside {
+    path: PathBuf,
+    program: String,
+    version: String,
+    step: u64,
+    time: Exact,
+    steps_wanted: u64,
+    parameters: Vec<Parameter>,
+    substates: Vec<Statistics>,
+    /// The cell and the items that were asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    places: Vec<Place>,
+}
+
+/// Looks into a folder or a checkpoint.
+pub(super) fn inspect(arguments: &InspectArguments) -> Result<Ended, Unable> {
+    let findings = if arguments.path.is_dir() { in_folder(arguments)? } else { in_file(arguments)? };
+    let text = if arguments.json {
+        serde_json::to_string_pretty(&findings).map_err(Unable::failed)?
+    } else {
+        findings.to_string()
+    };
+    terminal::say(&text);
+    Ok(Ended::Done)
+}
+
+fn in_file(arguments: &InspectArguments) -> Result<Findings, Unable> {
+    let checkpoint = Checkpoint::read(&arguments.path).map_err(Unable::refused)?;
+    let state = Some(inside(&arguments.path, &checkpoint, arguments)?);
+    Ok(Findings { run: None, checkpoints: Vec::new(), state })
+}
+
+fn in_folder(arguments: &InspectArguments) -> Result<Findings, Unable> {
+    let run: Option<Value> = fs::read(arguments.path.join(REPORT))
+        .ok()
+        .and_then(|text| serde_json::from_slice(&text).ok())
+        .filter(|report: &Value| report.get("xca").is_some());
+    let (mut state, mut checkpoints) = (None, Vec::new());
+    for path in CheckpointFolder::of_run(&arguments.path) {
+        let read = Checkpoint::read(&path);
+        if let (None, Ok(checkpoint)) = (&state, &read) {
+            state = Some(inside(&path, checkpoint, arguments)?);
+        }
+        checkpoints.push(Listed { path, problem: read.err().map(|error| error.to_string()) });
+    }
+    if run.is_none() && checkpoints.is_empty() {
+        let folder = arguments.path.display();
+        return Err(Unable::refused(format!(
+            "{folder} is no folder of a run: it has neither {REPORT} nor checkpoints"
+        )));
+    }
+    if state.is_none() && (arguments.cell.is_some() || arguments.label.is_some()) {
+        let folder = arguments.path.display();
+        return Err(Unable::refused(format!("there is no checkpoint in {folder} to look into")));
+    }
+    Ok(Findings { run, checkpoints, state })
+}
+
+fn inside(path: &Path, checkpoint: &Checkpoint, arguments: &InspectArguments) -> Result<Inside, Unable> {
+    let mut places = Vec::new();
+    if let Some(cell) = arguments.cell {
+        places.extend(state::cell(checkpoint, cell).map_err(Unable::refused)?);
+    }
+    if let Some(label) = arguments.label {
+        places.extend(state::items(checkpoint, label).map_err(Unable::refused)?);
+    }
+    let description = &checkpoint.description;
+    Ok(Inside {
+        path: path.to_owned(),
+        program: description.run.program.clone(),
+        version: description.run.version.clone(),
+        step: description.step,
+        time: description.time,
+        steps_wanted: description.run.steps_wanted,
+        parameters: description.parameters.clone(),
+        substates: state::statistics(checkpoint),
+        places,
+    })
+}

@@ -1,0 +1,106 @@
+//! What was found, as text.
+
+use super::state::{Place, Statistics};
+use super::{Findings, Inside};
+use crate::numbers::{Exact, significant};
+use crate::table::table;
+use serde_json::Value;
+use std::fmt;
+
+impl fmt::Display for Findings {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut parts: Vec<String> = self.run.iter().map(of_run).collect();
+        let kept = self.checkpoints.iter().map(|listed| {
+            let problem = listed.problem.as_ref().map(|problem| format!(" (cannot be used: {problem})"));
+            format!("  {}{}", listed.path.display(), problem.unwrap_or_default())
+        });
+        if !self.checkpoints.is_empty() {
+            parts.push(format!("checkpoints\n{}", kept.collect::<Vec<_>>().join("\n")));
+        }
+        parts.extend(self.state.iter().map(ToString::to_string));
+        f.write_str(&parts.join("\n\n"))
+    }
+}
+
+/// What `run.json` says.
+fn of_run(report: &Value) -> String {
+    let text = |pointer: &str| match report.pointer(pointer) {
+        Some(Value::String(text)) => text.clone(),
+        Some(value) => value.to_string(),
+        None => "?".to_owned(),
+    };
+    let outcome = match text("/progress/outcome").as_str() {
+        "running" => "running, or killed".to_owned(),
+        other => other.to_owned(),
+    };
+    let words = report.pointer("/command_line").and_then(Value::as_array);
+    let words = words.into_iter().flatten().filter_map(Value::as_str).collect::<Vec<_>>();
+    let resumed = report.pointer("/resumed").and_then(Value::as_array).map_or(0, Vec::len);
+    let resumed = match resumed {
+        0 => String::new(),
+        1 => ", resumed once".to_owned(),
+        times => format!(", resumed {times} times"),
+    };
+    format!(
+        "{} {}: {outcome}{resumed}, {} of {} steps, {} frames\n  {}\n  {} engine, threads {}, {}, seed {}, begun {}",
+        text("/program"),
+        text("/version"),
+        text("/progress/steps"),
+        text("/progress/steps_wanted"),
+        text("/progress/frames"),
+        words.join(" "),
+        text("/engine"),
+        text("/threads"),
+        text("/precision"),
+        text("/seed"),
+        text("/started"),
+    )
+}
+
+impl fmt::Display for Inside {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { path, program, version, step, time, steps_wanted, parameters, substates, places } = self;
+        let time = significant(time.0, 6);
+        let path = path.display();
+        write!(f, "{path}: {program} {version} after {step} of {steps_wanted} steps, time {time}")?;
+        for parameter in parameters {
+            write!(f, "\n  {parameter}")?;
+        }
+        write!(f, "\n\n{}", of_substates(substates))?;
+        for place in places {
+            write!(f, "\n\n{place}")?;
+        }
+        Ok(())
+    }
+}
+
+fn of_substates(substates: &[Statistics]) -> String {
+    let number = |value: &Option<Exact>| {
+        value.as_ref().map_or_else(|| "-".to_owned(), |value| significant(value.0, 6))
+    };
+    let rows = substates.iter().map(|substate| {
+        let Statistics { name, value_type, count, least, mean, largest, not_numbers } = substate;
+        let none = if *not_numbers > 0 { not_numbers.to_string() } else { String::new() };
+        let (name, value_type) = (name.clone(), value_type.clone());
+        [name, value_type, count.to_string(), number(least), number(mean), number(largest), none]
+    });
+    let has_none = substates.iter().any(|substate| substate.not_numbers > 0);
+    let last = if has_none { "no numbers" } else { "" };
+    table(["substate", "type", "count", "least", "mean", "largest", last], rows, &[2, 3, 4, 5, 6])
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { of, cell: [x, y, z], label, values } = self;
+        match label {
+            Some(label) => write!(f, "{of} {label} in cell {x},{y},{z}")?,
+            None => write!(f, "{of} in cell {x},{y},{z}")?,
+        }
+        for value in values {
+            // All digits: to look at one value is to want to know it.
+            let lanes: Vec<String> = value.lanes.iter().map(|lane| format!("{:?}", lane.0)).collect();
+            write!(f, "\n  {} = {}", value.name, lanes.join(", "))?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,131 @@
+//! The subcommand `list`.
+
+use super::parse::{Choice, with_help, with_model};
+use super::{Definition, Ended, Unable};
+use crate::engines::EngineName;
+use crate::report;
+use crate::table::table;
+use crate::terminal;
+use clap::{Args, Command, ValueEnum};
+use serde_json::json;
+use xca_core::model::GroupKind;
+use xca_core::{Model, Process, ProcessKind};
+
+pub(super) const NAME: &str = "list";
+
+const ABOUT: &str = "Tell what there is: engines, and the model's substates, parameters and processes";
+
+/// How it is told.
+#[derive(Args, Debug, Clone)]
+pub(super) struct ListArguments {
+    /// As JSON
+    #[arg(long)]
+    json: bool,
+}
+
+pub(super) fn command(definition: &Definition<'_>) -> Command {
+    let name = definition.name;
+    let command = with_model(Command::new(NAME), definition).next_help_heading(None::<&str>);
+    let examples = [format!("{name} list"), format!("{name} list --json")];
+    with_help(ListArguments::augment_args(command), ABOUT, &examples)
+}
+
+/// Tells what a program has, with the options that are given.
+pub(super) fn list(choice: &Choice<'_>, arguments: &ListArguments) -> Result<Ended, Unable> {
+    let model = choice.set_up(&choice.arguments.given(None))?.model;
+    let text = if arguments.json { as_json(&model).map_err(Unable::failed)? } else { as_text(&model) };
+    terminal::say(&text);
+    Ok(Ended::Done)
+}
+
+/// Names and descriptions of the engines.
+fn engines() -> impl Iterator<Item = (String, String)> {
+    EngineName::value_variants().iter().map(|engine| {
+        let value = engine.to_possible_value();
+        let about = value.as_ref().and_then(|value| value.get_help()).map(ToString::to_string);
+        (engine.to_string(), about.unwrap_or_default())
+    })
+}
+
+fn as_json(model: &Model) -> serde_json::Result<String> {
+    let engines = engines().map(|(name, about)| json!({ "name": name, "about": about }));
+    let processes = model.processes().iter().map(|process| {
+        let [reads, reads_elsewhere, writes] = accesses(model, process);
+        json!({
+            "name": process.name,
+            "for_each": subject(process),
+            "local_interaction": process.local_interaction,
+            "reads": reads,
+            "reads_elsewhere": reads_elsewhere,
+            "writes": writes,
+        })
+    });
+    serde_json::to_string_pretty(&json!({
+        "engines": engines.collect::<Vec<_>>(),
+        "model": report::of_model(model),
+        "parameters": report::of_parameters(model.parameters()),
+        "processes": processes.collect::<Vec<_>>(),
+    }))
+}
+
+fn as_text(model: &Model) -> String {
+    let geometry = model.geometry();
+    let [x, y, z] = geometry.extents();
+    let boundaries = geometry.boundaries().map(|boundary| boundary.to_string()).join(", ");
+    let space = format!(
+        "{}: {x} x {y} x {z} cells of side {}; {boundaries}; {}",
+        model.name(),
+        geometry.side(),
+        geometry.neighbourhood()
+    );
+    let engines = table(["engine", ""], engines().map(|(name, about)| [name, about]), &[]);
+    let substates =
+        model.groups().iter().flat_map(|group| {
+            let of = match group.kind() {
+                GroupKind::Cells { .. } => "cells".to_owned(),
+                GroupKind::Population { slots, .. } => format!("items, {slots} slots in a cell"),
+            };
+            let name = group.schema().name;
+            group.schema().fields.iter().map(move |field| {
+                [format!("{name}.{}", field.name), field.value_type.to_string(), of.clone()]
+            })
+        });
+    let parameters = model.parameters();
+    let fields = parameters.schema().fields.iter().enumerate().map(|(index, field)| {
+        [field.name.to_owned(), field.value_type.to_string(), parameters.value_of(index).to_string()]
+    });
+    let processes = model.processes().iter().map(|process| {
+        let [reads, elsewhere, writes] = accesses(model, process).map(|names| names.join(" "));
+        [process.name.to_owned(), subject(process).to_owned(), reads, elsewhere, writes]
+    });
+    let mut parts = vec![space, engines, table(["substate", "type", "of"], substates, &[])];
+    if !parameters.schema().fields.is_empty() {
+        parts.push(table(["parameter", "type", "value"], fields, &[]));
+    }
+    let header = ["process", "for each", "reads", "reads elsewhere", "writes"];
+    parts.push(table(header, processes, &[]));
+    parts.join("\n\n")
+}
+
+fn subject(process: &Process) -> &'static str {
+    match process.kind {
+        ProcessKind::Cells => "cell",
+        ProcessKind::Items => "item",
+        ProcessKind::Migration => "item, to move it",
+    }
+}
+
+/// The substates that a process reads of its own cell or item, those that it reads elsewhere, and those that it writes.
+fn accesses(model: &Model, process: &Process) -> [Vec<&'static str>; 3] {
+    let mut names = [Vec::new(), Vec::new(), Vec::new()];
+    for access in process.access {
+        let substate = model.substate(process, access);
+        let name = model.groups()[substate.group].schema().fields[substate.field].name;
+        for (list, uses) in names.iter_mut().zip([access.centre, access.others, access.write]) {
+            if uses && !list.contains(&name) {
+                list.push(name);
+            }
+        }
+    }
+    names
+}
