@@ -19,6 +19,16 @@ pub trait Engine: fmt::Debug + Send + Sync {
     /// How many threads it uses.
     fn threads(&self) -> usize;
 
+    /// What a report says of the engine beside its name and its threads, its device for example: what it is, and which.
+    fn facts(&self) -> Vec<(&'static str, String)> {
+        Vec::new()
+    }
+
+    /// What a user has to know to judge times or results, if there is something.
+    fn note(&self) -> Option<String> {
+        None
+    }
+
     /// The bytes that a model takes at least when it is started, so that a program can compare them with the memory there is before it asks
     /// for them. Items count where room for them is made in advance; an engine that does not know says 0.
     fn least_memory(&self, _model: &Model, _precision: Precision) -> u128 {

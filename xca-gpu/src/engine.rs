@@ -1,9 +1,9 @@
 //! The engine as a program chooses it.
 
-use crate::device::{Adapter, AdapterChoice, Device};
+use crate::device::{Adapter, AdapterChoice, AdapterKind, Device};
 use crate::error::GpuError;
-use crate::execution::GpuExecution;
-use crate::program::Manner;
+use crate::execution::{GpuExecution, least_memory};
+use crate::program::{Manner, shader_of};
 use crate::proof;
 use std::fmt;
 use std::sync::Arc;
@@ -20,6 +20,35 @@ pub enum Arithmetic {
     Strict,
     /// As the driver likes: it may contract and reorder.
     Relaxed,
+}
+
+impl std::str::FromStr for Arithmetic {
+    type Err = UnknownArithmetic;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            "best" => Ok(Self::Best),
+            "strict" => Ok(Self::Strict),
+            "relaxed" => Ok(Self::Relaxed),
+            other => Err(UnknownArithmetic(other.to_owned())),
+        }
+    }
+}
+
+/// A word that names no arithmetic.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("`{0}` is no arithmetic; use best, strict or relaxed")]
+pub struct UnknownArithmetic(String);
+
+/// All processes of a model as the engine compiles them for strict arithmetic.
+///
+/// # Errors
+/// Where a process cannot be written in WGSL.
+pub fn wgsl(model: &Model, precision: Precision) -> Result<String, xca_wgsl::Error> {
+    let manner = Manner { precision, strict: true };
+    let texts =
+        model.processes().iter().map(|process| shader_of(model, process, manner).map(|shader| shader.source));
+    Ok(texts.collect::<Result<Vec<_>, _>>()?.join("\n"))
 }
 
 impl fmt::Display for Arithmetic {
@@ -91,6 +120,37 @@ impl Engine for Gpu {
 
     fn threads(&self) -> usize {
         1
+    }
+
+    fn facts(&self) -> Vec<(&'static str, String)> {
+        let Adapter { name, driver, interface, kind, .. } = self.adapter().clone();
+        let mut facts = vec![
+            ("adapter", name),
+            ("driver", driver),
+            ("interface", interface),
+            ("kind", kind.to_string()),
+            ("arithmetic", if self.is_strict() { "strict" } else { "relaxed" }.to_owned()),
+        ];
+        facts.extend(self.why_relaxed().map(|reason| ("relaxed_because", reason.to_owned())));
+        facts
+    }
+
+    fn note(&self) -> Option<String> {
+        let processor = (self.adapter().kind == AdapterKind::Processor).then(|| {
+            format!("{} is no GPU: the processor plays one, and times are its own", self.adapter().name)
+        });
+        let relaxed = self.why_relaxed().map(|reason| {
+            format!(
+                "float arithmetic is relaxed, results may differ from those of the other engines ({reason})"
+            )
+        });
+        let notes: Vec<String> = processor.into_iter().chain(relaxed).collect();
+        (!notes.is_empty()).then(|| notes.join("; "))
+    }
+
+    fn least_memory(&self, model: &Model, precision: Precision) -> u128 {
+        // Only the memory of the host is compared with this, and only where the processor plays the GPU is it the device's.
+        if self.adapter().kind == AdapterKind::Processor { least_memory(model, precision) } else { 0 }
     }
 
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {

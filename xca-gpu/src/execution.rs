@@ -347,6 +347,16 @@ pub(crate) fn failure(error: &DeviceError) -> EngineFailure {
     EngineFailure { engine: "gpu".to_owned(), reason: error.to_string() }
 }
 
+/// The bytes that a model takes at least: every substate of cells once.
+pub(crate) fn least_memory(model: &Model, precision: xca_core::Precision) -> u128 {
+    let size = |group: &xca_core::model::Group| match group.kind() {
+        GroupKind::Cells { .. } => group.stored(precision).into_iter().map(size_on_device).sum(),
+        GroupKind::Population { .. } => 2 * size_of::<u32>(),
+    };
+    let bytes: usize = model.groups().iter().map(size).sum();
+    model.geometry().cells() as u128 * bytes as u128
+}
+
 /// Whether the device knows all types of the model.
 fn check_types(model: &Model, manner: Manner, device: &Device) -> Result<(), NotOnDevice> {
     if device.adapter().has_f64 {

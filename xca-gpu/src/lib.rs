@@ -20,5 +20,5 @@ mod stop;
 mod values;
 
 pub use device::{Adapter, AdapterChoice, AdapterKind, DeviceError, adapters};
-pub use engine::{Arithmetic, Gpu, GpuOptions};
+pub use engine::{Arithmetic, Gpu, GpuOptions, UnknownArithmetic, wgsl};
 pub use error::GpuError;

@@ -4,6 +4,7 @@ use clap::ValueEnum;
 use std::fmt;
 use xca_core::{Engine, Reference};
 use xca_cpu::{Cpu, CpuError};
+use xca_gpu::{AdapterChoice, Arithmetic, Gpu, GpuError, GpuOptions};
 
 /// The most threads that can be asked for; many more than cores only cost memory.
 pub const MOST_THREADS: usize = 1024;
@@ -14,6 +15,8 @@ pub enum EngineName {
     /// All cores, or as many threads as --threads says
     #[default]
     Cpu,
+    /// A graphics adapter, or software Vulkan where there is none
+    Gpu,
     /// Serial and plain: the oracle of the others
     Reference,
 }
@@ -26,22 +29,51 @@ pub enum EngineError {
         "the reference engine is serial and cannot use {0} threads; leave --threads away, or take --engine cpu"
     )]
     Serial(usize),
+    /// Threads for an engine that has none.
+    #[error("the gpu engine has no threads to choose; leave --threads away, or take --engine cpu")]
+    Threadless,
+    /// A device for an engine that has none.
+    #[error("--adapter and --arithmetic are for --engine gpu, not for the {0} engine")]
+    Deviceless(EngineName),
     /// The engine says why.
     #[error(transparent)]
     Cpu(#[from] CpuError),
+    /// The engine says why.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+}
+
+/// How an engine is made; what is not given is the engine's own choice.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct EngineOptions {
+    /// How many threads, for the engine that uses them.
+    pub threads: Option<usize>,
+    /// The number of an adapter, or a part of its name, for the engine that uses one.
+    pub adapter: Option<String>,
+    /// How the GPU does float arithmetic.
+    pub arithmetic: Option<Arithmetic>,
 }
 
 impl EngineName {
-    /// The engine, with so many threads or with one for each core.
+    /// The engine.
     ///
     /// # Errors
-    /// Where the engine cannot use so many threads, or the system does not give them.
-    pub fn with_threads(self, threads: Option<usize>) -> Result<Box<dyn Engine>, EngineError> {
-        match (self, threads) {
+    /// Where the engine has nothing of what is asked for, or the system does not give it.
+    pub fn engine(self, options: &EngineOptions) -> Result<Box<dyn Engine>, EngineError> {
+        let EngineOptions { threads, adapter, arithmetic } = options;
+        if self != Self::Gpu && (adapter.is_some() || arithmetic.is_some()) {
+            return Err(EngineError::Deviceless(self));
+        }
+        match (self, *threads) {
             (Self::Reference, None | Some(1)) => Ok(Box::new(Reference)),
             (Self::Reference, Some(threads)) => Err(EngineError::Serial(threads)),
             (Self::Cpu, None) => Ok(Box::new(Cpu::new()?)),
             (Self::Cpu, Some(threads)) => Ok(Box::new(Cpu::with_threads(threads)?)),
+            (Self::Gpu, Some(_)) => Err(EngineError::Threadless),
+            (Self::Gpu, None) => {
+                let adapter = adapter.as_deref().map(AdapterChoice::from).unwrap_or_default();
+                Ok(Box::new(Gpu::new(&GpuOptions { adapter, arithmetic: arithmetic.unwrap_or_default() })?))
+            }
         }
     }
 }
@@ -50,6 +82,7 @@ impl fmt::Display for EngineName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Cpu => "cpu",
+            Self::Gpu => "gpu",
             Self::Reference => "reference",
         })
     }
@@ -59,18 +92,34 @@ impl fmt::Display for EngineName {
 mod tests {
     use super::*;
 
+    fn with_threads(threads: Option<usize>) -> EngineOptions {
+        EngineOptions { threads, ..EngineOptions::default() }
+    }
+
     #[test]
     fn engines_know_how_many_threads_they_can_use() {
-        assert_eq!(EngineName::Cpu.with_threads(Some(3)).unwrap().threads(), 3);
-        assert_eq!(EngineName::Reference.with_threads(None).unwrap().threads(), 1);
-        let error = EngineName::Reference.with_threads(Some(2)).unwrap_err().to_string();
+        assert_eq!(EngineName::Cpu.engine(&with_threads(Some(3))).unwrap().threads(), 3);
+        assert_eq!(EngineName::Reference.engine(&with_threads(None)).unwrap().threads(), 1);
+        let error = EngineName::Reference.engine(&with_threads(Some(2))).unwrap_err().to_string();
         assert!(error.contains("serial and cannot use 2 threads"), "{error}");
+        let error = EngineName::Gpu.engine(&with_threads(Some(2))).unwrap_err().to_string();
+        assert!(error.contains("no threads to choose"), "{error}");
+    }
+
+    #[test]
+    fn adapters_are_for_the_gpu_engine() {
+        let options = EngineOptions { adapter: Some("0".to_owned()), ..EngineOptions::default() };
+        let error = EngineName::Cpu.engine(&options).unwrap_err().to_string();
+        assert!(error.contains("not for the cpu engine"), "{error}");
+        let options = EngineOptions { adapter: Some("no such adapter".to_owned()), ..options };
+        let error = EngineName::Gpu.engine(&options).unwrap_err().to_string();
+        assert!(error.contains("no adapter is `no such adapter`; this machine has 0: "), "{error}");
     }
 
     #[test]
     fn names_are_those_of_the_engines() {
         for name in EngineName::value_variants() {
-            assert_eq!(name.with_threads(Some(1)).unwrap().name(), name.to_string());
+            assert_eq!(name.engine(&with_threads(None)).unwrap().name(), name.to_string());
         }
     }
 }

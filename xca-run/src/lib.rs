@@ -79,7 +79,7 @@ mod view;
 
 pub use checkpoint::CheckpointError;
 pub use command::{ConfigError, main, main_of};
-pub use engines::{EngineError, EngineName, MOST_THREADS};
+pub use engines::{EngineError, EngineName, EngineOptions, MOST_THREADS};
 pub use machine::{NotEnoughMemory, check_memory};
 pub use program::{Assignment, Failure, Given, NoAssignment, Observable, Program};
 pub use record::{FolderError, RecordError};

@@ -30,6 +30,8 @@ pub(crate) struct Report {
     pub(crate) parameters: Map<String, Value>,
     pub(crate) engine: String,
     pub(crate) threads: usize,
+    /// What the engine says of its device, if it has one.
+    pub(crate) device: Map<String, Value>,
     pub(crate) precision: Precision,
     pub(crate) seed: u64,
     pub(crate) every: u64,

@@ -1,11 +1,12 @@
 //! The options that every model's program has.
 
 use super::interval::Interval;
-use crate::engines::{EngineName, MOST_THREADS};
+use crate::engines::{EngineName, EngineOptions, MOST_THREADS};
 use crate::program::{Assignment, Given};
 use clap::Args;
 use std::path::PathBuf;
 use xca_core::Precision;
+use xca_gpu::Arithmetic;
 
 /// What bears on the model itself.
 #[derive(Args, Debug, Clone)]
@@ -37,6 +38,22 @@ pub(crate) struct EngineArguments {
     /// How many threads the engine uses; one for each core unless it is given
     #[arg(long, value_name = "N", value_parser = threads)]
     pub(crate) threads: Option<usize>,
+
+    /// The adapter of the gpu engine: its number, or a part of its name, as `list` tells them; the best unless it is given
+    #[arg(long, value_name = "N|NAME")]
+    pub(crate) adapter: Option<String>,
+
+    /// Float arithmetic of the gpu engine: strict gives the bits of the other engines, relaxed is the driver's own; best is strict where
+    /// the adapter proves it
+    #[arg(long, value_name = "strict|relaxed|best")]
+    pub(crate) arithmetic: Option<Arithmetic>,
+}
+
+impl EngineArguments {
+    pub(crate) fn options(&self) -> EngineOptions {
+        let Self { threads, adapter, arithmetic, .. } = self.clone();
+        EngineOptions { threads, adapter, arithmetic }
+    }
 }
 
 /// How long it is run, and what is written.
@@ -58,6 +75,10 @@ pub(crate) struct RunArguments {
     /// kept. None unless it is given
     #[arg(long, value_name = "N|TIME")]
     pub(crate) checkpoint_every: Option<Interval>,
+
+    /// Print the processes as the gpu engine compiles them, and do nothing else
+    #[arg(long)]
+    pub(crate) print_wgsl: bool,
 
     /// Say nothing but errors
     #[arg(long, short)]
@@ -83,6 +104,14 @@ pub(crate) struct ResumeArguments {
     #[arg(long, value_name = "N", value_parser = threads)]
     pub(crate) threads: Option<usize>,
 
+    /// The adapter of the gpu engine: its number, or a part of its name; the run's own unless it is given
+    #[arg(long, value_name = "N|NAME")]
+    pub(crate) adapter: Option<String>,
+
+    /// Float arithmetic of the gpu engine; the run's own unless it is given
+    #[arg(long, value_name = "strict|relaxed|best")]
+    pub(crate) arithmetic: Option<Arithmetic>,
+
     /// Write a checkpoint every so many steps or after so much time; as often as the run was told unless it is given
     #[arg(long, value_name = "N|TIME")]
     pub(crate) checkpoint_every: Option<Interval>,
@@ -96,9 +125,15 @@ impl ResumeArguments {
     /// The engine of a run that was begun on that one.
     pub(crate) fn engine(&self, begun: &EngineArguments) -> EngineArguments {
         let engine = self.engine.unwrap_or(begun.engine);
-        // Another engine need not be able to use as many threads.
-        let threads = if engine == begun.engine { begun.threads } else { None };
-        EngineArguments { engine, threads: self.threads.or(threads) }
+        // Another engine need not be able to use what that one used.
+        let none = EngineArguments { engine, threads: None, adapter: None, arithmetic: None };
+        let begun = if engine == begun.engine { begun } else { &none };
+        EngineArguments {
+            engine,
+            threads: self.threads.or(begun.threads),
+            adapter: self.adapter.clone().or_else(|| begun.adapter.clone()),
+            arithmetic: self.arithmetic.or(begun.arithmetic),
+        }
     }
 }
 

@@ -26,7 +26,7 @@ pub(super) struct Prepared {
 impl Prepared {
     /// Makes the model of a run, for an engine that need not be the one that its command line names.
     pub(super) fn new(invocation: &RunInvocation<'_>, on: &EngineArguments) -> Result<Self, Unable> {
-        let engine = on.engine.with_threads(on.threads).map_err(Unable::refused)?;
+        let engine = on.engine.engine(&on.options()).map_err(Unable::refused)?;
         let given = invocation.model.arguments.given(invocation.run.steps);
         let set_up = set_up(invocation, &*engine, &given)?;
         let steps = given.steps.unwrap_or(set_up.steps);
@@ -73,6 +73,7 @@ fn first_report(
         parameters: report::of_parameters(set_up.model.parameters()),
         engine: engine.name().to_owned(),
         threads: engine.threads(),
+        device: engine.facts().into_iter().map(|(fact, which)| (fact.to_owned(), which.into())).collect(),
         precision: origin.precision,
         seed: origin.seed,
         every: origin.every,

@@ -105,6 +105,7 @@ impl Found<'_> {
             origin,
             checkpoints,
             quiet: self.arguments.quiet,
+            note: engine.note(),
             earlier,
             begin,
             set_up: begin.elapsed(),

@@ -8,6 +8,7 @@ use super::{Definition, Ended, Unable};
 use crate::checkpoint::CheckpointFolder;
 use crate::record::RunFolder;
 use crate::report::Earlier;
+use crate::terminal;
 use clap::{Args, Command};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -29,6 +30,12 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
 /// Runs the model of a program.
 pub(super) fn run(invocation: RunInvocation<'_>) -> Result<Ended, Unable> {
     let begin = Instant::now();
+    if invocation.run.print_wgsl {
+        let given = invocation.model.arguments.given(invocation.run.steps);
+        let model = invocation.model.set_up(&given)?.model;
+        terminal::say(&xca_gpu::wgsl(&model, given.precision).map_err(Unable::failed)?);
+        return Ok(Ended::Done);
+    }
     let Prepared { engine, recorder, options, origin, mut report } =
         Prepared::new(&invocation, &invocation.engine)?;
     let RunInvocation { model, run, .. } = invocation;
@@ -51,6 +58,7 @@ pub(super) fn run(invocation: RunInvocation<'_>) -> Result<Ended, Unable> {
         origin,
         checkpoints,
         quiet: run.quiet,
+        note: engine.note(),
         earlier: Earlier::default(),
         begin,
         set_up: begin.elapsed(),

@@ -28,6 +28,8 @@ pub(super) struct UnderWay {
     pub(super) origin: Origin,
     pub(super) checkpoints: Option<Checkpoints>,
     pub(super) quiet: bool,
+    /// What has to be known of the engine.
+    pub(super) note: Option<String>,
     /// What the run had taken before it was resumed.
     pub(super) earlier: Earlier,
     pub(super) begin: Instant,
@@ -39,6 +41,9 @@ impl UnderWay {
     pub(super) fn go(mut self) -> Result<Ended, Unable> {
         let interrupt = Interrupt::install().map_err(Unable::failed)?;
         self.say(&self.headline());
+        if let Some(note) = &self.note {
+            self.say(&format!("note: {note}"));
+        }
         self.complete_report();
         self.report.write(&self.folder.report()).map_err(Unable::failed)?;
         let result = self.steps(&interrupt);
