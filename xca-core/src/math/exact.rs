@@ -2,8 +2,8 @@
 
 use crate::{Real, Vector2, helper};
 
-/// 2^-30, which added to 1 is lost in `f32`.
-const LOST_IN_SINGLE: Real = 9.313225746154785e-10;
+/// 1 + 2^-30, which in `f32` is 1.
+const ALMOST_1: Real = 1.000_000_000_931_322_6;
 
 /// 2^-12.
 const SMALL: Real = 0.000244140625;
@@ -17,7 +17,7 @@ pub(super) const INFINITE: Real = Real::INFINITY;
 /// Whether `Real` is `f32` in this run. Compilers know the answer.
 #[helper]
 pub(super) fn is_single() -> bool {
-    1.0 + LOST_IN_SINGLE == 1.0
+    ALMOST_1 == 1.0
 }
 
 /// The first number where `Real` is `f32`, the second where it is `f64`.

@@ -1,9 +1,10 @@
 //! The functions of `xca_core::math`, which have the names of functions of WGSL and must not be taken for them.
 
-use crate::common::{accepted, function, written};
+use crate::common::{accepted, function, written, written_with};
 use xca_core::Precision;
 use xca_core::math::{atan, atan2, cos, exp, log, pow, sin, tan, tanh};
 use xca_core::prelude::*;
+use xca_wgsl::Options;
 
 #[derive(Substates, Clone, Copy)]
 struct State {
@@ -42,6 +43,43 @@ fn functions_are_brought_along() {
         }
         assert_eq!(shader.needs_f64, precision == Precision::F64);
         assert_eq!(shader.source.contains("f64"), precision == Precision::F64);
+    }
+}
+
+/// The question for the precision is a comparison of two constants, also where zeros are read from memory.
+#[test]
+fn the_precision_is_known_before_the_run() {
+    for (precision, constant) in [(Precision::F32, "1.0f"), (Precision::F64, "1.0000000009313226lf")] {
+        let shader =
+            written_with::<all_functions>(&Options { precision, opaque_zero: true, ..Options::default() });
+        let one = if precision == Precision::F32 { "1.0f" } else { "1.0lf" };
+        assert!(function(&shader, "is_single").contains(&format!("return ALMOST_1 == {one};")));
+        assert!(shader.source.contains(&format!("const ALMOST_1: Real = {constant};")));
+    }
+}
+
+#[elementary_process]
+fn comparisons(cell: &mut Cell<State>) {
+    let low = cell.x.min(cell.y);
+    let high = cell.x.max(cell.y);
+    cell.y = low.clamp(-1.0, 1.0);
+    cell.x = high.abs().sqrt().floor() + high.ceil() - low.trunc();
+}
+
+/// `min` and `max` of WGSL leave NaN and signed zeros to the driver: they are not used for floats.
+#[test]
+fn minima_are_comparisons() {
+    accepted::<comparisons>();
+    let shader = written::<comparisons>(Precision::F64);
+    let minimum = function(&shader, "minimum_real");
+    let maximum = function(&shader, "maximum_real");
+    assert!(minimum.contains("return select(a, b, b < a);"), "{minimum}");
+    assert!(maximum.contains("return select(a, b, a < b);"), "{maximum}");
+    for builtin in ["min(", "max(", "clamp("] {
+        let called = shader.source.match_indices(builtin).any(|(place, _)| {
+            !shader.source[..place].ends_with(|before: char| before.is_alphanumeric() || before == '_')
+        });
+        assert!(!called, "{builtin}");
     }
 }
 
