@@ -100,7 +100,10 @@ pub fn model(arguments: Vec<[f64; 2]>) -> Result<Model, ModelError> {
         .build()
 }
 
-/// The arguments as the precision has them, and the values of one function.
+/// Two arguments as the precision has them, and the value of a function.
+pub type Sample = ([f64; 2], f64);
+
+/// The arguments and the values of one function.
 ///
 /// # Errors
 /// What the run ends with.
@@ -109,7 +112,7 @@ pub fn values(
     arguments: Vec<[f64; 2]>,
     engine: &dyn Engine,
     precision: Precision,
-) -> Result<Vec<([f64; 2], f64)>, Box<dyn std::error::Error>> {
+) -> Result<Vec<Sample>, Box<dyn std::error::Error>> {
     let model = model(arguments)?;
     let mut simulation = Simulation::new(&model, engine, RunOptions { precision, ..RunOptions::default() })?;
     simulation.step()?;
@@ -158,9 +161,56 @@ pub fn worst(
     for (arguments, value) in values(function, arguments, &Reference, precision)? {
         let Some(ulp) = oracle.error(function, arguments, value) else { continue };
         worst.samples += 1;
-        if !(ulp <= worst.ulp) {
+        if ulp > worst.ulp {
             worst.ulp = ulp;
             worst.arguments = arguments;
+        }
+    }
+    Ok(worst)
+}
+
+/// The largest error of a function of one argument in `f32`, over every so many of all numbers, by the platform's function in `f64`. Angles
+/// go to 4096.
+///
+/// # Errors
+/// What the run ends with.
+pub fn sweep(function: Function, step: usize) -> Result<Worst, Box<dyn std::error::Error>> {
+    const CELLS: usize = 1 << 20;
+    let (platform, limit): (fn(f64) -> f64, f64) = match function {
+        Function::Exp => (f64::exp, f64::MAX),
+        Function::Log => (f64::ln, f64::MAX),
+        Function::Sin => (f64::sin, 4096.0),
+        Function::Cos => (f64::cos, 4096.0),
+        Function::Tan => (f64::tan, 4096.0),
+        Function::Atan => (f64::atan, f64::MAX),
+        Function::Tanh => (f64::tanh, f64::MAX),
+        Function::Pow | Function::Atan2 => return Err("this function has two arguments".into()),
+    };
+    let numbers: Vec<u32> = (0..=u32::MAX).step_by(step).collect();
+    let mut worst = Worst::default();
+    for bits in numbers.chunks(CELLS) {
+        let arguments: Vec<[f64; 2]> = bits
+            .iter()
+            .map(|bits| f64::from(f32::from_bits(*bits)))
+            .filter(|x| x.abs() <= limit)
+            .map(|x| [x, 1.0])
+            .collect();
+        if arguments.is_empty() {
+            continue;
+        }
+        for (arguments, value) in values(function, arguments, &Reference, Precision::F32)? {
+            let exact = platform(arguments[0]);
+            let overflows = exact.abs() > f32::MAX.into() && value.is_infinite();
+            if !exact.is_finite() || exact == 0.0 || overflows {
+                continue;
+            }
+            worst.samples += 1;
+            let unit = 2_f64.powi((exact.abs().log2().floor() as i32 - 23).max(-149));
+            let ulp = (value - exact).abs() / unit;
+            if ulp.is_nan() || ulp > worst.ulp {
+                worst.ulp = ulp;
+                worst.arguments = arguments;
+            }
         }
     }
     Ok(worst)

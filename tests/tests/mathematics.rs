@@ -6,7 +6,7 @@ use xca_core::math;
 use xca_core::prelude::*;
 use xca_tests::mathematics::arguments::{Family, sample};
 use xca_tests::mathematics::exact::Oracle;
-use xca_tests::mathematics::{Function, Values, model, values, worst};
+use xca_tests::mathematics::{Function, Values, model, sweep, values, worst};
 use xca_tests::suite::engines::{self, PRECISIONS};
 
 type TestResult = Result<(), Box<dyn Error>>;
@@ -38,6 +38,21 @@ fn errors_are_as_small_as_documented() -> TestResult {
                 assert!(worst.ulp > 0.4, "{function:?} {precision} {family:?}: {worst:?}");
             }
         }
+    }
+    Ok(())
+}
+
+/// The same in `f32`, by another measure: all magnitudes, against the platform's functions in `f64`.
+#[test]
+fn a_sweep_through_all_magnitudes_finds_no_larger_error() -> TestResult {
+    for function in Function::ALL {
+        if [Function::Pow, Function::Atan2].contains(&function) {
+            continue;
+        }
+        let worst = sweep(function, 100_003)?;
+        let promised = promised(function, Precision::F32)?;
+        assert!(worst.samples > 15_000 && worst.ulp > 0.4, "{function:?}: {worst:?}");
+        assert!(worst.ulp <= promised, "{function:?}: {worst:?}");
     }
     Ok(())
 }

@@ -3,7 +3,7 @@
 use super::exact::{
     INFINITE, TINY, by_precision, is_nan, not_a_number, ordered_sum, power_of_two, two_product, two_quotient,
 };
-use super::series::{even_factorials, odd_factorials, odd_numbers};
+use super::series::{THIRD, even_factorials, odd_factorials, odd_numbers};
 use crate::{Real, Vector2, helper};
 
 const LOG2_E: Real = core::f64::consts::LOG2_E;
@@ -15,8 +15,7 @@ const LOG_2_THIRD: Real = 1.619851018665656e-11;
 
 const SQUARE_ROOT_OF_2: Real = core::f64::consts::SQRT_2;
 
-/// 1/3, and what it lacks in `f32` and in `f64`.
-const THIRD: Real = 1.0 / 3.0;
+/// What the rounded 1/3 lacks in `f32` and in `f64`.
 const THIRD_REST_SINGLE: Real = -9.934107462565104e-9;
 const THIRD_REST_DOUBLE: Real = 1.850371707708594e-17;
 

@@ -20,6 +20,7 @@ const FACTORIAL_15: Real = 1.0 / 1_307_674_368_000.0;
 const FACTORIAL_16: Real = 1.0 / 20_922_789_888_000.0;
 const FACTORIAL_17: Real = 1.0 / 355_687_428_096_000.0;
 
+pub(super) const THIRD: Real = 1.0 / 3.0;
 const FIFTH: Real = 1.0 / 5.0;
 const SEVENTH: Real = 1.0 / 7.0;
 const NINTH: Real = 1.0 / 9.0;
