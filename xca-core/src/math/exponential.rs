@@ -1,7 +1,8 @@
 //! The exponential, the logarithm, and what is made of them.
 
 use super::exact::{
-    INFINITE, TINY, by_precision, is_nan, not_a_number, ordered_sum, power_of_two, two_product, two_quotient,
+    INFINITE, TINY, by_precision, is_nan, is_negative, not_a_number, ordered_sum, power_of_two, two_product,
+    two_quotient,
 };
 use super::series::{THIRD, even_factorials, odd_factorials, odd_numbers};
 use crate::{Real, Vector2, helper};
@@ -67,8 +68,7 @@ pub fn pow(x: Real, y: Real) -> Real {
     let odd = whole && (0.5 * y).trunc() != 0.5 * y;
     if size == 0.0 || size == INFINITE {
         let power = if (size == 0.0) == (y > 0.0) { 0.0 } else { INFINITE };
-        // 1 / x has the sign of x, also where that is a zero.
-        return if odd && (x < 0.0 || 1.0 / x < 0.0) { -power } else { power };
+        return if odd && is_negative(x) { -power } else { power };
     }
     if x < 0.0 && !whole {
         return not_a_number();
