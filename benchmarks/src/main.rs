@@ -3,11 +3,13 @@
 
 mod dense;
 mod engines;
+mod mathematics;
 mod particles;
 mod timing;
 
 use clap::{Parser, Subcommand};
 use std::error::Error;
+use xca_core::Precision;
 
 /// What the engines of xca cost on this machine.
 #[derive(Parser, Debug)]
@@ -44,6 +46,8 @@ enum Benchmark {
         #[arg(long, default_value_t = 40)]
         steps: usize,
     },
+    /// A call of each function of `xca_core::math`, on one thread.
+    Mathematics,
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -106,6 +110,19 @@ fn main() -> Result<(), Box<dyn Error>> {
                     median * 1e9 / cost.particles as f64,
                     cost.memory as f64 / 1e6,
                 );
+            }
+        }
+        Benchmark::Mathematics => {
+            for precision in [Precision::F32, Precision::F64] {
+                for (name, times) in mathematics::costs(precision, arguments.rounds)? {
+                    let (low, high) = times.spread();
+                    println!(
+                        "{name} {precision}: {:.1} ns ({:.1} to {:.1})",
+                        times.median() * 1e9,
+                        low * 1e9,
+                        high * 1e9
+                    );
+                }
             }
         }
     }

@@ -1,9 +1,14 @@
 //! What the tests of the whole system share: a plain particle code, and what is known of collisions.
 
 pub mod brute_force;
+pub mod mathematics;
 pub mod restitution;
 pub mod suite;
 
 /// The guide, whose programs are run as tests of the documentation.
 #[doc = include_str!("../../docs/guide.md")]
 pub mod guide {}
+
+/// The page on mathematical functions, whose program is compiled as a test of the documentation.
+#[doc = include_str!("../../docs/mathematics.md")]
+pub mod mathematics_page {}

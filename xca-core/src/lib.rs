@@ -71,6 +71,7 @@
 //! |---|---|
 //! | know what a process can say | [`elementary_process`], [`Cell`], [`Slot`] |
 //! | share code between processes | [`helper`] |
+//! | compute `exp`, `sin` and their kin | [`math`] |
 //! | have items that move from cell to cell | [`ModelBuilder::population`], [`migration`] |
 //! | put a model together | [`ModelBuilder`], [`Neighbourhood`], [`Boundary`] |
 //! | look at a state and change it | [`State`] |
@@ -91,6 +92,7 @@ mod geometry;
 pub mod ir;
 mod ir_constant;
 pub mod kernel;
+pub mod math;
 pub mod model;
 mod neighbourhood;
 mod parameters;

@@ -21,9 +21,11 @@ const PREDECLARED: &str = "
 bool f16 f32 f64 i32 i64 u32 u64 array atomic ptr sampler vec2 vec3 vec4 vec2i vec3i vec4i vec2u vec3u vec4u vec2f vec3f vec4f
 vec2h vec3h vec4h mat2x2 mat2x3 mat2x4 mat3x2 mat3x3 mat3x4 mat4x2 mat4x3 mat4x4 binding_array
 function private workgroup uniform storage read write read_write
-abs acos all any asin atan atan2 ceil clamp cos countOneBits cross degrees determinant distance dot exp exp2 floor fma
-fract inverse length log log2 max min mix modf normalize pow radians reflect round select sign sin sinh smoothstep
-sqrt step tan tanh transpose trunc bitcast arrayLength atomicLoad atomicStore atomicMin workgroupBarrier
+abs acos acosh all any asin asinh atan atan2 atanh ceil clamp cos cosh countLeadingZeros countOneBits countTrailingZeros cross
+degrees determinant distance dot exp exp2 extractBits faceForward firstLeadingBit firstTrailingBit floor fma fract frexp
+insertBits inverse ldexp length log log2 max min mix modf normalize pow quantizeToF16 radians reflect refract reverseBits
+round saturate select sign sin sinh smoothstep sqrt step tan tanh transpose trunc
+bitcast arrayLength atomicLoad atomicStore atomicMin workgroupBarrier
 ";
 
 /// Names of what the shader itself brings.
@@ -158,6 +160,7 @@ mod tests {
         assert_eq!(names.local("_"), "unused");
         assert_eq!(names.local("__x"), "_x");
         assert_eq!(names.local("here"), "here_2");
+        assert_eq!(names.local("ldexp"), "ldexp_2");
         assert_eq!(names.local("minimum_real"), "minimum_real_2");
         assert_eq!(field("type"), "type_");
         assert_eq!(field("position"), "position");

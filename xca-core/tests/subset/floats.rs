@@ -92,6 +92,99 @@ fn comparisons_with_nan_are_fixed() {
 }
 
 #[elementary_process]
+fn least(cell: &mut Cell<Numbers>) {
+    cell.result = cell.real.min(cell.double as Real);
+}
+
+#[elementary_process]
+fn largest(cell: &mut Cell<Numbers>) {
+    cell.result = cell.real.max(cell.double as Real);
+}
+
+#[elementary_process]
+fn between(cell: &mut Cell<Numbers>) {
+    cell.result = cell.real.clamp(cell.double as Real, 1.0);
+}
+
+#[elementary_process]
+fn size(cell: &mut Cell<Numbers>) {
+    cell.result = cell.real.abs();
+}
+
+#[elementary_process]
+fn rounded_down(cell: &mut Cell<Numbers>) {
+    cell.result = cell.real.floor();
+}
+
+#[elementary_process]
+fn ceiling(cell: &mut Cell<Numbers>) {
+    cell.result = cell.real.ceil();
+}
+
+#[elementary_process]
+fn truncated(cell: &mut Cell<Numbers>) {
+    cell.result = cell.real.trunc();
+}
+
+#[elementary_process]
+fn square_root(cell: &mut Cell<Numbers>) {
+    cell.result = cell.real.sqrt();
+}
+
+fn same(value: f64, wanted: f64) -> bool {
+    value.to_bits() == wanted.to_bits() || (value.is_nan() && wanted.is_nan())
+}
+
+/// The table of docs/mathematics.md, with zeros that have signs, infinities and NaN.
+#[test]
+fn signs_of_zeros_and_nan_are_as_documented() {
+    let special = [0.0, -0.0, 0.5, -0.5, 1.0, f64::INFINITY, f64::NEG_INFINITY, f64::NAN];
+    for precision in PRECISIONS {
+        for a in special {
+            for b in special {
+                let numbers = Numbers { real: a, double: b, ..Numbers::default() };
+                let check = |value: Numbers, wanted: f64| {
+                    assert!(same(value.result, wanted), "{a:?} {b:?}: {:?} is not {wanted:?}", value.result);
+                };
+                check(run_in(least, numbers, precision), if b < a { b } else { a });
+                check(run_in(largest, numbers, precision), if a < b { b } else { a });
+                let above = if a < b { b } else { a };
+                check(run_in(between, numbers, precision), if 1.0 < above { 1.0 } else { above });
+                check(run_in(size, numbers, precision), f64::from_bits(a.to_bits() & !(1 << 63)));
+                check(
+                    run_in(rounded_down, numbers, precision),
+                    if a == 0.5 {
+                        0.0
+                    } else if a == -0.5 {
+                        -1.0
+                    } else {
+                        a
+                    },
+                );
+                check(
+                    run_in(ceiling, numbers, precision),
+                    if a == 0.5 {
+                        1.0
+                    } else if a == -0.5 {
+                        -0.0
+                    } else {
+                        a
+                    },
+                );
+                check(
+                    run_in(truncated, numbers, precision),
+                    if a.abs() == 0.5 { 0.0_f64.copysign(a) } else { a },
+                );
+                if a != 0.5 {
+                    // All others are their own roots.
+                    check(run_in(square_root, numbers, precision), if a < 0.0 { f64::NAN } else { a });
+                }
+            }
+        }
+    }
+}
+
+#[elementary_process]
 fn fixed(cell: &mut Cell<Numbers>) {
     cell.single = cell.single / 3.0 + 0.1;
     cell.double = cell.double / 3.0 + 0.1;

@@ -308,6 +308,8 @@ fn associated_function(type_: &Ident, method: &Ident, call: &syn::ExprCall) -> E
     let known = METHODS.iter().any(|(known, _)| method == known);
     let advice = if known {
         format!("write it as a method: `value.{method}(…)`")
+    } else if let Some(advice) = refusals::platform_function(&method.to_string()) {
+        advice
     } else if method == "from" || method == "try_from" {
         format!("cast: `value as {type_}`")
     } else {

@@ -129,21 +129,52 @@ pub(super) fn no_component(name: &Ident) -> Error {
     )
 }
 
+/// What to write for a function of the platform, whose last bits differ between machines.
+pub(super) fn platform_function(name: &str) -> Option<String> {
+    let instead = match name {
+        "exp" | "sin" | "cos" | "tan" | "atan" | "tanh" => {
+            return Some(format!("{INEXACT}; write `{name}(x)` with `use xca_core::math::{name};`"));
+        }
+        "atan2" => return Some(format!("{INEXACT}; write `atan2(y, x)` with `use xca_core::math::atan2;`")),
+        "ln" | "log" => "log(x)",
+        "powf" => "pow(x, y)",
+        "powi" | "pow" => {
+            return Some(format!(
+                "`{name}` is not part of a process; write the product, `x * x * x`, or `pow(x, 3.0)` with `use xca_core::math::pow;`"
+            ));
+        }
+        "mul_add" => {
+            return Some("`mul_add` rounds once and differs between engines; write `a * b + c`".to_owned());
+        }
+        "exp2" => "pow(2.0, x)",
+        "log2" => "log(x) / log(2.0)",
+        "log10" => "log(x) / log(10.0)",
+        "cbrt" => "pow(x, 1.0 / 3.0)",
+        "sin_cos" => "sin(x)",
+        "asin" => "atan2(x, ((1.0 - x) * (1.0 + x)).sqrt())",
+        "acos" => "atan2(((1.0 - x) * (1.0 + x)).sqrt(), x)",
+        "exp_m1" | "ln_1p" | "sinh" | "cosh" | "asinh" | "acosh" | "atanh" => {
+            return Some(format!("{INEXACT}; make it of the functions of `xca_core::math`"));
+        }
+        "hypot" => return Some(format!("{INEXACT}; write `(x * x + y * y).sqrt()`")),
+        _ => return None,
+    };
+    Some(format!("{INEXACT}; write `{instead}` with the functions of `xca_core::math`"))
+}
+
+/// Why the functions of the platform are refused.
+const INEXACT: &str = "the platform's function gives other bits on other machines";
+
 /// Why a method of Rust is no method of numbers in a process.
 pub(super) fn method(method: &Ident, known: &[&str]) -> Error {
     let name = method.to_string();
+    if let Some(advice) = platform_function(&name) {
+        return Error::new_spanned(method, advice);
+    }
     let advice = match name.as_str() {
-        "exp" | "exp2" | "exp_m1" | "ln" | "ln_1p" | "log" | "log2" | "log10" | "powf" | "sin" | "cos"
-        | "tan" | "asin" | "acos" | "atan" | "atan2" | "sin_cos" | "sinh" | "cosh" | "tanh" | "asinh"
-        | "acosh" | "atanh" | "cbrt" | "hypot" => format!(
-            "`{name}` gives other bits on other machines, so a process cannot use it; write what you need of it with + - * / sqrt \
-             abs floor ceil trunc min max clamp, as a polynomial or a table"
-        ),
-        "powi" | "pow" => format!("`{name}` is not part of a process; write the product: `x * x * x`"),
         "round" | "round_ties_even" => {
             "`round` differs between engines at halves; write `(value + 0.5).floor()`".to_owned()
         }
-        "mul_add" => "`mul_add` rounds once and differs between engines; write `a * b + c`".to_owned(),
         "clone" | "to_owned" | "copied" => format!("values are copied by themselves: leave out `.{name}()`"),
         "into" | "try_into" => {
             format!("`{name}` is not part of a process; cast: `value as Real`, `value as u32`")

@@ -5,6 +5,7 @@
 mod common;
 mod items;
 mod layouts;
+mod mathematics;
 mod random;
 mod refusals;
 mod subset;

@@ -1,0 +1,217 @@
+//! The mathematical functions of `xca_core::math` against numbers of many digits.
+
+pub mod arguments;
+pub mod exact;
+
+use arguments::Family;
+use xca_core::engine::Engine;
+use xca_core::math::{atan, atan2, cos, exp, log, pow, sin, tan, tanh};
+use xca_core::prelude::*;
+
+/// The functions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Function {
+    Exp,
+    Log,
+    Pow,
+    Sin,
+    Cos,
+    Tan,
+    Atan,
+    Atan2,
+    Tanh,
+}
+
+impl Function {
+    /// All of them.
+    pub const ALL: [Self; 9] = [
+        Self::Exp,
+        Self::Log,
+        Self::Pow,
+        Self::Sin,
+        Self::Cos,
+        Self::Tan,
+        Self::Atan,
+        Self::Atan2,
+        Self::Tanh,
+    ];
+
+    /// What it is called.
+    pub fn name(self) -> String {
+        format!("{self:?}").to_lowercase()
+    }
+}
+
+/// Two arguments, and the values of all functions.
+#[derive(Substates, Clone, Copy, Debug, Default, PartialEq)]
+pub struct Values {
+    /// The first argument.
+    pub x: Real,
+    /// The second argument.
+    pub y: Real,
+    /// `exp(x)`
+    pub exp: Real,
+    /// `log(x)`
+    pub log: Real,
+    /// `pow(x, y)`
+    pub pow: Real,
+    /// `sin(x)`
+    pub sin: Real,
+    /// `cos(x)`
+    pub cos: Real,
+    /// `tan(x)`
+    pub tan: Real,
+    /// `atan(x)`
+    pub atan: Real,
+    /// `atan2(x, y)`
+    pub atan2: Real,
+    /// `tanh(x)`
+    pub tanh: Real,
+}
+
+/// The values of all functions.
+#[elementary_process]
+pub fn compute(cell: &mut Cell<Values>) {
+    cell.exp = exp(cell.x);
+    cell.log = log(cell.x);
+    cell.pow = pow(cell.x, cell.y);
+    cell.sin = sin(cell.x);
+    cell.cos = cos(cell.x);
+    cell.tan = tan(cell.x);
+    cell.atan = atan(cell.x);
+    cell.atan2 = atan2(cell.x, cell.y);
+    cell.tanh = tanh(cell.x);
+}
+
+/// A model that computes all functions of these arguments in its first step.
+///
+/// # Errors
+/// Where there are no arguments.
+pub fn model(arguments: Vec<[f64; 2]>) -> Result<Model, ModelError> {
+    Model::builder("functions")
+        .extents([arguments.len(), 1, 1])
+        .substates::<Values>()
+        .process(compute)
+        .fill(move |[index, ..]| {
+            let [x, y] = arguments[index];
+            Values { x, y, ..Values::default() }
+        })
+        .build()
+}
+
+/// Two arguments as the precision has them, and the value of a function.
+pub type Sample = ([f64; 2], f64);
+
+/// The arguments and the values of one function.
+///
+/// # Errors
+/// What the run ends with.
+pub fn values(
+    function: Function,
+    arguments: Vec<[f64; 2]>,
+    engine: &dyn Engine,
+    precision: Precision,
+) -> Result<Vec<Sample>, Box<dyn std::error::Error>> {
+    let model = model(arguments)?;
+    let mut simulation = Simulation::new(&model, engine, RunOptions { precision, ..RunOptions::default() })?;
+    simulation.step()?;
+    let result = match function {
+        Function::Exp => Values::EXP,
+        Function::Log => Values::LOG,
+        Function::Pow => Values::POW,
+        Function::Sin => Values::SIN,
+        Function::Cos => Values::COS,
+        Function::Tan => Values::TAN,
+        Function::Atan => Values::ATAN,
+        Function::Atan2 => Values::ATAN2,
+        Function::Tanh => Values::TANH,
+    };
+    let state = simulation.state();
+    let read = |substate| state.read(substate);
+    let arguments = read(Values::X)?.into_iter().zip(read(Values::Y)?).map(|(x, y)| [x, y]);
+    Ok(arguments.zip(read(result)?).collect())
+}
+
+/// The largest error of some values.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Worst {
+    /// In units of the last digit of the exact value.
+    pub ulp: f64,
+    /// Where.
+    pub arguments: [f64; 2],
+    /// How many values were compared.
+    pub samples: usize,
+}
+
+/// The largest error of a function over so many arguments of each kind.
+///
+/// # Errors
+/// What the run ends with.
+pub fn worst(
+    function: Function,
+    family: Family,
+    precision: Precision,
+    samples: usize,
+    seed: u64,
+) -> Result<Worst, Box<dyn std::error::Error>> {
+    let arguments = arguments::sample(function, family, precision, samples, seed);
+    let mut oracle = exact::Oracle::new(precision);
+    let mut worst = Worst::default();
+    for (arguments, value) in values(function, arguments, &Reference, precision)? {
+        let Some(ulp) = oracle.error(function, arguments, value) else { continue };
+        worst.samples += 1;
+        if ulp > worst.ulp {
+            worst.ulp = ulp;
+            worst.arguments = arguments;
+        }
+    }
+    Ok(worst)
+}
+
+/// The largest error of a function of one argument in `f32`, over every so many of all numbers, by the platform's function in `f64`. Angles
+/// go to 4096.
+///
+/// # Errors
+/// What the run ends with.
+pub fn sweep(function: Function, step: usize) -> Result<Worst, Box<dyn std::error::Error>> {
+    const CELLS: usize = 1 << 20;
+    let (platform, limit): (fn(f64) -> f64, f64) = match function {
+        Function::Exp => (f64::exp, f64::MAX),
+        Function::Log => (f64::ln, f64::MAX),
+        Function::Sin => (f64::sin, 4096.0),
+        Function::Cos => (f64::cos, 4096.0),
+        Function::Tan => (f64::tan, 4096.0),
+        Function::Atan => (f64::atan, f64::MAX),
+        Function::Tanh => (f64::tanh, f64::MAX),
+        Function::Pow | Function::Atan2 => return Err("this function has two arguments".into()),
+    };
+    let numbers: Vec<u32> = (0..=u32::MAX).step_by(step).collect();
+    let mut worst = Worst::default();
+    for bits in numbers.chunks(CELLS) {
+        let arguments: Vec<[f64; 2]> = bits
+            .iter()
+            .map(|bits| f64::from(f32::from_bits(*bits)))
+            .filter(|x| x.abs() <= limit)
+            .map(|x| [x, 1.0])
+            .collect();
+        if arguments.is_empty() {
+            continue;
+        }
+        for (arguments, value) in values(function, arguments, &Reference, Precision::F32)? {
+            let exact = platform(arguments[0]);
+            let overflows = exact.abs() > f32::MAX.into() && value.is_infinite();
+            if !exact.is_finite() || exact == 0.0 || overflows {
+                continue;
+            }
+            worst.samples += 1;
+            let unit = 2_f64.powi((exact.abs().log2().floor() as i32 - 23).max(-149));
+            let ulp = (value - exact).abs() / unit;
+            if ulp.is_nan() || ulp > worst.ulp {
+                worst.ulp = ulp;
+                worst.arguments = arguments;
+            }
+        }
+    }
+    Ok(worst)
+}
