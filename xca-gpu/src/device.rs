@@ -136,6 +136,14 @@ impl Device {
         self.device.limits().max_compute_workgroups_per_dimension
     }
 
+    /// The invocations of a workgroup that suit it. A graphics card fills its units with few; a processor that plays one does a whole
+    /// workgroup on one core, and likes them large.
+    pub(crate) fn workgroup(&self) -> u32 {
+        let most = self.device.limits().max_compute_invocations_per_workgroup;
+        let wanted = if self.adapter.kind == AdapterKind::Processor { 1024 } else { 64 };
+        wanted.min(1 << most.max(1).ilog2())
+    }
+
     /// Memory full of zeros.
     pub(crate) fn buffer(&self, name: &str, size: u64) -> Result<Buffer, DeviceError> {
         self.allocate(name, size, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC)

@@ -40,14 +40,17 @@ impl std::str::FromStr for Arithmetic {
 #[error("`{0}` is no arithmetic; use best, strict or relaxed")]
 pub struct UnknownArithmetic(String);
 
-/// All processes of a model as the engine compiles them for strict arithmetic.
+/// All processes of a model as the engine compiles them for strict arithmetic; only that loops over neighbours stand as loops here, where the
+/// engine writes them out for the space at hand.
 ///
 /// # Errors
 /// Where a process cannot be written in WGSL.
 pub fn wgsl(model: &Model, precision: Precision) -> Result<String, xca_wgsl::Error> {
-    let manner = Manner { precision, strict: true };
-    let texts =
-        model.processes().iter().map(|process| shader_of(model, process, manner).map(|shader| shader.source));
+    let manner = Manner { precision, strict: true, workgroup: 64 };
+    let texts = model
+        .processes()
+        .iter()
+        .map(|process| shader_of(model, process, manner, None).map(|shader| shader.source));
     Ok(texts.collect::<Result<Vec<_>, _>>()?.join("\n"))
 }
 
@@ -154,7 +157,7 @@ impl Engine for Gpu {
     }
 
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {
-        let manner = Manner { precision, strict: self.is_strict() };
+        let manner = Manner { precision, strict: self.is_strict(), workgroup: self.device.workgroup() };
         match GpuExecution::new(model, manner, Arc::clone(&self.device)) {
             Ok(execution) => Ok(Box::new(execution)),
             Err(error) => Err(StartError::Other {

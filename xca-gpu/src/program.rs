@@ -10,11 +10,8 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use xca_core::engine::SubstateId;
 use xca_core::kernel::Of;
-use xca_core::{AnyParameters, Boundary, Model, Precision, Process, ProcessKind};
+use xca_core::{AnyParameters, Boundary, Model, Parity, Precision, Process, ProcessKind};
 use xca_wgsl::{BindingAccess, Content, Dispatch, Layout, Options, Shader, State};
-
-/// The invocations of a workgroup.
-const WORKGROUP: u32 = 64;
 
 /// How processes are compiled.
 #[derive(Debug, Clone, Copy)]
@@ -22,6 +19,8 @@ pub(crate) struct Manner {
     pub(crate) precision: Precision,
     /// Whether the driver must not change float arithmetic.
     pub(crate) strict: bool,
+    /// The invocations of a workgroup, a power of two.
+    pub(crate) workgroup: u32,
 }
 
 /// A compiled process.
@@ -39,16 +38,22 @@ pub(crate) struct Program {
 }
 
 /// The text of a process for a model.
-pub(crate) fn shader_of(model: &Model, process: &Process, manner: Manner) -> Result<Shader, xca_wgsl::Error> {
+pub(crate) fn shader_of(
+    model: &Model,
+    process: &Process,
+    manner: Manner,
+    neighbour_offsets: Option<Vec<i32>>,
+) -> Result<Shader, xca_wgsl::Error> {
     let geometry = model.geometry();
     let [width, height, _] = geometry.extents();
     // Workgroups as long along x as the space allows.
-    let x = width.next_power_of_two().min(WORKGROUP as usize) as u32;
-    let y = height.next_power_of_two().min((WORKGROUP / x) as usize) as u32;
+    let x = width.next_power_of_two().min(manner.workgroup as usize) as u32;
+    let y = height.next_power_of_two().min((manner.workgroup / x) as usize) as u32;
     let options = Options {
         precision: manner.precision,
         neighbourhood_size: u32::try_from(geometry.neighbourhood().size()).ok(),
-        workgroup_size: [x, y, WORKGROUP / (x * y)],
+        neighbour_offsets,
+        workgroup_size: [x, y, (manner.workgroup / (x * y)).min(64)],
         toroidal: geometry.boundaries().map(|boundary| boundary == Boundary::Toroidal),
         parity: geometry.neighbourhood().parity(),
         opaque_zero: manner.strict,
@@ -65,7 +70,11 @@ impl Program {
         process: Process,
         manner: Manner,
     ) -> Result<Self, NotOnDevice> {
-        let shader = shader_of(model, &process, manner)?;
+        let geometry = model.geometry();
+        let size = geometry.neighbourhood().size();
+        let same = geometry.neighbourhood().parity() == Parity::None;
+        let offsets = same.then(|| space.offsets()[..size].to_vec());
+        let shader = shader_of(model, &process, manner, offsets)?;
         if shader.needs_f64 && !device.adapter().has_f64 {
             return Err(NotOnDevice::NoF64 { what: format!("the process `{}`", process.name) });
         }

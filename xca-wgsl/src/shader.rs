@@ -15,6 +15,10 @@ pub struct Options {
     /// The number of cells in the neighbourhood with the central one; where it is not given, the shader reads it from the
     /// description of the space.
     pub neighbourhood_size: Option<u32>,
+    /// For each cell of the neighbourhood the difference of its number from that of the central cell, where that is the same for all
+    /// cells. Loops over the neighbours are then written out, each neighbour with its number, which some drivers do not do by
+    /// themselves (Mesa's lavapipe runs a loop over 27 neighbours half as fast).
+    pub neighbour_offsets: Option<Vec<i32>>,
     /// The size of a workgroup along x, y and z; of a process over items the product.
     pub workgroup_size: [u32; 3],
     /// Which axes are toroidal: searches for near items go the shorter way round them.
@@ -31,6 +35,7 @@ impl Default for Options {
         Self {
             precision: Precision::default(),
             neighbourhood_size: None,
+            neighbour_offsets: None,
             workgroup_size: [64, 1, 1],
             toroidal: [false; 3],
             parity: Parity::None,

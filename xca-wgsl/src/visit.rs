@@ -164,9 +164,18 @@ pub(crate) fn expression_diverges(value: &Expression) -> bool {
 
 /// Whether the block has a `break` that ends the loop whose body it is.
 pub(crate) fn breaks(block: &Block) -> bool {
+    has_of_this_loop(block, |statement| matches!(statement, Statement::Break))
+}
+
+/// Whether the block has a `continue` of the loop whose body it is.
+pub(crate) fn continues(block: &Block) -> bool {
+    has_of_this_loop(block, |statement| matches!(statement, Statement::Continue))
+}
+
+fn has_of_this_loop(block: &Block, wanted: impl Fn(&Statement) -> bool) -> bool {
     let mut found = false;
     self::block(block, &mut |node| {
-        found |= matches!(node, Node::Statement(Statement::Break));
+        found |= matches!(&node, Node::Statement(statement) if wanted(statement));
         !matches!(
             node,
             Node::Statement(

@@ -5,8 +5,12 @@ use super::text::{Level, Text};
 use super::{Target, Writer};
 use crate::error::Problem;
 use crate::types::Type;
+use crate::visit;
 use xca_core::ScalarType;
-use xca_core::ir::{Arm, Block, Expression, Literal, Pattern, Statement};
+use xca_core::ir::{Arm, Block, Builtin, Expression, Literal, Pattern, Statement};
+
+/// The largest neighbourhood over which loops are written out.
+const MOST_WRITTEN_OUT: usize = 32;
 
 impl Writer<'_, '_> {
     pub(super) fn if_into(
@@ -194,6 +198,25 @@ impl Writer<'_, '_> {
         Ok(())
     }
 
+    /// The indices of a loop over neighbours that is written out: where their places are known, and nothing leaves a turn of it early.
+    fn written_out(
+        &self,
+        from: &Expression,
+        to: &Expression,
+        inclusive: bool,
+        body: &Block,
+    ) -> Option<std::ops::Range<usize>> {
+        let offsets = self.shared.options.neighbour_offsets.as_ref()?;
+        let over_neighbours = !inclusive && matches!(to, Expression::Builtin(Builtin::Neighbours, _));
+        let Expression::Literal(Literal::Integer(first, _)) = from else { return None };
+        let first = usize::try_from(*first).ok()?;
+        (over_neighbours
+            && offsets.len() <= MOST_WRITTEN_OUT
+            && !visit::breaks(body)
+            && !visit::continues(body))
+        .then_some(first..offsets.len())
+    }
+
     pub(super) fn for_range(
         &mut self,
         statement: &Statement,
@@ -205,6 +228,21 @@ impl Writer<'_, '_> {
         let Statement::ForRange { variable, .. } = statement else { return Ok(()) };
         let number = self.analysis.bound(statement)?;
         let type_ = self.analysis.locals[number.0].type_.clone();
+        if let Some(indices) = self.written_out(from, to, inclusive, body) {
+            for index in indices {
+                self.line("{");
+                self.shared.names.open();
+                let local = self.shared.names.local(variable);
+                self.locals.insert(number, local.clone());
+                self.counted.insert(number, index);
+                self.line(&format!("    let {local}: {} = {index}u;", type_.wgsl()));
+                self.loop_body(None, body)?;
+                self.shared.names.close();
+                self.line("}");
+            }
+            self.counted.remove(&number);
+            return Ok(());
+        }
         let one = self.one(&type_)?;
         let texts = self.operands(&[from, to])?;
         let [from, to_text] = [texts[0].clone(), texts[1].clone()];

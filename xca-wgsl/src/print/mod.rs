@@ -46,6 +46,8 @@ struct Writer<'a, 's> {
     locals: HashMap<LocalNumber, String>,
     /// Variables that are the index of a neighbour that exists.
     neighbours: HashSet<LocalNumber>,
+    /// Variables of loops that are written out, with their present value.
+    counted: HashMap<LocalNumber, usize>,
     /// The loops around the present place. Of a search in several cells, the flag that ends it.
     loops: Vec<Option<String>>,
 }
@@ -73,6 +75,7 @@ pub(crate) fn function(shared: &mut Shared<'_>, number: usize) -> Result<String,
         indent: 0,
         locals: HashMap::new(),
         neighbours: HashSet::new(),
+        counted: HashMap::new(),
         loops: Vec::new(),
     };
     writer.run(number)

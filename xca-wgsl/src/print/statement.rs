@@ -204,6 +204,15 @@ impl Writer<'_, '_> {
 
     /// The number of the cell that is the neighbour with this index.
     pub(super) fn neighbour(&mut self, index: &Expression) -> Result<Text, Problem> {
+        if let Some(offset) = self.known_offset(index)? {
+            return Ok(match offset {
+                0 => Text::primary("here".to_owned()),
+                _ => {
+                    let sign = if offset < 0 { '-' } else { '+' };
+                    Text::primary(format!("here {sign} {}u", offset.unsigned_abs()))
+                }
+            });
+        }
         let known = match index {
             Expression::Local(_) => self.neighbours.contains(&self.analysis.local(index)?),
             Expression::Literal(xca_core::ir::Literal::Integer(number, _)) => {
@@ -219,6 +228,17 @@ impl Writer<'_, '_> {
             "checked_neighbour_at"
         };
         Ok(Text::primary(format!("{routine}({})", text.plain())))
+    }
+
+    /// How far the neighbour with this index is away, where that is known when the text is written.
+    fn known_offset(&self, index: &Expression) -> Result<Option<i32>, Problem> {
+        let Some(offsets) = &self.shared.options.neighbour_offsets else { return Ok(None) };
+        let number = match index {
+            Expression::Local(_) => self.counted.get(&self.analysis.local(index)?).copied(),
+            Expression::Literal(xca_core::ir::Literal::Integer(number, _)) => usize::try_from(*number).ok(),
+            _ => None,
+        };
+        Ok(number.and_then(|number| offsets.get(number)).copied())
     }
 
     /// A value that a loop compares with again and again: computed once.
