@@ -2,6 +2,7 @@
 
 use std::error::Error;
 use std::fs;
+use xca_core::Snapshot;
 use xca_core::math;
 use xca_core::prelude::*;
 use xca_tests::mathematics::arguments::{Family, sample};
@@ -186,7 +187,14 @@ fn every_engine_gives_the_same_bits() -> TestResult {
     for precision in PRECISIONS {
         let model = model(mixed_arguments(precision))?;
         let options = RunOptions { precision, ..RunOptions::default() };
-        engines::assert_same_runs(&model, &all, options, 1)?;
+        engines::assert_same_runs(&model, engines::on_processors(&all), options, 1)?;
+        let after_a_step = |engine: &dyn Engine| -> Result<Snapshot, RunError> {
+            let mut simulation = Simulation::new(&model, engine, options)?;
+            simulation.step()?;
+            Ok(engines::with_one_nan(&model, precision, simulation.snapshot()?))
+        };
+        let (wanted, found) = (after_a_step(&Reference)?, after_a_step(&engines::gpu()?)?);
+        engines::assert_same_state(&wanted, &found, &|| format!("the gpu in {precision}"));
     }
     Ok(())
 }

@@ -5,6 +5,7 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
+use std::cell::Cell;
 use xca_core::prelude::*;
 use xca_tests::suite::engines::{self, PRECISIONS, assert_same_runs, assert_same_state, outcome_text};
 use xca_tests::suite::lattice::Shape;
@@ -92,9 +93,12 @@ fn options() -> impl Strategy<Value = RunOptions> {
 
 #[test]
 fn same_bits_on_every_engine() {
-    let engines = engines::all().expect("engines");
+    let all = engines::all().expect("engines");
+    let cases = Cell::new(0);
     proptest!(config(1200), |(recipe in recipes(), options in options(), steps in 1_u64..7)| {
-        match assert_same_runs(&recipe.build()?, &engines, options, steps) {
+        cases.set(cases.get() + 1);
+        let engines = engines::for_case(&all, cases.get());
+        match assert_same_runs(&recipe.build()?, engines, options, steps) {
             Ok(()) | Err(RunError::Fault { .. }) => {}
             Err(error) => return Err(TestCaseError::fail(error.to_string())),
         }
@@ -104,7 +108,8 @@ fn same_bits_on_every_engine() {
 /// Processes one by one, in any order and number: engines may run processes together or apart.
 #[test]
 fn same_bits_process_by_process() {
-    let engines = engines::all().expect("engines");
+    let all = engines::all().expect("engines");
+    let cases = Cell::new(0);
     let orders = proptest::collection::vec(any::<prop::sample::Index>(), 1..9);
     proptest!(config(500), |(recipe in recipes(), options in options(), order in orders)| {
         let model = recipe.build()?;
@@ -112,6 +117,8 @@ fn same_bits_process_by_process() {
         if processes == 0 {
             return Ok(());
         }
+        cases.set(cases.get() + 1);
+        let engines = engines::for_case(&all, cases.get());
         let mut oracle = Simulation::new(&model, &*engines[0], options)?;
         let mut others = Vec::new();
         for engine in &engines[1..] {
@@ -138,11 +145,13 @@ fn same_bits_process_by_process() {
 /// A step is its processes one after the other, on each engine by itself.
 #[test]
 fn a_step_is_its_processes_in_order() {
-    let engines = engines::all().expect("engines");
+    let all = engines::all().expect("engines");
+    let cases = Cell::new(0);
     proptest!(config(300), |(recipe in recipes(), options in options())| {
         let recipe = Recipe { steered: false, ..recipe };
         let model = recipe.build()?;
-        for engine in &engines {
+        cases.set(cases.get() + 1);
+        for engine in engines::for_case(&all, cases.get()) {
             let mut whole = Simulation::new(&model, &**engine, options)?;
             let mut apart = Simulation::new(&model, &**engine, options)?;
             let outcome = whole.step();

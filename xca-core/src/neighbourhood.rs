@@ -16,7 +16,7 @@ pub struct Neighbourhood {
 }
 
 /// What the displacements depend on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Parity {
     /// Nothing: all cells have the same.
     None,

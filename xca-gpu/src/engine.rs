@@ -1,9 +1,9 @@
 //! The engine as a program chooses it.
 
-use crate::device::{Adapter, AdapterChoice, AdapterKind, Device};
-use crate::error::GpuError;
+use crate::device::{Adapter, AdapterChoice, AdapterKind, Device, DeviceError};
+use crate::error::{GpuError, NotOnDevice};
 use crate::execution::{GpuExecution, least_memory};
-use crate::program::{Manner, shader_of};
+use crate::program::{Manner, Texts, shader_of};
 use crate::proof;
 use std::fmt;
 use std::sync::Arc;
@@ -47,10 +47,9 @@ pub struct UnknownArithmetic(String);
 /// Where a process cannot be written in WGSL.
 pub fn wgsl(model: &Model, precision: Precision) -> Result<String, xca_wgsl::Error> {
     let manner = Manner { precision, strict: true, workgroup: 64 };
-    let texts = model
-        .processes()
-        .iter()
-        .map(|process| shader_of(model, process, manner, None).map(|shader| shader.source));
+    let known = Texts::default();
+    let of = |process| shader_of(&known, model, process, manner, None).map(|shader| shader.source);
+    let texts = model.processes().iter().map(of);
     Ok(texts.collect::<Result<Vec<_>, _>>()?.join("\n"))
 }
 
@@ -71,12 +70,16 @@ pub struct GpuOptions {
     pub adapter: AdapterChoice,
     /// How float arithmetic is done.
     pub arithmetic: Arithmetic,
+    /// The most bytes of a substate that a process is to reach at once, where that is less than the adapter allows. Larger substates of
+    /// cells are worked on in parts; so it can be tried how, without a model that fills an adapter.
+    pub reach: Option<u64>,
 }
 
 /// The GPU engine: an open adapter.
 #[derive(Debug, Clone)]
 pub struct Gpu {
     device: Arc<Device>,
+    texts: Arc<Texts>,
     /// Why arithmetic is relaxed, where it is.
     relaxed: Option<String>,
 }
@@ -87,7 +90,7 @@ impl Gpu {
     /// # Errors
     /// Where no adapter is found or none is meant, where it cannot be opened, or cannot do what is asked.
     pub fn new(options: &GpuOptions) -> Result<Self, GpuError> {
-        let device = Arc::new(Device::open(&options.adapter)?);
+        let device = Arc::new(Device::open(&options.adapter, options.reach)?);
         let relaxed = match options.arithmetic {
             Arithmetic::Relaxed => Some("it was asked for".to_owned()),
             Arithmetic::Best | Arithmetic::Strict => proof::of_strictness(&device).err(),
@@ -96,7 +99,7 @@ impl Gpu {
             (Some(reason), Arithmetic::Strict) => {
                 Err(GpuError::NotStrict { adapter: device.adapter().to_string(), reason: reason.clone() })
             }
-            _ => Ok(Self { device, relaxed }),
+            _ => Ok(Self { device, texts: Arc::default(), relaxed }),
         }
     }
 
@@ -113,6 +116,25 @@ impl Gpu {
     /// Why arithmetic is relaxed, where it is.
     pub fn why_relaxed(&self) -> Option<&str> {
         self.relaxed.as_deref()
+    }
+}
+
+impl Gpu {
+    fn cannot_start(&self, error: NotOnDevice) -> StartError {
+        let engine = "gpu".to_owned();
+        let too_large = |what: String, wanted: u128, limit: u64| StartError::TooLarge {
+            engine: engine.clone(),
+            what: format!("the bytes of {what}"),
+            wanted,
+            limit: limit.into(),
+        };
+        match error {
+            NotOnDevice::TooLarge { what, wanted, most } => too_large(what, wanted, most),
+            NotOnDevice::Device(DeviceError::TooLarge { what, wanted, most }) => {
+                too_large(what, wanted.into(), most)
+            }
+            other => StartError::Other { engine, reason: format!("{other} (adapter: {})", self.adapter()) },
+        }
     }
 }
 
@@ -158,12 +180,9 @@ impl Engine for Gpu {
 
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {
         let manner = Manner { precision, strict: self.is_strict(), workgroup: self.device.workgroup() };
-        match GpuExecution::new(model, manner, Arc::clone(&self.device)) {
+        match GpuExecution::new(model, manner, Arc::clone(&self.device), &self.texts) {
             Ok(execution) => Ok(Box::new(execution)),
-            Err(error) => Err(StartError::Other {
-                engine: "gpu".to_owned(),
-                reason: format!("{error} (adapter: {})", self.adapter()),
-            }),
+            Err(error) => Err(self.cannot_start(error)),
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::migration::Migration;
 use crate::pace::Pace;
 use crate::plane::{Plane, size_on_device};
 use crate::population::Population;
-use crate::program::{Manner, Program};
+use crate::program::{Manner, Program, Texts};
 use crate::service::{ADVANCE, SEAL, SEAL_AIM, Services};
 use crate::space::{Part, Space};
 use crate::stop::Cause;
@@ -43,15 +43,22 @@ pub(crate) struct GpuExecution {
     parameters: Option<Vec<ParameterValue>>,
     seed: Option<u64>,
     step: Option<u64>,
+    /// Whether a fault has stopped the device.
+    stopped: bool,
 }
 
 impl GpuExecution {
-    pub(crate) fn new(model: &Model, manner: Manner, device: Arc<Device>) -> Result<Self, NotOnDevice> {
+    pub(crate) fn new(
+        model: &Model,
+        manner: Manner,
+        device: Arc<Device>,
+        texts: &Texts,
+    ) -> Result<Self, NotOnDevice> {
         check_types(model, manner, &device)?;
         let space = space_of(model, manner, &device)?;
         let mut programs = Vec::new();
         for process in model.processes() {
-            programs.push(Program::new(&device, model, &space, *process, manner)?);
+            programs.push(Program::new(&device, model, &space, *process, (manner, texts))?);
         }
         let doubled: HashSet<SubstateId> =
             programs.iter().flat_map(|program| program.doubled(model)).collect();
@@ -90,6 +97,7 @@ impl GpuExecution {
             parameters: None,
             seed: None,
             step: None,
+            stopped: false,
         };
         execution.write_outside()?;
         Ok(execution)
@@ -130,6 +138,9 @@ impl GpuExecution {
 
     /// Tells the device what it does not know yet.
     fn prepare(&mut self, context: &StepContext<'_>) -> Result<(), DeviceError> {
+        if self.stopped {
+            self.revive()?;
+        }
         let fields = context.values.schema().fields.len();
         let parameters: Vec<ParameterValue> =
             (0..fields).map(|field| context.values.value_of(field)).collect();
@@ -157,6 +168,22 @@ impl GpuExecution {
             }
             self.step = Some(context.step);
         }
+        Ok(())
+    }
+
+    /// Has the device go on after a fault, with a state that was put in place of the broken one.
+    fn revive(&mut self) -> Result<(), DeviceError> {
+        self.device.upload(self.groups.faults(), 0, bytemuck::cast_slice(&[u32::MAX, 0]))?;
+        for migration in &self.migrations {
+            migration.revive(&self.device)?;
+        }
+        for group in 0..=self.model.groups().len() as u64 {
+            // Nobody is leaving; and nothing has stopped.
+            self.device.upload(self.groups.journals(), group * JOURNAL + 12, &[0; 4])?;
+            self.device.upload(self.groups.journals(), group * JOURNAL + 24, &[0; 4])?;
+        }
+        self.stopped = false;
+        self.step = None;
         Ok(())
     }
 
@@ -294,6 +321,7 @@ impl GpuExecution {
         if journal[6] == 0 {
             return Ok(None);
         }
+        self.stopped = true;
         let process = (journal[6] - 1) as usize;
         let fault = self.fault(process, journal[7], journal[10], [journal[11], journal[12], journal[13]])?;
         Ok(Some((long(journal[8], journal[9]), fault)))
@@ -414,7 +442,8 @@ fn groups_of(
                 });
                 let doubled = (0..types.len()).map(doubled).collect();
                 let rules = (*slots, *may_leave);
-                Group::Population(Population::new(device, space, fields, types, rules, (doubled, moves))?)
+                let population = Population::new(device, space, fields, types, rules, (doubled, moves))?;
+                Group::Population(Box::new(population))
             }
         });
     }

@@ -12,7 +12,7 @@ pub(crate) enum Group {
     /// Of cells.
     Cells(Vec<Plane>),
     /// Of items.
-    Population(Population),
+    Population(Box<Population>),
 }
 
 /// The bytes of a journal, and the distance to the next one: what bindings are aligned to at most.

@@ -73,6 +73,11 @@ impl Migration {
         Ok(())
     }
 
+    /// Forgets a migration that was stopped on its way.
+    pub(crate) fn revive(&self, device: &Device) -> Result<(), DeviceError> {
+        device.upload(&self.arrivals, 0, &vec![0; self.arrivals.size() as usize])
+    }
+
     /// The population that it moves.
     pub(crate) fn group(&self) -> usize {
         self.group

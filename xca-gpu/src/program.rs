@@ -7,7 +7,7 @@ use crate::service;
 use crate::space::{Part, Space};
 use crate::values;
 use std::collections::HashMap;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 use xca_core::engine::SubstateId;
 use xca_core::kernel::Of;
 use xca_core::{AnyParameters, Boundary, Model, Parity, Precision, Process, ProcessKind};
@@ -37,8 +37,26 @@ pub(crate) struct Program {
     bound: HashMap<Vec<(u64, u64)>, Bindings>,
 }
 
+/// The texts of processes that were written already: many runs of one program need the same ones.
+#[derive(Debug, Default)]
+pub(crate) struct Texts(Mutex<HashMap<(usize, Options), Shader>>);
+
+impl Texts {
+    fn of(&self, process: &Process, options: Options) -> Result<Shader, xca_wgsl::Error> {
+        // Two processes have the same body only where they are the same.
+        let key = (process.body as usize, options);
+        let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(shader) = known().get(&key) {
+            return Ok(shader.clone());
+        }
+        let shader = xca_wgsl::shader(&(process.body)(), &key.1)?;
+        Ok(known().entry(key).or_insert(shader).clone())
+    }
+}
+
 /// The text of a process for a model.
 pub(crate) fn shader_of(
+    texts: &Texts,
     model: &Model,
     process: &Process,
     manner: Manner,
@@ -58,7 +76,7 @@ pub(crate) fn shader_of(
         parity: geometry.neighbourhood().parity(),
         opaque_zero: manner.strict,
     };
-    xca_wgsl::shader(&(process.body)(), &options)
+    texts.of(process, options)
 }
 
 impl Program {
@@ -68,13 +86,13 @@ impl Program {
         model: &Model,
         space: &Space,
         process: Process,
-        manner: Manner,
+        (manner, texts): (Manner, &Texts),
     ) -> Result<Self, NotOnDevice> {
         let geometry = model.geometry();
         let size = geometry.neighbourhood().size();
         let same = geometry.neighbourhood().parity() == Parity::None;
         let offsets = same.then(|| space.offsets()[..size].to_vec());
-        let shader = shader_of(model, &process, manner, offsets)?;
+        let shader = shader_of(texts, model, &process, manner, offsets)?;
         if shader.needs_f64 && !device.adapter().has_f64 {
             return Err(NotOnDevice::NoF64 { what: format!("the process `{}`", process.name) });
         }

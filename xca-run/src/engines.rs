@@ -72,7 +72,8 @@ impl EngineName {
             (Self::Gpu, Some(_)) => Err(EngineError::Threadless),
             (Self::Gpu, None) => {
                 let adapter = adapter.as_deref().map(AdapterChoice::from).unwrap_or_default();
-                Ok(Box::new(Gpu::new(&GpuOptions { adapter, arithmetic: arithmetic.unwrap_or_default() })?))
+                let arithmetic = arithmetic.unwrap_or_default();
+                Ok(Box::new(Gpu::new(&GpuOptions { adapter, arithmetic, ..GpuOptions::default() })?))
             }
         }
     }

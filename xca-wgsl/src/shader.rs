@@ -8,7 +8,7 @@ use xca_core::kernel::Of;
 use xca_core::{Parity, Precision, ValueType, ir};
 
 /// What a shader is written for.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Options {
     /// What `Real` stands for.
     pub precision: Precision,

@@ -4,7 +4,7 @@ use std::error::Error;
 use std::fmt::Debug;
 use xca_core::{
     Engine, Fault, GroupSnapshot, Model, Precision, Reference, RunError, RunOptions, Simulation, Snapshot,
-    State,
+    State, StoredScalar,
 };
 use xca_cpu::Cpu;
 use xca_gpu::{Arithmetic, Gpu, GpuError, GpuOptions};
@@ -15,7 +15,48 @@ pub const THREADS: [usize; 4] = [1, 2, 3, 8];
 /// Both precisions.
 pub const PRECISIONS: [Precision; 2] = [Precision::F32, Precision::F64];
 
-/// Every engine, the oracle first.
+/// Of so many cases the GPU engine takes part in one, where there are very many: a driver compiles each model anew, which takes far longer
+/// than to run it.
+pub const GPU_SHARE: usize = 9;
+
+/// The engines for the case with this number: all, or those on processors.
+pub fn for_case(engines: &[Box<dyn Engine>], number: usize) -> &[Box<dyn Engine>] {
+    if number.is_multiple_of(GPU_SHARE) { engines } else { on_processors(engines) }
+}
+
+/// The engines without the GPU's.
+pub fn on_processors(engines: &[Box<dyn Engine>]) -> &[Box<dyn Engine>] {
+    &engines[..engines.len() - 1]
+}
+
+/// A snapshot in which each float that is no number has the same bits: which ones an operation gives is nowhere defined, and processors and
+/// graphics drivers differ.
+pub fn with_one_nan(model: &Model, precision: Precision, mut snapshot: Snapshot) -> Snapshot {
+    for (group, state) in model.groups().iter().zip(&mut snapshot.groups) {
+        let fields = match state {
+            GroupSnapshot::Cells(fields) => fields,
+            GroupSnapshot::Population(population, _) => &mut population.fields,
+        };
+        for (stored, bytes) in group.stored(precision).iter().zip(fields) {
+            match stored.scalar {
+                StoredScalar::F32 => {
+                    let (values, _) = bytes.as_chunks_mut();
+                    let nans = values.iter_mut().filter(|value| f32::from_ne_bytes(**value).is_nan());
+                    nans.for_each(|value| *value = f32::NAN.to_ne_bytes());
+                }
+                StoredScalar::F64 => {
+                    let (values, _) = bytes.as_chunks_mut();
+                    let nans = values.iter_mut().filter(|value| f64::from_ne_bytes(**value).is_nan());
+                    nans.for_each(|value| *value = f64::NAN.to_ne_bytes());
+                }
+                _ => {}
+            }
+        }
+    }
+    snapshot
+}
+
+/// Every engine, the oracle first and the GPU last.
 ///
 /// # Errors
 /// Where an engine cannot be made.

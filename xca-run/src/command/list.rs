@@ -10,6 +10,7 @@ use clap::{Args, Command, ValueEnum};
 use serde_json::json;
 use xca_core::model::GroupKind;
 use xca_core::{Model, Process, ProcessKind};
+use xca_gpu::GpuError;
 
 pub(super) const NAME: &str = "list";
 
@@ -47,8 +48,45 @@ fn engines() -> impl Iterator<Item = (String, String)> {
     })
 }
 
+/// The adapters of the gpu engine.
+fn adapters() -> String {
+    let adapters = xca_gpu::adapters();
+    if adapters.is_empty() {
+        return GpuError::NoAdapter.to_string();
+    }
+    let rows = adapters.into_iter().map(|adapter| {
+        let name = format!("{}, {}", adapter.name, adapter.kind);
+        let floats = match (adapter.has_f64, adapter.may_be_strict) {
+            (true, true) => "f32, f64, strict if proved",
+            (true, false) => "f32, f64, relaxed",
+            (false, true) => "f32, strict if proved",
+            (false, false) => "f32, relaxed",
+        };
+        let megabytes = |bytes: u64| format!("{} MB", bytes >> 20);
+        let (buffer, reach) = (megabytes(adapter.largest_buffer), megabytes(adapter.largest_binding));
+        let number = adapter.number.to_string();
+        [number, name, adapter.interface, floats.to_owned(), buffer, reach, adapter.buffers.to_string()]
+    });
+    let header = ["adapter", "", "interface", "floats", "largest buffer", "in reach at once", "buffers"];
+    table(header, rows, &[])
+}
+
 fn as_json(model: &Model) -> serde_json::Result<String> {
     let engines = engines().map(|(name, about)| json!({ "name": name, "about": about }));
+    let adapters = xca_gpu::adapters().into_iter().map(|adapter| {
+        json!({
+            "number": adapter.number,
+            "name": adapter.name,
+            "driver": adapter.driver,
+            "interface": adapter.interface,
+            "kind": adapter.kind.to_string(),
+            "f64": adapter.has_f64,
+            "may_be_strict": adapter.may_be_strict,
+            "largest_buffer": adapter.largest_buffer,
+            "largest_binding": adapter.largest_binding,
+            "buffers": adapter.buffers,
+        })
+    });
     let processes = model.processes().iter().map(|process| {
         let [reads, reads_elsewhere, writes] = accesses(model, process);
         json!({
@@ -62,6 +100,7 @@ fn as_json(model: &Model) -> serde_json::Result<String> {
     });
     serde_json::to_string_pretty(&json!({
         "engines": engines.collect::<Vec<_>>(),
+        "adapters": adapters.collect::<Vec<_>>(),
         "model": report::of_model(model),
         "parameters": report::of_parameters(model.parameters()),
         "processes": processes.collect::<Vec<_>>(),
@@ -79,6 +118,7 @@ fn as_text(model: &Model) -> String {
         geometry.neighbourhood()
     );
     let engines = table(["engine", ""], engines().map(|(name, about)| [name, about]), &[]);
+    let adapters = adapters();
     let substates =
         model.groups().iter().flat_map(|group| {
             let of = match group.kind() {
@@ -98,7 +138,7 @@ fn as_text(model: &Model) -> String {
         let [reads, elsewhere, writes] = accesses(model, process).map(|names| names.join(" "));
         [process.name.to_owned(), subject(process).to_owned(), reads, elsewhere, writes]
     });
-    let mut parts = vec![space, engines, table(["substate", "type", "of"], substates, &[])];
+    let mut parts = vec![space, engines, adapters, table(["substate", "type", "of"], substates, &[])];
     if !parameters.schema().fields.is_empty() {
         parts.push(table(["parameter", "type", "value"], fields, &[]));
     }
