@@ -89,8 +89,10 @@ fn a_space_in_parts_gives_the_same_bits() -> TestResult {
 /// Each cell of the automaton checks what it sees, also where the space is cut right beside it.
 #[test]
 fn an_automaton_in_parts_finds_what_it_must() -> TestResult {
-    let engines: [Box<dyn Engine>; 2] = [Box::new(Reference), Box::new(short_sighted(16 * 640)?)];
-    for (shape, extents) in [(Shape::Moore, [5, 4, 9]), (Shape::WideVonNeumann, [5, 5, 11])] {
+    for (shape, extents, reach) in
+        [(Shape::Moore, [5, 4, 9], 24 * 64 * 5), (Shape::WideVonNeumann, [5, 5, 11], 24 * 128 * 8)]
+    {
+        let engines: [Box<dyn Engine>; 2] = [Box::new(Reference), Box::new(short_sighted(reach)?)];
         for boundaries in [
             [Boundary::Toroidal, Boundary::Flat, Boundary::Toroidal],
             [Boundary::Flat, Boundary::Reflecting, Boundary::Reflecting],
@@ -200,8 +202,8 @@ fn particles_in_contact_have_the_same_bits() -> TestResult {
             let mut cpu = Simulation::new(&model, &xca_cpu::Cpu::new()?, options)?;
             let mut gpu = Simulation::new(&model, &gpu()?, options)?;
             for _ in 0..3 {
-                cpu.run(800)?;
-                gpu.run(800)?;
+                cpu.run(500)?;
+                gpu.run(500)?;
                 assert!(cpu.snapshot()? == gpu.snapshot()?, "{walls:?} {precision}");
             }
         }
@@ -223,7 +225,7 @@ fn what_is_not_there_is_refused_with_the_choices() -> TestResult {
     };
     assert!(wanted > 1024 && limit == 1024, "{wanted} {limit}");
     // More cells than 32 bits can number.
-    let model = heat([100_000, 100_000, 1], Boundary::Flat, 1e9)?;
+    let model = heat([60_000, 40_000, 1], Boundary::Flat, 1e9)?;
     let error = Simulation::new(&model, &gpu()?, RunOptions::default()).err().ok_or("a huge model")?;
     assert!(error.to_string().contains("bytes"), "{error}");
     Ok(())

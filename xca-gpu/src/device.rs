@@ -83,7 +83,7 @@ impl Buffer {
 
 impl Device {
     /// Opens an adapter.
-    pub(crate) fn open(choice: &AdapterChoice, reach: Option<u64>) -> Result<Self, GpuError> {
+    pub(crate) fn open(choice: &AdapterChoice) -> Result<Self, GpuError> {
         let all = adapter::all();
         let known: Vec<Adapter> = all.iter().map(|(_, description)| description.clone()).collect();
         if known.is_empty() {
@@ -91,9 +91,8 @@ impl Device {
         }
         let missing = || GpuError::NoSuchAdapter { wanted: choice.to_string(), known: list(&known) };
         let number = choice.of(&known).ok_or_else(missing)?;
-        let (adapter, mut description) =
+        let (adapter, description) =
             all.into_iter().find(|(_, description)| description.number == number).ok_or_else(missing)?;
-        description.largest_binding = reach.unwrap_or(u64::MAX).min(description.largest_binding);
         let wanted = wgpu::Features::SHADER_F64 | wgpu::Features::PASSTHROUGH_SHADERS;
         let request = wgpu::DeviceDescriptor {
             label: Some("xca"),

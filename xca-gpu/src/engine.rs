@@ -46,7 +46,7 @@ pub struct UnknownArithmetic(String);
 /// # Errors
 /// Where a process cannot be written in WGSL.
 pub fn wgsl(model: &Model, precision: Precision) -> Result<String, xca_wgsl::Error> {
-    let manner = Manner { precision, strict: true, workgroup: 64 };
+    let manner = Manner { precision, strict: true, workgroup: 64, reach: u64::MAX };
     let known = Texts::default();
     let of = |process| shader_of(&known, model, process, manner, None).map(|shader| shader.source);
     let texts = model.processes().iter().map(of);
@@ -82,6 +82,8 @@ pub struct Gpu {
     texts: Arc<Texts>,
     /// Why arithmetic is relaxed, where it is.
     relaxed: Option<String>,
+    /// The most bytes of a substate of cells that a process reaches at once.
+    reach: u64,
 }
 
 impl Gpu {
@@ -90,7 +92,7 @@ impl Gpu {
     /// # Errors
     /// Where no adapter is found or none is meant, where it cannot be opened, or cannot do what is asked.
     pub fn new(options: &GpuOptions) -> Result<Self, GpuError> {
-        let device = Arc::new(Device::open(&options.adapter, options.reach)?);
+        let device = Arc::new(Device::open(&options.adapter)?);
         let relaxed = match options.arithmetic {
             Arithmetic::Relaxed => Some("it was asked for".to_owned()),
             Arithmetic::Best | Arithmetic::Strict => proof::of_strictness(&device).err(),
@@ -99,7 +101,11 @@ impl Gpu {
             (Some(reason), Arithmetic::Strict) => {
                 Err(GpuError::NotStrict { adapter: device.adapter().to_string(), reason: reason.clone() })
             }
-            _ => Ok(Self { device, texts: Arc::default(), relaxed }),
+            _ => {
+                let most = device.adapter().largest_binding;
+                let reach = options.reach.unwrap_or(most).min(most);
+                Ok(Self { device, texts: Arc::default(), relaxed, reach })
+            }
         }
     }
 
@@ -179,7 +185,8 @@ impl Engine for Gpu {
     }
 
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {
-        let manner = Manner { precision, strict: self.is_strict(), workgroup: self.device.workgroup() };
+        let (strict, workgroup, reach) = (self.is_strict(), self.device.workgroup(), self.reach);
+        let manner = Manner { precision, strict, workgroup, reach };
         match GpuExecution::new(model, manner, Arc::clone(&self.device), &self.texts) {
             Ok(execution) => Ok(Box::new(execution)),
             Err(error) => Err(self.cannot_start(error)),

@@ -55,7 +55,7 @@ impl GpuExecution {
         texts: &Texts,
     ) -> Result<Self, NotOnDevice> {
         check_types(model, manner, &device)?;
-        let space = space_of(model, manner, &device)?;
+        let space = space_of(model, manner)?;
         let mut programs = Vec::new();
         for process in model.processes() {
             programs.push(Program::new(&device, model, &space, *process, (manner, texts))?);
@@ -404,11 +404,11 @@ fn check_types(model: &Model, manner: Manner, device: &Device) -> Result<(), Not
 }
 
 /// The space, cut so that the largest substate of cells can be reached.
-fn space_of(model: &Model, manner: Manner, device: &Device) -> Result<Space, NotOnDevice> {
+fn space_of(model: &Model, manner: Manner) -> Result<Space, NotOnDevice> {
     let of_cells = model.groups().iter().filter(|group| matches!(group.kind(), GroupKind::Cells { .. }));
     let sizes = of_cells.flat_map(|group| group.stored(manner.precision)).map(size_on_device);
     let largest = sizes.max().unwrap_or(4);
-    let most = device.adapter().largest_binding;
+    let most = manner.reach;
     Space::new(model.geometry(), most / largest as u64).map_err(|too_large| NotOnDevice::TooLarge {
         what: "a substate with its neighbours".to_owned(),
         wanted: too_large.wanted * largest as u128,

@@ -21,6 +21,8 @@ pub(crate) struct Manner {
     pub(crate) strict: bool,
     /// The invocations of a workgroup, a power of two.
     pub(crate) workgroup: u32,
+    /// The most bytes of a substate of cells that a process reaches at once.
+    pub(crate) reach: u64,
 }
 
 /// A compiled process.
