@@ -6,14 +6,43 @@ fn compare(program: &str, options: &str) {
     let place = Workplace::new();
     place.succeed(program, &format!("{options} --engine reference --out reference"));
     place.succeed(program, &format!("{options} --engine cpu --threads 3 --out cpu"));
+    place.succeed(program, &format!("{options} --engine gpu --arithmetic strict --out gpu"));
     let place_of = format!("{program} {options}");
     assert_same_results(&place.path("reference"), &place.path("cpu"), &place_of);
+    assert_same_results(&place.path("reference"), &place.path("gpu"), &place_of);
 }
 
 #[test]
 fn cadem_in_both_precisions_and_under_both_laws_of_walls() {
     compare(CADEM, "--case published --steps 120");
     compare(CADEM, "--case published --walls single --precision f32 --steps 80");
+}
+
+/// The adapter is named, and one that is no GPU is not taken for one.
+#[test]
+fn the_gpu_engine_tells_what_it_ran_on() {
+    let place = Workplace::new();
+    let said = place.succeed(LIFE, "--steps 3 --engine gpu --out gpu");
+    let report: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(place.path("gpu").join("run.json")).unwrap()).unwrap();
+    let device = &report["device"];
+    assert_eq!(report["engine"], "gpu");
+    assert!(device["adapter"].as_str().is_some_and(|name| !name.is_empty()), "{device}");
+    assert_eq!(device["arithmetic"], "strict");
+    let no_gpu = device["kind"].as_str().is_some_and(|kind| kind.contains("no GPU"));
+    assert_eq!(said.contains("is no GPU: the processor plays one"), no_gpu, "{said}");
+    let said = place.succeed(LIFE, "--steps 3 --engine gpu --arithmetic relaxed --out relaxed");
+    assert!(said.contains("float arithmetic is relaxed"), "{said}");
+}
+
+#[test]
+fn processes_are_printed_as_shaders() {
+    let place = Workplace::new();
+    let said = place.succeed(CADEM, "--print-wgsl --precision f32");
+    for words in ["alias Real = f32;", "fn outer_contacts(", "@compute @workgroup_size(", "destinations[item]"] {
+        assert!(said.contains(words), "{words}");
+    }
+    assert!(!place.path("out").exists());
 }
 
 #[test]
