@@ -32,13 +32,14 @@ const DRIVERS: [(&str, &[&str]); 2] = [("rayon", &["xca-cpu", "xca-benchmarks"])
 const ENGINES: [&str; 2] = ["xca-cpu", "xca-gpu"];
 
 /// The files that argue for unsafe code.
-const UNSAFE: [&str; 6] = [
+const UNSAFE: [&str; 7] = [
     "xca-core/src/kernel.rs",
     "xca-core/src/kernel/search.rs",
     "xca-core/src/kernel/wide.rs",
     "xca-core/src/reference/pass.rs",
     "xca-core/src/vector.rs",
     "xca-cpu/src/rows.rs",
+    "xca-gpu/src/device/code.rs",
 ];
 
 fn root() -> PathBuf {

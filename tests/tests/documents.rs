@@ -176,7 +176,8 @@ fn crates_depend_on_each_other_as_the_architecture_says() -> TestResult {
         ("xca-cpu", &["xca-core"]),
         ("xca-wgsl", &["xca-core"]),
         ("cadem", &["xca-core"]),
-        ("xca-run", &["xca-core", "xca-cpu"]),
+        ("xca-gpu", &["xca-core", "xca-wgsl"]),
+        ("xca-run", &["xca-core", "xca-cpu", "xca-gpu"]),
     ] {
         let manifest = fs::read_to_string(root().join(folder).join("Cargo.toml"))?;
         let dependencies = manifest
