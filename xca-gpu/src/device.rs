@@ -181,6 +181,12 @@ impl Device {
         result.map(|_| ()).map_err(|error| DeviceError::Lost(error.to_string()))
     }
 
+    /// Has the device be lost, as if its driver had been reset.
+    #[cfg(test)]
+    pub(crate) fn lose(&self) {
+        self.device.destroy();
+    }
+
     fn alive(&self) -> Result<(), DeviceError> {
         let lost = self.lost.lock().unwrap_or_else(PoisonError::into_inner);
         lost.as_ref().map_or(Ok(()), |reason| Err(DeviceError::Lost(reason.clone())))
@@ -198,6 +204,11 @@ impl Device {
             if let Some(error) = pollster::block_on(scope.pop()) {
                 first.get_or_insert(error);
             }
+        }
+        if first.is_some() {
+            // What is made on a lost device is no good, and that is told first; why, only when it is asked.
+            let _ = self.device.poll(wgpu::PollType::Poll);
+            self.alive()?;
         }
         match first {
             None => Ok(result),

@@ -193,3 +193,54 @@ impl Engine for Gpu {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use xca_core::{
+        Cell, EngineFailure, Fault, RunError, RunOptions, Simulation, Substates, elementary_process,
+    };
+
+    #[derive(Substates, Clone, Copy)]
+    struct Counter {
+        count: u32,
+    }
+
+    #[elementary_process]
+    fn count(cell: &mut Cell<Counter>) {
+        cell.count += 1;
+    }
+
+    fn model() -> Model {
+        Model::builder("counters").extents([4, 3, 2]).substates::<Counter>().process(count).build().unwrap()
+    }
+
+    /// Whatever is asked of a lost device, the answer is an error that says so.
+    #[test]
+    fn a_lost_device_is_an_error() {
+        let gpu = Gpu::new(&GpuOptions::default()).unwrap();
+        let mut simulation = Simulation::new(&model(), &gpu, RunOptions::default()).unwrap();
+        simulation.run(5).unwrap();
+        assert_eq!(simulation.state().get(Counter::COUNT, [3, 2, 1]).unwrap(), 5);
+        gpu.device.lose();
+        let error = simulation.snapshot().unwrap_err();
+        assert!(
+            matches!(&error, RunError::Engine(EngineFailure { engine, .. }) if engine == "gpu"),
+            "{error:?}"
+        );
+        assert!(error.to_string().contains("the device was lost"), "{error}");
+        assert!(simulation.state().sum(Counter::COUNT).is_err());
+        assert!(simulation.state().set(Counter::COUNT, [0, 0, 0], 1).is_err());
+        let error = simulation.run(3).unwrap_err();
+        assert!(matches!(&error, RunError::Fault { step: 6, fault: Fault::Engine(_), .. }), "{error:?}");
+        assert!(Simulation::new(&model(), &gpu, RunOptions::default()).is_err());
+    }
+
+    #[test]
+    fn words_of_arithmetic() {
+        for arithmetic in [Arithmetic::Best, Arithmetic::Strict, Arithmetic::Relaxed] {
+            assert_eq!(arithmetic.to_string().parse(), Ok(arithmetic));
+        }
+        assert!("exact".parse::<Arithmetic>().is_err());
+    }
+}

@@ -39,7 +39,9 @@ fn the_gpu_engine_tells_what_it_ran_on() {
 fn processes_are_printed_as_shaders() {
     let place = Workplace::new();
     let said = place.succeed(CADEM, "--print-wgsl --precision f32");
-    for words in ["alias Real = f32;", "fn outer_contacts(", "@compute @workgroup_size(", "destinations[item]"] {
+    for words in
+        ["alias Real = f32;", "fn outer_contacts(", "@compute @workgroup_size(", "destinations[item]"]
+    {
         assert!(said.contains(words), "{words}");
     }
     assert!(!place.path("out").exists());
