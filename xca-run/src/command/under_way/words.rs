@@ -10,16 +10,18 @@ use xca_core::Model;
 impl UnderWay {
     /// The line at the start.
     pub(super) fn headline(&self) -> String {
-        let Report { engine, threads, precision, progress, resumed, .. } = &self.report;
-        let threads = match threads {
-            1 => "1 thread".to_owned(),
-            threads => format!("{threads} threads"),
+        let Report { engine, threads, device, precision, progress, resumed, .. } = &self.report;
+        let fact = |name: &str| device.get(name).and_then(|fact| fact.as_str());
+        let means = match (fact("adapter"), fact("arithmetic"), threads) {
+            (Some(adapter), Some(arithmetic), _) => format!("on {adapter}, {arithmetic} arithmetic"),
+            (.., 1) => "with 1 thread".to_owned(),
+            (.., threads) => format!("with {threads} threads"),
         };
         let resumed =
             (!resumed.is_empty()).then(|| format!(", resumed after step {}", self.simulation.step_number()));
         let time_step = progress.time_step.map(|seconds| format!(" of {} s", significant(seconds, 4)));
         format!(
-            "{}, {}, {engine} engine with {threads}, {precision}, {} steps{}{}",
+            "{}, {}, {engine} engine {means}, {precision}, {} steps{}{}",
             self.recorder.set_up().title,
             cells(self.recorder.model()),
             progress.steps_wanted,
