@@ -51,7 +51,7 @@ fn model() -> Model {
         state: Grain { position: Vector3::new(f64::from(label) + 0.5, 1.5, 0.5), age: label },
     };
     Model::builder("plate")
-        .extents([7, 5, 2])
+        .extents([7, 5, 3])
         .neighbourhood(Neighbourhood::von_neumann(1))
         .boundary(Boundary::Toroidal)
         .substates::<Heat>()
@@ -68,7 +68,7 @@ fn model() -> Model {
 /// What is done to a state.
 #[derive(Debug, Clone, Copy)]
 enum Harm {
-    /// The lowest bit of a substate in a cell with this number is turned.
+    /// A low bit of a substate in a cell with this number is turned.
     Cell(SubstateId, usize),
     /// The lowest bit of a substate of an item with this label is turned.
     Item(SubstateId, u32),
@@ -113,7 +113,9 @@ impl HarmedExecution {
         match self.harm {
             Harm::Cell(substate, cell) => {
                 let mut value = self.inner.read_cell(substate, cell)?;
-                value[0] ^= 1;
+                // Of an f64 not the very lowest, which would be rounded away before the next check.
+                let byte = value.len() / 4;
+                value[byte] ^= 1;
                 self.inner.write_cell(substate, cell, &value)?;
             }
             Harm::Item(substate, label) => {
@@ -262,7 +264,7 @@ fn a_whole_number_is_never_rounded() {
     let harmed = &comparison.engines[1];
     assert_eq!((harmed.verdict, comparison.verdict), (Some(Verdict::Different), Verdict::Different));
     let kind = &harmed.differences.as_ref().unwrap().substates[1];
-    assert_eq!((kind.kind, kind.different, kind.values), (Kind::Whole, 1, 70));
+    assert_eq!((kind.kind, kind.different, kind.values), (Kind::Whole, 1, 105));
     assert_eq!(harmed.first_difference.as_ref().unwrap().values, Some([1.0, 0.0]));
 }
 

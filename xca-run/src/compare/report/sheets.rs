@@ -8,7 +8,7 @@ use crate::numbers::significant;
 
 /// What has to be known where engines differ.
 pub(super) const CHAOS: &str = "Where engines differ, how far they are apart says little about their quality: a system \
-     of collisions is chaotic and makes a rounding difference some ten times larger with each collision, so that after some \
+     of collisions is chaotic and makes a rounding difference some ten times larger with each collision, so that after fewer than \
      twenty of them only identical bits have stayed identical. What still must agree are the quantities of the whole, such as energies.";
 
 /// A table.
