@@ -1,6 +1,7 @@
 //! The command line of a model's program.
 
 mod arguments;
+mod compare;
 mod config;
 mod inspect;
 mod interval;
@@ -10,6 +11,8 @@ mod prepare;
 mod resume;
 mod run;
 mod under_way;
+
+pub(crate) use arguments::threads;
 
 pub use config::ConfigError;
 
@@ -31,6 +34,7 @@ Exit codes:
   1    the run failed: a fault of the model, or files that could not be written
   2    the command line, a file, a checkpoint or the model makes no sense, or does
        not fit; nothing was run
+  3    of a comparison: an engine differs from the first one by more than rounding
   130  interrupted: the first Ctrl-C (or SIGTERM) ends the run after its current
        step with all files complete, a second one ends it at once";
 
@@ -38,11 +42,15 @@ Exit codes:
 const FAILED: u8 = 1;
 /// The exit code of a run that could not begin.
 const REFUSED: u8 = 2;
+/// The exit code of a comparison whose engines do not agree.
+const DIFFERENT: u8 = 3;
 
 /// How a command ended that did what it was asked to.
 enum Ended {
     Done,
     Interrupted,
+    /// Engines that are compared do not agree.
+    Different,
 }
 
 /// Why a command did not.
@@ -129,6 +137,7 @@ fn main_with(definition: &Definition<'_>) -> ExitCode {
     let panics = Panics::caught();
     match panic::catch_unwind(|| parse::invocation(definition, &arguments).and_then(execute)) {
         Ok(Ok(Ended::Done)) => ExitCode::SUCCESS,
+        Ok(Ok(Ended::Different)) => ExitCode::from(DIFFERENT),
         Ok(Ok(Ended::Interrupted)) => ExitCode::from(EXIT_INTERRUPTED),
         Ok(Err(Unable::Refused(error))) => {
             terminal::complain(&*error);
@@ -164,6 +173,9 @@ fn execute(invocation: Invocation<'_>) -> Result<Ended, Unable> {
     match invocation {
         Invocation::Run(invocation) => run::run(*invocation),
         Invocation::List(choice, arguments) => list::list(&choice, &arguments),
+        Invocation::Compare(choice, arguments, command_line) => {
+            compare::compare(&choice, *arguments, command_line)
+        }
         Invocation::Inspect(arguments) => inspect::inspect(&arguments),
         Invocation::Resume(definition, arguments) => resume::resume(definition, &arguments),
     }

@@ -63,6 +63,7 @@
 
 mod checkpoint;
 mod command;
+mod compare;
 mod engines;
 pub mod interrupt;
 mod machine;

@@ -52,6 +52,18 @@ fn kilobytes(table: &str, name: &str) -> Option<u64> {
     number.checked_mul(1024)
 }
 
+/// The bytes of memory that the machine has.
+pub(crate) fn memory() -> Option<u64> {
+    kilobytes("/proc/meminfo", "MemTotal:")
+}
+
+/// What the processor calls itself.
+pub(crate) fn processor() -> Option<String> {
+    let text = fs::read_to_string("/proc/cpuinfo").ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix("model name"))?;
+    Some(line.trim_start().trim_start_matches(':').trim().to_owned())
+}
+
 /// The number of cores that this process may use.
 pub(crate) fn cores() -> Option<usize> {
     std::thread::available_parallelism().ok().map(std::num::NonZero::get)

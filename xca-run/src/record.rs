@@ -164,14 +164,24 @@ impl Recorder {
         self.draw(simulation, &snapshot, "final")
     }
 
+    /// The observables of the present state, of which a snapshot was taken.
+    pub(crate) fn measure(
+        &self,
+        simulation: &mut Simulation,
+        snapshot: &Snapshot,
+    ) -> Result<Vec<Observable>, RecordError> {
+        let step = snapshot.step;
+        match &self.set_up.observe {
+            Some(observe) => {
+                observe(&simulation.state()).map_err(|source| RecordError::Observe { step, source })
+            }
+            None => Ok(measure::measure(simulation.model(), simulation.options().precision, snapshot)),
+        }
+    }
+
     fn observe(&mut self, simulation: &mut Simulation, snapshot: &Snapshot) -> Result<(), RecordError> {
         let step = snapshot.step;
-        let observables = match &self.set_up.observe {
-            Some(observe) => {
-                observe(&simulation.state()).map_err(|source| RecordError::Observe { step, source })?
-            }
-            None => measure::measure(simulation.model(), simulation.options().precision, snapshot),
-        };
+        let observables = self.measure(simulation, snapshot)?;
         let names = |observables: &[Observable]| -> Vec<String> {
             observables.iter().map(|observable| observable.name.clone()).collect()
         };

@@ -163,9 +163,9 @@ struct GroupReport {
 /// The machine.
 #[derive(Debug, Clone, Serialize)]
 pub(crate) struct Host {
-    cores: Option<usize>,
-    system: &'static str,
-    processor: &'static str,
+    pub(crate) cores: Option<usize>,
+    pub(crate) system: &'static str,
+    pub(crate) processor: &'static str,
 }
 
 /// A quantity before the first step and after the last.

@@ -1,13 +1,13 @@
 //! Tables on the terminal.
 
-use comfy_table::{CellAlignment, ContentLineStyle, LineStyle, Table, TableStyle};
+use comfy_table::{CellAlignment, ContentLineStyle, LineStyle, Row, Table, TableStyle};
 use std::fmt::Write;
 
 /// A table with a line below its header; the columns with these numbers are aligned to the right. Lines do not end in blanks, and there is no
 /// line end after the last.
-pub(crate) fn table<const N: usize>(
-    header: [&str; N],
-    rows: impl IntoIterator<Item = [String; N]>,
+pub(crate) fn table(
+    header: impl Into<Row>,
+    rows: impl IntoIterator<Item = impl Into<Row>>,
     right: &[usize],
 ) -> String {
     let line = LineStyle::none().fill('─').junction('─');

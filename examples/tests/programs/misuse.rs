@@ -183,7 +183,7 @@ fn help_is_there_for_everyone() {
         ] {
             assert!(help.contains(text), "{program} {text}");
         }
-        for command in ["run", "resume", "list", "inspect"] {
+        for command in ["run", "resume", "list", "inspect", "compare"] {
             let output = Command::new(program).args([command, "--help"]).output().unwrap();
             let help = String::from_utf8(output.stdout).unwrap();
             assert!(output.status.success());

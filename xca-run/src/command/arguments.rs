@@ -143,7 +143,7 @@ impl ModelArguments {
     }
 }
 
-fn threads(text: &str) -> Result<usize, String> {
+pub(crate) fn threads(text: &str) -> Result<usize, String> {
     match text.parse() {
         Ok(0) => Err("0 threads do nothing; give at least 1".to_owned()),
         Ok(number) if number <= MOST_THREADS => Ok(number),
@@ -152,11 +152,11 @@ fn threads(text: &str) -> Result<usize, String> {
     }
 }
 
-fn steps(text: &str) -> Result<u64, &'static str> {
+pub(super) fn steps(text: &str) -> Result<u64, &'static str> {
     text.parse().map_err(|_| "it must be a whole number of steps")
 }
 
-fn interval(text: &str) -> Result<u64, String> {
+pub(super) fn interval(text: &str) -> Result<u64, String> {
     match text.parse() {
         Ok(0) => Err("every 0 steps never comes; give at least 1".to_owned()),
         Ok(number) => Ok(number),

@@ -1,9 +1,10 @@
 //! From the words of a command line to what they mean.
 
 use super::arguments::{EngineArguments, ModelArguments, ResumeArguments, RunArguments};
+use super::compare::CompareArguments;
 use super::inspect::InspectArguments;
 use super::list::ListArguments;
-use super::{Definition, EXIT_CODES, Unable, config, inspect, list, resume, run};
+use super::{Definition, EXIT_CODES, Unable, compare, config, inspect, list, resume, run};
 use crate::program::Given;
 use crate::set_up::SetUp;
 use clap::error::ErrorKind;
@@ -18,6 +19,8 @@ pub(super) enum Invocation<'a> {
     Resume(&'a Definition<'a>, ResumeArguments),
     List(Box<Choice<'a>>, ListArguments),
     Inspect(InspectArguments),
+    /// With the whole command line.
+    Compare(Box<Choice<'a>>, Box<CompareArguments>, Vec<String>),
 }
 
 /// A model with the options that the command line gives it.
@@ -63,7 +66,7 @@ impl<'a> Choice<'a> {
 pub(super) fn command(definition: &Definition<'_>) -> Command {
     let Definition { name, about, version, .. } = definition;
     let examples = format!(
-        "Examples:\n  {name} run\n  {name} resume out/{name}\n  {name} list\n  {name} inspect out/{name}"
+        "Examples:\n  {name} run\n  {name} resume out/{name}\n  {name} list\n  {name} inspect out/{name}\n  {name} compare"
     );
     Command::new(*name)
         .about(*about)
@@ -78,6 +81,7 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
             resume::command(definition),
             list::command(definition),
             inspect::command(definition),
+            compare::command(definition),
         ])
 }
 
@@ -142,13 +146,19 @@ fn complete<'a>(
     arguments: &[OsString],
 ) -> Result<Invocation<'a>, Unable> {
     let matches = command.clone().try_get_matches_from(arguments).map_err(Unable::CommandLine)?;
+    let command_line = arguments.iter().map(|argument| argument.to_string_lossy().into_owned()).collect();
     match matches.subcommand() {
         Some((run::NAME, matches)) => Ok(Invocation::Run(Box::new(RunInvocation {
             model: Choice::new(definition, matches)?,
             engine: from(matches)?,
             run: from(matches)?,
-            command_line: arguments.iter().map(|argument| argument.to_string_lossy().into_owned()).collect(),
+            command_line,
         }))),
+        Some((compare::NAME, matches)) => Ok(Invocation::Compare(
+            Box::new(Choice::new(definition, matches)?),
+            Box::new(from(matches)?),
+            command_line,
+        )),
         Some((list::NAME, matches)) => {
             Ok(Invocation::List(Box::new(Choice::new(definition, matches)?), from(matches)?))
         }

@@ -1,0 +1,159 @@
+//! The subcommand `compare`.
+
+use super::arguments::{interval, steps};
+use super::parse::{Choice as ModelChoice, with_help, with_model};
+use super::{Definition, Ended, Unable};
+use crate::compare::report::{self, Files};
+use crate::compare::{self, Choice, CompareError, Contender, Plan, Subject, Verdict};
+use crate::interrupt::Interrupt;
+use crate::machine::check_memory;
+use crate::progress::Progress;
+use crate::record::Recorder;
+use crate::terminal;
+use clap::{Args, Command};
+use std::path::PathBuf;
+use xca_core::{Precision, RunError};
+use xca_gpu::Arithmetic;
+
+pub(super) const NAME: &str = "compare";
+
+const ABOUT: &str =
+    "Run the model on several engines: what each takes, and whether they agree to the last bit";
+
+/// How many checks there are, unless the command line says how often.
+const CHECKS: u64 = 50;
+
+/// Which engines are compared, and how.
+#[derive(Args, Debug, Clone)]
+pub(super) struct CompareArguments {
+    /// The engines; the others are compared with the first. A name, with threads or an adapter after a colon and a precision after an @:
+    /// reference, cpu:2, gpu:llvmpipe, cpu@f32
+    #[arg(long, value_name = "ENGINE,…", value_delimiter = ',', default_value = "reference,cpu")]
+    engines: Vec<Choice>,
+
+    /// How many steps are done; the model says how many unless it is given
+    #[arg(long, value_name = "N", value_parser = steps)]
+    steps: Option<u64>,
+
+    /// How often each engine is timed
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = repeats)]
+    repeats: usize,
+
+    /// Compare the states every so many steps; the exact step of a difference is searched for in between. 50 times in the run, and after
+    /// every step of a short one, unless it is given
+    #[arg(long, value_name = "N", value_parser = interval)]
+    check_every: Option<u64>,
+
+    /// How far floating numbers may be apart to count as rounding, in relation to the largest value of their substate; 1e-9 unless it is
+    /// given, 1e-4 where f32 takes part
+    #[arg(long, value_name = "X", value_parser = tolerance)]
+    tolerance: Option<f64>,
+
+    /// Float arithmetic of gpu engines
+    #[arg(long, value_name = "strict|relaxed|best")]
+    arithmetic: Option<Arithmetic>,
+
+    /// The folder of the files; out/NAME-compare unless it is given. Files of an earlier comparison there are replaced
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// Tell the result as JSON, not as tables
+    #[arg(long)]
+    json: bool,
+
+    /// Say nothing but errors
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+fn repeats(text: &str) -> Result<usize, &'static str> {
+    text.parse()
+        .ok()
+        .filter(|number| (1..=1000).contains(number))
+        .ok_or("it must be a whole number from 1 to 1000")
+}
+
+fn tolerance(text: &str) -> Result<f64, &'static str> {
+    let number: Option<f64> = text.parse().ok();
+    number.filter(|number| number.is_finite() && *number >= 0.0).ok_or("it must be a number, at least 0")
+}
+
+pub(super) fn command(definition: &Definition<'_>) -> Command {
+    let name = definition.name;
+    let command = with_model(Command::new(NAME), definition).next_help_heading(None::<&str>);
+    let examples = [
+        format!("{name} compare"),
+        format!("{name} compare --engines reference,cpu:1,cpu:2,gpu --steps 200"),
+        format!("{name} compare --engines cpu,cpu@f32 --repeats 1"),
+    ];
+    with_help(CompareArguments::augment_args(command), ABOUT, &examples)
+}
+
+/// Compares engines.
+pub(super) fn compare(
+    model: &ModelChoice<'_>,
+    arguments: CompareArguments,
+    command_line: Vec<String>,
+) -> Result<Ended, Unable> {
+    let precision = model.arguments.given(None).precision;
+    let contenders = contenders(&arguments, precision)?;
+    let given = model.arguments.given(arguments.steps);
+    let set_up = model.set_up(&given)?;
+    let memory = contenders.iter().map(|it| it.engine.least_memory(&set_up.model, it.precision)).sum();
+    check_memory(memory, "this model on all these engines at once").map_err(Unable::refused)?;
+    let steps = given.steps.unwrap_or(set_up.steps);
+    let is_single = contenders.iter().any(|contender| contender.precision == Precision::F32);
+    let plan = Plan {
+        seed: given.seed,
+        steps,
+        every: arguments.check_every.unwrap_or(steps.div_ceil(CHECKS).max(1)),
+        repeats: arguments.repeats,
+        tolerance: arguments.tolerance.unwrap_or(if is_single { 1e-4 } else { 1e-9 }),
+    };
+    let definition = model.definition;
+    let subject = Subject {
+        program: definition.name.to_owned(),
+        version: definition.version.to_owned(),
+        title: set_up.title.clone(),
+        command_line,
+    };
+    let recorder = Recorder::new(set_up).map_err(Unable::refused)?;
+    let folder =
+        arguments.out.unwrap_or_else(|| PathBuf::from("out").join(format!("{}-compare", definition.name)));
+    let files = Files::prepare(folder).map_err(Unable::refused)?;
+    let interrupt = Interrupt::install().map_err(Unable::failed)?;
+    let line =
+        if arguments.quiet { Progress::hidden() } else { Progress::new(Some(plan.work(contenders.len()))) };
+    let mut done = 0;
+    let mut watch = |steps: u64| {
+        done += steps;
+        line.at(done);
+        !interrupt.is_raised()
+    };
+    let result = compare::compare(&recorder, &contenders, &plan, subject, &mut watch);
+    line.finish();
+    let comparison = match result {
+        Err(CompareError::Interrupted) => return Ok(Ended::Interrupted),
+        Err(CompareError::Run(RunError::Start(error))) => return Err(Unable::refused(error)),
+        result => result.map_err(Unable::failed)?,
+    };
+    files.write(&comparison).map_err(Unable::failed)?;
+    if !arguments.quiet {
+        let text = if arguments.json {
+            serde_json::to_string_pretty(&comparison).map_err(Unable::failed)?
+        } else {
+            format!("{}\n\n{}", report::text(&comparison), files.told())
+        };
+        terminal::say(&text);
+    }
+    Ok(if comparison.verdict == Verdict::Different { Ended::Different } else { Ended::Done })
+}
+
+fn contenders(arguments: &CompareArguments, precision: Precision) -> Result<Vec<Contender>, Unable> {
+    let engines = arguments.engines.iter();
+    let contenders = engines.map(|choice| choice.contender(precision, arguments.arithmetic));
+    contenders.collect::<Result<_, _>>().map_err(Unable::refused)
+}
+
+#[cfg(test)]
+mod tests;

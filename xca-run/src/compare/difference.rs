@@ -1,0 +1,302 @@
+//! How two states differ: bit by bit, and by how much.
+
+mod numbers;
+mod pairs;
+#[cfg(test)]
+mod tests;
+
+use super::verdict::Verdict;
+use numbers::Numbers;
+use pairs::Pairs;
+use serde::Serialize;
+use std::fmt;
+use xca_core::model::Group;
+use xca_core::{GroupSnapshot, Model, Precision, Snapshot};
+
+/// A state with what its `Real` is.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Side<'a> {
+    pub(crate) snapshot: &'a Snapshot,
+    pub(crate) precision: Precision,
+}
+
+/// How two states differ.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct Differences {
+    /// All substates, then the cells of the items of each population, then the parameters that differ.
+    pub(crate) substates: Vec<Difference>,
+    /// What differs beside: the number of steps, items that have left.
+    pub(crate) remarks: Vec<String>,
+}
+
+/// What kind of values a difference is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Kind {
+    /// Floating numbers, which may be rounded.
+    Float,
+    /// Whole numbers, which may not.
+    Whole,
+    /// The cells of items.
+    Cell,
+}
+
+/// How the values of one substate differ. Values of different precision are compared in the coarser one.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct Difference {
+    /// `Struct.field`.
+    pub(crate) substate: String,
+    pub(crate) kind: Kind,
+    /// How many scalars were compared; a vector has several.
+    pub(crate) values: usize,
+    /// How many of them have other bits.
+    pub(crate) different: usize,
+    /// How many items are in one state only.
+    pub(crate) unmatched: usize,
+    /// The largest absolute difference. Infinite, in JSON null, where one of two values is not finite.
+    pub(crate) largest_absolute: f64,
+    /// The largest difference in relation to the larger of the two values.
+    pub(crate) largest_relative: f64,
+    /// The largest number of representable values from one to the other; for floating numbers only.
+    pub(crate) largest_ulp: Option<u64>,
+    /// The root of the mean square of all differences.
+    pub(crate) rms: f64,
+    /// The largest magnitude of the first state's values, which the others are measured by.
+    pub(crate) scale: f64,
+    /// Where the absolute difference is largest.
+    pub(crate) worst: Option<Worst>,
+}
+
+/// A value that differs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(crate) struct Worst {
+    pub(crate) place: Place,
+    /// The lane of a vector, from 0.
+    pub(crate) lane: usize,
+    pub(crate) first: f64,
+    pub(crate) other: f64,
+}
+
+/// Where a value is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Place {
+    /// In a cell with these indices.
+    Cell([usize; 3]),
+    /// In the item with this label.
+    Item(u32),
+    /// In the model.
+    Parameter,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Cell(indices) => write!(f, "cell {indices:?}"),
+            Self::Item(label) => write!(f, "item {label}"),
+            Self::Parameter => f.write_str("parameter"),
+        }
+    }
+}
+
+impl Difference {
+    /// A substate in which nothing was compared yet.
+    fn none(substate: String, kind: Kind) -> Self {
+        let largest_ulp = (kind == Kind::Float).then_some(0);
+        Self {
+            substate,
+            kind,
+            values: 0,
+            different: 0,
+            unmatched: 0,
+            largest_absolute: 0.0,
+            largest_relative: 0.0,
+            largest_ulp,
+            rms: 0.0,
+            scale: 0.0,
+            worst: None,
+        }
+    }
+
+    /// The share of identical bits, from 0 to 1.
+    pub(crate) fn identical_share(&self) -> f64 {
+        if self.values == 0 { 1.0 } else { 1.0 - self.different as f64 / self.values as f64 }
+    }
+
+    pub(crate) fn is_identical(&self) -> bool {
+        self.different == 0 && self.unmatched == 0
+    }
+
+    /// The root mean square in relation to the largest value.
+    pub(crate) fn relative_rms(&self) -> f64 {
+        if self.rms == 0.0 { 0.0 } else { self.rms / self.scale.max(f64::MIN_POSITIVE) }
+    }
+
+    fn verdict(&self, tolerance: f64) -> Verdict {
+        if self.is_identical() {
+            Verdict::Identical
+        } else if self.kind == Kind::Float
+            && self.unmatched == 0
+            && self.largest_absolute <= tolerance * self.scale
+        {
+            Verdict::Rounding
+        } else {
+            Verdict::Different
+        }
+    }
+
+    /// Takes note of pairs of values; returns with the root mean square still to be made of the sum of squares.
+    fn compare(
+        &mut self,
+        first: &Numbers<'_>,
+        other: &Numbers<'_>,
+        pairs: &Pairs,
+        place: impl Fn(usize) -> Place,
+    ) {
+        let lanes = first.lanes();
+        let (mut squares, mut largest) = (0.0, -1.0);
+        for (index, (a, b)) in pairs.iter().enumerate() {
+            for lane in 0..lanes {
+                let pair = first.pair(a * lanes + lane, other, b * lanes + lane);
+                self.values += 1;
+                if pair.first.is_finite() {
+                    self.scale = self.scale.max(pair.first.abs());
+                }
+                if pair.is_identical {
+                    continue;
+                }
+                self.different += 1;
+                let absolute = pair.absolute();
+                squares += absolute * absolute;
+                self.largest_relative = self.largest_relative.max(pair.relative());
+                self.largest_ulp = self.largest_ulp.map(|ulp| ulp.max(pair.ulp));
+                if absolute > largest {
+                    largest = absolute;
+                    self.largest_absolute = absolute;
+                    self.worst =
+                        Some(Worst { place: place(index), lane, first: pair.first, other: pair.other });
+                }
+            }
+        }
+        self.rms = (squares / self.values.max(1) as f64).sqrt();
+    }
+}
+
+impl Differences {
+    /// How the second state differs from the first.
+    pub(crate) fn between(model: &Model, first: Side<'_>, other: Side<'_>) -> Self {
+        let mut differences = Self { substates: Vec::new(), remarks: Vec::new() };
+        differences.remark("steps done", first.snapshot.step, other.snapshot.step);
+        if first.snapshot.stop != other.snapshot.stop {
+            let told = |stop: &Option<String>| stop.clone().unwrap_or_else(|| "goes on".to_owned());
+            differences.remark("end of the run", told(&first.snapshot.stop), told(&other.snapshot.stop));
+        }
+        let mut cells = Vec::new();
+        for (index, group) in model.groups().iter().enumerate() {
+            match (&first.snapshot.groups[index], &other.snapshot.groups[index]) {
+                (GroupSnapshot::Cells(a), GroupSnapshot::Cells(b)) => {
+                    let pairs = Pairs::Same(model.geometry().cells());
+                    let place = |index| Place::Cell(model.geometry().indices(index));
+                    let fields = Fields { group, precisions: [first.precision, other.precision] };
+                    differences.fields(&fields, [a, b], &pairs, 0, place);
+                }
+                (GroupSnapshot::Population(a, left_a), GroupSnapshot::Population(b, left_b)) => {
+                    let name = group.schema().name;
+                    differences.remark(&format!("items of {name} that have left"), left_a, left_b);
+                    let (pairs, unmatched) = pairs::by_label(a, b);
+                    let place = |index: usize| Place::Item(a.labels[pairs.first(index)]);
+                    let fields = Fields { group, precisions: [first.precision, other.precision] };
+                    differences.fields(&fields, [&a.fields, &b.fields], &pairs, unmatched, place);
+                    cells.push(pairs::cells(name, a, b, &pairs));
+                }
+                _ => differences.remarks.push(format!("{} is of another kind", group.schema().name)),
+            }
+        }
+        differences.substates.extend(cells);
+        differences.parameters(model, first, other);
+        differences
+    }
+
+    fn remark(&mut self, what: &str, first: impl fmt::Display, other: impl fmt::Display) {
+        let (first, other) = (first.to_string(), other.to_string());
+        if first != other {
+            self.remarks.push(format!("{what}: {first} and {other}"));
+        }
+    }
+
+    fn fields(
+        &mut self,
+        fields: &Fields<'_>,
+        planes: [&Vec<Vec<u8>>; 2],
+        pairs: &Pairs,
+        unmatched: usize,
+        place: impl Fn(usize) -> Place,
+    ) {
+        let schema = fields.group.schema();
+        for (index, field) in schema.fields.iter().enumerate() {
+            let [a, b] = [0, 1].map(|side| {
+                Numbers::new(field.value_type.stored(fields.precisions[side]), &planes[side][index])
+            });
+            let kind = if a.is_float() { Kind::Float } else { Kind::Whole };
+            let mut difference = Difference::none(format!("{}.{}", schema.name, field.name), kind);
+            difference.unmatched = unmatched;
+            difference.compare(&a, &b, pairs, &place);
+            self.substates.push(difference);
+        }
+    }
+
+    /// Parameters, where steering has made them differ.
+    fn parameters(&mut self, model: &Model, first: Side<'_>, other: Side<'_>) {
+        let fields = model.parameters().schema().fields.iter();
+        for (field, (a, b)) in fields.zip(first.snapshot.parameters.iter().zip(&other.snapshot.parameters)) {
+            if a == b {
+                continue;
+            }
+            let stored =
+                xca_core::StoredType { scalar: xca_core::StoredScalar::F64, lanes: field.value_type.lanes };
+            let bytes =
+                [a, b].map(|lanes| lanes.iter().flat_map(|lane| lane.to_ne_bytes()).collect::<Vec<u8>>());
+            let [a, b] = bytes.each_ref().map(|bytes| Numbers::new(stored, bytes));
+            let mut difference = Difference::none(format!("parameter {}", field.name), Kind::Float);
+            difference.compare(&a, &b, &Pairs::Same(1), |_| Place::Parameter);
+            self.substates.push(difference);
+        }
+    }
+
+    pub(crate) fn is_identical(&self) -> bool {
+        self.verdict(0.0) == Verdict::Identical
+    }
+
+    /// What is to be thought of the second state, where floating numbers may differ by so much in relation to the largest value of their
+    /// substate.
+    pub(crate) fn verdict(&self, tolerance: f64) -> Verdict {
+        if !self.remarks.is_empty() {
+            return Verdict::Different;
+        }
+        let of_values = self.substates.iter().filter(|difference| difference.kind != Kind::Cell);
+        let of_values = of_values.map(|difference| difference.verdict(tolerance)).max();
+        let of_values = of_values.unwrap_or(Verdict::Identical);
+        let cells_differ = self
+            .substates
+            .iter()
+            .any(|difference| difference.kind == Kind::Cell && !difference.is_identical());
+        // An item near a side of its cell may be on either of the two where it was rounded; but not where nothing was.
+        if cells_differ && of_values == Verdict::Identical { Verdict::Different } else { of_values }
+    }
+
+    /// The difference to name first: the one that is largest in relation to the values of its substate.
+    pub(crate) fn gravest(&self) -> Option<&Difference> {
+        let measure = |difference: &Difference| match difference.kind {
+            Kind::Cell => 0.0,
+            _ => difference.largest_absolute / difference.scale.max(f64::MIN_POSITIVE),
+        };
+        let different = self.substates.iter().filter(|difference| !difference.is_identical());
+        different.max_by(|a, b| measure(a).total_cmp(&measure(b)))
+    }
+}
+
+/// A group with the precisions of two states.
+struct Fields<'a> {
+    group: &'a Group,
+    precisions: [Precision; 2],
+}

@@ -1,0 +1,89 @@
+//! A comparison as people and programs read it.
+
+mod csv_files;
+mod markdown;
+mod page;
+mod plots;
+mod sheets;
+#[cfg(test)]
+mod tests;
+
+use super::result::Comparison;
+use crate::output::atomic::{OutputFolder, WriteError, write_atomically};
+use crate::table::table;
+use sheets::Sheet;
+use std::fmt::Write as _;
+use std::io::{self, Write as _};
+use std::path::PathBuf;
+
+/// A report that cannot be made.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum ReportError {
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// The library that draws says why.
+    #[error("a plot cannot be drawn: {0}")]
+    Plot(String),
+    #[error("the result cannot be written as JSON")]
+    Json(#[from] serde_json::Error),
+    #[error("a table cannot be written as CSV")]
+    Csv(#[from] csv::Error),
+}
+
+/// The folder of a comparison.
+#[derive(Debug)]
+pub(crate) struct Files {
+    folder: OutputFolder,
+}
+
+/// What is in it.
+const PAGE: &str = "compare.html";
+const MARKDOWN: &str = "compare.md";
+const JSON: &str = "compare.json";
+
+impl Files {
+    pub(crate) fn prepare(folder: PathBuf) -> Result<Self, WriteError> {
+        Ok(Self { folder: OutputFolder::create(folder)? })
+    }
+
+    /// Writes all files.
+    pub(crate) fn write(&self, comparison: &Comparison) -> Result<(), ReportError> {
+        self.file(PAGE, page::page(comparison)?.as_bytes())?;
+        self.file(MARKDOWN, markdown::markdown(comparison).as_bytes())?;
+        self.file(JSON, format!("{}\n", serde_json::to_string_pretty(comparison)?).as_bytes())?;
+        for (name, content) in csv_files::all(comparison)? {
+            self.file(name, &content)?;
+        }
+        Ok(())
+    }
+
+    fn file(&self, name: &str, content: &[u8]) -> Result<(), WriteError> {
+        write_atomically(&self.folder.file(name), |file| -> io::Result<()> { file.write_all(content) })
+    }
+
+    /// Where they are.
+    pub(crate) fn told(&self) -> String {
+        let names = csv_files::NAMES.join(", ");
+        format!("{} ({MARKDOWN}, {JSON}, {names} beside it)", self.folder.file(PAGE).display())
+    }
+}
+
+/// For the terminal.
+pub(crate) fn text(comparison: &Comparison) -> String {
+    let mut out = sheets::headline(comparison);
+    for Sheet { header, right, rows, .. } in sheets::all(comparison) {
+        // Writing to a string cannot fail.
+        let _ = write!(out, "\n\n{}", table(header, rows, &right));
+    }
+    out.push('\n');
+    for note in sheets::notes(comparison) {
+        let _ = write!(out, "\nnote: {note}");
+    }
+    for finding in sheets::findings(comparison) {
+        let _ = write!(out, "\n{finding}");
+    }
+    if comparison.differs() {
+        let _ = write!(out, "\n{}", sheets::CHAOS);
+    }
+    out
+}

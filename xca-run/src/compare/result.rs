@@ -1,0 +1,219 @@
+//! What a comparison has found.
+
+use super::Plan;
+use super::difference::Differences;
+use super::lane::{Check, FirstDifference, Lane, Times};
+use super::timing::Spread;
+use super::verdict::Verdict;
+use crate::machine;
+use crate::report::{self, Host, ModelReport};
+use serde::Serialize;
+use serde_json::{Map, Value};
+use xca_core::model::GroupKind;
+use xca_core::{GroupSnapshot, Model, Precision, Snapshot};
+
+/// What is compared.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct Subject {
+    pub(crate) program: String,
+    pub(crate) version: String,
+    pub(crate) title: String,
+    pub(crate) command_line: Vec<String>,
+}
+
+/// Everything that a comparison has found.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct Comparison {
+    /// The version of the framework.
+    pub(crate) xca: &'static str,
+    /// The commit and the compiler that the program was built of, where they are known.
+    pub(crate) commit: Option<&'static str>,
+    pub(crate) compiler: Option<&'static str>,
+    #[serde(flatten)]
+    pub(crate) subject: Subject,
+    pub(crate) model: ModelReport,
+    pub(crate) parameters: Map<String, Value>,
+    pub(crate) host: Host,
+    pub(crate) hardware: Option<String>,
+    pub(crate) memory_bytes: Option<u64>,
+    pub(crate) peak_memory_bytes: Option<u64>,
+    pub(crate) ended: String,
+    pub(crate) seed: u64,
+    pub(crate) steps: u64,
+    pub(crate) check_every: u64,
+    pub(crate) repeats: usize,
+    pub(crate) tolerance: f64,
+    /// What is updated in a step, `cells` or `items`, and how many there are at the start.
+    pub(crate) updated: &'static str,
+    pub(crate) number: usize,
+    /// The worst of the engines'.
+    pub(crate) verdict: Verdict,
+    /// In the order of the command line.
+    pub(crate) engines: Vec<EngineResult>,
+    pub(crate) observables: Vec<ObservableResult>,
+}
+
+/// What was found of an engine.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct EngineResult {
+    /// As on the command line.
+    pub(crate) name: String,
+    pub(crate) engine: String,
+    pub(crate) threads: usize,
+    pub(crate) precision: Precision,
+    pub(crate) device: Map<String, Value>,
+    /// What has to be known to judge its times or results.
+    pub(crate) note: Option<String>,
+    pub(crate) set_up_seconds: f64,
+    /// Giving it a state, and taking the state from it.
+    pub(crate) state_in_seconds: Option<Spread>,
+    pub(crate) state_out_seconds: Option<Spread>,
+    pub(crate) step_seconds: Option<Spread>,
+    pub(crate) updates_per_second: Option<f64>,
+    /// How many times as fast as the first engine.
+    pub(crate) speed_up: Option<f64>,
+    pub(crate) state_bytes: usize,
+    /// In relation to the first engine; of that itself only where it does not even agree with itself.
+    pub(crate) verdict: Option<Verdict>,
+    /// Why it did not come to the end.
+    pub(crate) failure: Option<String>,
+    pub(crate) first_difference: Option<FirstDifference>,
+    pub(crate) remarks: Vec<String>,
+    /// After the last step.
+    pub(crate) differences: Option<Differences>,
+    pub(crate) history: Vec<Check>,
+}
+
+/// A quantity at the start and, on each engine, at the end.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct ObservableResult {
+    pub(crate) name: String,
+    pub(crate) unit: String,
+    pub(crate) initial: f64,
+    /// Nothing where an engine did not come to the end.
+    #[serde(rename = "final")]
+    pub(crate) last: Vec<Option<f64>>,
+}
+
+impl EngineResult {
+    /// A fact of its device.
+    pub(crate) fn fact(&self, name: &str) -> Option<&str> {
+        self.device.get(name)?.as_str()
+    }
+}
+
+impl Comparison {
+    pub(super) fn new(
+        subject: Subject,
+        plan: &Plan,
+        steps: u64,
+        model: &Model,
+        lanes: Vec<Lane<'_>>,
+    ) -> Self {
+        let (updated, number) = lanes.first().map_or(("cells", 0), |first| updated(model, &first.initial));
+        let observables = observables(&lanes);
+        let base = lanes.first().and_then(|first| Spread::of(&first.times.step));
+        let engines: Vec<EngineResult> = lanes
+            .into_iter()
+            .enumerate()
+            .map(|(index, lane)| {
+                let mut result = engine(lane, index == 0);
+                let step = result.step_seconds.map(|step| step.median).filter(|&step| step > 0.0);
+                result.updates_per_second = step.map(|step| number as f64 / step);
+                result.speed_up = base.zip(step).map(|(base, step)| base.median / step);
+                result
+            })
+            .collect();
+        let verdict = engines.iter().filter_map(|engine| engine.verdict).max().unwrap_or(Verdict::Identical);
+        Self {
+            xca: env!("CARGO_PKG_VERSION"),
+            commit: option_env!("XCA_COMMIT"),
+            compiler: option_env!("XCA_COMPILER"),
+            subject,
+            model: report::of_model(model),
+            parameters: report::of_parameters(model.parameters()),
+            host: report::of_host(),
+            hardware: machine::processor(),
+            memory_bytes: machine::memory(),
+            peak_memory_bytes: machine::peak_memory(),
+            ended: report::now(),
+            seed: plan.seed,
+            steps,
+            check_every: plan.every,
+            repeats: plan.repeats,
+            tolerance: plan.tolerance,
+            updated,
+            number,
+            verdict,
+            engines,
+            observables,
+        }
+    }
+
+    /// Whether an engine ever differed.
+    pub(crate) fn differs(&self) -> bool {
+        self.verdict != Verdict::Identical
+    }
+
+    /// The first engine, which the others are compared with.
+    pub(crate) fn first_name(&self) -> &str {
+        self.engines.first().map_or("", |engine| &engine.name)
+    }
+}
+
+fn engine(lane: Lane<'_>, is_first: bool) -> EngineResult {
+    let Lane { contender, simulation, set_up, findings, times, .. } = lane;
+    let engine = &*contender.engine;
+    let has_come = findings.failure.is_none() && findings.remarks.is_empty();
+    let verdict = if has_come { findings.verdict } else { Verdict::Different };
+    let Times { step, put, get } = times;
+    EngineResult {
+        name: contender.name.clone(),
+        engine: engine.name().to_owned(),
+        threads: engine.threads(),
+        precision: contender.precision,
+        device: engine.facts().into_iter().map(|(fact, which)| (fact.to_owned(), which.into())).collect(),
+        note: engine.note(),
+        set_up_seconds: set_up.as_secs_f64(),
+        state_in_seconds: Spread::of(&put),
+        state_out_seconds: Spread::of(&get),
+        step_seconds: Spread::of(&step),
+        updates_per_second: None,
+        speed_up: None,
+        state_bytes: simulation.memory(),
+        // The first engine can differ from itself.
+        verdict: (!is_first || !has_come).then_some(verdict),
+        failure: findings.failure,
+        first_difference: findings.first_difference,
+        remarks: findings.remarks,
+        differences: findings.last,
+        history: findings.history,
+    }
+}
+
+/// What a step updates: items where the model has any, else cells.
+fn updated(model: &Model, snapshot: &Snapshot) -> (&'static str, usize) {
+    let items = snapshot.groups.iter().map(|group| match group {
+        GroupSnapshot::Population(population, _) => population.labels.len(),
+        GroupSnapshot::Cells(_) => 0,
+    });
+    if model.groups().iter().any(|group| matches!(group.kind(), GroupKind::Population { .. })) {
+        ("items", items.sum())
+    } else {
+        ("cells", model.geometry().cells())
+    }
+}
+
+fn observables(lanes: &[Lane<'_>]) -> Vec<ObservableResult> {
+    let Some(first) = lanes.first() else { return Vec::new() };
+    let of_end = |lane: &Lane<'_>, index: usize| lane.findings.observables[1].get(index).map(|end| end.value);
+    let initial = first.findings.observables[0].iter().enumerate();
+    initial
+        .map(|(index, observable)| ObservableResult {
+            name: observable.name.clone(),
+            unit: observable.unit.clone(),
+            initial: observable.value,
+            last: lanes.iter().map(|lane| of_end(lane, index)).collect(),
+        })
+        .collect()
+}

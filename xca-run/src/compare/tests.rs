@@ -1,0 +1,340 @@
+//! Differences that are planted into an engine are found where and when they were planted.
+
+use super::*;
+use crate::set_up::SetUp;
+use difference::{Kind, Place};
+use std::ops::Range;
+use std::time::Duration;
+use xca_core::engine::{Execution, Interruption, Population, StepContext, SubstateId};
+use xca_core::prelude::*;
+use xca_core::reduction::{Reduced, Reduction};
+use xca_core::{EngineFailure, Fault, StartError};
+use xca_cpu::Cpu;
+
+#[derive(Substates, Clone, Copy)]
+struct Heat {
+    temperature: Real,
+    kind: u8,
+}
+
+#[derive(Substates, Clone, Copy)]
+struct Grain {
+    #[position]
+    position: Vector3<Real>,
+    age: u32,
+}
+
+#[elementary_process]
+fn diffuse(cell: &mut Cell<Heat>) {
+    let mut flux = 0.0;
+    for n in 1..cell.neighbours() {
+        flux += cell.neighbour(n).temperature - cell.temperature;
+    }
+    cell.temperature += 0.1 * flux;
+}
+
+#[elementary_process]
+fn move_on(me: &mut Slot<Grain>) {
+    me.position.x = me.position.x + 0.0625 * (3.5 - me.position.x);
+    me.age += 1;
+}
+
+#[migration]
+fn reassign(me: &Slot<Grain>, space: &Space) -> Destination {
+    space.cell_containing(me.position)
+}
+
+fn model() -> Model {
+    let grain = |label: u32| Item {
+        label,
+        cell: [label as usize, 1, 0],
+        state: Grain { position: Vector3::new(f64::from(label) + 0.5, 1.5, 0.5), age: label },
+    };
+    Model::builder("plate")
+        .extents([7, 5, 3])
+        .neighbourhood(Neighbourhood::von_neumann(1))
+        .boundary(Boundary::Toroidal)
+        .substates::<Heat>()
+        .population::<Grain>(8)
+        .process(diffuse)
+        .process(move_on)
+        .process(reassign)
+        .fill(|[x, y, _]| Heat { temperature: (x * x + y) as f64 / 3.0, kind: 1 })
+        .initialise(move |state| Ok(state.set_items([5, 2, 0].map(grain).to_vec())?))
+        .build()
+        .unwrap()
+}
+
+/// What is done to a state.
+#[derive(Debug, Clone, Copy)]
+enum Harm {
+    /// A low bit of a substate in a cell with this number is turned.
+    Cell(SubstateId, usize),
+    /// The lowest bit of a substate of an item with this label is turned.
+    Item(SubstateId, u32),
+    /// The engine fails.
+    Failure,
+}
+
+/// The reference engine, but for one bit after one step.
+#[derive(Debug)]
+struct Harmed {
+    harm: Harm,
+    after: u64,
+}
+
+struct HarmedExecution {
+    inner: Box<dyn Execution>,
+    harm: Harm,
+    after: u64,
+}
+
+impl Engine for Harmed {
+    fn name(&self) -> &str {
+        "harmed"
+    }
+
+    fn threads(&self) -> usize {
+        1
+    }
+
+    fn note(&self) -> Option<String> {
+        Some("one <bit> & no more".to_owned())
+    }
+
+    fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {
+        let inner = Reference.start(model, precision)?;
+        Ok(Box::new(HarmedExecution { inner, harm: self.harm, after: self.after }))
+    }
+}
+
+impl HarmedExecution {
+    fn do_harm(&mut self) -> Result<(), Fault> {
+        match self.harm {
+            Harm::Cell(substate, cell) => {
+                let mut value = self.inner.read_cell(substate, cell)?;
+                // Of an f64 not the very lowest, which would be rounded away before the next check.
+                let byte = value.len() / 4;
+                value[byte] ^= 1;
+                self.inner.write_cell(substate, cell, &value)?;
+            }
+            Harm::Item(substate, label) => {
+                let mut items = self.inner.population(substate.group)?;
+                let place = items.labels.iter().position(|known| *known == label).unwrap();
+                let field = &mut items.fields[substate.field];
+                let size = field.len() / items.labels.len();
+                field[place * size] ^= 1;
+                self.inner.set_population(substate.group, &items)?;
+            }
+            Harm::Failure => {
+                return Err(EngineFailure { engine: "harmed".into(), reason: "it is gone".into() }.into());
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Execution for HarmedExecution {
+    fn run(&mut self, processes: Range<usize>, context: &StepContext<'_>) -> Result<(), Fault> {
+        self.inner.run(processes, context)
+    }
+
+    fn run_steps(&mut self, steps: u64, context: &StepContext<'_>) -> Result<(), Interruption> {
+        let before = self.after.saturating_sub(context.step);
+        if before == 0 || before > steps {
+            return self.inner.run_steps(steps, context);
+        }
+        self.inner.run_steps(before, context)?;
+        self.do_harm().map_err(|fault| Interruption { done: before, fault })?;
+        let context = StepContext { step: context.step + before, ..*context };
+        self.inner.run_steps(steps - before, &context)
+    }
+
+    fn read(&self, substate: SubstateId) -> Result<Vec<u8>, EngineFailure> {
+        self.inner.read(substate)
+    }
+
+    fn write(&mut self, substate: SubstateId, values: &[u8]) -> Result<(), EngineFailure> {
+        self.inner.write(substate, values)
+    }
+
+    fn read_cell(&self, substate: SubstateId, cell: usize) -> Result<Vec<u8>, EngineFailure> {
+        self.inner.read_cell(substate, cell)
+    }
+
+    fn write_cell(&mut self, substate: SubstateId, cell: usize, value: &[u8]) -> Result<(), EngineFailure> {
+        self.inner.write_cell(substate, cell, value)
+    }
+
+    fn population(&self, group: usize) -> Result<Population, EngineFailure> {
+        self.inner.population(group)
+    }
+
+    fn set_population(&mut self, group: usize, population: &Population) -> Result<(), Fault> {
+        self.inner.set_population(group, population)
+    }
+
+    fn items(&self, group: usize) -> usize {
+        self.inner.items(group)
+    }
+
+    fn left(&self, group: usize) -> u64 {
+        self.inner.left(group)
+    }
+
+    fn largest_occupancy(&self, group: usize) -> Result<u32, EngineFailure> {
+        self.inner.largest_occupancy(group)
+    }
+
+    fn reduce(&self, substate: SubstateId, reduction: &Reduction) -> Result<Vec<Reduced>, EngineFailure> {
+        self.inner.reduce(substate, reduction)
+    }
+
+    fn memory(&self) -> usize {
+        self.inner.memory()
+    }
+}
+
+fn contender(name: &str, engine: impl Engine + 'static, precision: Precision) -> Contender {
+    Contender { name: name.to_owned(), engine: Box::new(engine), precision, making: Duration::ZERO }
+}
+
+fn plan(steps: u64, every: u64) -> Plan {
+    Plan { seed: 1, steps, every, repeats: 2, tolerance: 1e-9 }
+}
+
+fn subject() -> Subject {
+    let [program, title] = ["plate", "A plate <1>"].map(str::to_owned);
+    Subject { program, version: "0.1".to_owned(), title, command_line: vec!["plate".to_owned()] }
+}
+
+fn compared(contenders: &[Contender], plan: &Plan) -> Comparison {
+    let recorder = Recorder::new(SetUp::new(model(), 1)).unwrap();
+    compare(&recorder, contenders, plan, subject(), &mut |_| true).unwrap()
+}
+
+/// The reference engine with a harmed one and the CPU engine.
+pub(super) fn with_harm(harm: SubstateOrFailure, after: u64, every: u64) -> Comparison {
+    let harm = match harm {
+        SubstateOrFailure::Temperature(cell) => Harm::Cell(SubstateId { group: 0, field: 0 }, cell),
+        SubstateOrFailure::Kind(cell) => Harm::Cell(SubstateId { group: 0, field: 1 }, cell),
+        SubstateOrFailure::Position(label) => Harm::Item(SubstateId { group: 1, field: 0 }, label),
+        SubstateOrFailure::Failure => Harm::Failure,
+    };
+    let contenders = [
+        contender("reference", Reference, Precision::F64),
+        contender("harmed", Harmed { harm, after }, Precision::F64),
+        contender("cpu:2", Cpu::with_threads(2).unwrap(), Precision::F64),
+    ];
+    compared(&contenders, &plan(20, every))
+}
+
+/// What is harmed.
+pub(super) enum SubstateOrFailure {
+    Temperature(usize),
+    Kind(usize),
+    Position(u32),
+    Failure,
+}
+
+#[test]
+fn a_bit_of_a_cell_is_found_with_its_step() {
+    // The steps of the checks, those beside them, and all between.
+    for (after, every) in [(1, 7), (6, 7), (7, 7), (8, 7), (13, 20), (20, 20), (11, 1), (19, 6)] {
+        let comparison = with_harm(SubstateOrFailure::Temperature(33), after, every);
+        let [reference, harmed, cpu] = &comparison.engines[..] else { panic!("three engines") };
+        let found = harmed.first_difference.as_ref().unwrap();
+        assert_eq!((found.step, found.is_exact), (after, true), "{after} {every}");
+        assert_eq!(found.substate.as_deref(), Some("Heat.temperature"));
+        // 33 = 5 + 7 * (4 + 5 * 0)
+        assert_eq!(found.place, Some(Place::Cell([5, 4, 0])));
+        assert_eq!(harmed.verdict, Some(Verdict::Rounding));
+        assert_eq!((reference.verdict, cpu.verdict), (None, Some(Verdict::Identical)));
+        assert_eq!((&cpu.first_difference, comparison.verdict), (&None, Verdict::Rounding));
+        let differences = harmed.differences.as_ref().unwrap();
+        assert!(differences.substates[0].different > 0 && differences.substates[1].is_identical());
+        assert_eq!(harmed.history.len() as u64, 1 + 20_u64.div_ceil(every));
+        assert!(harmed.remarks.is_empty(), "{:?}", harmed.remarks);
+    }
+}
+
+#[test]
+fn a_whole_number_is_never_rounded() {
+    let comparison = with_harm(SubstateOrFailure::Kind(0), 3, 5);
+    let harmed = &comparison.engines[1];
+    assert_eq!((harmed.verdict, comparison.verdict), (Some(Verdict::Different), Verdict::Different));
+    let kind = &harmed.differences.as_ref().unwrap().substates[1];
+    assert_eq!((kind.kind, kind.different, kind.values), (Kind::Whole, 1, 105));
+    assert_eq!(harmed.first_difference.as_ref().unwrap().values, Some([1.0, 0.0]));
+}
+
+#[test]
+fn a_bit_of_an_item_is_found_by_its_label() {
+    let comparison = with_harm(SubstateOrFailure::Position(2), 9, 20);
+    let harmed = &comparison.engines[1];
+    let found = harmed.first_difference.as_ref().unwrap();
+    assert_eq!((found.step, found.place), (9, Some(Place::Item(2))));
+    assert_eq!(found.substate.as_deref(), Some("Grain.position"));
+    let differences = &harmed.differences.as_ref().unwrap().substates;
+    let names: Vec<&str> = differences.iter().map(|difference| difference.substate.as_str()).collect();
+    assert_eq!(names, ["Heat.temperature", "Heat.kind", "Grain.position", "Grain.age", "cells of Grain"]);
+    // One lane of three items with three lanes.
+    assert_eq!((differences[2].different, differences[2].values), (1, 9));
+    assert_eq!((comparison.updated, comparison.number), ("items", 3));
+}
+
+#[test]
+fn an_engine_that_fails_differs_and_the_others_go_on() {
+    let comparison = with_harm(SubstateOrFailure::Failure, 4, 5);
+    let [_, harmed, cpu] = &comparison.engines[..] else { panic!("three engines") };
+    assert_eq!((harmed.verdict, cpu.verdict), (Some(Verdict::Different), Some(Verdict::Identical)));
+    assert_eq!(harmed.failure.as_deref(), Some("step 5: the harmed engine failed: it is gone"));
+    assert_eq!((harmed.step_seconds, cpu.step_seconds.is_some()), (None, true));
+    assert!(
+        comparison
+            .observables
+            .iter()
+            .all(|observable| { observable.last[1].is_none() && observable.last[0] == observable.last[2] })
+    );
+}
+
+#[test]
+fn states_of_other_precision_are_compared_in_the_coarser_one() {
+    let contenders = [
+        contender("reference", Reference, Precision::F64),
+        contender("single", Reference, Precision::F32),
+        contender("again", Cpu::with_threads(1).unwrap(), Precision::F32),
+    ];
+    let plan = Plan { tolerance: 1e-5, ..plan(20, 1) };
+    let comparison = compared(&contenders, &plan);
+    let [_, single, again] = &comparison.engines[..] else { panic!("three engines") };
+    // The initial states are the same once they are rounded.
+    assert!(single.history[0].substates.iter().all(|(_, rms)| *rms == 0.0));
+    assert!(single.first_difference.as_ref().is_some_and(|difference| difference.step > 0));
+    assert_eq!(single.verdict, Some(Verdict::Rounding));
+    let strip = |engine: &result::EngineResult| serde_json::to_value(&engine.differences).unwrap();
+    assert_eq!(strip(single), strip(again));
+}
+
+#[test]
+fn a_comparison_can_be_interrupted() {
+    let contenders = [contender("reference", Reference, Precision::F64)];
+    let recorder = Recorder::new(SetUp::new(model(), 1)).unwrap();
+    for last in [0, 8, 25] {
+        let mut done = 0;
+        let mut watch = |steps: u64| {
+            done += steps;
+            done <= last
+        };
+        let result = compare(&recorder, &contenders, &plan(20, 4), subject(), &mut watch);
+        assert!(matches!(result, Err(CompareError::Interrupted)), "{last}");
+    }
+    let mut done = 0;
+    let all = plan(20, 4);
+    let mut watch = |steps: u64| {
+        done += steps;
+        true
+    };
+    compare(&recorder, &contenders, &all, subject(), &mut watch).unwrap();
+    assert_eq!(done, all.work(1));
+}
