@@ -9,6 +9,7 @@ mod killed;
 mod looked_at;
 mod misuse;
 mod physics;
+mod rendered;
 mod resumed;
 mod running;
 mod same_bits;

@@ -152,11 +152,11 @@ fn threads(text: &str) -> Result<usize, String> {
     }
 }
 
-fn steps(text: &str) -> Result<u64, &'static str> {
+pub(super) fn steps(text: &str) -> Result<u64, &'static str> {
     text.parse().map_err(|_| "it must be a whole number of steps")
 }
 
-fn interval(text: &str) -> Result<u64, String> {
+pub(super) fn interval(text: &str) -> Result<u64, String> {
     match text.parse() {
         Ok(0) => Err("every 0 steps never comes; give at least 1".to_owned()),
         Ok(number) => Ok(number),

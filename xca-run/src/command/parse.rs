@@ -3,7 +3,9 @@
 use super::arguments::{EngineArguments, ModelArguments, ResumeArguments, RunArguments};
 use super::inspect::InspectArguments;
 use super::list::ListArguments;
-use super::{Definition, EXIT_CODES, Unable, config, inspect, list, resume, run};
+use super::new::NewArguments;
+use super::render::RenderArguments;
+use super::{Definition, EXIT_CODES, Unable, config, inspect, list, new, render, resume, run};
 use crate::program::Given;
 use crate::set_up::SetUp;
 use clap::error::ErrorKind;
@@ -16,8 +18,10 @@ use std::path::PathBuf;
 pub(super) enum Invocation<'a> {
     Run(Box<RunInvocation<'a>>),
     Resume(&'a Definition<'a>, ResumeArguments),
+    Render(Box<RunInvocation<'a>>, RenderArguments),
     List(Box<Choice<'a>>, ListArguments),
     Inspect(InspectArguments),
+    New(NewArguments),
 }
 
 /// A model with the options that the command line gives it.
@@ -63,7 +67,7 @@ impl<'a> Choice<'a> {
 pub(super) fn command(definition: &Definition<'_>) -> Command {
     let Definition { name, about, version, .. } = definition;
     let examples = format!(
-        "Examples:\n  {name} run\n  {name} resume out/{name}\n  {name} list\n  {name} inspect out/{name}"
+        "Examples:\n  {name} run\n  {name} resume out/{name}\n  {name} render\n  {name} list\n  {name} inspect out/{name}"
     );
     Command::new(*name)
         .about(*about)
@@ -76,8 +80,10 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
         .subcommands([
             run::command(definition),
             resume::command(definition),
+            render::command(definition),
             list::command(definition),
             inspect::command(definition),
+            new::command(definition),
         ])
 }
 
@@ -147,15 +153,30 @@ fn complete<'a>(
             model: Choice::new(definition, matches)?,
             engine: from(matches)?,
             run: from(matches)?,
-            command_line: arguments.iter().map(|argument| argument.to_string_lossy().into_owned()).collect(),
+            command_line: words(arguments),
         }))),
+        Some((render::NAME, matches)) => {
+            let render: RenderArguments = from(matches)?;
+            let run = RunInvocation {
+                model: Choice::new(definition, matches)?,
+                engine: from(matches)?,
+                run: render.as_of_run(),
+                command_line: words(arguments),
+            };
+            Ok(Invocation::Render(Box::new(run), render))
+        }
         Some((list::NAME, matches)) => {
             Ok(Invocation::List(Box::new(Choice::new(definition, matches)?), from(matches)?))
         }
         Some((inspect::NAME, matches)) => Ok(Invocation::Inspect(from(matches)?)),
+        Some((new::NAME, matches)) => Ok(Invocation::New(from(matches)?)),
         Some((resume::NAME, matches)) => Ok(Invocation::Resume(definition, from(matches)?)),
         _ => Err(Unable::refused("no command is given")),
     }
+}
+
+fn words(arguments: &[OsString]) -> Vec<String> {
+    arguments.iter().map(|argument| argument.to_string_lossy().into_owned()).collect()
 }
 
 fn from<A: FromArgMatches>(matches: &ArgMatches) -> Result<A, Unable> {
