@@ -35,7 +35,7 @@ fn decoded(path: &Path) -> ([usize; 2], Vec<[u8; 3]>) {
 #[test]
 fn a_run_becomes_pictures_and_an_animation() {
     let place = Workplace::new();
-    let options = "--steps 30 --every 8 --size 420x380 --fps 7";
+    let options = "--steps 30 --every 8 --pixels 420x380 --fps 7";
     let (frames, animation) = rendered(&place, LIFE, options, "a");
     let names: Vec<String> =
         frames.iter().map(|path| path.file_name().unwrap().to_string_lossy().into_owned()).collect();
@@ -93,7 +93,7 @@ fn each_view_draws_something_of_its_own() {
         (MOD2, "--size 16 --steps 0 --layer 9"),
         (MOD2, "--size 16 --steps 0 --view isometric"),
         (CADEM, "--steps 0"),
-        (CADEM, "--steps 0 --substate position --size 640x480"),
+        (CADEM, "--steps 0 --substate position --pixels 640x480"),
     ]
     .into_iter()
     .enumerate()
@@ -114,7 +114,7 @@ fn what_cannot_be_drawn_is_said_before_anything_is_run() {
         (CADEM, "--view slice", "this model has no cells to draw"),
         (CADEM, "--layer 3", "for slices of cells"),
         (LIFE, "--layer 1", "there is no layer 1"),
-        (LIFE, "--size 100x100", "from 320x280"),
+        (LIFE, "--pixels 100x100", "from 320x280"),
         (LIFE, "--range 3,1", "the lower one first"),
         (LIFE, "--fps 0", "0 is not in 1..=100"),
     ] {

@@ -67,7 +67,7 @@ impl<'a> Choice<'a> {
 pub(super) fn command(definition: &Definition<'_>) -> Command {
     let Definition { name, about, version, .. } = definition;
     let examples = format!(
-        "Examples:\n  {name} run\n  {name} resume out/{name}\n  {name} render\n  {name} list\n  {name} inspect out/{name}"
+        "Examples:\n  {name} run\n  {name} resume out/{name}\n  {name} render\n  {name} list\n  {name} inspect out/{name}\n  {name} new waves"
     );
     Command::new(*name)
         .about(*about)

@@ -63,8 +63,8 @@ pub(super) struct RenderArguments {
     range: Option<[f64; 2]>,
 
     /// The size of the pictures in pixels
-    #[arg(long, value_name = "WxH", value_parser = size)]
-    size: Option<[usize; 2]>,
+    #[arg(long, value_name = "WxH", value_parser = pixels)]
+    pixels: Option<[usize; 2]>,
 
     /// How many pictures the animation shows a second
     #[arg(long, value_name = "N", default_value_t = 12, value_parser = clap::value_parser!(u16).range(1..=100))]
@@ -81,8 +81,8 @@ pub(super) struct RenderArguments {
 
 impl RenderArguments {
     fn look(&self) -> Look {
-        let Self { substate, view, axis, layer, size, range, .. } = self.clone();
-        Look { substate, view, axis, layer, size, range }
+        let Self { substate, view, axis, layer, pixels, range, .. } = self.clone();
+        Look { substate, view, axis, layer, size: pixels, range }
     }
 
     /// What a run would be told.
@@ -110,7 +110,7 @@ fn range(text: &str) -> Result<[f64; 2], &'static str> {
     if ends[0] < ends[1] && ends.iter().all(|end| end.is_finite()) { Ok(ends) } else { Err(WANTED) }
 }
 
-fn size(text: &str) -> Result<[usize; 2], &'static str> {
+fn pixels(text: &str) -> Result<[usize; 2], &'static str> {
     const WANTED: &str = "it must be width and height in pixels, from 320x280 to 4096x4096, such as 640x480";
     let (width, height) = text.split_once('x').ok_or(WANTED)?;
     match [width, height].map(str::parse) {
@@ -125,7 +125,7 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
     let command = RenderArguments::augment_args(command).next_help_heading(None::<&str>);
     let examples = [
         format!("{name} render"),
-        format!("{name} render --steps 200 --every 2 --fps 20 --size 640x560"),
+        format!("{name} render --steps 200 --every 2 --fps 20 --pixels 640x560"),
         format!("{name} render --view isometric --out out/block   (cells in three dimensions)"),
     ];
     with_help(command, ABOUT, &examples).long_about(format!("{ABOUT}\n\n{SCALE}"))

@@ -8,7 +8,7 @@ use super::{Picture, PictureError, check_size};
 /// Samples a pixel, each way.
 const SAMPLES: usize = 2;
 /// How bright the faces are that look along x, y and z.
-const BRIGHTNESS: [f32; 3] = [0.80, 0.91, 1.0];
+const BRIGHTNESS: [f32; 3] = [0.60, 0.80, 1.0];
 /// Linear RGB of cells without a value.
 const GREY: [f32; 3] = [0.35, 0.35, 0.35];
 
@@ -180,38 +180,72 @@ impl<'a> BlockPicture<'a> {
 
     /// The value of a cell that is drawn.
     fn solid(&self, [x, y, z]: [usize; 3]) -> Option<f64> {
-        let [columns, rows, layers] = self.extents;
+        let [columns, rows, _] = self.extents;
         let value = self.scalar.values[(z * rows + y) * columns + x];
         match self.empty {
             Some(empty) => (value != empty).then_some(value),
             None => {
-                let octant = layers > 1 && 2 * x >= columns && 2 * y + 1 < rows && 2 * z >= layers;
+                let octant = self.cut().is_some_and(|cut| x >= cut[0] && y < cut[1] && z >= cut[2]);
                 (!octant).then_some(value)
             }
         }
     }
 
-    /// The edges of the block, those in front of it or those behind.
+    /// The corner of the octant that is cut out, in the middle of the block, if any is.
+    fn cut(&self) -> Option<[usize; 3]> {
+        let [columns, rows, layers] = self.extents;
+        let has_inside = self.empty.is_none() && self.extents.iter().all(|extent| *extent > 1);
+        has_inside.then(|| [columns.div_ceil(2), rows / 2, layers.div_ceil(2)])
+    }
+
+    /// The edges of the block, those in front of it or those behind; where an octant is cut out, its edges instead of those that are gone.
     fn draw_edges(&self, canvas: &mut Canvas, eye: &Eye, in_front: bool) {
         let half = self.extents.map(|extent| extent as f64 / 2.0);
-        let corner = |index: usize| -> [f32; 2] {
-            let point = std::array::from_fn(|i| if index >> i & 1 == 1 { half[i] } else { -half[i] });
-            eye.project(point).map(|x| x as f32)
-        };
         // The corner that is farthest from the eye has the three edges that it does not see.
         let far: usize = (0..3).filter(|&i| eye.forward[i] > 0.0).map(|i| 1 << i).sum();
+        let near = 7 - far;
+        let cut = self.cut().map(|cut| -> [f64; 3] { std::array::from_fn(|i| cut[i] as f64 - half[i]) });
+        let of_block =
+            |index: usize| std::array::from_fn(|i| if index >> i & 1 == 1 { half[i] } else { -half[i] });
         let mut strokes = Strokes { segments: Vec::new(), width: if in_front { 1.2 } else { 1.0 } };
+        let mut draw = |ends: [[f64; 3]; 2]| {
+            strokes.segments.push(ends.map(|end| eye.project(end).map(|x| x as f32)));
+        };
         for axis in 0..3 {
             for start in (0..8_usize).filter(|start| start >> axis & 1 == 0) {
-                let end = start | 1 << axis;
-                if (start != far && end != far) == in_front {
-                    strokes.segments.push([corner(start), corner(end)]);
+                let ends = [start, start | 1 << axis];
+                let is_near = ends.contains(&near);
+                if ends.contains(&far) == in_front {
+                    continue;
+                }
+                draw(ends.map(|end| {
+                    let mut corner: [f64; 3] = of_block(end);
+                    if let Some(cut) = cut.filter(|_| is_near && end == near) {
+                        corner[axis] = cut[axis];
+                    }
+                    corner
+                }));
+            }
+            // The nine edges of the octant that do not meet in the corner that is gone.
+            let octants = cut.filter(|_| in_front).map(|cut| (cut, of_block(near)));
+            for start in (0..8_usize).filter(|start| start >> axis & 1 == 0) {
+                let ends = [start, start | 1 << axis];
+                if let Some((cut, near)) = octants.filter(|_| !ends.contains(&7)) {
+                    draw(ends.map(|end| {
+                        std::array::from_fn(|i| if end >> i & 1 == 1 { near[i] } else { cut[i] })
+                    }));
                 }
             }
         }
         let colour = if in_front { INK } else { [0.72, 0.74, 0.78] };
+        let strength = match (in_front, self.empty) {
+            (false, _) => 1.0,
+            (true, None) => 0.55,
+            // They lie before cubes that they must not divide.
+            (true, Some(_)) => 0.3,
+        };
         strokes.cover(canvas.width(), canvas.height(), |x, y, cover| {
-            canvas.blend(x, y, colour, cover * if in_front { 0.55 } else { 1.0 });
+            canvas.blend(x, y, colour, cover * strength);
         });
     }
 }
