@@ -1,7 +1,7 @@
 //! Pictures of dense substates in all three dimensions.
 
 use super::canvas::{Canvas, Strokes};
-use super::colour::{category, encode};
+use super::colour::{category, encode, mix};
 use super::legend::{INK, Scalar, draw_bar, draw_categories, draw_title};
 use super::{Picture, PictureError, check_size};
 
@@ -9,6 +9,8 @@ use super::{Picture, PictureError, check_size};
 const SAMPLES: usize = 2;
 /// How bright the faces are that look along x, y and z.
 const BRIGHTNESS: [f32; 3] = [0.60, 0.80, 1.0];
+/// How much of white the faces of cubes have that stand alone.
+const LIT: [f32; 3] = [0.0, 0.06, 0.22];
 /// Linear RGB of cells without a value.
 const GREY: [f32; 3] = [0.35, 0.35, 0.35];
 
@@ -125,7 +127,9 @@ impl<'a> BlockPicture<'a> {
                         // Cubes that stand alone are told apart by how far they are.
                         let haze = if self.empty.is_some() { 1.12 - 0.45 * depth } else { 1.0 };
                         let light = BRIGHTNESS[axis] * haze;
-                        let colour = colour_of(value);
+                        // They may be dark, so they are lit by lightening too.
+                        let lit = if self.empty.is_some() { LIT[axis] } else { 0.0 };
+                        let colour = mix(colour_of(value), [1.0; 3], lit);
                         sum = std::array::from_fn(|i| sum[i] + colour[i] * light * SHARE);
                         cover += SHARE;
                     }
