@@ -103,7 +103,7 @@ impl Recorder {
     }
 
     /// The view that shows what is wanted, and the number and the name of its substate where one is named.
-    fn chosen(&self, look: &Look) -> Result<(&Shown, Option<(usize, String)>), LookError> {
+    fn chosen(&self, look: &Look) -> Result<(&Shown, Option<Named>), LookError> {
         let Some(name) = &look.substate else {
             let of_items = look.view.map(|view| view == ViewKind::Spheres);
             let found =
@@ -125,8 +125,11 @@ impl Recorder {
     }
 }
 
+/// The number of a substate, and what it is called.
+type Named = (usize, String);
+
 /// Whether a view shows this substate already, and has words for it.
-fn is_named(shown: Option<&(usize, String)>, (field, _): &(usize, String)) -> bool {
+fn is_named(shown: Option<&Named>, (field, _): &Named) -> bool {
     shown.is_some_and(|(shown, _)| shown == field)
 }
 
