@@ -6,8 +6,10 @@ mod config;
 mod inspect;
 mod interval;
 mod list;
+mod new;
 mod parse;
 mod prepare;
+mod render;
 mod resume;
 mod run;
 mod under_way;
@@ -172,6 +174,8 @@ fn main_with(definition: &Definition<'_>) -> ExitCode {
 fn execute(invocation: Invocation<'_>) -> Result<Ended, Unable> {
     match invocation {
         Invocation::Run(invocation) => run::run(*invocation),
+        Invocation::Render(run, arguments) => render::render(&run, &arguments),
+        Invocation::New(arguments) => new::new(&arguments),
         Invocation::List(choice, arguments) => list::list(&choice, &arguments),
         Invocation::Compare(choice, arguments, command_line) => {
             compare::compare(&choice, *arguments, command_line)

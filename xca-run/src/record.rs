@@ -1,6 +1,7 @@
 //! What a run leaves behind: observables, frames, tables of items and pictures.
 
 mod cells;
+mod drawing;
 mod folder;
 mod items;
 mod measure;
@@ -8,6 +9,7 @@ mod recorded;
 mod shown;
 mod values;
 
+pub(crate) use drawing::{Drawing, Look, ViewKind};
 pub use folder::FolderError;
 pub(crate) use folder::{REPORT, RunFolder, numbered_files};
 pub(crate) use recorded::Recorded;
@@ -252,9 +254,9 @@ impl Recorder {
         let title = &self.set_up.title;
         Ok(if let Some(items) = shown.items(simulation, snapshot) {
             let caption = format!("{caption}, {} {}", items.len(), shown.view.name());
-            (Some(items.draw(title, &caption)?), None)
+            (Some(items.draw(title, &caption, None, None)?), None)
         } else if let Some(cells) = shown.cells(simulation, snapshot) {
-            (Some(cells.draw(title, caption, shown.range)?), cells.range())
+            (Some(cells.draw(title, caption, shown.range, None)?), cells.range())
         } else {
             (None, None)
         })

@@ -54,6 +54,8 @@ pub(crate) struct AnyCellView {
     /// The number of the substate and what it is called.
     pub(crate) drawn: Option<(usize, String)>,
     pub(crate) layer: Option<usize>,
+    /// The axis that the layers are counted along: z but for `render`.
+    pub(crate) axis: usize,
     pub(crate) range: Option<[f64; 2]>,
     pub(crate) map: Option<ColourMap>,
     pub(crate) kinds: Vec<(f64, String)>,
@@ -161,7 +163,7 @@ impl AnyItemView {
 
 impl AnyCellView {
     fn plain(group: TypeId, name: String) -> Self {
-        Self { group, name, drawn: None, layer: None, range: None, map: None, kinds: Vec::new() }
+        Self { group, name, drawn: None, layer: None, axis: 2, range: None, map: None, kinds: Vec::new() }
     }
 }
 

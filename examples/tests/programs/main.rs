@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should")]
 
+mod begun;
 mod checkpoints;
 mod files;
 mod interrupted;
@@ -9,6 +10,7 @@ mod killed;
 mod looked_at;
 mod misuse;
 mod physics;
+mod rendered;
 mod resumed;
 mod running;
 mod same_bits;

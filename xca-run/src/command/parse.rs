@@ -4,7 +4,9 @@ use super::arguments::{EngineArguments, ModelArguments, ResumeArguments, RunArgu
 use super::compare::CompareArguments;
 use super::inspect::InspectArguments;
 use super::list::ListArguments;
-use super::{Definition, EXIT_CODES, Unable, compare, config, inspect, list, resume, run};
+use super::new::NewArguments;
+use super::render::RenderArguments;
+use super::{Definition, EXIT_CODES, Unable, compare, config, inspect, list, new, render, resume, run};
 use crate::program::Given;
 use crate::set_up::SetUp;
 use clap::error::ErrorKind;
@@ -17,10 +19,12 @@ use std::path::PathBuf;
 pub(super) enum Invocation<'a> {
     Run(Box<RunInvocation<'a>>),
     Resume(&'a Definition<'a>, ResumeArguments),
+    Render(Box<RunInvocation<'a>>, RenderArguments),
     List(Box<Choice<'a>>, ListArguments),
     Inspect(InspectArguments),
     /// With the whole command line.
     Compare(Box<Choice<'a>>, Box<CompareArguments>, Vec<String>),
+    New(NewArguments),
 }
 
 /// A model with the options that the command line gives it.
@@ -66,7 +70,7 @@ impl<'a> Choice<'a> {
 pub(super) fn command(definition: &Definition<'_>) -> Command {
     let Definition { name, about, version, .. } = definition;
     let examples = format!(
-        "Examples:\n  {name} run\n  {name} resume out/{name}\n  {name} list\n  {name} inspect out/{name}\n  {name} compare"
+        "Examples:\n  {name} run\n  {name} resume out/{name}\n  {name} compare\n  {name} render\n  {name} list\n  {name} inspect out/{name}\n  {name} new waves"
     );
     Command::new(*name)
         .about(*about)
@@ -79,9 +83,11 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
         .subcommands([
             run::command(definition),
             resume::command(definition),
+            render::command(definition),
             list::command(definition),
             inspect::command(definition),
             compare::command(definition),
+            new::command(definition),
         ])
 }
 
@@ -146,26 +152,40 @@ fn complete<'a>(
     arguments: &[OsString],
 ) -> Result<Invocation<'a>, Unable> {
     let matches = command.clone().try_get_matches_from(arguments).map_err(Unable::CommandLine)?;
-    let command_line = arguments.iter().map(|argument| argument.to_string_lossy().into_owned()).collect();
     match matches.subcommand() {
         Some((run::NAME, matches)) => Ok(Invocation::Run(Box::new(RunInvocation {
             model: Choice::new(definition, matches)?,
             engine: from(matches)?,
             run: from(matches)?,
-            command_line,
+            command_line: words(arguments),
         }))),
         Some((compare::NAME, matches)) => Ok(Invocation::Compare(
             Box::new(Choice::new(definition, matches)?),
             Box::new(from(matches)?),
-            command_line,
+            words(arguments),
         )),
+        Some((render::NAME, matches)) => {
+            let render: RenderArguments = from(matches)?;
+            let run = RunInvocation {
+                model: Choice::new(definition, matches)?,
+                engine: from(matches)?,
+                run: render.as_of_run(),
+                command_line: words(arguments),
+            };
+            Ok(Invocation::Render(Box::new(run), render))
+        }
         Some((list::NAME, matches)) => {
             Ok(Invocation::List(Box::new(Choice::new(definition, matches)?), from(matches)?))
         }
         Some((inspect::NAME, matches)) => Ok(Invocation::Inspect(from(matches)?)),
+        Some((new::NAME, matches)) => Ok(Invocation::New(from(matches)?)),
         Some((resume::NAME, matches)) => Ok(Invocation::Resume(definition, from(matches)?)),
         _ => Err(Unable::refused("no command is given")),
     }
+}
+
+fn words(arguments: &[OsString]) -> Vec<String> {
+    arguments.iter().map(|argument| argument.to_string_lossy().into_owned()).collect()
 }
 
 fn from<A: FromArgMatches>(matches: &ArgMatches) -> Result<A, Unable> {

@@ -4,6 +4,7 @@ mod batch;
 mod checkpoints;
 mod words;
 
+pub(super) use batch::Batch;
 pub(super) use checkpoints::Checkpoints;
 
 use super::{Ended, Unable};
@@ -15,7 +16,6 @@ use crate::progress::Progress;
 use crate::record::{Recorder, RunFolder};
 use crate::report::{self, Earlier, Report};
 use crate::terminal;
-use batch::Batch;
 use std::time::{Duration, Instant};
 use xca_core::Simulation;
 

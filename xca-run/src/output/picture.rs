@@ -4,8 +4,9 @@
 //! |---|---|
 //! | [`ParticlePicture`] | particles as shaded spheres in their box, z up, coloured by a scalar |
 //! | [`SlicePicture`] | one layer of a dense substate, a colour a cell |
+//! | [`BlockPicture`] | all layers of a dense substate, as cubes |
 //!
-//! Both are filled in, rendered to a [`Picture`] and written:
+//! All are filled in, rendered to a [`Picture`] and written:
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -25,6 +26,7 @@
 //! ```
 
 mod averaging;
+mod block;
 mod canvas;
 mod colour;
 mod depth;
@@ -41,6 +43,7 @@ use std::path::Path;
 
 use super::atomic::{WriteError, write_atomically};
 
+pub use block::BlockPicture;
 pub use colour::ColourMap;
 pub use legend::Scalar;
 pub use particles::{Domain, ParticlePicture};
@@ -96,6 +99,11 @@ pub struct Picture {
 }
 
 impl Picture {
+    /// A picture of pixels in sRGB, row by row from the top left: three bytes for each.
+    pub(super) fn new(width: usize, height: usize, rgb: Vec<u8>) -> Self {
+        Self { width, height, rgb }
+    }
+
     /// The width in pixels.
     #[must_use]
     pub fn width(&self) -> usize {

@@ -11,6 +11,9 @@ use xca_core::engine::Population;
 use xca_core::model::Group;
 use xca_core::{Geometry, Precision, StoredType};
 
+/// The share of items that may be beyond the scale: a few fast ones must not make all others look alike.
+const FAST: f64 = 0.02;
+
 /// The items of one state that a view shows, by label.
 pub(super) struct Items<'a> {
     view: &'a AnyItemView,
@@ -113,8 +116,20 @@ impl<'a> Items<'a> {
         Ok(write_particles(path, time, self.positions().as_values(), &arrays)?)
     }
 
-    /// Draws the items as spheres.
-    pub(super) fn draw(&self, title: &str, caption: &str) -> Result<Picture, RecordError> {
+    /// The scale of their colours in this state alone.
+    pub(super) fn range(&self) -> Option<[f64; 2]> {
+        let values = self.plane(self.colour()?.0).magnitudes();
+        Scalar::new("", &values).without_largest(FAST).range
+    }
+
+    /// Draws the items as spheres, on the scale of this state unless another is given; likewise their size.
+    pub(super) fn draw(
+        &self,
+        title: &str,
+        caption: &str,
+        range: Option<[f64; 2]>,
+        size: Option<[usize; 2]>,
+    ) -> Result<Picture, RecordError> {
         let positions = self.positions().to_points();
         let side = self.geometry.side();
         let upper = self.geometry.extents().map(|extent| extent as f64 * side);
@@ -122,8 +137,11 @@ impl<'a> Items<'a> {
         let colour = self.colour();
         let values = colour.as_ref().map(|(field, _)| self.plane(*field).magnitudes()).unwrap_or_default();
         let mut picture = ParticlePicture::new(&positions, radius, Domain { lower: [0.0; 3], upper });
-        // A few fast ones must not make all others look alike.
-        picture.colour = colour.as_ref().map(|(_, label)| Scalar::new(label, &values).without_largest(0.02));
+        picture.colour = colour.as_ref().map(|(_, label)| {
+            let scalar = Scalar::new(label, &values);
+            if range.is_some() { Scalar { range, ..scalar } } else { scalar.without_largest(FAST) }
+        });
+        picture.size = size.unwrap_or(picture.size);
         picture.title = title;
         picture.caption = caption;
         Ok(picture.render()?)

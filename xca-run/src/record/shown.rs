@@ -10,7 +10,7 @@ use xca_core::{GroupSnapshot, Simulation, Snapshot};
 
 /// A view with its files.
 pub(super) struct Shown {
-    group: usize,
+    pub(super) group: usize,
     pub(super) view: AnyView,
     /// The frames that there are.
     pub(super) collection: Option<Collection>,

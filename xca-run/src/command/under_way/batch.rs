@@ -4,8 +4,8 @@ use std::time::Duration;
 
 /// How many steps are done at a time: an engine with threads does many faster than one by one, but Ctrl-C and the line that shows how far
 /// the run has come must not wait for long.
-pub(super) struct Batch {
-    pub(super) steps: u64,
+pub(crate) struct Batch {
+    pub(crate) steps: u64,
 }
 
 impl Default for Batch {
@@ -15,7 +15,7 @@ impl Default for Batch {
 }
 
 impl Batch {
-    pub(super) fn adapt(&mut self, took: Duration) {
+    pub(crate) fn adapt(&mut self, took: Duration) {
         match took.as_millis() {
             0..20 => self.steps = self.steps.saturating_mul(2),
             20..80 => {}

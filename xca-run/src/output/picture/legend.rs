@@ -2,7 +2,7 @@
 
 use super::PictureError;
 use super::canvas::{Canvas, Strokes};
-use super::colour::{ColourMap, encode};
+use super::colour::{ColourMap, category, encode};
 use super::text::{self, Anchor, Style};
 use crate::numbers::{significant, ticks};
 
@@ -130,6 +130,23 @@ pub(super) fn draw_bar(
         above -= 21.0;
     }
     text::draw(canvas, label, [left, above], Anchor::Left, &text::fitted(label, style, room));
+}
+
+/// Draws a list of kinds with their colours.
+pub(super) fn draw_categories(
+    canvas: &mut Canvas,
+    [x, y]: [usize; 2],
+    label: &str,
+    categories: &[(f64, &str)],
+) {
+    let style = Style { height: 11.0, weight: 0.115, colour: INK };
+    text::draw(canvas, label, [x as f32, y as f32 - 10.0], Anchor::Left, &style);
+    for (i, (_, name)) in categories.iter().enumerate() {
+        let top = y + 8 + 26 * i;
+        canvas.fill([x, top], [16, 16], encode(category(i)));
+        canvas.frame([x, top], [16, 16], INK);
+        text::draw(canvas, name, [x as f32 + 28.0, top as f32 + 13.5], Anchor::Left, &style);
+    }
 }
 
 /// Draws title and caption in the top left corner.

@@ -3,7 +3,7 @@
 use super::averaging::Share;
 use super::canvas::{Canvas, Strokes};
 use super::colour::{category, encode};
-use super::legend::{FAINT_INK, INK, Scalar, draw_bar, draw_title};
+use super::legend::{FAINT_INK, INK, Scalar, draw_bar, draw_categories, draw_title};
 use super::text::{self, Anchor, Style};
 use super::{Picture, PictureError, check_size};
 use crate::numbers::significant;
@@ -38,6 +38,8 @@ pub struct SlicePicture<'a> {
     pub length_unit: &'a str,
     /// The longer side of the drawing in pixels, at most; the texts around it come on top. From 200 to 7900.
     pub pixels: usize,
+    /// Width and height of the whole picture in pixels, if it must have these; `pixels` is then left aside.
+    pub size: Option<[usize; 2]>,
 }
 
 impl<'a> SlicePicture<'a> {
@@ -54,6 +56,7 @@ impl<'a> SlicePicture<'a> {
             cell_side: 1.0,
             length_unit: "cells",
             pixels: 768,
+            size: None,
         }
     }
 
@@ -67,10 +70,7 @@ impl<'a> SlicePicture<'a> {
             return Err(PictureError::NoCells { columns, rows });
         }
         self.scalar.check(columns.saturating_mul(rows), "cells")?;
-        check_size([self.pixels; 2])?;
-        let drawing = self.drawing_size();
-        // A narrow drawing leaves room for the title, a flat one for the bar.
-        let plate = [drawing[0].max(320), drawing[1].max(240)];
+        let [plate, drawing] = self.plate_and_drawing()?;
         let size = [LEFT + plate[0] + RIGHT, TOP + plate[1] + BOTTOM];
         check_size(size)?;
         let mut canvas = Canvas::new(size[0], size[1], [1.0; 3]);
@@ -88,20 +88,35 @@ impl<'a> SlicePicture<'a> {
             let (label, map) = (self.scalar.label, self.scalar.map);
             draw_bar(&mut canvas, [x, y], [18, height], label, map, self.scalar.scale());
         } else {
-            self.draw_categories(&mut canvas, [x, TOP + 24]);
+            draw_categories(&mut canvas, [x, TOP + 24], self.scalar.label, self.categories);
         }
         Ok(canvas.into_picture())
     }
 
-    /// Pixels across and down.
-    fn drawing_size(&self) -> [usize; 2] {
-        let longest = self.columns.max(self.rows);
-        if longest <= self.pixels {
-            let side = self.pixels / longest;
-            return [self.columns * side, self.rows * side];
+    /// The room for the drawing and what of it the drawing takes, in pixels across and down.
+    fn plate_and_drawing(&self) -> Result<[[usize; 2]; 2], PictureError> {
+        let Some(size) = self.size else {
+            check_size([self.pixels; 2])?;
+            let drawing = self.drawing_size([self.pixels; 2]);
+            // A narrow drawing leaves room for the title, a flat one for the bar.
+            return Ok([[drawing[0].max(320), drawing[1].max(240)], drawing]);
+        };
+        let plate = [size[0].saturating_sub(LEFT + RIGHT), size[1].saturating_sub(TOP + BOTTOM)];
+        if plate.iter().any(|room| *room < 100) {
+            return Err(PictureError::Size { size });
         }
-        let share = self.pixels as f64 / longest as f64;
-        [self.columns, self.rows].map(|n| ((n as f64 * share).round() as usize).max(1))
+        Ok([plate, self.drawing_size(plate)])
+    }
+
+    /// Pixels across and down: whole ones for each cell where there are as many.
+    fn drawing_size(&self, room: [usize; 2]) -> [usize; 2] {
+        let cells = [self.columns, self.rows];
+        let side = (room[0] / cells[0]).min(room[1] / cells[1]);
+        if side > 0 {
+            return cells.map(|n| n * side);
+        }
+        let share = (0..2).map(|i| room[i] as f64 / cells[i] as f64).fold(f64::INFINITY, f64::min);
+        std::array::from_fn(|i| ((cells[i] as f64 * share).round() as usize).clamp(1, room[i]))
     }
 
     fn draw_cells(&self, canvas: &mut Canvas, [x0, y0]: [usize; 2], [w, h]: [usize; 2]) {
@@ -138,17 +153,6 @@ impl<'a> SlicePicture<'a> {
     /// The colour of a category, in linear RGB.
     fn colour_of(&self, value: f64) -> [f32; 3] {
         self.categories.iter().position(|(of, _)| *of == value).map_or(GREY, category)
-    }
-
-    fn draw_categories(&self, canvas: &mut Canvas, [x, y]: [usize; 2]) {
-        let style = Style { height: 11.0, weight: 0.115, colour: INK };
-        text::draw(canvas, self.scalar.label, [x as f32, y as f32 - 10.0], Anchor::Left, &style);
-        for (i, (_, name)) in self.categories.iter().enumerate() {
-            let top = y + 8 + 26 * i;
-            canvas.fill([x, top], [16, 16], encode(category(i)));
-            canvas.frame([x, top], [16, 16], INK);
-            text::draw(canvas, name, [x as f32 + 28.0, top as f32 + 13.5], Anchor::Left, &style);
-        }
     }
 
     /// A bar of a round length below the drawing, whose lower left corner is at `[x, y]`.
@@ -242,6 +246,18 @@ mod tests {
         let at = |cell: usize| picture.pixel(LEFT + 10 + 100 * cell + 50, TOP + 70 + 50);
         let bytes = |linear| encode(linear).map(|x| (x * 255.0).round() as u8);
         assert_eq!([at(0), at(1), at(2)], [bytes(category(0)), bytes(category(1)), bytes(GREY)]);
+    }
+
+    #[test]
+    fn a_picture_has_the_size_that_is_wanted() {
+        for (columns, rows) in [(3, 2), (2, 300), (4000, 3)] {
+            let values = vec![0.5; columns * rows];
+            let slice = SlicePicture::new(columns, rows, Scalar::new("t", &values));
+            let picture = SlicePicture { size: Some([500, 333]), ..slice }.render().unwrap();
+            assert_eq!((picture.width(), picture.height()), (500, 333));
+        }
+        let slice = SlicePicture::new(1, 1, Scalar::new("t", &[0.0]));
+        assert!(SlicePicture { size: Some([300, 300]), ..slice }.render().is_err());
     }
 
     #[test]
