@@ -25,7 +25,7 @@ pub(super) fn markdown(comparison: &Comparison) -> String {
 
 fn list(out: &mut String, lines: impl IntoIterator<Item = String>) -> std::fmt::Result {
     for (index, line) in lines.into_iter().enumerate() {
-        write!(out, "{}- {}\n", if index == 0 { "\n" } else { "" }, escaped(&line))?;
+        writeln!(out, "{}- {}", if index == 0 { "\n" } else { "" }, escaped(&line))?;
     }
     Ok(())
 }

@@ -8,17 +8,17 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 const STYLE: &str = "
 body { font: 15px/1.5 system-ui, sans-serif; color: #2b2f36; background: #f4f5f7; margin: 0 }
-main { max-width: 1120px; margin: 0 auto; padding: 24px 20px 48px }
+main { max-width: 1160px; margin: 0 auto; padding: 24px 20px 48px }
 h1 { font-size: 22px; margin: 0 0 12px } h2 { font-size: 17px; margin: 0 0 10px }
 section { background: #fff; border: 1px solid #e3e6ea; border-radius: 8px; padding: 16px 20px; margin: 0 0 18px; overflow-x: auto }
 table { border-collapse: collapse; font-size: 13.5px; width: 100% }
-th, td { padding: 5px 10px; text-align: left; white-space: nowrap; border-bottom: 1px solid #eceef1 }
-th { color: #667; font-weight: 600 } .number { text-align: right; font-variant-numeric: tabular-nums }
+th, td { padding: 5px 8px; text-align: left; border-bottom: 1px solid #eceef1 }
+th { color: #667; font-weight: 600 } .number { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums }
 .verdict { display: inline-block; padding: 1px 9px; border-radius: 10px; font-size: 12.5px; font-weight: 700; color: #fff }
 .IDENTICAL { background: #1a7f4b } .ROUNDING { background: #a86a00 } .DIFFERENT { background: #b3261e }
 .note { background: #fff7e0; border-color: #ecd58a } ul { margin: 0; padding-left: 18px } li { margin: 3px 0 }
 ul.plain { list-style: none; padding: 0 } dl { display: grid; grid-template-columns: max-content 1fr; gap: 2px 18px; margin: 0; font-size: 13.5px }
-dt { color: #667 } dd { margin: 0; overflow-wrap: anywhere } svg { max-width: 100%; height: auto; display: block }
+dt { color: #667 } dd { margin: 0; overflow-wrap: anywhere } svg { width: 100%; height: auto; display: block }
 figure { margin: 0 0 14px } figcaption { font-size: 13.5px; color: #667; margin-bottom: 4px } p { margin: 10px 0 0 }
 ";
 
@@ -55,7 +55,7 @@ pub(super) fn page(comparison: &Comparison) -> Result<String, ReportError> {
                         section class="note" id="notes" { ul { @for note in &notes { li { (note) } } } }
                     }
                     section id="plots" {
-                        h2 { "Times" }
+                        h2 { "Times at a glance" }
                         @if let Some(plot) = &times {
                             (figure("Median time of a step; the dark line goes from the least to the largest", plot))
                         }

@@ -63,7 +63,7 @@ fn bars(bars: Vec<Bar>, what: &str) -> Result<Option<String>, ReportError> {
     }
     let widest = bars.iter().map(|bar| bar.name.chars().count()).max().unwrap_or(0);
     let left = u32::try_from(widest * 8 + 16).unwrap_or(WIDTH).clamp(70, WIDTH / 3);
-    let height = 52 + 34 * u32::try_from(bars.len()).unwrap_or(100).min(100);
+    let height = 56 + 34 * u32::try_from(bars.len()).unwrap_or(100).min(100);
     let mut svg = String::new();
     {
         let root = SVGBackend::with_string(&mut svg, (WIDTH, height)).into_drawing_area();
@@ -71,7 +71,7 @@ fn bars(bars: Vec<Bar>, what: &str) -> Result<Option<String>, ReportError> {
             .margin(4)
             .x_label_area_size(40)
             .y_label_area_size(left)
-            .build_cartesian_2d(0.0..longest * 1.15, (0..bars.len()).into_segmented())
+            .build_cartesian_2d(0.0..longest * 1.15, (0..bars.len() - 1).into_segmented())
             .map_err(plot_error)?;
         // From above in the order of the command line.
         let row = |index: usize| bars.len() - 1 - index;

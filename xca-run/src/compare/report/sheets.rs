@@ -63,9 +63,9 @@ fn spread(spread: Option<Spread>) -> [String; 2] {
 
 fn bytes(bytes: usize) -> String {
     let (factor, unit) = match bytes {
-        ..10_000 => (1.0, "B"),
-        ..10_000_000 => (1e-3, "kB"),
-        ..10_000_000_000 => (1e-6, "MB"),
+        0..1000 => (1.0, "B"),
+        1000..1_000_000 => (1e-3, "kB"),
+        1_000_000..1_000_000_000 => (1e-6, "MB"),
         _ => (1e-9, "GB"),
     };
     format!("{} {unit}", significant(bytes as f64 * factor, 3))
@@ -108,7 +108,7 @@ fn engines(comparison: &Comparison) -> Sheet {
     ]);
     header[8] = format!("{}/s", comparison.updated);
     let rows = comparison.engines.iter().map(row).collect();
-    Sheet { title: "Times", header, right: vec![1, 4, 5, 6, 7, 8, 9, 10], rows }
+    Sheet { title: "Times, speed-up and memory", header, right: vec![1, 4, 5, 6, 7, 8, 9, 10], rows }
 }
 
 /// A share, which is 100 % only if nothing is missing.
@@ -189,7 +189,9 @@ pub(super) fn findings(comparison: &Comparison) -> Vec<String> {
     let first = comparison.first_name();
     let engines = comparison.engines.iter();
     engines
-        .filter_map(|engine| Some(format!("{}: {} {}", engine.name, engine.verdict?, finding(engine, first))))
+        .filter_map(|engine| {
+            Some(format!("{} is {}: {}", engine.name, engine.verdict?, finding(engine, first)))
+        })
         .collect()
 }
 

@@ -76,9 +76,9 @@ fn markdown_tables_have_rows_of_one_length() {
 fn the_terminal_shows_tables_and_verdicts() {
     let text = text(&rounded());
     assert!(text.contains(
-        "harmed: ROUNDING it differs from reference from step 9 on, most in Grain.position of item 2"
+        "harmed is ROUNDING: it differs from reference from step 9 on, most in Grain.position of item 2"
     ));
-    assert!(text.contains("cpu:2: IDENTICAL the same bits as reference in all of 21 states"), "{text}");
+    assert!(text.contains("cpu:2 is IDENTICAL: the same bits as reference in all of 21 states"), "{text}");
     assert!(text.contains("note: harmed: one <bit> & no more") && text.contains("chaotic"));
     let alike = with_harm(SubstateOrFailure::Kind(0), 21, 5);
     assert_eq!(alike.verdict, crate::compare::Verdict::Identical);
