@@ -136,6 +136,47 @@ fn diffuse_downstream(cell: &mut Cell<Heat>, p: &Conduction) {
     }
 }
 
+#[derive(Substates, Clone, Copy)]
+struct Pilgrim {
+    #[position]
+    position: Vector3<Real>,
+}
+
+#[elementary_process]
+fn walk(me: &mut Slot<Pilgrim>, space: &Space) {
+    if me.index().x + 1 < space.extents().x {
+        me.position.x += space.side();
+    }
+}
+
+#[migration]
+fn arrive(me: &Slot<Pilgrim>, space: &Space) -> Destination {
+    space.cell_containing(me.position)
+}
+
+/// All walk to the last cell, which is full one day: the fault tells how many it would hold, though later steps were submitted with it.
+#[test]
+fn a_full_cell_is_told_as_it_was() -> TestResult {
+    let pilgrims = (0..12_u32).map(|label| {
+        let cell = [label as usize, 0, 0];
+        Item { label, cell, state: Pilgrim { position: Vector3::new(f64::from(label) + 0.5, 0.5, 0.5) } }
+    });
+    let pilgrims: Vec<_> = pilgrims.collect();
+    let model = Model::builder("pilgrims")
+        .extents([12, 2, 1])
+        .neighbourhood(Neighbourhood::moore_2d(1))
+        .population::<Pilgrim>(5)
+        .process(walk)
+        .process(arrive)
+        .initialise(move |state| Ok(state.set_items(pilgrims.clone())?))
+        .build()?;
+    let engines: [Box<dyn Engine>; 2] = [Box::new(Reference), Box::new(gpu()?)];
+    let error = assert_same_fault(&model, &engines, RunOptions::default(), 11);
+    assert!(error.to_string().starts_with("step 5: "), "{error}");
+    assert!(error.to_string().contains("cell [11, 0, 0] would hold 6 items"), "{error}");
+    Ok(())
+}
+
 fn cells(snapshot: &Snapshot, precision: Precision) -> Vec<f64> {
     let GroupSnapshot::Cells(fields) = &snapshot.groups[0] else { return Vec::new() };
     match precision {

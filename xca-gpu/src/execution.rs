@@ -9,7 +9,7 @@ use crate::pace::Pace;
 use crate::plane::{Plane, size_on_device};
 use crate::population::Population;
 use crate::program::{Manner, Program, Texts};
-use crate::service::{ADVANCE, SEAL, SEAL_AIM, Services};
+use crate::service::{ADVANCE, SEAL, SEAL_AIM, SEAL_FULL, Services};
 use crate::space::{Part, Space};
 use crate::stop::Cause;
 use std::collections::{HashMap, HashSet};
@@ -323,7 +323,8 @@ impl GpuExecution {
         }
         self.stopped = true;
         let process = (journal[6] - 1) as usize;
-        let fault = self.fault(process, journal[7], journal[10], [journal[11], journal[12], journal[13]])?;
+        let details = [journal[11], journal[12], journal[13], journal[14]];
+        let fault = self.fault(process, journal[7], journal[10], details)?;
         Ok(Some((long(journal[8], journal[9]), fault)))
     }
 
@@ -360,6 +361,10 @@ fn seal(
             let items = [population.labels.now(), population.cells.now(), &population.destinations];
             parts.extend(items.map(Binding::from));
             SEAL_AIM
+        }
+        (Cause::Full, Some(population)) => {
+            parts.extend([&population.starts, &population.ends].map(Binding::from));
+            SEAL_FULL
         }
         _ => SEAL,
     };

@@ -18,7 +18,7 @@ pub(crate) enum Group {
 /// The bytes of a journal, and the distance to the next one: what bindings are aligned to at most.
 pub(crate) const JOURNAL: u64 = 256;
 /// The words of a journal that are read back: see `shaders/common.wgsl`.
-pub(crate) const JOURNAL_WORDS: usize = 14;
+pub(crate) const JOURNAL_WORDS: usize = 15;
 
 /// The bytes before the records of faults, and some more.
 const HEAD: u64 = 16;

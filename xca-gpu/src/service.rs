@@ -44,6 +44,7 @@ services! {
     PLACE = "place", 256, [Write, Write, Read, Read, Write, Write];
     SEAL = "seal", 1, [Uniform, Write, Write];
     SEAL_AIM = "seal_aim", 1, [Uniform, Write, Write, Read, Read, Read];
+    SEAL_FULL = "seal_full", 1, [Uniform, Write, Write, Read, Read];
     SORT = "sort", 256, [Uniform, Write, Write, Read, Write, Read, Write];
     SPREAD_BLOCKS = "spread_blocks", 64, [Read, Read, Write];
     SUM_BLOCKS = "sum_blocks", 64, [Read, Write];

@@ -35,18 +35,18 @@ impl Cause {
 
 impl GpuExecution {
     /// The fault of a process, from the cause and the cell or item that the device noted; of a migration, the item's label, cell and
-    /// destination.
+    /// destination, or the number of items in the cell.
     pub(crate) fn fault(
         &self,
         process: usize,
         cause: u32,
         at: u32,
-        item: [u32; 3],
+        [label, home, destination, count]: [u32; 4],
     ) -> Result<Fault, DeviceError> {
         match cause {
             0 => self.reported(process, at),
-            1 => Ok(self.aimed(process, item)),
-            _ => self.full(process, at),
+            1 => Ok(self.aimed(process, [label, home, destination])),
+            _ => Ok(self.full(process, at, count)),
         }
     }
 
@@ -107,20 +107,11 @@ impl GpuExecution {
     }
 
     /// A cell with too many items.
-    fn full(&self, index: usize, cell: u32) -> Result<Fault, DeviceError> {
-        let population =
-            self.programs[index].population(&self.model).and_then(|group| self.groups.population(group));
-        let number = |buffer| -> Result<u32, DeviceError> {
-            let start = u64::from(cell) * 4;
-            Ok(bytemuck::pod_read_unaligned(&self.device.download(buffer, start..start + 4)?))
-        };
-        let (items, slots) = match population {
-            Some(population) => {
-                ((number(&population.ends)? - number(&population.starts)?) as usize, population.slots)
-            }
-            None => (0, 0),
-        };
-        let process = Some(self.programs[index].process.name);
-        Ok(Fault::CellFull { process, cell: self.space.cell(cell as usize), items, slots })
+    fn full(&self, index: usize, cell: u32, items: u32) -> Fault {
+        let program = &self.programs[index];
+        let population = program.population(&self.model).and_then(|group| self.groups.population(group));
+        let slots = population.map_or(0, |population| population.slots);
+        let (process, cell) = (Some(program.process.name), self.space.cell(cell as usize));
+        Fault::CellFull { process, cell, items: items as usize, slots }
     }
 }

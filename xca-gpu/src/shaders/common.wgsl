@@ -31,6 +31,8 @@ struct Journal {
     label: u32,
     cell: u32,
     destination: u32,
+    // Of a cell with too many items: how many.
+    count: u32,
 }
 
 struct Faults {
