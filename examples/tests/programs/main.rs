@@ -4,6 +4,7 @@
 
 mod begun;
 mod checkpoints;
+mod compared;
 mod files;
 mod interrupted;
 mod killed;
