@@ -107,7 +107,7 @@ fn an_automaton_in_parts_finds_what_it_must() -> TestResult {
 /// The first fault in the order of cells, in its own step, though many steps are submitted together and the space is cut.
 #[test]
 fn a_fault_names_its_step_and_cell() -> TestResult {
-    // Heat flows to the hottest cell of a cold space only by rounding: the limit is passed when heat of a source gets there.
+    // Heat comes one cell further in each step, and the first that does not bear it is cell 31.
     let model = Model::builder("source")
         .extents([40, 5, 5])
         .neighbourhood(Neighbourhood::von_neumann(1))

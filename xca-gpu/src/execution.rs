@@ -9,7 +9,7 @@ use crate::pace::Pace;
 use crate::plane::{Plane, size_on_device};
 use crate::population::Population;
 use crate::program::{Manner, Program, Texts};
-use crate::service::{ADVANCE, SEAL, SEAL_AIM, SEAL_FULL, Services};
+use crate::service::{ADVANCE, SEAL_AIM, SEAL_FULL, SEAL_REPORT, Services};
 use crate::space::{Part, Space};
 use crate::stop::Cause;
 use std::collections::{HashMap, HashSet};
@@ -366,7 +366,7 @@ fn seal(
             parts.extend([&population.starts, &population.ends].map(Binding::from));
             SEAL_FULL
         }
-        _ => SEAL,
+        _ => SEAL_REPORT,
     };
     services.run(device, recorder, service, (&[], &parts), 1)
 }

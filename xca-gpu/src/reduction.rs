@@ -34,7 +34,7 @@ pub(crate) struct Rows {
 
 /// What a row is reduced to on the device.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Result_ {
+enum RowResult {
     /// A 64-bit integer in two words.
     Long,
     /// A word without a sign.
@@ -77,8 +77,8 @@ pub(crate) fn reduce(
         device.upload(&wanted, 0, &bytes)?;
     }
     let size = match kind {
-        Result_::Long | Result_::Double => 8,
-        Result_::Unsigned | Result_::Signed | Result_::Single => 4,
+        RowResult::Long | RowResult::Double => 8,
+        RowResult::Unsigned | RowResult::Signed | RowResult::Single => 4,
     };
     let length = (rows.rows as usize * lanes * size) as u64;
     let results = device.buffer("results", length)?;
@@ -92,7 +92,7 @@ pub(crate) fn reduce(
     Ok(numbers.chunks_exact(lanes).map(<[Reduced]>::to_vec).collect())
 }
 
-impl Result_ {
+impl RowResult {
     fn number(self, bytes: &[u8]) -> Reduced {
         match self {
             Self::Long => Reduced::Integer(bytemuck::pod_read_unaligned(bytes)),
@@ -105,44 +105,44 @@ impl Result_ {
 }
 
 /// The shader, and what it makes of a row.
-fn text(reduction: &Reduction, stored: StoredType) -> (String, Result_) {
+fn text(reduction: &Reduction, stored: StoredType) -> (String, RowResult) {
     let float = matches!(stored.scalar, StoredScalar::F32 | StoredScalar::F64);
     let (scalar, same) = match stored.scalar {
-        StoredScalar::U8 | StoredScalar::U32 => ("u32", Result_::Unsigned),
-        StoredScalar::I32 => ("i32", Result_::Signed),
-        StoredScalar::F32 => ("f32", Result_::Single),
-        StoredScalar::F64 => ("f64", Result_::Double),
+        StoredScalar::U8 | StoredScalar::U32 => ("u32", RowResult::Unsigned),
+        StoredScalar::I32 => ("i32", RowResult::Signed),
+        StoredScalar::F32 => ("f32", RowResult::Single),
+        StoredScalar::F64 => ("f64", RowResult::Double),
     };
     // Each value becomes `one`, and `all` of the values so far becomes `all` with it.
     let long = "vec2<u32>(u32(value), select(0u, 0xffffffffu, value < 0))";
     let (one, combine, kind) = match reduction {
-        Reduction::Sum if float => ("f64(value)", "all + one", Result_::Double),
-        Reduction::Product if float => ("f64(value)", "all * one", Result_::Double),
-        Reduction::Sum => (long, "add(all, one)", Result_::Long),
-        Reduction::Product => (long, "multiply(all, one)", Result_::Long),
+        Reduction::Sum if float => ("f64(value)", "all + one", RowResult::Double),
+        Reduction::Product if float => ("f64(value)", "all * one", RowResult::Double),
+        Reduction::Sum => (long, "add(all, one)", RowResult::Long),
+        Reduction::Product => (long, "multiply(all, one)", RowResult::Long),
         // NaN gives way to every number, and is the only value that does not equal itself.
         Reduction::Minimum if float => ("value", "select(all, one, one < all || !(all == all))", same),
         Reduction::Maximum if float => ("value", "select(all, one, all < one || !(all == all))", same),
         Reduction::Minimum => ("value", "min(all, one)", same),
         Reduction::Maximum => ("value", "max(all, one)", same),
-        Reduction::CountEqual(_) => ("select(0u, 1u, value == wanted[0])", "all + one", Result_::Unsigned),
-        Reduction::LogicalAnd => (NON_ZERO, "all & one", Result_::Unsigned),
-        Reduction::LogicalOr => (NON_ZERO, "all | one", Result_::Unsigned),
-        Reduction::LogicalXor => (NON_ZERO, "all ^ one", Result_::Unsigned),
+        Reduction::CountEqual(_) => ("select(0u, 1u, value == wanted[0])", "all + one", RowResult::Unsigned),
+        Reduction::LogicalAnd => (NON_ZERO, "all & one", RowResult::Unsigned),
+        Reduction::LogicalOr => (NON_ZERO, "all | one", RowResult::Unsigned),
+        Reduction::LogicalXor => (NON_ZERO, "all ^ one", RowResult::Unsigned),
         Reduction::BitAnd => ("value", "all & one", same),
         Reduction::BitOr => ("value", "all | one", same),
         Reduction::BitXor => ("value", "all ^ one", same),
     };
-    let one = if kind == Result_::Long && scalar == "u32" { "vec2<u32>(value, 0u)" } else { one };
+    let one = if kind == RowResult::Long && scalar == "u32" { "vec2<u32>(value, 0u)" } else { one };
     let result = match kind {
-        Result_::Long => "vec2<u32>",
-        Result_::Unsigned => "u32",
-        Result_::Signed => "i32",
-        Result_::Single => "f32",
-        Result_::Double => "f64",
+        RowResult::Long => "vec2<u32>",
+        RowResult::Unsigned => "u32",
+        RowResult::Signed => "i32",
+        RowResult::Single => "f32",
+        RowResult::Double => "f64",
     };
     let lanes = stored.lanes;
-    let functions = if kind == Result_::Long { LONG } else { "" };
+    let functions = if kind == RowResult::Long { LONG } else { "" };
     let source = format!(
         "struct Rows {{
     rows: u32,

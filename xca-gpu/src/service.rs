@@ -19,10 +19,13 @@ pub(crate) struct Service {
 use Access::{Read, Uniform, Write};
 
 macro_rules! services {
-    ($($constant:ident = $file:literal, $workgroup:literal, [$($access:ident),+];)*) => {$(
+    ($($constant:ident = $file:literal $(after $base:literal)?, $workgroup:literal, [$($access:ident),+];)*) => {$(
         pub(crate) const $constant: Service = Service {
             name: $file,
-            source: include_str!(concat!("shaders/", $file, ".wgsl")),
+            source: concat!(
+                $(include_str!(concat!("shaders/", $base, ".wgsl")),)?
+                include_str!(concat!("shaders/", $file, ".wgsl")),
+            ),
             workgroup: $workgroup,
             buffers: &[$($access),+],
         };
@@ -42,12 +45,12 @@ services! {
     MIRROR = "mirror", 256, [Read, Write];
     OCCUPANCY = "occupancy", 64, [Uniform, Read, Read, Write];
     PLACE = "place", 256, [Write, Write, Read, Read, Write, Write];
-    SEAL = "seal", 1, [Uniform, Write, Write];
-    SEAL_AIM = "seal_aim", 1, [Uniform, Write, Write, Read, Read, Read];
-    SEAL_FULL = "seal_full", 1, [Uniform, Write, Write, Read, Read];
+    SEAL_REPORT = "seal_report" after "seal", 1, [Uniform, Write, Write];
+    SEAL_AIM = "seal_aim" after "seal", 1, [Uniform, Write, Write, Read, Read, Read];
+    SEAL_FULL = "seal_full" after "seal", 1, [Uniform, Write, Write, Read, Read];
     SORT = "sort", 256, [Uniform, Write, Write, Read, Write, Read, Write];
-    SPREAD_BLOCKS = "spread_blocks", 64, [Read, Read, Write];
-    SUM_BLOCKS = "sum_blocks", 64, [Read, Write];
+    SPREAD_BLOCKS = "spread_blocks" after "blocks", 64, [Read, Read, Write];
+    SUM_BLOCKS = "sum_blocks" after "blocks", 64, [Read, Write];
 }
 
 /// What [`SUM_BLOCKS`] and [`SPREAD_BLOCKS`] work on in one workgroup.

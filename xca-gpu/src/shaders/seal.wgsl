@@ -1,4 +1,5 @@
-// After a process that may report faults: if it did, nothing more is changed. One invocation.
+// After a process that may stop the run: if it did, nothing more is changed. One invocation. What else is taken down is told by the file that
+// follows; it has to be now, because where things lie later depends on the steps that were recorded already.
 
 struct Stamp {
     process: u32,
@@ -18,5 +19,7 @@ fn main() {
         journal.how = stamp.how;
         journal.stopped_in = journal.step;
         journal.stopped_at = first;
+        take_down(first);
     }
 }
+

@@ -1,10 +1,7 @@
-// The sum of all values before each, from the sums before each block of 1024. One workgroup for each block.
+// The sum of all values before each, from the sums before each block.
 
-@group(0) @binding(0) var<storage, read> values: array<u32>;
 @group(0) @binding(1) var<storage, read> before: array<u32>;
 @group(0) @binding(2) var<storage, read_write> results: array<u32>;
-
-var<workgroup> parts: array<u32, 64>;
 
 @compute @workgroup_size(64)
 fn main(
@@ -13,12 +10,8 @@ fn main(
     @builtin(local_invocation_index) local: u32,
 ) {
     let block = id.x + id.y * workgroups.x;
-    let first = block * 1024u + local * 16u;
-    let end = min(first + 16u, arrayLength(&values));
-    var sum = 0u;
-    for (var i = first; i < end; i += 1u) {
-        sum += values[i];
-    }
+    let range = range_of(block, local);
+    let sum = sum_of(range);
     parts[local] = sum;
     workgroupBarrier();
     for (var step = 1u; step < 64u; step *= 2u) {
@@ -34,7 +27,7 @@ fn main(
         return;
     }
     var running = before[block] + parts[local] - sum;
-    for (var i = first; i < end; i += 1u) {
+    for (var i = range.x; i < range.y; i += 1u) {
         results[i] = running;
         running += values[i];
     }

@@ -1,9 +1,6 @@
-// The sum of each block of 1024 values. One workgroup for each block.
+// The sum of each block.
 
-@group(0) @binding(0) var<storage, read> values: array<u32>;
 @group(0) @binding(1) var<storage, read_write> sums: array<u32>;
-
-var<workgroup> parts: array<u32, 64>;
 
 @compute @workgroup_size(64)
 fn main(
@@ -12,13 +9,7 @@ fn main(
     @builtin(local_invocation_index) local: u32,
 ) {
     let block = id.x + id.y * workgroups.x;
-    let first = block * 1024u + local * 16u;
-    let end = min(first + 16u, arrayLength(&values));
-    var sum = 0u;
-    for (var i = first; i < end; i += 1u) {
-        sum += values[i];
-    }
-    parts[local] = sum;
+    parts[local] = sum_of(range_of(block, local));
     workgroupBarrier();
     for (var step = 32u; step > 0u; step /= 2u) {
         if local < step {
