@@ -112,7 +112,7 @@ mod vocabulary;
 
 pub use engine::{Engine, EngineFailure, Fault, StartError};
 pub use geometry::{Boundary, Geometry};
-pub use model::{Model, ModelBuilder, ModelError};
+pub use model::{InitialError, Model, ModelBuilder, ModelError};
 pub use neighbourhood::{Hexagons, Neighbourhood, NeighbourhoodError, Parity};
 pub use parameters::{AnyParameters, FromLane, ParameterError, ParameterValue, Parameters};
 pub use process::{ElementaryProcess, Process, ProcessKind};

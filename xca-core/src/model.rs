@@ -2,9 +2,11 @@
 
 mod builder;
 mod error;
+mod initial;
 
 pub use builder::ModelBuilder;
 pub use error::ModelError;
+pub use initial::InitialError;
 
 use crate::engine::SubstateId;
 use crate::geometry::Geometry;

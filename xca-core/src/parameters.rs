@@ -136,15 +136,7 @@ impl ParameterValue {
             .split(',')
             .map(|part| {
                 let number: f64 = part.trim().parse().map_err(|_| invalid())?;
-                let fits = match value_type.scalar {
-                    ScalarType::U8 => number.fract() == 0.0 && (0.0..=255.0).contains(&number),
-                    ScalarType::I32 => {
-                        number.fract() == 0.0 && (f64::from(i32::MIN)..=f64::from(i32::MAX)).contains(&number)
-                    }
-                    ScalarType::U32 => number.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&number),
-                    ScalarType::F32 | ScalarType::F64 | ScalarType::Real => number.is_finite(),
-                };
-                if fits { Ok(number) } else { Err(invalid()) }
+                if value_type.scalar.fits(number) { Ok(number) } else { Err(invalid()) }
             })
             .collect::<Result<Vec<_>, _>>()?;
         if lanes.len() == usize::from(value_type.lanes) {

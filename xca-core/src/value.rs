@@ -66,7 +66,30 @@ pub struct StoredType {
     pub lanes: u8,
 }
 
+impl ScalarType {
+    /// Whether a number is a value of this type; of floating ones, whether it is finite.
+    pub fn fits(self, number: f64) -> bool {
+        let within = |least: f64, largest: f64| number.fract() == 0.0 && (least..=largest).contains(&number);
+        match self {
+            Self::U8 => within(0.0, u8::MAX.into()),
+            Self::I32 => within(i32::MIN.into(), i32::MAX.into()),
+            Self::U32 => within(0.0, u32::MAX.into()),
+            Self::F32 | Self::F64 | Self::Real => number.is_finite(),
+        }
+    }
+}
+
 impl StoredScalar {
+    /// Writes a number that fits the type.
+    pub(crate) fn encode(self, number: f64, out: &mut [u8]) {
+        match self {
+            Self::U8 => out.copy_from_slice(&(number as u8).to_ne_bytes()),
+            Self::I32 => out.copy_from_slice(&(number as i32).to_ne_bytes()),
+            Self::U32 => out.copy_from_slice(&(number as u32).to_ne_bytes()),
+            Self::F32 | Self::F64 => number.encode(self, out),
+        }
+    }
+
     /// The size in bytes.
     pub const fn size(self) -> usize {
         match self {
