@@ -7,11 +7,13 @@
 //! |---|---|---|
 //! | [`particle_csv`] | `final.csv` | particles, exact to the last bit; can be read back as an initial state |
 //! | [`table_csv`] | `observables.csv` | time series |
+//! | [`ascii_grid`] | `.asc` | a layer of cells for geographic information systems, also to begin from |
 //! | [`vtk`] | `.vtp`, `.vti`, `.pvd` | particles and dense substates in ParaView |
 //! | [`picture`] | `.png` | pictures, made without a display |
 //! | [`animation`] | `.png` | the same in motion |
 
 pub mod animation;
+pub mod ascii_grid;
 pub mod atomic;
 pub mod particle_csv;
 pub mod picture;

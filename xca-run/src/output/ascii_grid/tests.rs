@@ -1,0 +1,137 @@
+use super::*;
+use std::fs;
+
+fn read_text(text: &[u8]) -> Result<AsciiGrid, ReadGridError> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("dem.asc");
+    fs::write(&path, text).unwrap();
+    AsciiGrid::read(&path)
+}
+
+/// The message without the folder, which differs from run to run.
+fn message(text: &str) -> String {
+    let message = read_text(text.as_bytes()).unwrap_err().to_string();
+    message[message.find("dem.asc").unwrap()..].to_owned()
+}
+
+const HEADER: &str = "ncols 3\nnrows 2\nxllcorner 100\nyllcorner 200.5\ncellsize 10\n";
+
+#[test]
+fn rows_count_from_the_south_and_stand_from_the_north() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("dem.asc");
+    let values = vec![0.5, 1.0, 2.0, f64::NAN, -4.25, 5e-7];
+    let grid = AsciiGrid::new([3, 2], 10.0, values).unwrap().with_corner([100.0, 200.5]);
+    assert_eq!((grid.value([1, 1]), grid.value([2, 0])), (Some(-4.25), Some(2.0)));
+    assert_eq!((grid.value([0, 1]), grid.value([3, 0]), grid.value([0, 2])), (None, None, None));
+    grid.write(&path).unwrap();
+    let wanted = format!("{HEADER}NODATA_value -9999\n-9999 -4.25 5e-7\n0.5 1 2\n");
+    assert_eq!(fs::read_to_string(&path).unwrap(), wanted);
+    let back = AsciiGrid::read(&path).unwrap();
+    assert_eq!((back.extents(), back.corner(), back.side()), ([3, 2], [100.0, 200.5], 10.0));
+    assert_eq!(back.value([0, 1]), None);
+    assert_eq!(back.values()[4..], [-4.25, 5e-7]);
+}
+
+#[test]
+fn every_number_comes_back_with_its_bits() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("dem.asc");
+    let mut values = vec![
+        0.1 + 0.2,
+        -0.0,
+        5e-324,
+        f64::MAX,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+        -9999.0,
+        -99999.0,
+        1e16,
+        1e-5,
+    ];
+    // Bits from a simple generator: all exponents, all mantissas.
+    let mut bits = 1_u64;
+    while values.len() < 2000 {
+        bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        values.extend(Some(f64::from_bits(bits)).filter(|value| !value.is_nan()));
+    }
+    let grid = AsciiGrid::new([50, 40], 1.0 / 3.0, values.clone()).unwrap().with_corner([-0.1, 1e20]);
+    grid.write(&path).unwrap();
+    let back = AsciiGrid::read(&path).unwrap();
+    assert_eq!((back.side(), back.corner()), (1.0 / 3.0, [-0.1, 1e20]));
+    for (written, read) in values.iter().zip(back.values()) {
+        assert_eq!(written.to_bits(), read.to_bits(), "{written:e}");
+    }
+}
+
+#[test]
+fn what_other_programs_write_can_be_read() {
+    let wanted = [4.0, 5.0, 6.0, 1.0, 2.0, 3.0];
+    let same = |text: &str| {
+        let grid = read_text(text.as_bytes()).unwrap();
+        assert_eq!(grid.values(), wanted, "{text}");
+        assert_eq!((grid.extents(), grid.corner(), grid.side()), ([3, 2], [100.0, 200.5], 10.0), "{text}");
+    };
+    same(&format!("{HEADER}1 2 3\n4 5 6\n"));
+    same(&format!("{HEADER}1.0\t2.  3e0\r\n\r\n 4 5 +6"));
+    same(&format!("{HEADER}1\n2\n3 4\n5 6\n\n"));
+    same(&format!("\u{feff}{HEADER}nodata_VALUE -1\n1 2 3 4 5 6\n"));
+    same("CELLSIZE 10\nNROWS 2\nNCOLS 3\nYLLCENTER 205.5\nXLLCENTER 105\n1 2 3\n4 5 6\n");
+    let none = |text: &str| {
+        let grid = read_text(text.as_bytes()).unwrap();
+        let values: Vec<Option<f64>> = (0..3).map(|x| grid.value([x, 1])).collect();
+        assert_eq!(values, [Some(1.0), None, Some(3.0)]);
+    };
+    none(&format!("{HEADER}NODATA_value -9999.0\n1 -9999 3\n4 5 6\n"));
+    none(&format!("{HEADER}NODATA_value nan\n1 NaN 3\n4 5 6\n"));
+}
+
+#[test]
+fn what_makes_no_sense_is_named_by_its_line() {
+    let missing = "; it needs ncols, nrows, xllcorner, yllcorner and cellsize";
+    assert_eq!(message(""), format!("dem.asc: the header of the grid has no `ncols`{missing}"));
+    assert_eq!(
+        message("ncols 3\nnrows 2\nxllcorner 0\ncellsize 1\n1 2 3 4 5 6\n"),
+        format!("dem.asc: the header of the grid has no `yllcorner`{missing}")
+    );
+    let of = "values, but 3 columns and 2 rows have 6 cells";
+    assert_eq!(message(&format!("{HEADER}1 2 3\n4 5\n")), format!("dem.asc: 5 {of}"));
+    assert_eq!(message(&format!("{HEADER}1 2 3\n4 5 6\n\n7\n")), format!("dem.asc:9: more {of}"));
+    assert_eq!(message(&format!("{HEADER}1 2 3\n4 x 6\n")), "dem.asc:7: `x` is not a number");
+    assert_eq!(message(&format!("{HEADER}1 2,5 3\n4 5 6\n")), "dem.asc:6: `2,5` is not a number");
+    assert_eq!(message("ncols 3\nNROWS -2\n"), "dem.asc:2: `NROWS` must be a whole number, at least 1");
+    assert_eq!(message("ncols\n"), "dem.asc:1: `ncols` has no value");
+    assert_eq!(message("ncols 3\n\nncols 3\n"), "dem.asc:3: `ncols` stands twice in the header");
+    assert_eq!(message("xllcorner 3\nxllcenter 3\n"), "dem.asc:2: `xllcenter` stands twice in the header");
+    assert_eq!(message("cellsize 0\n"), "dem.asc:1: `cellsize` must be more than 0");
+    assert_eq!(message("yllcorner inf\n"), "dem.asc:1: `yllcorner` must be a finite number");
+    assert_eq!(message("dx 10\n"), "dem.asc:1: `dx` is for cells that are not square; give one cellsize");
+    assert!(
+        message("ncolumns 10\n").starts_with("dem.asc:1: `ncolumns` is no key of a grid; there are ncols")
+    );
+    let huge = u64::MAX;
+    let of = format!("ncols {huge}\nnrows {huge}\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3\n");
+    assert!(message(&of).starts_with("dem.asc: 3 values, but"));
+}
+
+#[test]
+fn bytes_that_are_no_text_and_a_missing_file_are_errors() {
+    let error = read_text(b"ncols 3\nnrows \xFF\n").unwrap_err();
+    assert!(error.to_string().ends_with("dem.asc:2: cannot read the grid on"), "{error}");
+    assert!(std::error::Error::source(&error).is_some());
+    let error = AsciiGrid::read(Path::new("/nowhere/dem.asc")).unwrap_err();
+    assert!(error.to_string().contains("/nowhere/dem.asc"), "{error}");
+}
+
+#[test]
+fn a_grid_has_a_value_for_each_cell_and_square_cells() {
+    for (extents, side, count) in [
+        ([0, 2], 1.0, 0),
+        ([2, 2], 1.0, 3),
+        ([2, 2], 0.0, 4),
+        ([2, 2], f64::NAN, 4),
+        ([usize::MAX, 2], 1.0, 4),
+    ] {
+        assert_eq!(AsciiGrid::new(extents, side, vec![0.0; count]), None, "{extents:?} {side} {count}");
+    }
+}
