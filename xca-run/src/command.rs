@@ -3,6 +3,7 @@
 mod arguments;
 mod compare;
 mod config;
+mod initial;
 mod inspect;
 mod interval;
 mod list;

@@ -89,6 +89,7 @@ pub use view::{CellView, ItemView, ViewError};
 
 /// What a model's program needs: the words of [`xca_core::prelude`] and those of the frame.
 pub mod prelude {
+    pub use crate::output::ascii_grid::AsciiGrid;
     pub use crate::output::picture::ColourMap;
     pub use crate::{CellView, Failure, Given, ItemView, Observable, Program, SetUp};
     pub use clap::{self, Args};

@@ -3,6 +3,7 @@
 mod cells;
 mod drawing;
 mod folder;
+mod grids;
 mod items;
 mod measure;
 mod recorded;
@@ -99,6 +100,7 @@ impl Recorder {
             files.push(self.numbered_file("initial", number, "png"));
             files.push(self.numbered_file("final", number, "png"));
         }
+        files.extend(self.grid_files());
         files
     }
 
@@ -163,6 +165,7 @@ impl Recorder {
                 items.write_table(&folder.top.file(&self.numbered_file("final", number, "csv")))?;
             }
         }
+        self.write_grids(&snapshot, simulation.options().precision, |file| folder.top.file(file))?;
         self.draw(simulation, &snapshot, "final")
     }
 

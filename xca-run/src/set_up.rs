@@ -21,6 +21,10 @@ pub struct SetUp {
     pub(crate) observe: Option<Box<Observe>>,
     pub(crate) views: Vec<AnyView>,
     pub(crate) inputs: Vec<PathBuf>,
+    /// Where the south-west corner of the space lies on the map.
+    pub(crate) corner: Option<[f64; 2]>,
+    /// Whether the final state is written as ASCII grids.
+    pub(crate) grids: bool,
     pub(crate) notes: serde_json::Map<String, serde_json::Value>,
 }
 
@@ -35,6 +39,8 @@ impl SetUp {
             observe: None,
             views: Vec::new(),
             inputs: Vec::new(),
+            corner: None,
+            grids: false,
             notes: serde_json::Map::new(),
         }
     }
@@ -75,6 +81,17 @@ impl SetUp {
     #[must_use]
     pub fn cells<S: Substates>(mut self, view: CellView<S>) -> Self {
         self.views.push(AnyView::Cells(view.into_any()));
+        self
+    }
+
+    /// Where the south-west corner of the space lies on the map, in metres.
+    ///
+    /// A model of one layer whose corner is known leaves its final state as ESRI ASCII grids too, one for each substate of cells
+    /// (`final_altitude.asc`); any other model of one layer does so with `run --grids`, and its corner is at 0, 0.
+    #[must_use]
+    pub fn corner(mut self, metres: [f64; 2]) -> Self {
+        self.corner = Some(metres);
+        self.grids = true;
         self
     }
 

@@ -9,6 +9,7 @@ mod files;
 mod interrupted;
 mod killed;
 mod looked_at;
+mod maps;
 mod misuse;
 mod physics;
 mod rendered;

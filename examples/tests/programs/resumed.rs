@@ -1,6 +1,8 @@
 //! A run that goes on from a checkpoint ends with the files of a run that was never interrupted, byte by byte.
 
-use crate::running::{CADEM, HEAT, LIFE, MOD2, Workplace, assert_same_results, check_files, report};
+use crate::running::{
+    CADEM, HEAT, LANDSLIDE, LIFE, MOD2, Workplace, assert_same_results, check_files, report,
+};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -96,6 +98,11 @@ fn compare_reports(whole: &Value, resumed: &Value) {
 #[test]
 fn life() {
     compare(LIFE, "--steps 40 --every 8", 15);
+}
+
+#[test]
+fn landslide() {
+    compare(LANDSLIDE, "--steps 40 --every 8", 15);
 }
 
 #[test]

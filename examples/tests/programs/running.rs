@@ -8,6 +8,7 @@ use tempfile::TempDir;
 
 pub(crate) const CADEM: &str = env!("CARGO_BIN_EXE_cadem");
 pub(crate) const HEAT: &str = env!("CARGO_BIN_EXE_heat");
+pub(crate) const LANDSLIDE: &str = env!("CARGO_BIN_EXE_landslide");
 pub(crate) const LIFE: &str = env!("CARGO_BIN_EXE_life");
 pub(crate) const MOD2: &str = env!("CARGO_BIN_EXE_mod2");
 

@@ -1,6 +1,6 @@
 //! Engines and numbers of threads make no difference to a single byte.
 
-use crate::running::{CADEM, HEAT, LIFE, MOD2, Workplace, assert_same_results};
+use crate::running::{CADEM, HEAT, LANDSLIDE, LIFE, MOD2, Workplace, assert_same_results};
 
 fn compare(program: &str, options: &str) {
     let place = Workplace::new();
@@ -50,6 +50,8 @@ fn processes_are_printed_as_shaders() {
 #[test]
 fn dense_models() {
     compare(LIFE, "--steps 25");
+    compare(LANDSLIDE, "--steps 60");
+    compare(LANDSLIDE, "--steps 60 --precision f32");
     compare(MOD2, "--size 24 --steps 9");
     compare(HEAT, "--size 20 --steps 40 --precision f32");
 }

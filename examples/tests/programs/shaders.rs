@@ -23,6 +23,7 @@ macro_rules! program {
 program!(life, 9, evolve);
 program!(mod2, 27, add_up);
 program!(heat, 7, diffuse);
+program!(landslide, 5, flow, settle);
 
 fn accepted<P: ElementaryProcess>(neighbours: u32) -> Result<(), Box<dyn Error>> {
     for precision in [Precision::F32, Precision::F64] {
@@ -45,6 +46,10 @@ fn all_processes_are_valid_shaders() -> Result<(), Box<dyn Error>> {
         let text = fs::read_to_string(entry?.path())?;
         there += text.lines().filter(|line| ["#[elementary_process]", "#[migration]"].contains(line)).count();
     }
-    assert_eq!(life::count()? + mod2::count()? + heat::count()?, there, "a program is missing here");
+    assert_eq!(
+        life::count()? + mod2::count()? + heat::count()? + landslide::count()?,
+        there,
+        "a program is missing here"
+    );
     Ok(())
 }

@@ -23,6 +23,10 @@ pub(crate) struct ModelArguments {
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<Assignment>,
 
+    /// Have a substate of a one-layer model begin with the values of an ESRI ASCII grid; can be given several times
+    #[arg(long, value_name = "NAME=FILE")]
+    pub(crate) initial: Vec<Assignment>,
+
     /// Take options from a TOML file. Its keys are these options; those on the command line win
     #[arg(long, value_name = "FILE")]
     pub(crate) config: Option<PathBuf>,
@@ -75,6 +79,10 @@ pub(crate) struct RunArguments {
     /// kept. None unless it is given
     #[arg(long, value_name = "N|TIME")]
     pub(crate) checkpoint_every: Option<Interval>,
+
+    /// Write the final state of a one-layer model as ESRI ASCII grids too, one for each substate of cells
+    #[arg(long)]
+    pub(crate) grids: bool,
 
     /// Print the processes as the gpu engine compiles them, and do nothing else
     #[arg(long)]

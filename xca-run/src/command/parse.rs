@@ -6,7 +6,9 @@ use super::inspect::InspectArguments;
 use super::list::ListArguments;
 use super::new::NewArguments;
 use super::render::RenderArguments;
-use super::{Definition, EXIT_CODES, Unable, compare, config, inspect, list, new, render, resume, run};
+use super::{
+    Definition, EXIT_CODES, Unable, compare, config, initial, inspect, list, new, render, resume, run,
+};
 use crate::program::Given;
 use crate::set_up::SetUp;
 use clap::error::ErrorKind;
@@ -62,6 +64,7 @@ impl<'a> Choice<'a> {
         for parameter in &given.parameters {
             set_up.model.set_parameter(&parameter.name, &parameter.value).map_err(Unable::refused)?;
         }
+        initial::apply(&mut set_up, &self.arguments.initial).map_err(Unable::refused)?;
         Ok(set_up)
     }
 }

@@ -2,6 +2,7 @@
 
 use super::Unable;
 use super::arguments::EngineArguments;
+use super::initial::one_layer;
 use super::parse::RunInvocation;
 use crate::checkpoint::Origin;
 use crate::machine::check_memory;
@@ -48,7 +49,11 @@ impl Prepared {
 
 /// The model, where the machine has room for it.
 fn set_up(invocation: &RunInvocation<'_>, engine: &dyn Engine, given: &Given) -> Result<SetUp, Unable> {
-    let set_up = invocation.model.set_up(given)?;
+    let mut set_up = invocation.model.set_up(given)?;
+    if invocation.run.grids {
+        one_layer(&set_up, "--grids").map_err(Unable::refused)?;
+        set_up.grids = true;
+    }
     let memory = engine.least_memory(&set_up.model, given.precision);
     check_memory(memory, &format!("this model on the {} engine", engine.name())).map_err(Unable::refused)?;
     Ok(set_up)

@@ -92,6 +92,7 @@ impl RenderArguments {
             out: self.out.clone(),
             every: self.every,
             checkpoint_every: None,
+            grids: false,
             print_wgsl: false,
             quiet: self.quiet,
         }
