@@ -4,7 +4,7 @@
 //! neighbours so that the heights of all that take part differ as little as possible (the minimisation of differences of Di Gregorio and Serra,
 //! Future Generation Computer Systems 16, 1999): a cell that stands above the common level takes no part. Of what would flow then, a step
 //! moves a part (the rate). Debris is neither lost nor made.
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use xca_run::prelude::*;
 
 #[derive(Substates, Clone)]
@@ -126,7 +126,7 @@ impl Map {
         })
     }
 
-    fn read(dem: &PathBuf, debris: &PathBuf) -> Result<Self, Failure> {
+    fn read(dem: &Path, debris: &Path) -> Result<Self, Failure> {
         let [ground, thickness] = [AsciiGrid::read(dem)?, AsciiGrid::read(debris)?];
         let same = (ground.extents(), ground.side()) == (thickness.extents(), thickness.side());
         if !same {
@@ -135,7 +135,7 @@ impl Map {
         if thickness.values().iter().any(|thickness| *thickness < 0.0) {
             return Err(format!("{} has debris of less than 0 m", debris.display()).into());
         }
-        Ok(Self { ground, debris: thickness, files: vec![dem.clone(), debris.clone()] })
+        Ok(Self { ground, debris: thickness, files: vec![dem.to_owned(), debris.to_owned()] })
     }
 
     fn state(&self, [x, y, _]: [usize; 3]) -> Slope {

@@ -93,12 +93,9 @@ impl AsciiGrid {
             for row in values.chunks_exact(*columns).rev() {
                 for (column, value) in row.iter().enumerate() {
                     let gap = if column > 0 { " " } else { "" };
-                    match if value.is_nan() { nothing } else { *value } {
-                        plain if plain == 0.0 || (1e-5..1e16).contains(&plain.abs()) => {
-                            write!(file, "{gap}{plain}")?
-                        }
-                        long => write!(file, "{gap}{long:e}")?,
-                    }
+                    let shown = if value.is_nan() { nothing } else { *value };
+                    let is_short = shown == 0.0 || (1e-5..1e16).contains(&shown.abs());
+                    if is_short { write!(file, "{gap}{shown}") } else { write!(file, "{gap}{shown:e}") }?;
                 }
                 writeln!(file)?;
             }
