@@ -133,17 +133,25 @@ pub struct Diagnostic {
     pub initial: Option<f64>,
     /// Its value after the last step; `None` if it was not measured.
     pub last: Option<f64>,
+    /// How far it has come from where it should have stayed; `None` if the model does not keep it.
+    pub drift: Option<f64>,
 }
 
-/// The table of diagnostics, ready to be printed: quantity, unit, initial and final value to six significant digits.
+/// The table of diagnostics, ready to be printed: quantity, unit, initial and final value to six significant digits, and the drift of what is
+/// conserved.
 /// Lines do not end in blanks; there is no line end after the last.
 #[must_use]
 pub fn summary(diagnostics: &[Diagnostic]) -> String {
     let text = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| significant(value, 6));
-    let rows = diagnostics.iter().map(|Diagnostic { name, unit, initial, last }| {
-        [name.clone(), unit.clone(), text(*initial), text(*last)]
+    let has_drift = diagnostics.iter().any(|diagnostic| diagnostic.drift.is_some());
+    let columns = if has_drift { 5 } else { 4 };
+    let header = ["quantity", "unit", "initial", "final", "drift"].into_iter().take(columns);
+    let rows = diagnostics.iter().map(|Diagnostic { name, unit, initial, last, drift }| {
+        let drift = drift.map_or_else(String::new, |drift| significant(drift, 2));
+        let row = [name.clone(), unit.clone(), text(*initial), text(*last), drift];
+        row.into_iter().take(columns).collect::<Vec<_>>()
     });
-    table(["quantity", "unit", "initial", "final"], rows, &[2, 3])
+    table(header.collect::<Vec<_>>(), rows, &[2, 3, 4])
 }
 
 #[cfg(test)]
@@ -245,6 +253,7 @@ mod tests {
             unit: unit.to_owned(),
             initial,
             last,
+            drift: None,
         };
         let table = summary(&[
             line("particles", "", Some(2602.0), Some(2602.0)),
@@ -257,5 +266,12 @@ mod tests {
  kinetic energy    J            0    0.0112405
  largest overlap   m            -   1.23457e-7";
         assert_eq!(table, expected);
+        let mut kept = line("volume", "m^3", Some(10.0), Some(10.0));
+        kept.drift = Some(-1.26e-15);
+        let expected = " quantity   unit   initial   final      drift
+──────────────────────────────────────────────
+ volume     m^3         10      10   -1.3e-15
+ contacts                0      12";
+        assert_eq!(summary(&[kept, line("contacts", "", Some(0.0), Some(12.0))]), expected);
     }
 }

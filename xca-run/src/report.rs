@@ -176,6 +176,9 @@ pub(crate) struct ObservableReport {
     initial: f64,
     #[serde(rename = "final")]
     last: f64,
+    /// Of a quantity that the model keeps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drift: Option<f64>,
 }
 
 /// The shape of a model.
@@ -229,6 +232,7 @@ pub(crate) fn of_observables(first: &[Observable], last: &[Observable]) -> Vec<O
         unit: first.unit.clone(),
         initial: first.value,
         last: last.value,
+        drift: first.drift(last.value),
     });
     pairs.collect()
 }

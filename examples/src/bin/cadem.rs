@@ -79,7 +79,7 @@ impl Program for Cadem {
             }
         };
         let model = cadem::model(&configuration, particles)?;
-        let walls = configuration.walls;
+        let (walls, is_closed) = (configuration.walls, configuration.openings.is_empty());
         let view = ItemView::named("particles")
             .only(Dem::ID, PARTICLE)
             .columns(Dem::POSITION, ["x", "y", "z"])
@@ -91,7 +91,7 @@ impl Program for Cadem {
         let mut set_up = SetUp::new(model, configuration.steps)
             .title(format!("CADEM, {start}"))
             .time_step(configuration.material().time_step)
-            .observables(move |state| Ok(observables(&Diagnostics::of(state, walls)?)))
+            .observables(move |state| Ok(observables(&Diagnostics::of(state, walls)?, is_closed)))
             .items(view)
             .note("configuration", &configuration)?;
         if let Some(path) = &self.particles {
@@ -105,7 +105,7 @@ fn whole_cells(text: &str) -> Result<usize, &'static str> {
     text.parse().map_err(|_| "it must be a whole number of cells, such as 50 for 0.1 m")
 }
 
-fn observables(diagnostics: &Diagnostics) -> Vec<Observable> {
+fn observables(diagnostics: &Diagnostics, is_closed: bool) -> Vec<Observable> {
     let unit = |name: &str| match name {
         _ if name.ends_with("energy") => "J",
         _ if name.starts_with("momentum") => "kg m/s",
@@ -114,7 +114,11 @@ fn observables(diagnostics: &Diagnostics) -> Vec<Observable> {
         _ => "",
     };
     let pairs = Diagnostics::NAMES.into_iter().zip(diagnostics.values());
-    pairs.map(|(name, value)| Observable::new(name, unit(name), value)).collect()
+    let observables = pairs.map(|(name, value)| {
+        let observable = Observable::new(name, unit(name), value);
+        if name == "particles" && is_closed { observable.conserved() } else { observable }
+    });
+    observables.collect()
 }
 
 /// A parser for the names of `all`.

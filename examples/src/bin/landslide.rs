@@ -187,7 +187,7 @@ impl Program for Landslide {
             let front = (0..thickness.len()).find(covered).map_or(0, |cell| cell / columns);
             let area = (0..thickness.len()).filter(covered).count() as f64 * side * side;
             Ok(vec![
-                Observable::new("volume", "m^3", state.sum(Slope::THICKNESS)? * side * side),
+                Observable::new("volume", "m^3", state.sum(Slope::THICKNESS)? * side * side).conserved(),
                 Observable::new("covered_area", "m^2", area),
                 Observable::new("front_from_south", "m", front as f64 * side),
                 Observable::new("largest_thickness", "m", state.maximum(Slope::THICKNESS)?.unwrap_or(0.0)),

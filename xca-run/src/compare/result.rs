@@ -93,6 +93,9 @@ pub(crate) struct ObservableResult {
     /// Nothing where an engine did not come to the end.
     #[serde(rename = "final")]
     pub(crate) last: Vec<Option<f64>>,
+    /// Of a quantity that the model keeps: how far each engine has come from its first value.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) drift: Vec<Option<f64>>,
 }
 
 impl EngineResult {
@@ -207,6 +210,8 @@ fn updated(model: &Model, snapshot: &Snapshot) -> (&'static str, usize) {
 fn observables(lanes: &[Lane<'_>]) -> Vec<ObservableResult> {
     let Some(first) = lanes.first() else { return Vec::new() };
     let of_end = |lane: &Lane<'_>, index: usize| lane.findings.observables[1].get(index).map(|end| end.value);
+    let drift =
+        |lane: &Lane<'_>, index: usize| lane.findings.observables[0].get(index)?.drift(of_end(lane, index)?);
     let initial = first.findings.observables[0].iter().enumerate();
     initial
         .map(|(index, observable)| ObservableResult {
@@ -214,6 +219,11 @@ fn observables(lanes: &[Lane<'_>]) -> Vec<ObservableResult> {
             unit: observable.unit.clone(),
             initial: observable.value,
             last: lanes.iter().map(|lane| of_end(lane, index)).collect(),
+            drift: if observable.is_conserved {
+                lanes.iter().map(|lane| drift(lane, index)).collect()
+            } else {
+                Vec::new()
+            },
         })
         .collect()
 }

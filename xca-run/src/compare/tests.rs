@@ -1,6 +1,7 @@
 //! Differences that are planted into an engine are found where and when they were planted.
 
 use super::*;
+use crate::program::Observable;
 use crate::set_up::SetUp;
 use difference::{Kind, Place};
 use std::ops::Range;
@@ -337,4 +338,36 @@ fn a_comparison_can_be_interrupted() {
     };
     compare(&recorder, &contenders, &all, subject(), &mut watch).unwrap();
     assert_eq!(done, all.work(1));
+}
+
+#[test]
+fn the_drift_of_what_the_model_keeps_is_told() {
+    let heat = |state: &State<'_>| state.sum(Heat::TEMPERATURE);
+    let set_up = SetUp::new(model(), 1).observables(move |state| {
+        let lost = Observable::number("lost", state.count_left::<Grain>()? as f64 + state.step() as f64);
+        Ok(vec![
+            Observable::number("heat", heat(state)?).conserved(),
+            lost.conserved(),
+            Observable::number("age", state.sum(Grain::AGE)? as f64),
+        ])
+    });
+    let recorder = Recorder::new(set_up).unwrap();
+    let contenders = [
+        contender("reference", Reference, Precision::F64),
+        contender("single", Reference, Precision::F32),
+        contender("harmed", Harmed { harm: Harm::Failure, after: 4 }, Precision::F64),
+    ];
+    let comparison = compare(&recorder, &contenders, &plan(20, 5), subject(), &mut |_| true).unwrap();
+    let [of_heat, of_lost, of_age] = &comparison.observables[..] else { panic!("three observables") };
+    // (x^2 + y) / 3 over 7 x 5 x 3 cells.
+    assert!((of_heat.initial - 525.0).abs() < 1e-9, "{}", of_heat.initial);
+    let drift = |engine: usize| of_heat.drift[engine].unwrap();
+    assert_eq!(drift(0), (of_heat.last[0].unwrap() - of_heat.initial) / of_heat.initial);
+    assert!(drift(0).abs() < 1e-14 && drift(1).abs() < 1e-5 && drift(1) != 0.0, "{} {}", drift(0), drift(1));
+    // From 0 it is counted as it is; an engine that fails has none.
+    assert_eq!(of_lost.drift, [Some(20.0), Some(20.0), None]);
+    assert!(of_age.drift.is_empty());
+    let text = report::text(&comparison);
+    let row = text.lines().find(|line| line.contains("lost: drift")).unwrap();
+    assert_eq!(row.split_whitespace().collect::<Vec<_>>(), ["lost:", "drift", "20", "20", "–"]);
 }

@@ -31,17 +31,18 @@ struct Quantity {
     name: String,
     unit: String,
     value: Exact,
+    is_conserved: bool,
 }
 
 impl From<&Observable> for Quantity {
-    fn from(Observable { name, unit, value }: &Observable) -> Self {
-        Self { name: name.clone(), unit: unit.clone(), value: Exact(*value) }
+    fn from(Observable { name, unit, value, is_conserved }: &Observable) -> Self {
+        Self { name: name.clone(), unit: unit.clone(), value: Exact(*value), is_conserved: *is_conserved }
     }
 }
 
 impl From<&Quantity> for Observable {
-    fn from(Quantity { name, unit, value }: &Quantity) -> Self {
-        Self { name: name.clone(), unit: unit.clone(), value: value.0 }
+    fn from(Quantity { name, unit, value, is_conserved }: &Quantity) -> Self {
+        Self { name: name.clone(), unit: unit.clone(), value: value.0, is_conserved: *is_conserved }
     }
 }
 

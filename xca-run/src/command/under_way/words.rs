@@ -54,6 +54,7 @@ impl UnderWay {
                 unit: first.unit.clone(),
                 initial: Some(first.value),
                 last: Some(last.value),
+                drift: first.drift(last.value),
             })
             .collect();
         let progress = &self.report.progress;

@@ -104,7 +104,7 @@ fn divergence(comparison: &Comparison) -> Rows {
 }
 
 fn observables(comparison: &Comparison) -> Rows {
-    let mut rows = vec![header("engine,observable,unit,start,end")];
+    let mut rows = vec![header("engine,observable,unit,start,end,drift")];
     for (index, engine) in comparison.engines.iter().enumerate() {
         rows.extend(comparison.observables.iter().map(|observable| {
             let (name, unit) = (observable.name.clone(), observable.unit.clone());
@@ -114,6 +114,7 @@ fn observables(comparison: &Comparison) -> Rows {
                 unit,
                 observable.initial.to_string(),
                 text(observable.last[index]),
+                text(observable.drift.get(index).copied().flatten()),
             ]
         }));
     }

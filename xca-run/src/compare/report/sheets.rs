@@ -162,13 +162,20 @@ fn differences(comparison: &Comparison) -> Sheet {
 
 fn observables(comparison: &Comparison) -> Sheet {
     let names = comparison.engines.iter().map(|engine| format!("end on {}", engine.name));
-    let rows = comparison.observables.iter().map(|observable| {
+    let rows = comparison.observables.iter().flat_map(|observable| {
         let name = match observable.unit.as_str() {
             "" => observable.name.clone(),
             unit => format!("{} [{unit}]", observable.name),
         };
-        let last = observable.last.iter().map(|last| or_dash(last.map(|last| significant(last, 10))));
-        [name, significant(observable.initial, 10)].into_iter().chain(last).collect()
+        let numbers = |of: &[Option<f64>], digits: usize| -> Vec<String> {
+            of.iter().map(|number| or_dash(number.map(|number| significant(number, digits)))).collect()
+        };
+        let values =
+            [vec![name, significant(observable.initial, 10)], numbers(&observable.last, 10)].concat();
+        let drift =
+            [vec![format!("{}: drift", observable.name), String::new()], numbers(&observable.drift, 2)];
+        let drift = (!observable.drift.is_empty()).then(|| drift.concat());
+        [values].into_iter().chain(drift)
     });
     Sheet {
         title: "Quantities of the whole, at the start and at the end",
