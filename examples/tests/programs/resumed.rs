@@ -195,3 +195,25 @@ fn a_new_run_does_not_keep_the_checkpoints_of_the_old_one() {
     assert!(checkpoints(&place.path("out/mod2")).is_empty());
     check_files(&place.path("out/mod2"));
 }
+
+/// Relaxed arithmetic has bits of its own: a run that has begun with it goes on with it, or says that it does not.
+#[test]
+fn a_run_does_not_change_its_rounding_unawares() {
+    let place = Workplace::new();
+    let run =
+        "--engine gpu --arithmetic relaxed --size 12 --until 0 --steps 30 --checkpoint-every 10 --out here";
+    place.succeed(HEAT, run);
+    let said = |words: &str| {
+        let output = place.invocation(HEAT, &format!("resume here {words}")).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    let older = "--checkpoint here/checkpoints/step_00000010.checkpoint";
+    for engine in ["--engine cpu", "--engine gpu --arithmetic strict"] {
+        let (code, said) = said(&format!("{older} {engine}"));
+        assert_eq!(code, Some(2), "{said}");
+        assert!(said.contains("begun with rounding that is relaxed on "), "{said}");
+        assert!(said.contains("would go on with rounding that is exact, to other files"), "{said}");
+    }
+    assert_eq!(said(older), (Some(0), String::new()));
+    assert_eq!(said(&format!("{older} --engine cpu --allow-rounding")), (Some(0), String::new()));
+}

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use xca_core::model::Group;
 use xca_core::{
-    AnyParameters, GroupSnapshot, Model, ParameterValue, Precision, RunOptions, Snapshot, StoredType,
+    AnyParameters, Engine, GroupSnapshot, Model, ParameterValue, Precision, RunOptions, Snapshot, StoredType,
 };
 
 /// The JSON part of a checkpoint.
@@ -41,8 +41,10 @@ pub(crate) struct Origin {
     pub(crate) every: u64,
     /// The shape of the model, as in `run.json`.
     pub(crate) model: Value,
-    /// The CRC-32 of the bodies of the processes.
+    /// The CRC-32 of the text of the processes and of the helpers that they call.
     pub(crate) processes: u32,
+    /// How floating numbers are rounded on the engine that it was begun on.
+    pub(crate) rounding: String,
     /// The parameters before the first step.
     pub(crate) parameters: Vec<Parameter>,
 }
@@ -193,8 +195,12 @@ fn of_models<'a>(
     keys.map(move |key| ("model", text(key, found), text(key, wanted)))
 }
 
-/// The CRC-32 of the bodies of all processes. Helpers that they call are told by their addresses, which are left out.
+/// The CRC-32 of all processes with the helpers that they call, as shaders; of those that cannot be written as shaders, of the bodies alone,
+/// in which helpers are told by their addresses, and these are left out.
 fn of_processes(model: &Model) -> u32 {
+    if let Ok(text) = xca_gpu::wgsl(model, Precision::F64) {
+        return crc32fast::hash(text.as_bytes());
+    }
     let mut sum = crc32fast::Hasher::new();
     for process in model.processes() {
         let body = format!("{:?}", (process.body)());
@@ -209,6 +215,9 @@ fn of_processes(model: &Model) -> u32 {
 fn listed(parameters: &[Parameter]) -> String {
     parameters.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }
+
+/// The rounding of all engines but a GPU whose arithmetic is relaxed.
+const EXACT: &str = "exact";
 
 impl Origin {
     /// The run of a model, with what the command line chose for it.
@@ -230,8 +239,23 @@ impl Origin {
             every,
             model: serde_json::to_value(report::of_model(model)).unwrap_or_default(),
             processes: of_processes(model),
+            rounding: EXACT.to_owned(),
             parameters: Parameter::all(model.parameters()),
         }
+    }
+
+    /// The same run on this engine.
+    pub(crate) fn on(self, engine: &dyn Engine) -> Self {
+        let facts = engine.facts();
+        let fact = |name: &str| facts.iter().find(|(fact, _)| *fact == name).map_or("", |(_, which)| which);
+        let is_relaxed = fact("arithmetic") == "relaxed";
+        let relaxed = || format!("relaxed on {} ({})", fact("adapter"), fact("driver"));
+        Self { rounding: if is_relaxed { relaxed() } else { EXACT.to_owned() }, ..self }
+    }
+
+    /// How the engine that goes on rounds otherwise than the one that the run was begun on.
+    pub(crate) fn other_rounding(&self, own: &Self) -> Option<Difference> {
+        first_difference([("rounding of floating numbers", self.rounding.clone(), own.rounding.clone())])
     }
 
     /// How the program that wrote this is not the one with this name and these versions.

@@ -41,6 +41,21 @@ mod edited {
     }
 }
 
+mod with_other_helper {
+    use super::{Field, Weather};
+    use xca_core::prelude::*;
+
+    #[helper]
+    fn twice(value: Real) -> Real {
+        2.0 * value
+    }
+
+    #[elementary_process]
+    pub(super) fn warm_twice(cell: &mut Cell<Field>, p: &Weather) {
+        cell.heat += twice(p.rain);
+    }
+}
+
 #[helper]
 fn twice(value: Real) -> Real {
     value + value
@@ -263,6 +278,9 @@ fn another_run_is_known_by_what_differs() -> Result<(), ParameterError> {
     assert_eq!(difference.unwrap().what, "code of the processes");
     let helped = || with(|builder| builder.process(warm_twice));
     assert_eq!(helped().mismatch(&helped()), None);
+    // The same process with another helper.
+    let difference = helped().mismatch(&with(|builder| builder.process(with_other_helper::warm_twice)));
+    assert_eq!(difference.unwrap().what, "code of the processes");
     assert_eq!(text(run.other_program(["0.1.0", "field", "1.2.3"])), None);
     let newer = run.other_program(["0.2.0", "field", "1.2.3"]);
     assert_eq!(text(newer).unwrap(), "version of the framework: 0.1.0, not 0.2.0");

@@ -120,6 +120,11 @@ pub(crate) struct ResumeArguments {
     #[arg(long, value_name = "strict|relaxed|best")]
     pub(crate) arithmetic: Option<Arithmetic>,
 
+    /// Go on although the engine rounds floating numbers otherwise than the one that the run was begun on; the files will not be those of
+    /// an uninterrupted run
+    #[arg(long)]
+    pub(crate) allow_rounding: bool,
+
     /// Write a checkpoint every so many steps or after so much time; as often as the run was told unless it is given
     #[arg(long, value_name = "N|TIME")]
     pub(crate) checkpoint_every: Option<Interval>,

@@ -41,7 +41,8 @@ impl Prepared {
             recorder.model(),
             options,
             [steps, every],
-        );
+        )
+        .on(&*engine);
         let report = first_report(invocation, &recorder, &*engine, &origin);
         Ok(Self { engine, recorder, options, origin, report })
     }

@@ -55,6 +55,16 @@ pub(super) fn resume(definition: &Definition<'_>, arguments: &ResumeArguments) -
     found.under_way(checkpoint, earlier, begin)?.go()
 }
 
+/// A run that should not go on in this way.
+#[derive(Debug, thiserror::Error)]
+enum ResumeError {
+    #[error(
+        "the run was begun with rounding that is {found}, and would go on with rounding that is {wanted}, to other files; choose the engine with \
+         --engine, --adapter and --arithmetic, or add --allow-rounding"
+    )]
+    Rounding { found: String, wanted: String },
+}
+
 fn chosen(arguments: &ResumeArguments) -> Result<PathBuf, Unable> {
     let latest = || CheckpointFolder::of_run(&arguments.folder).into_iter().next();
     arguments.checkpoint.clone().or_else(latest).ok_or_else(|| {
@@ -86,6 +96,11 @@ impl Found<'_> {
         let on = self.arguments.engine(&run.engine);
         let Prepared { engine, mut recorder, options, origin, mut report } = Prepared::new(&run, &on)?;
         self.same(description.run.mismatch(&origin), description)?;
+        if !self.arguments.allow_rounding
+            && let Some(Difference { found, wanted, .. }) = description.run.other_rounding(&origin)
+        {
+            return Err(Unable::refused(ResumeError::Rounding { found, wanted }));
+        }
         let refused = |error: Failure| self.refused(error, Some(description));
         let folder = RunFolder::open(&self.arguments.folder).map_err(Unable::refused)?;
         let simulation = Simulation::resume(recorder.model(), &*engine, options, snapshot);
