@@ -61,6 +61,13 @@ impl Process {
 }
 
 /// A function marked `#[elementary_process]` or `#[migration]`.
+///
+/// Its name is a value that a model takes, as in `.process(evolve)`, and therefore not free for variables in the same module.
+#[diagnostic::on_unimplemented(
+    message = "this is no elementary process",
+    label = "not marked as an elementary process",
+    note = "write `#[elementary_process]` or `#[migration]` above the function, and name it here: `.process(evolve)`"
+)]
 pub trait ElementaryProcess: 'static {
     /// What an engine knows about it.
     fn process() -> Process;
