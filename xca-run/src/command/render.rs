@@ -10,13 +10,13 @@ use crate::output::animation::write_animation;
 use crate::output::atomic::OutputFolder;
 use crate::program::Failure;
 use crate::progress::Progress;
-use crate::record::{Drawing, Look, RunFolder, ViewKind};
+use crate::record::{Drawing, Look, RunFolder, Seen, ViewKind};
 use crate::report::Report;
 use crate::terminal;
 use clap::{Args, Command};
 use std::path::PathBuf;
 use std::time::Instant;
-use xca_core::{Engine, RunOptions, Simulation, Snapshot};
+use xca_core::{Engine, RunOptions, Simulation};
 
 pub(super) const NAME: &str = "render";
 
@@ -208,15 +208,15 @@ impl Film<'_> {
     fn make(&self, frames: &OutputFolder, animation: &std::path::Path, fps: u16) -> Result<Made, Failure> {
         let mut range = self.drawing.fixed_range();
         if range.is_none() {
-            self.each("measuring", |simulation, snapshot| {
-                range = self.drawing.widened(range, simulation, snapshot);
+            self.each("measuring", |_, seen| {
+                range = self.drawing.widened(range, seen);
                 Ok(())
             })?;
         }
         let mut pictures = Vec::new();
-        let steps = self.each("drawing", |simulation, snapshot| {
-            if let Some(picture) = self.drawing.picture(simulation, snapshot, range)? {
-                let path = frames.numbered("frame", snapshot.step, "png");
+        let steps = self.each("drawing", |step, seen| {
+            if let Some(picture) = self.drawing.picture(step, seen, range)? {
+                let path = frames.numbered("frame", step, "png");
                 picture.write(&path)?;
                 pictures.push(path);
             }
@@ -230,7 +230,7 @@ impl Film<'_> {
     fn each(
         &self,
         doing: &str,
-        mut look: impl FnMut(&Simulation, &Snapshot) -> Result<(), Failure>,
+        mut look: impl FnMut(u64, &Seen) -> Result<(), Failure>,
     ) -> Result<u64, Failure> {
         let [wanted, every] = self.steps;
         let mut simulation = Simulation::new(self.drawing.model(), self.engine, self.options)?;
@@ -241,7 +241,8 @@ impl Film<'_> {
             let done = simulation.step_number();
             line.at(done);
             if done.is_multiple_of(every) {
-                look(&simulation, &simulation.snapshot()?)?;
+                let seen = self.drawing.seen(self.options.precision, &simulation.snapshot()?);
+                seen.iter().try_for_each(|seen| look(done, seen))?;
             }
             if done >= wanted || simulation.stop_reason().is_some() || self.interrupt.is_raised() {
                 line.finish();

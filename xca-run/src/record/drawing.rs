@@ -1,12 +1,13 @@
 //! One view of a run, drawn again and again on one scale.
 
-use super::cells::wider;
+use super::painting::Frame;
+use super::seen::{Seen, wider};
 use super::shown::Shown;
 use super::{RecordError, Recorder};
 use crate::output::picture::Picture;
 use crate::view::AnyView;
 use clap::ValueEnum;
-use xca_core::{Model, Simulation, Snapshot};
+use xca_core::{Model, Precision, Snapshot};
 
 /// How a state is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -51,7 +52,6 @@ pub(crate) enum LookError {
 pub(crate) struct Drawing<'a> {
     recorder: &'a Recorder,
     shown: Shown,
-    is_block: bool,
     look: Look,
 }
 
@@ -97,9 +97,10 @@ impl Recorder {
                     return Err(LookError::Layer { layer, layers });
                 }
                 view.range = look.range.or(view.range);
+                view.block = wanted == ViewKind::Isometric;
             }
         }
-        Ok(Drawing { recorder: self, shown, is_block: wanted == ViewKind::Isometric, look })
+        Ok(Drawing { recorder: self, shown, look })
     }
 
     /// The view that shows what is wanted, and the number and the name of its substate where one is named.
@@ -158,44 +159,31 @@ impl Drawing<'_> {
         }
     }
 
+    /// What is drawn of a state.
+    pub(crate) fn seen(&self, precision: Precision, snapshot: &Snapshot) -> Option<Seen> {
+        self.shown.seen(self.model(), precision, snapshot)
+    }
+
     /// `range`, widened to what a state has.
-    pub(crate) fn widened(
-        &self,
-        range: Option<[f64; 2]>,
-        simulation: &Simulation,
-        snapshot: &Snapshot,
-    ) -> Option<[f64; 2]> {
-        let cells = self.shown.cells(simulation, snapshot);
-        let of_cells =
-            cells.and_then(|cells| if self.is_block { cells.whole_range() } else { cells.range() });
-        let now = of_cells.or_else(|| self.shown.items(simulation, snapshot).and_then(|items| items.range()));
-        match (range, now) {
+    pub(crate) fn widened(&self, range: Option<[f64; 2]>, seen: &Seen) -> Option<[f64; 2]> {
+        match (range, seen.range()) {
             (Some(range), now) => Some(wider(range, now)),
             (None, now) => now,
         }
     }
 
-    /// A state on this scale.
+    /// The state after a step, on this scale.
     pub(crate) fn picture(
         &self,
-        simulation: &Simulation,
-        snapshot: &Snapshot,
+        step: u64,
+        seen: &Seen,
         range: Option<[f64; 2]>,
     ) -> Result<Option<Picture>, RecordError> {
-        let (title, size) = (&self.recorder.set_up.title, self.look.size);
-        let caption = self.recorder.caption(snapshot.step);
-        Ok(if let Some(items) = self.shown.items(simulation, snapshot) {
-            let caption = format!("{caption}, {} {}", items.len(), self.shown.view.name());
-            Some(items.draw(title, &caption, range, Some(size.unwrap_or(SIZE)))?)
-        } else if let Some(cells) = self.shown.cells(simulation, snapshot) {
-            Some(if self.is_block {
-                cells.draw_block(title, &caption, range, size.unwrap_or(SIZE))?
-            } else {
-                cells.draw(title, &caption, range, size)?
-            })
-        } else {
-            None
-        })
+        let is_slice = matches!(&self.shown.view, AnyView::Cells(view) if !view.block);
+        let size = if is_slice { self.look.size } else { Some(self.look.size.unwrap_or(SIZE)) };
+        let caption = self.recorder.whole_caption(&self.shown, seen, step);
+        let frame = Frame { title: &self.recorder.set_up.title, caption: &caption, range, size };
+        Ok(self.shown.paint(self.model(), seen, frame)?)
     }
 }
 

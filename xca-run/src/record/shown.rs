@@ -2,11 +2,12 @@
 
 use super::cells::Cells;
 use super::items::Items;
+use super::seen::Seen;
 use super::{RunFolder, numbered_files};
 use crate::output::vtk::Collection;
 use crate::view::AnyView;
 use std::path::PathBuf;
-use xca_core::{GroupSnapshot, Simulation, Snapshot};
+use xca_core::{GroupSnapshot, Model, Precision, Snapshot};
 
 /// A view with its files.
 pub(super) struct Shown {
@@ -56,18 +57,15 @@ impl Shown {
     /// The items, if it is a view of items.
     pub(super) fn items<'a>(
         &'a self,
-        simulation: &'a Simulation,
+        model: &'a Model,
+        precision: Precision,
         snapshot: &'a Snapshot,
     ) -> Option<Items<'a>> {
-        let model = simulation.model();
+        let (group, geometry) = (&model.groups()[self.group], model.geometry());
         match (&self.view, &snapshot.groups[self.group]) {
-            (AnyView::Items(view), GroupSnapshot::Population(population, _)) => Some(Items::new(
-                view,
-                &model.groups()[self.group],
-                model.geometry(),
-                simulation.options().precision,
-                population,
-            )),
+            (AnyView::Items(view), GroupSnapshot::Population(population, _)) => {
+                Some(Items::new(view, group, geometry, precision, population))
+            }
             _ => None,
         }
     }
@@ -75,19 +73,22 @@ impl Shown {
     /// The substates of cells, if it is a view of these.
     pub(super) fn cells<'a>(
         &'a self,
-        simulation: &'a Simulation,
+        model: &'a Model,
+        precision: Precision,
         snapshot: &'a Snapshot,
     ) -> Option<Cells<'a>> {
-        let model = simulation.model();
+        let (group, geometry) = (&model.groups()[self.group], model.geometry());
         match (&self.view, &snapshot.groups[self.group]) {
-            (AnyView::Cells(view), GroupSnapshot::Cells(fields)) => Some(Cells::new(
-                view,
-                &model.groups()[self.group],
-                model.geometry(),
-                simulation.options().precision,
-                fields,
-            )),
+            (AnyView::Cells(view), GroupSnapshot::Cells(fields)) => {
+                Some(Cells::new(view, group, geometry, precision, fields))
+            }
             _ => None,
         }
+    }
+
+    /// What it draws of a state.
+    pub(super) fn seen(&self, model: &Model, precision: Precision, snapshot: &Snapshot) -> Option<Seen> {
+        let items = self.items(model, precision, snapshot).map(|items| items.seen());
+        items.or_else(|| self.cells(model, precision, snapshot).map(|cells| cells.seen()))
     }
 }
