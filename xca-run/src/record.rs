@@ -4,17 +4,21 @@ mod cells;
 mod drawing;
 mod folder;
 mod items;
+mod look;
 mod measure;
 mod painting;
 mod recorded;
+mod saved;
 mod seen;
 mod shown;
 mod values;
 
-pub(crate) use drawing::{Drawing, Look, ViewKind};
+pub(crate) use drawing::{Drawing, Scales};
 pub use folder::FolderError;
-pub(crate) use folder::{REPORT, RunFolder, numbered_files};
+pub(crate) use folder::{FRAMES, REPORT, RunFolder, numbered_files};
+pub(crate) use look::{Look, ViewKind};
 pub(crate) use recorded::Recorded;
+pub(crate) use saved::SavedError;
 pub(crate) use seen::Seen;
 
 use crate::output::atomic::WriteError;
@@ -99,7 +103,7 @@ impl Recorder {
                 files.push(self.numbered_file("final", number, "csv"));
             }
             files.push(shown.collection_file());
-            files.push(format!("{}/{name}_*.{}", folder::FRAMES, shown.extension()));
+            files.push(format!("{}/{name}_*.{}", FRAMES, shown.extension()));
             files.push(self.numbered_file("initial", number, "png"));
             files.push(self.numbered_file("final", number, "png"));
         }
@@ -219,7 +223,7 @@ impl Recorder {
         let (time, model) = (self.time(snapshot.step), &self.set_up.model);
         let Some(folder) = &self.folder else { return Ok(()) };
         for shown in &mut self.shown {
-            let path = shown.frame(folder, snapshot.step);
+            let path = shown.frame(&folder.frames, snapshot.step);
             if let Some(items) = shown.items(model, precision, snapshot) {
                 items.write_frame(&path, time)?;
             } else if let Some(cells) = shown.cells(model, precision, snapshot) {

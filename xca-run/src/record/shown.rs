@@ -2,8 +2,9 @@
 
 use super::cells::Cells;
 use super::items::Items;
+use super::numbered_files;
 use super::seen::Seen;
-use super::{RunFolder, numbered_files};
+use crate::output::atomic::OutputFolder;
 use crate::output::vtk::Collection;
 use crate::view::AnyView;
 use std::path::PathBuf;
@@ -34,19 +35,31 @@ impl Shown {
         if self.is_of_items() { "vtp" } else { "vti" }
     }
 
-    /// The file of the frame of a step.
-    pub(super) fn frame(&self, folder: &RunFolder, step: u64) -> PathBuf {
-        folder.frames.numbered(self.view.name(), step, self.extension())
+    /// The file of the frame of a step, in the folder of the frames.
+    pub(super) fn frame(&self, frames: &OutputFolder, step: u64) -> PathBuf {
+        frames.numbered(self.view.name(), step, self.extension())
     }
 
     /// The files of all frames that are there.
-    pub(super) fn frames(&self, folder: &RunFolder) -> Vec<PathBuf> {
-        let first = self.frame(folder, 0);
-        let (Some(parent), Some(name)) = (first.parent(), first.file_name()) else { return Vec::new() };
-        let after = format!(".{}", self.extension());
-        let name = name.to_string_lossy();
-        let before = name.trim_end_matches(&after).trim_end_matches('0');
-        numbered_files(parent, before, &after)
+    pub(super) fn frames(&self, frames: &OutputFolder) -> Vec<PathBuf> {
+        let [before, after] = self.around_step();
+        numbered_files(frames.path(), &before, &after)
+    }
+
+    /// The steps of these frames.
+    pub(super) fn saved_steps(&self, frames: &OutputFolder) -> Vec<u64> {
+        let [before, after] = self.around_step();
+        let step = |path: &PathBuf| {
+            let name = path.file_name()?.to_str()?;
+            name.strip_prefix(&before)?.strip_suffix(&after)?.parse().ok()
+        };
+        self.frames(frames).iter().filter_map(step).collect()
+    }
+
+    /// What stands before and after the step in the name of a frame.
+    fn around_step(&self) -> [String; 2] {
+        let stem = OutputFolder::to_read("").file(self.view.name());
+        [format!("{}_", stem.display()), format!(".{}", self.extension())]
     }
 
     /// The file that lists the frames with their times.
