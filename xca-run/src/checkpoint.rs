@@ -7,7 +7,9 @@ mod file;
 mod folder;
 mod planes;
 
-pub(crate) use description::{Description, Difference, GroupShape, Origin, Parameter};
+pub(crate) use description::{
+    Description, Difference, GroupShape, Origin, Parameter, other_model, other_program,
+};
 pub use file::CheckpointError;
 pub(crate) use folder::{CHECKPOINTS, CheckpointFolder};
 

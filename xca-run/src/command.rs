@@ -176,6 +176,9 @@ fn execute(invocation: Invocation<'_>) -> Result<Ended, Unable> {
     match invocation {
         Invocation::Run(invocation) => run::run(*invocation),
         Invocation::Render(run, arguments) => render::render(&run, &arguments),
+        Invocation::Draw(definition, path, arguments, command_line) => {
+            render::draw(definition, &path, &arguments, &command_line)
+        }
         Invocation::New(arguments) => new::new(&arguments),
         Invocation::List(choice, arguments) => list::list(&choice, &arguments),
         Invocation::Compare(choice, arguments, command_line) => {

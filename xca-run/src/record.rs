@@ -5,27 +5,35 @@ mod drawing;
 mod folder;
 mod grids;
 mod items;
+mod look;
 mod measure;
+mod painting;
 mod recorded;
+mod saved;
+mod seen;
 mod shown;
 mod values;
 
-pub(crate) use drawing::{Drawing, Look, ViewKind};
+pub(crate) use drawing::{Drawing, Scales};
 pub use folder::FolderError;
-pub(crate) use folder::{REPORT, RunFolder, numbered_files};
+pub(crate) use folder::{FRAMES, REPORT, RunFolder, numbered_files};
+pub(crate) use look::{Look, ViewKind};
 pub(crate) use recorded::Recorded;
+pub(crate) use saved::SavedError;
+pub(crate) use seen::Seen;
 
 use crate::output::atomic::WriteError;
 use crate::output::particle_csv::WriteParticlesError;
-use crate::output::picture::{Picture, PictureError};
+use crate::output::picture::PictureError;
 use crate::output::table_csv::{SeriesError, SeriesWriter};
 use crate::output::vtk::{Collection, VtkError};
 use crate::program::{Failure, Observable};
 use crate::set_up::SetUp;
 use crate::view::{ViewError, complete};
+use painting::Frame;
 use shown::Shown;
 pub(crate) use values::Plane;
-use xca_core::{Model, RunError, Simulation, Snapshot};
+use xca_core::{Model, Precision, RunError, Simulation, Snapshot};
 
 /// A part of a run's record that cannot be made or written.
 #[derive(Debug, thiserror::Error)]
@@ -96,7 +104,7 @@ impl Recorder {
                 files.push(self.numbered_file("final", number, "csv"));
             }
             files.push(shown.collection_file());
-            files.push(format!("{}/{name}_*.{}", folder::FRAMES, shown.extension()));
+            files.push(format!("{}/{name}_*.{}", FRAMES, shown.extension()));
             files.push(self.numbered_file("initial", number, "png"));
             files.push(self.numbered_file("final", number, "png"));
         }
@@ -142,7 +150,7 @@ impl Recorder {
     ) -> Result<(), RecordError> {
         self.folder = Some(folder);
         let snapshot = self.record(simulation)?;
-        self.draw(simulation, &snapshot, "initial")
+        self.draw(simulation.options().precision, &snapshot, "initial")
     }
 
     /// Records the present state as a row of observables and a frame, unless that is done already.
@@ -150,7 +158,7 @@ impl Recorder {
         let snapshot = simulation.snapshot()?;
         if self.steps.last() != Some(&snapshot.step) {
             self.observe(simulation, &snapshot)?;
-            self.write_frames(simulation, &snapshot)?;
+            self.write_frames(simulation.options().precision, &snapshot)?;
             self.steps.push(snapshot.step);
         }
         Ok(snapshot)
@@ -159,14 +167,15 @@ impl Recorder {
     /// Records the final state.
     pub(crate) fn finish(&mut self, simulation: &mut Simulation) -> Result<(), RecordError> {
         let snapshot = self.record(simulation)?;
+        let precision = simulation.options().precision;
         let Some(folder) = &self.folder else { return Ok(()) };
         for (number, shown) in self.shown.iter().enumerate() {
-            if let Some(items) = shown.items(simulation, &snapshot) {
+            if let Some(items) = shown.items(&self.set_up.model, precision, &snapshot) {
                 items.write_table(&folder.top.file(&self.numbered_file("final", number, "csv")))?;
             }
         }
-        self.write_grids(&snapshot, simulation.options().precision, |file| folder.top.file(file))?;
-        self.draw(simulation, &snapshot, "final")
+        self.write_grids(&snapshot, precision, |file| folder.top.file(file))?;
+        self.draw(precision, &snapshot, "final")
     }
 
     /// The observables of the present state, of which a snapshot was taken.
@@ -213,14 +222,14 @@ impl Recorder {
         Ok(())
     }
 
-    fn write_frames(&mut self, simulation: &Simulation, snapshot: &Snapshot) -> Result<(), RecordError> {
-        let time = self.time(snapshot.step);
+    fn write_frames(&mut self, precision: Precision, snapshot: &Snapshot) -> Result<(), RecordError> {
+        let (time, model) = (self.time(snapshot.step), &self.set_up.model);
         let Some(folder) = &self.folder else { return Ok(()) };
         for shown in &mut self.shown {
-            let path = shown.frame(folder, snapshot.step);
-            if let Some(items) = shown.items(simulation, snapshot) {
+            let path = shown.frame(&folder.frames, snapshot.step);
+            if let Some(items) = shown.items(model, precision, snapshot) {
                 items.write_frame(&path, time)?;
-            } else if let Some(cells) = shown.cells(simulation, snapshot) {
+            } else if let Some(cells) = shown.cells(model, precision, snapshot) {
                 cells.write_frame(&path, time)?;
             }
             let list = folder.top.file(&shown.collection_file());
@@ -233,36 +242,28 @@ impl Recorder {
         Ok(())
     }
 
-    fn draw(&mut self, simulation: &Simulation, snapshot: &Snapshot, stem: &str) -> Result<(), RecordError> {
-        let caption = self.caption(snapshot.step);
+    fn draw(&mut self, precision: Precision, snapshot: &Snapshot, stem: &str) -> Result<(), RecordError> {
         for number in 0..self.shown.len() {
-            let (picture, range) = self.picture(number, simulation, snapshot, &caption)?;
-            self.shown[number].range = self.shown[number].range.or(range);
-            if let (Some(folder), Some(picture)) = (&self.folder, picture) {
+            let (shown, model) = (&self.shown[number], &self.set_up.model);
+            let Some(seen) = shown.seen(model, precision, snapshot) else { continue };
+            let caption = self.whole_caption(shown, &seen, snapshot.step);
+            let frame =
+                Frame { title: &self.set_up.title, caption: &caption, range: shown.range, size: None };
+            if let (Some(folder), Some(picture)) = (&self.folder, shown.paint(model, &seen, frame)?) {
                 picture.write(&folder.top.file(&self.numbered_file(stem, number, "png")))?;
+            }
+            // Items have a scale of their own in each picture.
+            if !shown.is_of_items() {
+                self.shown[number].range = shown.range.or_else(|| seen.range());
             }
         }
         Ok(())
     }
 
-    /// A picture of a view, and the range of the values that it shows.
-    fn picture(
-        &self,
-        number: usize,
-        simulation: &Simulation,
-        snapshot: &Snapshot,
-        caption: &str,
-    ) -> Result<(Option<Picture>, Option<[f64; 2]>), RecordError> {
-        let shown = &self.shown[number];
-        let title = &self.set_up.title;
-        Ok(if let Some(items) = shown.items(simulation, snapshot) {
-            let caption = format!("{caption}, {} {}", items.len(), shown.view.name());
-            (Some(items.draw(title, &caption, None, None)?), None)
-        } else if let Some(cells) = shown.cells(simulation, snapshot) {
-            (Some(cells.draw(title, caption, shown.range, None)?), cells.range())
-        } else {
-            (None, None)
-        })
+    /// The step, and what else has to be said of a picture of one view.
+    fn whole_caption(&self, shown: &Shown, seen: &Seen, step: u64) -> String {
+        let details = shown.details(&self.set_up.model, seen);
+        [Some(self.caption(step)), details].into_iter().flatten().collect::<Vec<_>>().join(", ")
     }
 
     fn caption(&self, step: u64) -> String {

@@ -120,6 +120,11 @@ impl Earlier {
         serde_json::from_slice(&text).unwrap_or_default()
     }
 
+    /// Whether it is the report of what this subcommand did.
+    pub(crate) fn is_of(&self, subcommand: &str) -> bool {
+        self.command_line.as_ref().and_then(|words| words.get(1)).is_some_and(|word| word == subcommand)
+    }
+
     /// Whether there is nothing left to do.
     pub(crate) fn has_ended(&self) -> bool {
         ["done", "stopped"].contains(&self.progress.outcome.as_str())

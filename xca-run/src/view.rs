@@ -4,7 +4,7 @@ use crate::output::picture::ColourMap;
 use std::any::TypeId;
 use std::marker::PhantomData;
 use xca_core::model::GroupKind;
-use xca_core::{HostValue, Model, Substate, Substates};
+use xca_core::{Geometry, HostValue, Model, Schema, Substate, Substates};
 
 /// How the items of a population are saved and drawn.
 ///
@@ -59,6 +59,8 @@ pub(crate) struct AnyCellView {
     pub(crate) range: Option<[f64; 2]>,
     pub(crate) map: Option<ColourMap>,
     pub(crate) kinds: Vec<(f64, String)>,
+    /// Whether all cells are drawn, as cubes: only by `render`.
+    pub(crate) block: bool,
 }
 
 impl<S: Substates> ItemView<S> {
@@ -159,11 +161,42 @@ impl AnyItemView {
     fn plain(group: TypeId, name: String) -> Self {
         Self { group, name, only: None, columns: Vec::new(), radius: None, colour: None }
     }
+
+    /// The substate that colours the items, and what it is called.
+    pub(crate) fn colour(&self, schema: &Schema) -> Option<(usize, String)> {
+        let default = || {
+            let other = |field: &usize| schema.position != Some(*field);
+            let vector = (0..schema.fields.len())
+                .filter(other)
+                .find(|&field| schema.fields[field].value_type.lanes > 1);
+            let field = vector.or_else(|| (0..schema.fields.len()).find(other))?;
+            let name = schema.fields[field].name;
+            Some((field, if vector.is_some() { format!("length of {name}") } else { name.to_owned() }))
+        };
+        self.colour.clone().or_else(default)
+    }
 }
 
 impl AnyCellView {
     fn plain(group: TypeId, name: String) -> Self {
-        Self { group, name, drawn: None, layer: None, axis: 2, range: None, map: None, kinds: Vec::new() }
+        let (drawn, layer, range, map) = (None, None, None, None);
+        Self { group, name, drawn, layer, axis: 2, range, map, kinds: Vec::new(), block: false }
+    }
+
+    /// The number of the substate that is drawn.
+    pub(crate) fn field(&self) -> usize {
+        self.drawn.as_ref().map_or(0, |(field, _)| *field)
+    }
+
+    /// What that substate is called.
+    pub(crate) fn label<'a>(&'a self, schema: &Schema) -> &'a str {
+        let first = schema.fields.first().map_or("", |field| field.name);
+        self.drawn.as_ref().map_or(first, |(_, label)| label)
+    }
+
+    /// The layer that is drawn.
+    pub(crate) fn drawn_layer(&self, geometry: &Geometry) -> usize {
+        self.layer.unwrap_or(geometry.extents()[self.axis] / 2)
     }
 }
 

@@ -195,6 +195,18 @@ fn of_models<'a>(
     keys.map(move |key| ("model", text(key, found), text(key, wanted)))
 }
 
+/// How two programs are not the same: the version of the framework, their names, and their versions.
+pub(crate) fn other_program(found: [&str; 3], wanted: [&str; 3]) -> Option<Difference> {
+    let property = |what, index: usize| (what, found[index].to_owned(), wanted[index].to_owned());
+    let framework = property("version of the framework", 0);
+    first_difference([property("program", 1), framework, property("version of the program", 2)])
+}
+
+/// How two models, as `run.json` tells their shapes, are not the same.
+pub(crate) fn other_model(found: &Value, wanted: &Value) -> Option<Difference> {
+    first_difference(of_models(found, wanted))
+}
+
 /// The CRC-32 of all processes with the helpers that they call, as shaders; of those that cannot be written as shaders, of the bodies alone,
 /// in which helpers are told by their addresses, and these are left out.
 fn of_processes(model: &Model) -> u32 {
@@ -259,12 +271,8 @@ impl Origin {
     }
 
     /// How the program that wrote this is not the one with this name and these versions.
-    pub(crate) fn other_program(&self, [xca, program, version]: [&str; 3]) -> Option<Difference> {
-        first_difference([
-            ("program", self.program.clone(), program.to_owned()),
-            ("version of the framework", self.xca.clone(), xca.to_owned()),
-            ("version of the program", self.version.clone(), version.to_owned()),
-        ])
+    pub(crate) fn other_program(&self, identity: [&str; 3]) -> Option<Difference> {
+        other_program([&self.xca, &self.program, &self.version], identity)
     }
 
     /// How this run is not the one that the program would do with its command line.
@@ -276,7 +284,7 @@ impl Origin {
             ("number of steps", text(self.steps_wanted), text(own.steps_wanted)),
             ("interval of outputs", text(self.every), text(own.every)),
         ])
-        .or_else(|| first_difference(of_models(&self.model, &own.model)))
+        .or_else(|| other_model(&self.model, &own.model))
         .or_else(|| {
             let sum = |origin: &Self| format!("of the checksum {:08x}", origin.processes);
             first_difference([("code of the processes", sum(self), sum(own))])

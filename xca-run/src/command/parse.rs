@@ -22,6 +22,8 @@ pub(super) enum Invocation<'a> {
     Run(Box<RunInvocation<'a>>),
     Resume(&'a Definition<'a>, ResumeArguments),
     Render(Box<RunInvocation<'a>>, RenderArguments),
+    /// With what has to be drawn, and with the whole command line.
+    Draw(&'a Definition<'a>, PathBuf, RenderArguments, Vec<String>),
     List(Box<Choice<'a>>, ListArguments),
     Inspect(InspectArguments),
     /// With the whole command line.
@@ -137,15 +139,22 @@ pub(super) fn invocation<'a>(
     complete(definition, &command, &arguments)
 }
 
-/// Reads a command line to which nothing is to be added: that of an earlier run.
+/// Reads a command line to which nothing is to be added: that of an earlier run, as a file of this kind tells it.
 pub(super) fn recorded<'a>(
     definition: &'a Definition<'a>,
     command_line: &[String],
+    of: &str,
 ) -> Result<RunInvocation<'a>, Unable> {
     let arguments: Vec<OsString> = command_line.iter().map(OsString::from).collect();
-    match complete(definition, &command(definition), &arguments)? {
-        Invocation::Run(run) => Ok(*run),
-        _ => Err(Unable::refused("the command line of the checkpoint is not that of a run")),
+    match complete(definition, &command(definition), &arguments) {
+        Ok(Invocation::Run(run)) => Ok(*run),
+        Ok(_) => Err(Unable::refused(format!("the command line of the {of} is not that of a run"))),
+        Err(Unable::CommandLine(error)) => {
+            let text = error.to_string();
+            let first = text.split("\n\n").next().unwrap_or_default().trim_start_matches("error: ");
+            Err(Unable::refused(format!("the command line of the {of} is not one of this program: {first}")))
+        }
+        Err(other) => Err(other),
     }
 }
 
@@ -169,6 +178,10 @@ fn complete<'a>(
         )),
         Some((render::NAME, matches)) => {
             let render: RenderArguments = from(matches)?;
+            if let Some(path) = render.saved() {
+                render::check_saved(command, matches)?;
+                return Ok(Invocation::Draw(definition, path, render, words(arguments)));
+            }
             let run = RunInvocation {
                 model: Choice::new(definition, matches)?,
                 engine: from(matches)?,

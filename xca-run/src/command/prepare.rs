@@ -24,12 +24,21 @@ pub(super) struct Prepared {
     pub(super) report: Report,
 }
 
-impl Prepared {
-    /// Makes the model of a run, for an engine that need not be the one that its command line names.
-    pub(super) fn new(invocation: &RunInvocation<'_>, on: &EngineArguments) -> Result<Self, Unable> {
-        let engine = on.engine.engine(&on.options()).map_err(Unable::refused)?;
+/// A run as its command line says it, on no engine.
+pub(super) struct Described {
+    pub(super) recorder: Recorder,
+    pub(super) options: RunOptions,
+    pub(super) origin: Origin,
+}
+
+impl Described {
+    /// Makes the model of a run.
+    pub(super) fn new(invocation: &RunInvocation<'_>) -> Result<Self, Unable> {
         let given = invocation.model.arguments.given(invocation.run.steps);
-        let set_up = set_up(invocation, &*engine, &given)?;
+        Self::of(invocation, &given, invocation.model.set_up(&given)?)
+    }
+
+    fn of(invocation: &RunInvocation<'_>, given: &Given, set_up: SetUp) -> Result<Self, Unable> {
         let steps = given.steps.unwrap_or(set_up.steps);
         let every = invocation.run.every.unwrap_or(steps.div_ceil(OUTPUTS).max(1));
         let recorder = Recorder::new(set_up).map_err(Unable::refused)?;
@@ -41,8 +50,19 @@ impl Prepared {
             recorder.model(),
             options,
             [steps, every],
-        )
-        .on(&*engine);
+        );
+        Ok(Self { recorder, options, origin })
+    }
+}
+
+impl Prepared {
+    /// Makes the model of a run, for an engine that need not be the one that its command line names.
+    pub(super) fn new(invocation: &RunInvocation<'_>, on: &EngineArguments) -> Result<Self, Unable> {
+        let engine = on.engine.engine(&on.options()).map_err(Unable::refused)?;
+        let given = invocation.model.arguments.given(invocation.run.steps);
+        let set_up = set_up(invocation, &*engine, &given)?;
+        let Described { recorder, options, origin } = Described::of(invocation, &given, set_up)?;
+        let origin = origin.on(&*engine);
         let report = first_report(invocation, &recorder, &*engine, &origin);
         Ok(Self { engine, recorder, options, origin, report })
     }

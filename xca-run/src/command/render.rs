@@ -1,76 +1,108 @@
 //! The subcommand `render`.
 
+mod film;
+mod kept;
+mod running;
+mod saved;
+
+pub(super) use saved::draw;
+
 use super::arguments::{EngineArguments, RunArguments, interval, steps};
 use super::parse::{RunInvocation, with_help, with_model};
 use super::prepare::Prepared;
-use super::under_way::Batch;
 use super::{Definition, Ended, Unable};
 use crate::interrupt::Interrupt;
-use crate::output::animation::write_animation;
-use crate::output::atomic::OutputFolder;
-use crate::program::Failure;
-use crate::progress::Progress;
-use crate::record::{Drawing, Look, RunFolder, ViewKind};
-use crate::report::Report;
+use crate::output::animation::{write_apng, write_gif};
+use crate::output::atomic::WriteError;
+use crate::record::{Drawing, Look, Recorder, RunFolder, ViewKind};
+use crate::report::Earlier;
 use crate::terminal;
-use clap::{Args, Command};
-use std::path::PathBuf;
+use clap::parser::ValueSource;
+use clap::{ArgMatches, Args, Command, ValueEnum};
+use film::Film;
+use running::Running;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
-use xca_core::{Engine, RunOptions, Simulation, Snapshot};
 
 pub(super) const NAME: &str = "render";
 
-const ABOUT: &str = "Run the model, and draw it: a picture every so many steps, and an animation of them";
+const ABOUT: &str = "Draw a run: pictures of its states, and an animation of them";
 
-const SCALE: &str = "\
-All pictures have one scale of colours. To find it, the model is run twice, which
-gives the same numbers both times; with --range it is run once.";
+const STATES: &str = "\
+With the folder of a run, the states that it has saved (its frames) are drawn, and
+with a checkpoint, the state in it; nothing is run. The model is that of the run.
+Frames are exact, but hold what the model's views save of it, and no more; a
+checkpoint holds everything.
+
+Without, the model is run for its pictures. All pictures have one scale of colours;
+to find it, the model is run twice, which gives the same numbers both times. With
+--range it is run once.
+
+--substate, --view, --axis, --layer and --range can be given several times, for as
+many panels side by side; what is given once holds for all of them.";
 
 /// How many pictures there are, unless the command line says how often.
 const PICTURES: u64 = 60;
 
-const ANIMATION: &str = "animation.png";
+/// How pictures are put in motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Animation {
+    /// An animated PNG: every colour as it is
+    Apng,
+    /// An animated GIF of at most 256 colours, which more programs show
+    Gif,
+    /// Not at all
+    None,
+}
 
 /// What is drawn.
 #[derive(Args, Debug, Clone)]
 pub(super) struct RenderArguments {
+    /// The folder of a run, or a checkpoint, that is drawn as it is; the model is run unless it is given
+    #[arg(value_name = "DIR|CHECKPOINT")]
+    of: Option<PathBuf>,
+
     /// How many steps are done; the model says how many unless it is given
     #[arg(long, value_name = "N", value_parser = steps)]
     steps: Option<u64>,
 
-    /// Draw a picture every so many steps; 60 times unless it is given
+    /// Draw a picture every so many steps; 60 times unless it is given, and of a folder all states
     #[arg(long, value_name = "N", value_parser = interval)]
     every: Option<u64>,
 
     /// The substate that gives the colours: a number, or the length of a vector
-    #[arg(long, value_name = "NAME")]
-    substate: Option<String>,
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    substate: Vec<String>,
 
     /// How it is drawn; cells as a slice and items as spheres unless it is given
-    #[arg(long, value_enum, value_name = "VIEW")]
-    view: Option<ViewKind>,
+    #[arg(long, value_enum, value_name = "VIEW", value_delimiter = ',')]
+    view: Vec<ViewKind>,
 
     /// Of a slice: the axis that layers are counted along
-    #[arg(long, value_name = "x|y|z", value_parser = axis)]
-    axis: Option<usize>,
+    #[arg(long, value_name = "x|y|z", value_parser = axis, value_delimiter = ',')]
+    axis: Vec<usize>,
 
     /// Of a slice: the layer, from 0; the middle one unless it is given
-    #[arg(long, value_name = "N")]
-    layer: Option<usize>,
+    #[arg(long, value_name = "N", value_delimiter = ',')]
+    layer: Vec<usize>,
 
     /// The ends of the scale of colours; the least and the largest value of all pictures unless it is given
     #[arg(long, value_name = "LOW,HIGH", value_parser = range)]
-    range: Option<[f64; 2]>,
+    range: Vec<[f64; 2]>,
 
     /// The size of the pictures in pixels
     #[arg(long, value_name = "WxH", value_parser = pixels)]
     pixels: Option<[usize; 2]>,
 
-    /// How many pictures the animation shows a second
+    /// What is made of the pictures beside the PNG files
+    #[arg(long, value_enum, value_name = "FORMAT", default_value_t = Animation::Apng)]
+    animation: Animation,
+
+    /// How many pictures the animation shows a second; of a GIF, 50 at most
     #[arg(long, value_name = "N", default_value_t = 12, value_parser = clap::value_parser!(u16).range(1..=100))]
     fps: u16,
 
-    /// The folder of the pictures; out/NAME_pictures unless it is given. Pictures that are there are replaced
+    /// The folder of the pictures; out/NAME_pictures unless it is given, and of a run DIR_pictures. Pictures that are there are replaced
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
@@ -80,9 +112,49 @@ pub(super) struct RenderArguments {
 }
 
 impl RenderArguments {
-    fn look(&self) -> Look {
-        let Self { substate, view, axis, layer, pixels, range, .. } = self.clone();
-        Look { substate, view, axis, layer, size: pixels, range }
+    /// What is drawn without a run.
+    pub(super) fn saved(&self) -> Option<PathBuf> {
+        self.of.clone()
+    }
+
+    /// What is to be drawn of a model.
+    fn drawing<'a>(&self, recorder: &'a Recorder) -> Result<Drawing<'a>, Unable> {
+        if self.animation == Animation::Gif && self.fps > GIF_FPS {
+            return Err(Unable::refused(format!(
+                "a GIF shows {GIF_FPS} pictures a second at most; give --fps {GIF_FPS} or less"
+            )));
+        }
+        recorder.drawing(&self.looks()?, self.pixels).map_err(Unable::refused)
+    }
+
+    /// What each panel shows.
+    fn looks(&self) -> Result<Vec<Look>, Unable> {
+        let Self { substate, view, axis, layer, range, .. } = self;
+        let options = [
+            ("--substate", substate.len()),
+            ("--view", view.len()),
+            ("--axis", axis.len()),
+            ("--layer", layer.len()),
+            ("--range", range.len()),
+        ];
+        let (most, panels) = options.into_iter().max_by_key(|(_, count)| *count).unwrap_or_default();
+        for (option, count) in options.into_iter().filter(|(_, count)| *count > 1) {
+            if count != panels {
+                return Err(Unable::refused(format!(
+                    "{most} is given {panels} times and {option} {count} times; give each once, or once for each panel"
+                )));
+            }
+        }
+        let look = |panel| Look {
+            substate: of_panel(substate, panel),
+            view: of_panel(view, panel),
+            axis: of_panel(axis, panel),
+            layer: of_panel(layer, panel),
+            // Said once, it is for those panels that are slices.
+            slices_only: panels > 1 && axis.len() < 2 && layer.len() < 2,
+            range: of_panel(range, panel),
+        };
+        Ok((0..panels.max(1)).map(look).collect())
     }
 
     /// What a run would be told.
@@ -99,11 +171,39 @@ impl RenderArguments {
     }
 }
 
-fn axis(text: &str) -> Result<usize, &'static str> {
+/// What a list of values says of a panel.
+fn of_panel<T: Clone>(values: &[T], panel: usize) -> Option<T> {
+    if let [value] = values { Some(value.clone()) } else { values.get(panel).cloned() }
+}
+
+/// Programs show a GIF that is faster much slower.
+const GIF_FPS: u16 = 50;
+
+impl Animation {
+    /// The name of its file.
+    fn file(self) -> Option<&'static str> {
+        match self {
+            Self::Apng => Some("animation.png"),
+            Self::Gif => Some("animation.gif"),
+            Self::None => None,
+        }
+    }
+
+    /// Makes it of pictures in PNG files.
+    fn write(self, path: &Path, pictures: &[PathBuf], fps: u16) -> Result<(), WriteError> {
+        match self {
+            Self::Apng => write_apng(path, pictures, fps),
+            Self::Gif => write_gif(path, pictures, fps),
+            Self::None => Ok(()),
+        }
+    }
+}
+
+pub(super) fn axis(text: &str) -> Result<usize, &'static str> {
     ["x", "y", "z"].iter().position(|name| *name == text).ok_or("it must be x, y or z")
 }
 
-fn range(text: &str) -> Result<[f64; 2], &'static str> {
+pub(super) fn range(text: &str) -> Result<[f64; 2], &'static str> {
     const WANTED: &str = "it must be two numbers, the lower one first, such as 0,20";
     let (low, high) = text.split_once(',').ok_or(WANTED)?;
     let ends = [low, high].map(|end| end.trim().parse().unwrap_or(f64::NAN));
@@ -123,42 +223,77 @@ fn pixels(text: &str) -> Result<[usize; 2], &'static str> {
 pub(super) fn command(definition: &Definition<'_>) -> Command {
     let name = definition.name;
     let command = EngineArguments::augment_args(with_model(Command::new(NAME), definition));
+    // Which a run that is drawn has been given already.
+    let command = command.mut_args(|option| {
+        if option.is_required_set() { option.required(false).required_unless_present("of") } else { option }
+    });
     let command = RenderArguments::augment_args(command).next_help_heading(None::<&str>);
     let examples = [
         format!("{name} render"),
-        format!("{name} render --steps 200 --every 2 --fps 20 --pixels 640x560"),
-        format!("{name} render --view isometric --out out/block   (cells in three dimensions)"),
+        format!("{name} render out/{name}"),
+        format!("{name} render out/{name}/checkpoints/step_00000500.checkpoint"),
+        format!("{name} render --steps 200 --every 2 --fps 20 --pixels 640x560 --animation gif"),
+        format!("{name} render --view slice,isometric --out out/block   (cells in three dimensions)"),
     ];
-    with_help(command, ABOUT, &examples).long_about(format!("{ABOUT}\n\n{SCALE}"))
+    with_help(command, ABOUT, &examples).long_about(format!("{ABOUT}\n\n{STATES}"))
 }
 
-/// Draws a run.
+/// Refuses options that only a run could heed, where one is drawn that has been done.
+pub(super) fn check_saved(command: &Command, matches: &ArgMatches) -> Result<(), Unable> {
+    let own = RenderArguments::augment_args(Command::new(NAME));
+    let is_heeded = |id: &str| {
+        id == "config" || (id != "steps" && own.get_arguments().any(|option| option.get_id() == id))
+    };
+    let all = command.find_subcommand(NAME).into_iter().flat_map(Command::get_arguments);
+    let given = |option: &&clap::Arg| {
+        matches.value_source(option.get_id().as_str()) == Some(ValueSource::CommandLine)
+    };
+    match all.filter(given).find(|option| !is_heeded(option.get_id().as_str())) {
+        None => Ok(()),
+        Some(option) => Err(Unable::refused(format!(
+            "--{} is for a run that is done now; one that is drawn from its files has its own options",
+            option.get_long().unwrap_or(option.get_id().as_str())
+        ))),
+    }
+}
+
+fn default_folder(definition: &Definition<'_>) -> PathBuf {
+    PathBuf::from("out").join(format!("{}_pictures", definition.name))
+}
+
+/// Makes the folder for these files. That of a run is not taken: its files would be gone.
+fn pictures_folder(path: &Path, files: &[String], inputs: &[PathBuf]) -> Result<RunFolder, Unable> {
+    if Earlier::read(path).is_of(super::run::NAME) {
+        let path = path.display();
+        return Err(Unable::refused(format!(
+            "{path} is the folder of a run, whose files would be replaced; give another one with --out"
+        )));
+    }
+    RunFolder::prepare(path, files, inputs).map_err(Unable::refused)
+}
+
+/// Runs a model, and draws it.
 pub(super) fn render(invocation: &RunInvocation<'_>, arguments: &RenderArguments) -> Result<Ended, Unable> {
     let begin = Instant::now();
     let Prepared { engine, recorder, options, origin, mut report } =
         Prepared::new(invocation, &invocation.engine)?;
-    let wanted = origin.steps_wanted;
-    report.every = arguments.every.unwrap_or(wanted.div_ceil(PICTURES).max(1));
-    report.files = vec![ANIMATION.to_owned(), "frames/frame_*.png".to_owned()];
-    let drawing = recorder.drawing(arguments.look()).map_err(Unable::refused)?;
-    let default = || PathBuf::from("out").join(format!("{}_pictures", invocation.model.definition.name));
-    let path = arguments.out.clone().unwrap_or_else(default);
-    let folder = RunFolder::prepare(&path, &report.files, &recorder.set_up().inputs);
-    let folder = folder.map_err(Unable::refused)?;
+    let steps = origin.steps_wanted;
+    report.every = arguments.every.unwrap_or(steps.div_ceil(PICTURES).max(1));
+    let drawing = arguments.drawing(&recorder)?;
+    let interrupt = Interrupt::install().map_err(Unable::failed)?;
+    let (drawing, interrupt, every) = (&drawing, &interrupt, report.every);
+    let states =
+        Running { engine: &*engine, options, drawing, steps, every, interrupt, quiet: arguments.quiet };
+    let film = Film { drawing, states: &states, animation: arguments.animation, fps: arguments.fps };
+    report.files = film.files();
+    let path = arguments.out.clone().unwrap_or_else(|| default_folder(invocation.model.definition));
+    let folder = pictures_folder(&path, &report.files, &recorder.set_up().inputs)?;
     report.write(&folder.report()).map_err(Unable::failed)?;
-    let film = Film {
-        engine: &*engine,
-        options,
-        drawing: &drawing,
-        steps: [wanted, report.every],
-        interrupt: Interrupt::install().map_err(Unable::failed)?,
-        quiet: arguments.quiet,
-    };
-    let result = film.make(&folder.frames, &folder.top.file(ANIMATION), arguments.fps);
+    let result = film.make(&folder);
     report.progress.wall_seconds = begin.elapsed().as_secs_f64();
     match &result {
         Ok(made) => {
-            report.progress.outcome = if made.interrupted { "interrupted" } else { "done" };
+            report.progress.outcome = if interrupt.is_raised() { "interrupted" } else { "done" };
             (report.progress.steps, report.progress.frames) = (made.steps, made.pictures);
             report.progress.time = recorder.time(made.steps);
         }
@@ -170,88 +305,13 @@ pub(super) fn render(invocation: &RunInvocation<'_>, arguments: &RenderArguments
     report.write(&folder.report()).map_err(Unable::failed)?;
     let made = result.map_err(Unable::Failed)?;
     if !arguments.quiet {
-        terminal::say(&made.summary(&report, &folder));
+        let end = if interrupt.is_raised() { ", interrupted" } else { "" };
+        terminal::say(&format!(
+            "{} pictures of {} steps, one every {every}{end}; {}",
+            made.pictures,
+            made.steps,
+            film.places(&folder)
+        ));
     }
-    Ok(if made.interrupted { Ended::Interrupted } else { Ended::Done })
-}
-
-/// How pictures are made.
-struct Film<'a> {
-    engine: &'a dyn Engine,
-    options: RunOptions,
-    drawing: &'a Drawing<'a>,
-    /// How many there are, and how many there are from picture to picture.
-    steps: [u64; 2],
-    interrupt: Interrupt,
-    quiet: bool,
-}
-
-/// What was made.
-struct Made {
-    pictures: usize,
-    steps: u64,
-    interrupted: bool,
-}
-
-impl Made {
-    fn summary(&self, report: &Report, folder: &RunFolder) -> String {
-        let (pictures, end) = (self.pictures, if self.interrupted { ", interrupted" } else { "" });
-        let folder = folder.top.path().display();
-        format!(
-            "{pictures} pictures of {} steps, one every {}{end}; they are in {folder}/frames, and in motion in {folder}/{ANIMATION}",
-            self.steps, report.every
-        )
-    }
-}
-
-impl Film<'_> {
-    /// Finds the scale, draws the pictures, and makes an animation of them.
-    fn make(&self, frames: &OutputFolder, animation: &std::path::Path, fps: u16) -> Result<Made, Failure> {
-        let mut range = self.drawing.fixed_range();
-        if range.is_none() {
-            self.each("measuring", |simulation, snapshot| {
-                range = self.drawing.widened(range, simulation, snapshot);
-                Ok(())
-            })?;
-        }
-        let mut pictures = Vec::new();
-        let steps = self.each("drawing", |simulation, snapshot| {
-            if let Some(picture) = self.drawing.picture(simulation, snapshot, range)? {
-                let path = frames.numbered("frame", snapshot.step, "png");
-                picture.write(&path)?;
-                pictures.push(path);
-            }
-            Ok(())
-        })?;
-        write_animation(animation, &pictures, fps)?;
-        Ok(Made { pictures: pictures.len(), steps, interrupted: self.interrupt.is_raised() })
-    }
-
-    /// Runs the model once, and looks at each state that is to be drawn. Gives the number of steps done.
-    fn each(
-        &self,
-        doing: &str,
-        mut look: impl FnMut(&Simulation, &Snapshot) -> Result<(), Failure>,
-    ) -> Result<u64, Failure> {
-        let [wanted, every] = self.steps;
-        let mut simulation = Simulation::new(self.drawing.model(), self.engine, self.options)?;
-        let line = if self.quiet { Progress::hidden() } else { Progress::new(Some(wanted)) };
-        line.message(doing);
-        let mut batch = Batch::default();
-        loop {
-            let done = simulation.step_number();
-            line.at(done);
-            if done.is_multiple_of(every) {
-                look(&simulation, &simulation.snapshot()?)?;
-            }
-            if done >= wanted || simulation.stop_reason().is_some() || self.interrupt.is_raised() {
-                line.finish();
-                return Ok(done);
-            }
-            let next = (done / every + 1).saturating_mul(every).min(wanted);
-            let begin = Instant::now();
-            simulation.run(batch.steps.min(next - done))?;
-            batch.adapt(begin.elapsed());
-        }
-    }
+    Ok(if interrupt.is_raised() { Ended::Interrupted } else { Ended::Done })
 }

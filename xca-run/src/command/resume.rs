@@ -92,7 +92,7 @@ impl Found<'_> {
         let of_program = description.run.other_program(self.definition.identity());
         self.same(of_program, description)?;
         self.same(earlier.difference(&description.run.command_line), description)?;
-        let run = parse::recorded(self.definition, &description.run.command_line).map_err(told)?;
+        let run = parse::recorded(self.definition, &description.run.command_line, "checkpoint")?;
         let on = self.arguments.engine(&run.engine);
         let Prepared { engine, mut recorder, options, origin, mut report } = Prepared::new(&run, &on)?;
         self.same(description.run.mismatch(&origin), description)?;
@@ -155,17 +155,5 @@ impl Found<'_> {
                 older.display()
             ),
         )
-    }
-}
-
-/// What the parser says of the command line of a checkpoint, as an error of its own.
-fn told(unable: Unable) -> Unable {
-    match unable {
-        Unable::CommandLine(error) => {
-            let text = error.to_string();
-            let first = text.split("\n\n").next().unwrap_or_default().trim_start_matches("error: ");
-            Unable::refused(format!("the command line of the checkpoint is not one of this program: {first}"))
-        }
-        other => other,
     }
 }

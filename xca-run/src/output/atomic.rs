@@ -144,6 +144,11 @@ impl OutputFolder {
         }
     }
 
+    /// A folder whose files are read, not made; it need not be there.
+    pub(crate) fn to_read(path: impl Into<PathBuf>) -> Self {
+        Self { path: path.into() }
+    }
+
     /// The folder itself.
     #[must_use]
     pub fn path(&self) -> &Path {

@@ -5,6 +5,7 @@
 //! | [`ParticlePicture`] | particles as shaded spheres in their box, z up, coloured by a scalar |
 //! | [`SlicePicture`] | one layer of a dense substate, a colour a cell |
 //! | [`BlockPicture`] | all layers of a dense substate, as cubes |
+//! | [`PanelPicture`] | several of these side by side |
 //!
 //! All are filled in, rendered to a [`Picture`] and written:
 //!
@@ -33,6 +34,7 @@ mod depth;
 mod glyphs;
 mod legend;
 mod light;
+mod panels;
 mod particles;
 mod scene;
 mod slice;
@@ -46,6 +48,7 @@ use super::atomic::{WriteError, write_atomically};
 pub use block::BlockPicture;
 pub use colour::ColourMap;
 pub use legend::Scalar;
+pub use panels::PanelPicture;
 pub use particles::{Domain, ParticlePicture};
 pub use slice::SlicePicture;
 pub use view::Viewpoint;

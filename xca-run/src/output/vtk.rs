@@ -6,6 +6,8 @@
 //! | [`write_dense`] | `.vti`, ImageData | dense substates: one value, or vector, a cell |
 //! | [`Collection`] | `.pvd` | the files of a run with their times: what to open to see the run as a film |
 //!
+//! [`read_particles`] and [`read_dense`] read them back, and no other VTK files.
+//!
 //! Values are stored as they are (binary, little-endian, `AppendedData` in raw encoding), so nothing is lost. Units are
 //! those of the model. Every file carries its time as the field `TimeValue`.
 
@@ -13,6 +15,7 @@ mod appended;
 mod collection;
 mod dense;
 mod particles;
+mod read;
 mod values;
 
 use std::path::PathBuf;
@@ -22,6 +25,7 @@ use super::atomic::WriteError;
 pub use collection::Collection;
 pub use dense::{Grid, write_dense};
 pub use particles::write_particles;
+pub use read::{DenseFile, NumberType, ParticleFile, ReadArray, ReadVtkError, read_dense, read_particles};
 pub use values::{DataArray, Values};
 
 /// Data that cannot be written as a VTK file.

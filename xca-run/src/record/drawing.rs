@@ -1,145 +1,81 @@
-//! One view of a run, drawn again and again on one scale.
+//! Views of a model, drawn again and again on the same scales.
 
-use super::cells::wider;
+use super::look::{Look, LookError};
+use super::painting::Frame;
+use super::saved::SavedError;
+use super::seen::{Seen, wider};
 use super::shown::Shown;
 use super::{RecordError, Recorder};
-use crate::output::picture::Picture;
+use crate::output::atomic::OutputFolder;
+use crate::output::picture::{PanelPicture, Picture};
 use crate::view::AnyView;
-use clap::ValueEnum;
-use xca_core::{Model, Simulation, Snapshot};
+use xca_core::{Model, Precision, Snapshot};
 
-/// How a state is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ViewKind {
-    /// One layer of cells
-    Slice,
-    /// All cells as cubes; those that are not 0 of a whole number, else with an octant cut out
-    Isometric,
-    /// The items of a population
-    Spheres,
-}
-
-/// What is drawn, and how; what is not said is as in the pictures of a run.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Look {
-    pub(crate) substate: Option<String>,
-    pub(crate) view: Option<ViewKind>,
-    /// The number of the axis that layers are counted along.
-    pub(crate) axis: Option<usize>,
-    pub(crate) layer: Option<usize>,
-    pub(crate) size: Option<[usize; 2]>,
-    /// The ends of the scale.
-    pub(crate) range: Option<[f64; 2]>,
-}
-
-/// A look that does not fit the model.
-#[derive(Debug, PartialEq, Eq, thiserror::Error)]
-pub(crate) enum LookError {
-    #[error("no substate is called `{name}`; there are {known}")]
-    NoSubstate { name: String, known: String },
-    #[error("`{of}` are substates of {kind}, which cannot be drawn as {view}")]
-    View { of: String, kind: &'static str, view: &'static str },
-    #[error("this model has no {0} to draw")]
-    Nothing(&'static str),
-    #[error("--axis and --layer are for slices of cells")]
-    NotLayered,
-    #[error("there is no layer {layer}: along that axis there are {layers}, from 0")]
-    Layer { layer: usize, layers: usize },
-}
-
-/// What is drawn of every state.
+/// What is drawn of every state: one panel, or several side by side.
 pub(crate) struct Drawing<'a> {
     recorder: &'a Recorder,
-    shown: Shown,
-    is_block: bool,
-    look: Look,
+    panels: Vec<Panel>,
+    /// Width and height in pixels.
+    size: Option<[usize; 2]>,
 }
+
+/// One view, drawn in one way.
+pub(super) struct Panel {
+    pub(super) shown: Shown,
+    /// The scale that was asked for.
+    pub(super) range: Option<[f64; 2]>,
+}
+
+/// The ends of the scale of each panel, where they are known.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Scales(Vec<Option<[f64; 2]>>);
+
+impl Scales {
+    pub(crate) fn are_known(&self) -> bool {
+        self.0.iter().all(Option::is_some)
+    }
+}
+
+/// Width and height of pictures of items and blocks, in pixels.
+const SIZE: [usize; 2] = [800, 600];
+/// Of a panel beside others, unless a size is given.
+const PANEL: [usize; 2] = [600, 520];
+/// Of a panel beside others, at least.
+const LEAST_PANEL: [usize; 2] = [320, 280];
 
 impl Recorder {
-    /// A drawing of this look.
-    pub(crate) fn drawing(&self, look: Look) -> Result<Drawing<'_>, LookError> {
-        let (original, field) = self.chosen(&look)?;
-        let mut shown = Shown::new(original.group, original.view.clone());
-        let kind = match &shown.view {
-            AnyView::Items(_) => ViewKind::Spheres,
-            AnyView::Cells(_) => ViewKind::Slice,
-        };
-        let wanted = look.view.unwrap_or(kind);
-        if (kind == ViewKind::Spheres) != (wanted == ViewKind::Spheres) {
-            let (of, view) = (shown.view.name().to_owned(), wanted.words());
-            return Err(LookError::View {
-                of,
-                kind: if shown.is_of_items() { "items" } else { "cells" },
-                view,
-            });
-        }
-        if wanted != ViewKind::Slice && (look.axis.is_some() || look.layer.is_some()) {
+    /// A drawing with a panel for each of these looks, in a picture of this size.
+    pub(crate) fn drawing(&self, looks: &[Look], size: Option<[usize; 2]>) -> Result<Drawing<'_>, LookError> {
+        let panels: Vec<Panel> = looks.iter().map(|look| self.panel(look)).collect::<Result<_, _>>()?;
+        let is_layered = |look: &Look| look.axis.is_some() || look.layer.is_some();
+        if looks.iter().any(is_layered) && !panels.iter().any(Panel::is_slice) {
             return Err(LookError::NotLayered);
         }
-        match &mut shown.view {
-            AnyView::Items(view) => {
-                if let Some((field, name)) = field.filter(|field| !is_named(view.colour.as_ref(), field)) {
-                    view.colour = Some((field, name));
-                }
-            }
-            AnyView::Cells(view) => {
-                if let Some((field, name)) = field.filter(|field| !is_named(view.drawn.as_ref(), field)) {
-                    // The scale and the kinds are those of another substate.
-                    (view.drawn, view.range, view.map) = (Some((field, name)), None, None);
-                    view.kinds.clear();
-                }
-                if let Some(axis) = look.axis {
-                    (view.axis, view.layer) = (axis, None);
-                }
-                view.layer = look.layer.or(view.layer);
-                let layers = self.model().geometry().extents()[view.axis];
-                if let Some(layer) = view.layer.filter(|layer| *layer >= layers) {
-                    return Err(LookError::Layer { layer, layers });
-                }
-                view.range = look.range.or(view.range);
+        if let (Some([width, height]), 2..) = (size, panels.len()) {
+            let least_width = LEAST_PANEL[0] * panels.len();
+            let least_height = LEAST_PANEL[1] + PanelPicture::ABOVE;
+            if width < least_width || height < least_height {
+                let panels = panels.len();
+                return Err(LookError::Pixels { width, height, panels, least_width, least_height });
             }
         }
-        Ok(Drawing { recorder: self, shown, is_block: wanted == ViewKind::Isometric, look })
-    }
-
-    /// The view that shows what is wanted, and the number and the name of its substate where one is named.
-    fn chosen(&self, look: &Look) -> Result<(&Shown, Option<Named>), LookError> {
-        let Some(name) = &look.substate else {
-            let of_items = look.view.map(|view| view == ViewKind::Spheres);
-            let found =
-                self.shown.iter().find(|shown| of_items.is_none_or(|wanted| shown.is_of_items() == wanted));
-            let what = if of_items == Some(true) { "items" } else { "cells" };
-            return found.map(|shown| (shown, None)).ok_or(LookError::Nothing(what));
-        };
-        let fields = |shown: &Shown| {
-            let schema = self.model().groups()[shown.group].schema();
-            schema.fields.iter().map(|field| field.name).collect::<Vec<_>>()
-        };
-        for shown in &self.shown {
-            if let Some(field) = fields(shown).iter().position(|field| field == name) {
-                return Ok((shown, Some((field, name.clone()))));
-            }
-        }
-        let known: Vec<&str> = self.shown.iter().flat_map(fields).collect();
-        Err(LookError::NoSubstate { name: name.clone(), known: known.join(", ") })
+        Ok(Drawing { recorder: self, panels, size })
     }
 }
 
-/// The number of a substate, and what it is called.
-type Named = (usize, String);
-
-/// Whether a view shows this substate already, and has words for it.
-fn is_named(shown: Option<&Named>, (field, _): &Named) -> bool {
-    shown.is_some_and(|(shown, _)| shown == field)
-}
-
-impl ViewKind {
-    fn words(self) -> &'static str {
-        match self {
-            Self::Slice => "a slice",
-            Self::Isometric => "a block",
-            Self::Spheres => "spheres",
+impl Panel {
+    /// The scale, if it does not depend on the states that are drawn.
+    fn fixed_range(&self) -> Option<[f64; 2]> {
+        match &self.shown.view {
+            AnyView::Items(_) => self.range,
+            AnyView::Cells(view) if view.kinds.is_empty() => view.range,
+            // Kinds have no scale.
+            AnyView::Cells(_) => Some([0.0; 2]),
         }
+    }
+
+    fn is_slice(&self) -> bool {
+        matches!(&self.shown.view, AnyView::Cells(view) if !view.block)
     }
 }
 
@@ -148,56 +84,66 @@ impl Drawing<'_> {
         self.recorder.model()
     }
 
-    /// The scale, if it does not depend on the states that are drawn.
-    pub(crate) fn fixed_range(&self) -> Option<[f64; 2]> {
-        match &self.shown.view {
-            AnyView::Items(_) => self.look.range,
-            AnyView::Cells(view) if view.kinds.is_empty() => view.range,
-            // Kinds have no scale.
-            AnyView::Cells(_) => Some([0.0; 2]),
+    /// What is drawn of a state: for each panel what it shows.
+    pub(crate) fn seen(&self, precision: Precision, snapshot: &Snapshot) -> Vec<Seen> {
+        let panels = self.panels.iter();
+        panels.filter_map(|panel| panel.shown.seen(self.model(), precision, snapshot)).collect()
+    }
+
+    /// The steps after which a run has saved all that is drawn, in this folder of frames.
+    pub(crate) fn saved_steps(&self, frames: &OutputFolder) -> Vec<u64> {
+        let mut of_panels = self.panels.iter().map(|panel| panel.shown.saved_steps(frames));
+        let mut steps = of_panels.next().unwrap_or_default();
+        for others in of_panels {
+            steps.retain(|step| others.contains(step));
+        }
+        steps
+    }
+
+    /// As [`Drawing::seen`], of a saved state.
+    pub(crate) fn seen_in(&self, frames: &OutputFolder, step: u64) -> Result<Vec<Seen>, SavedError> {
+        let panels = self.panels.iter();
+        panels.map(|panel| panel.shown.seen_in(self.model(), &panel.shown.frame(frames, step))).collect()
+    }
+
+    /// The scales, as far as they do not depend on the states that are drawn.
+    pub(crate) fn fixed_scales(&self) -> Scales {
+        Scales(self.panels.iter().map(Panel::fixed_range).collect())
+    }
+
+    /// Widens the scales that are not fixed to what a state has.
+    pub(crate) fn widen(&self, scales: &mut Scales, seen: &[Seen]) {
+        for ((panel, range), seen) in self.panels.iter().zip(&mut scales.0).zip(seen) {
+            if panel.fixed_range().is_none() {
+                let now = seen.range();
+                *range = range.map_or(now, |range| Some(wider(range, now)));
+            }
         }
     }
 
-    /// `range`, widened to what a state has.
-    pub(crate) fn widened(
-        &self,
-        range: Option<[f64; 2]>,
-        simulation: &Simulation,
-        snapshot: &Snapshot,
-    ) -> Option<[f64; 2]> {
-        let cells = self.shown.cells(simulation, snapshot);
-        let of_cells =
-            cells.and_then(|cells| if self.is_block { cells.whole_range() } else { cells.range() });
-        let now = of_cells.or_else(|| self.shown.items(simulation, snapshot).and_then(|items| items.range()));
-        match (range, now) {
-            (Some(range), now) => Some(wider(range, now)),
-            (None, now) => now,
-        }
-    }
-
-    /// A state on this scale.
+    /// The state after a step, on these scales.
     pub(crate) fn picture(
         &self,
-        simulation: &Simulation,
-        snapshot: &Snapshot,
-        range: Option<[f64; 2]>,
+        step: u64,
+        seen: &[Seen],
+        scales: &Scales,
     ) -> Result<Option<Picture>, RecordError> {
-        let (title, size) = (&self.recorder.set_up.title, self.look.size);
-        let caption = self.recorder.caption(snapshot.step);
-        Ok(if let Some(items) = self.shown.items(simulation, snapshot) {
-            let caption = format!("{caption}, {} {}", items.len(), self.shown.view.name());
-            Some(items.draw(title, &caption, range, Some(size.unwrap_or(SIZE)))?)
-        } else if let Some(cells) = self.shown.cells(simulation, snapshot) {
-            Some(if self.is_block {
-                cells.draw_block(title, &caption, range, size.unwrap_or(SIZE))?
-            } else {
-                cells.draw(title, &caption, range, size)?
-            })
-        } else {
-            None
-        })
+        let (title, recorder) = (&self.recorder.set_up.title, self.recorder);
+        if let ([panel], [seen]) = (self.panels.as_slice(), seen) {
+            let caption = recorder.whole_caption(&panel.shown, seen, step);
+            let size = if panel.is_slice() { self.size } else { Some(self.size.unwrap_or(SIZE)) };
+            let frame = Frame { title, caption: &caption, range: scales.0[0], size };
+            return Ok(panel.shown.paint(self.model(), seen, frame)?);
+        }
+        let count = self.panels.len().max(1);
+        let size = self.size.map_or(PANEL, |[width, height]| [width / count, height - PanelPicture::ABOVE]);
+        let mut panels = Vec::new();
+        for ((panel, seen), range) in self.panels.iter().zip(seen).zip(&scales.0) {
+            let caption = panel.shown.details(self.model(), seen).unwrap_or_default();
+            let frame = Frame { title: "", caption: &caption, range: *range, size: Some(size) };
+            panels.extend(panel.shown.paint(self.model(), seen, frame)?);
+        }
+        let caption = recorder.caption(step);
+        Ok(Some(PanelPicture { panels: &panels, title, caption: &caption, size: self.size }.render()?))
     }
 }
-
-/// Width and height of pictures of items and blocks, in pixels.
-const SIZE: [usize; 2] = [800, 600];

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The folder, below the run's own, that holds the frames.
-pub(super) const FRAMES: &str = "frames";
+pub(crate) const FRAMES: &str = "frames";
 
 /// The report, by which a folder is known to be a run's.
 pub(crate) const REPORT: &str = "run.json";

@@ -1,18 +1,15 @@
-//! Items: the table of the final state, the frames, the picture.
+//! Items: the table of the final state, the frames, and what is drawn of them.
 
 use super::RecordError;
+use super::seen::Seen;
 use super::values::Plane;
 use crate::output::particle_csv::{self, Column};
-use crate::output::picture::{Domain, ParticlePicture, Picture, Scalar};
 use crate::output::vtk::{DataArray, write_particles};
 use crate::view::AnyItemView;
 use std::path::Path;
 use xca_core::engine::Population;
 use xca_core::model::Group;
 use xca_core::{Geometry, Precision, StoredType};
-
-/// The share of items that may be beyond the scale: a few fast ones must not make all others look alike.
-const FAST: f64 = 0.02;
 
 /// The items of one state that a view shows, by label.
 pub(super) struct Items<'a> {
@@ -43,10 +40,6 @@ impl<'a> Items<'a> {
         which.sort_unstable_by_key(|&place| population.labels[place]);
         let labels = which.iter().map(|&place| population.labels[place]).collect();
         Self { view, group, geometry, stored, population, which, labels }
-    }
-
-    pub(super) fn len(&self) -> usize {
-        self.which.len()
     }
 
     fn plane(&self, field: usize) -> Plane {
@@ -116,49 +109,10 @@ impl<'a> Items<'a> {
         Ok(write_particles(path, time, self.positions().as_values(), &arrays)?)
     }
 
-    /// The scale of their colours in this state alone.
-    pub(super) fn range(&self) -> Option<[f64; 2]> {
-        let values = self.plane(self.colour()?.0).magnitudes();
-        Scalar::new("", &values).without_largest(FAST).range
-    }
-
-    /// Draws the items as spheres, on the scale of this state unless another is given; likewise their size.
-    pub(super) fn draw(
-        &self,
-        title: &str,
-        caption: &str,
-        range: Option<[f64; 2]>,
-        size: Option<[usize; 2]>,
-    ) -> Result<Picture, RecordError> {
-        let positions = self.positions().to_points();
-        let side = self.geometry.side();
-        let upper = self.geometry.extents().map(|extent| extent as f64 * side);
-        let radius = self.view.radius.unwrap_or(side / 4.0);
-        let colour = self.colour();
-        let values = colour.as_ref().map(|(field, _)| self.plane(*field).magnitudes()).unwrap_or_default();
-        let mut picture = ParticlePicture::new(&positions, radius, Domain { lower: [0.0; 3], upper });
-        picture.colour = colour.as_ref().map(|(_, label)| {
-            let scalar = Scalar::new(label, &values);
-            if range.is_some() { Scalar { range, ..scalar } } else { scalar.without_largest(FAST) }
-        });
-        picture.size = size.unwrap_or(picture.size);
-        picture.title = title;
-        picture.caption = caption;
-        Ok(picture.render()?)
-    }
-
-    /// The substate that colours the items, and what it is called.
-    fn colour(&self) -> Option<(usize, String)> {
-        let schema = self.group.schema();
-        let default = || {
-            let other = |field: &usize| schema.position != Some(*field);
-            let vector = (0..schema.fields.len())
-                .filter(other)
-                .find(|&field| schema.fields[field].value_type.lanes > 1);
-            let field = vector.or_else(|| (0..schema.fields.len()).find(other))?;
-            let name = schema.fields[field].name;
-            Some((field, if vector.is_some() { format!("length of {name}") } else { name.to_owned() }))
-        };
-        self.view.colour.clone().or_else(default)
+    /// Where they are, and what colours them.
+    pub(super) fn seen(&self) -> Seen {
+        let colour = self.view.colour(self.group.schema());
+        let values = colour.map(|(field, _)| self.plane(field).magnitudes()).unwrap_or_default();
+        Seen::Items { positions: self.positions().to_points(), values }
     }
 }

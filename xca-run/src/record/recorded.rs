@@ -78,7 +78,7 @@ impl Recorder {
         let mut collections = Vec::new();
         for shown in &self.shown {
             let path = folder.top.file(&shown.collection_file());
-            collections.push(Collection::of(&path, &entries(&|step| shown.frame(&folder, step)))?);
+            collections.push(Collection::of(&path, &entries(&|step| shown.frame(&folder.frames, step)))?);
         }
         let scales = recorded.scales.iter().map(|scale| scale.map(|scale| scale.map(|number| number.0)));
         for ((shown, collection), scale) in self.shown.iter_mut().zip(collections).zip(scales) {
@@ -94,8 +94,8 @@ impl Recorder {
         let mut newer = Vec::new();
         for (number, shown) in self.shown.iter().enumerate() {
             let recorded: HashSet<PathBuf> =
-                self.steps.iter().map(|step| shown.frame(folder, *step)).collect();
-            let frames = shown.frames(folder).into_iter();
+                self.steps.iter().map(|step| shown.frame(&folder.frames, *step)).collect();
+            let frames = shown.frames(&folder.frames).into_iter();
             newer.extend(frames.filter(|frame| !recorded.contains(frame)));
             newer.push(folder.top.file(&self.numbered_file("final", number, "png")));
             if shown.is_of_items() {

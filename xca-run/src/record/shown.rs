@@ -2,11 +2,13 @@
 
 use super::cells::Cells;
 use super::items::Items;
-use super::{RunFolder, numbered_files};
+use super::numbered_files;
+use super::seen::Seen;
+use crate::output::atomic::OutputFolder;
 use crate::output::vtk::Collection;
 use crate::view::AnyView;
 use std::path::PathBuf;
-use xca_core::{GroupSnapshot, Simulation, Snapshot};
+use xca_core::{GroupSnapshot, Model, Precision, Snapshot};
 
 /// A view with its files.
 pub(super) struct Shown {
@@ -33,19 +35,31 @@ impl Shown {
         if self.is_of_items() { "vtp" } else { "vti" }
     }
 
-    /// The file of the frame of a step.
-    pub(super) fn frame(&self, folder: &RunFolder, step: u64) -> PathBuf {
-        folder.frames.numbered(self.view.name(), step, self.extension())
+    /// The file of the frame of a step, in the folder of the frames.
+    pub(super) fn frame(&self, frames: &OutputFolder, step: u64) -> PathBuf {
+        frames.numbered(self.view.name(), step, self.extension())
     }
 
     /// The files of all frames that are there.
-    pub(super) fn frames(&self, folder: &RunFolder) -> Vec<PathBuf> {
-        let first = self.frame(folder, 0);
-        let (Some(parent), Some(name)) = (first.parent(), first.file_name()) else { return Vec::new() };
-        let after = format!(".{}", self.extension());
-        let name = name.to_string_lossy();
-        let before = name.trim_end_matches(&after).trim_end_matches('0');
-        numbered_files(parent, before, &after)
+    pub(super) fn frames(&self, frames: &OutputFolder) -> Vec<PathBuf> {
+        let [before, after] = self.around_step();
+        numbered_files(frames.path(), &before, &after)
+    }
+
+    /// The steps of these frames.
+    pub(super) fn saved_steps(&self, frames: &OutputFolder) -> Vec<u64> {
+        let [before, after] = self.around_step();
+        let step = |path: &PathBuf| {
+            let name = path.file_name()?.to_str()?;
+            name.strip_prefix(&before)?.strip_suffix(&after)?.parse().ok()
+        };
+        self.frames(frames).iter().filter_map(step).collect()
+    }
+
+    /// What stands before and after the step in the name of a frame.
+    fn around_step(&self) -> [String; 2] {
+        let stem = OutputFolder::to_read("").file(self.view.name());
+        [format!("{}_", stem.display()), format!(".{}", self.extension())]
     }
 
     /// The file that lists the frames with their times.
@@ -56,18 +70,15 @@ impl Shown {
     /// The items, if it is a view of items.
     pub(super) fn items<'a>(
         &'a self,
-        simulation: &'a Simulation,
+        model: &'a Model,
+        precision: Precision,
         snapshot: &'a Snapshot,
     ) -> Option<Items<'a>> {
-        let model = simulation.model();
+        let (group, geometry) = (&model.groups()[self.group], model.geometry());
         match (&self.view, &snapshot.groups[self.group]) {
-            (AnyView::Items(view), GroupSnapshot::Population(population, _)) => Some(Items::new(
-                view,
-                &model.groups()[self.group],
-                model.geometry(),
-                simulation.options().precision,
-                population,
-            )),
+            (AnyView::Items(view), GroupSnapshot::Population(population, _)) => {
+                Some(Items::new(view, group, geometry, precision, population))
+            }
             _ => None,
         }
     }
@@ -75,19 +86,22 @@ impl Shown {
     /// The substates of cells, if it is a view of these.
     pub(super) fn cells<'a>(
         &'a self,
-        simulation: &'a Simulation,
+        model: &'a Model,
+        precision: Precision,
         snapshot: &'a Snapshot,
     ) -> Option<Cells<'a>> {
-        let model = simulation.model();
+        let (group, geometry) = (&model.groups()[self.group], model.geometry());
         match (&self.view, &snapshot.groups[self.group]) {
-            (AnyView::Cells(view), GroupSnapshot::Cells(fields)) => Some(Cells::new(
-                view,
-                &model.groups()[self.group],
-                model.geometry(),
-                simulation.options().precision,
-                fields,
-            )),
+            (AnyView::Cells(view), GroupSnapshot::Cells(fields)) => {
+                Some(Cells::new(view, group, geometry, precision, fields))
+            }
             _ => None,
         }
+    }
+
+    /// What it draws of a state.
+    pub(super) fn seen(&self, model: &Model, precision: Precision, snapshot: &Snapshot) -> Option<Seen> {
+        let items = self.items(model, precision, snapshot).map(|items| items.seen());
+        items.or_else(|| self.cells(model, precision, snapshot).map(|cells| cells.seen()))
     }
 }

@@ -73,6 +73,15 @@ impl Canvas {
         }
     }
 
+    /// Lays a picture over a rectangle whose top left corner is at `[x, y]`.
+    pub(super) fn paste(&mut self, [x, y]: [usize; 2], picture: &Picture) {
+        let pixels = picture.rgb.as_chunks::<3>().0.iter().enumerate();
+        for (at, pixel) in pixels {
+            let colour = pixel.map(|channel| f32::from(channel) / 255.0);
+            self.set(x + at % picture.width, y + at / picture.width, colour);
+        }
+    }
+
     /// The finished picture.
     pub(super) fn into_picture(self) -> Picture {
         let rgb = self.pixels.iter().flatten().map(|x| (x.clamp(0.0, 1.0) * 255.0).round() as u8).collect();

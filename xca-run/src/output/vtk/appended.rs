@@ -5,6 +5,17 @@ use std::io::{self, Write};
 
 use super::values::{DataArray, Values};
 
+/// What stands before the values.
+pub(super) const DATA: &str = "<AppendedData encoding=\"raw\">\n_";
+/// What stands after them.
+pub(super) const END: &str = "\n</AppendedData>\n</VTKFile>\n";
+
+/// The first lines of a file of this kind.
+pub(super) fn head(kind: &str) -> String {
+    let attributes = r#"version="1.0" byte_order="LittleEndian" header_type="UInt64""#;
+    format!("<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" {attributes}>\n")
+}
+
 /// The values that stand at the end of a file.
 #[derive(Default)]
 pub(super) struct Appended<'a> {
@@ -82,14 +93,12 @@ impl<'a> Appended<'a> {
 
     /// Writes the file: `content` is the element named `kind`.
     pub(super) fn write(&self, out: &mut dyn Write, kind: &str, content: &str) -> io::Result<()> {
-        let head = r#"version="1.0" byte_order="LittleEndian" header_type="UInt64""#;
-        write!(out, "<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" {head}>\n{content}")?;
-        out.write_all(b"<AppendedData encoding=\"raw\">\n_")?;
+        write!(out, "{}{content}{DATA}", head(kind))?;
         for block in &self.blocks {
             out.write_all(&block.bytes().to_le_bytes())?;
             block.write_to(out)?;
         }
-        out.write_all(b"\n</AppendedData>\n</VTKFile>\n")
+        out.write_all(END.as_bytes())
     }
 }
 
@@ -107,6 +116,12 @@ pub(super) fn escaped(text: &str) -> String {
         }
     }
     out
+}
+
+/// Text that was [`escaped`].
+pub(super) fn unescaped(text: &str) -> String {
+    let plain = text.replace("&quot;", "\"").replace("&gt;", ">").replace("&lt;", "<");
+    plain.replace("&amp;", "&")
 }
 
 /// Numbers with blanks between them, each the shortest decimal that reads back exactly.

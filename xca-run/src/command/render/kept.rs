@@ -1,0 +1,106 @@
+//! What a run's folder, or a checkpoint, says of the run that it is of.
+
+use crate::checkpoint::{Description, Difference, Parameter, other_model, other_program};
+use crate::command::prepare::Described;
+use crate::command::{Definition, Unable, parse};
+use crate::record::{REPORT, Recorder};
+use crate::report;
+use serde::Deserialize;
+use serde_json::{Map, Value};
+use std::fs;
+use std::path::Path;
+
+/// What a run was: enough to make its model again.
+pub(super) struct Kept<'a> {
+    /// The folder or the checkpoint.
+    path: &'a Path,
+    /// As [`Definition::identity`].
+    identity: [String; 3],
+    command_line: Vec<String>,
+    /// The shape of the model, as in `run.json`.
+    model: Value,
+    parameters: Vec<String>,
+}
+
+/// The part of `run.json` that tells this.
+#[derive(Deserialize)]
+struct Told {
+    xca: String,
+    program: String,
+    version: String,
+    command_line: Vec<String>,
+    model: Value,
+    parameters: Map<String, Value>,
+}
+
+/// A run whose states are drawn must be one of this program.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot draw {path}: its {} is {}, not {}", .difference.what, .difference.found, .difference.wanted)]
+struct Other {
+    path: String,
+    difference: Difference,
+}
+
+impl<'a> Kept<'a> {
+    /// What the report in the folder of a run tells; with the whole report.
+    pub(super) fn of_folder(path: &'a Path) -> Result<(Self, Value), Unable> {
+        let folder = path.display();
+        let none =
+            |_| Unable::refused(format!("{folder} is no folder of a run: there is no {REPORT} of one in it"));
+        let text = fs::read(path.join(REPORT)).map_err(|error| none(error.to_string()))?;
+        let whole: Value = serde_json::from_slice(&text).map_err(|error| none(error.to_string()))?;
+        let told = Told::deserialize(&whole).map_err(|error| none(error.to_string()))?;
+        if told.command_line.get(1).map(String::as_str) == Some(super::NAME) {
+            return Err(Unable::refused(format!("{folder} holds pictures of a run, not the run")));
+        }
+        let kept = Self {
+            path,
+            identity: [told.xca, told.program, told.version],
+            command_line: told.command_line,
+            model: told.model,
+            parameters: of_report(&told.parameters),
+        };
+        Ok((kept, whole))
+    }
+
+    /// What a checkpoint tells.
+    pub(super) fn of_checkpoint(path: &'a Path, description: &Description) -> Self {
+        let run = &description.run;
+        Self {
+            path,
+            identity: [&run.xca, &run.program, &run.version].map(Clone::clone),
+            command_line: run.command_line.clone(),
+            model: run.model.clone(),
+            parameters: run.parameters.iter().map(ToString::to_string).collect(),
+        }
+    }
+
+    /// The recorder of the run, which knows its model and its views.
+    ///
+    /// The processes may be others than they were: what they have done is there to be seen. The parameters may not, as views depend on them.
+    pub(super) fn recorder(&self, definition: &Definition<'_>) -> Result<Recorder, Unable> {
+        let identity = self.identity.each_ref().map(String::as_str);
+        self.same(other_program(identity, definition.identity()))?;
+        let run = parse::recorded(definition, &self.command_line, "run")?;
+        let Described { recorder, origin, .. } = Described::new(&run)?;
+        self.same(other_model(&self.model, &origin.model))?;
+        // A checkpoint writes them in another way than a report.
+        let of_report = of_report(&report::of_parameters(recorder.model().parameters()));
+        let of_checkpoint: Vec<String> = origin.parameters.iter().map(Parameter::to_string).collect();
+        if ![&of_report, &of_checkpoint].contains(&&self.parameters) {
+            let [found, wanted] = [&self.parameters, &of_report].map(|parameters| parameters.join(", "));
+            self.same(Some(Difference { what: "set of parameters", found, wanted }))?;
+        }
+        Ok(recorder)
+    }
+
+    fn same(&self, difference: Option<Difference>) -> Result<(), Unable> {
+        let path = self.path.display().to_string();
+        difference.map_or(Ok(()), |difference| Err(Unable::refused(Other { path, difference })))
+    }
+}
+
+/// The parameters of a report.
+fn of_report(parameters: &Map<String, Value>) -> Vec<String> {
+    parameters.iter().map(|(name, value)| format!("{name} = {value}")).collect()
+}

@@ -1,0 +1,47 @@
+//! The states of a run that is done for its pictures.
+
+use super::film::{Look, States};
+use crate::command::under_way::Batch;
+use crate::interrupt::Interrupt;
+use crate::program::Failure;
+use crate::progress::Progress;
+use crate::record::Drawing;
+use std::time::Instant;
+use xca_core::{Engine, RunOptions, Simulation};
+
+/// A run from its beginning, each time that its states are wanted.
+pub(super) struct Running<'a> {
+    pub(super) engine: &'a dyn Engine,
+    pub(super) options: RunOptions,
+    pub(super) drawing: &'a Drawing<'a>,
+    pub(super) steps: u64,
+    /// How many steps there are from picture to picture.
+    pub(super) every: u64,
+    pub(super) interrupt: &'a Interrupt,
+    pub(super) quiet: bool,
+}
+
+impl States for Running<'_> {
+    fn each(&self, doing: &str, look: &mut Look<'_>) -> Result<u64, Failure> {
+        let Self { steps: wanted, every, .. } = *self;
+        let mut simulation = Simulation::new(self.drawing.model(), self.engine, self.options)?;
+        let line = if self.quiet { Progress::hidden() } else { Progress::new(Some(wanted)) };
+        line.message(doing);
+        let mut batch = Batch::default();
+        loop {
+            let done = simulation.step_number();
+            line.at(done);
+            if done.is_multiple_of(every) {
+                look(done, &self.drawing.seen(self.options.precision, &simulation.snapshot()?))?;
+            }
+            if done >= wanted || simulation.stop_reason().is_some() || self.interrupt.is_raised() {
+                line.finish();
+                return Ok(done);
+            }
+            let next = (done / every + 1).saturating_mul(every).min(wanted);
+            let begin = Instant::now();
+            simulation.run(batch.steps.min(next - done))?;
+            batch.adapt(begin.elapsed());
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! The colours of a GIF: 256 at most, the same in all its pictures.
+
+use color_quant::NeuQuant;
+use std::collections::HashMap;
+
+/// A colour in sRGB.
+type Colour = [u8; 3];
+
+/// How many colours a GIF can have.
+const MOST: usize = 256;
+
+/// How many of the most frequent colours stay as they are where there are more: paper, ink, and the large areas.
+const KEPT: usize = 64;
+
+/// How often each colour is there.
+#[derive(Default)]
+pub(super) struct Histogram {
+    counts: HashMap<Colour, u64>,
+}
+
+impl Histogram {
+    /// Counts pixels, three bytes each.
+    pub(super) fn add(&mut self, rgb: &[u8]) {
+        // What is alike stands side by side.
+        for run in rgb.as_chunks::<3>().0.chunk_by(|one, next| one == next) {
+            *self.counts.entry(run[0]).or_default() += run.len() as u64;
+        }
+    }
+
+    /// The colours of the palette, and which of them stands for each colour that was counted.
+    pub(super) fn palette(self) -> Palette {
+        let mut all: Vec<(Colour, u64)> = self.counts.into_iter().collect();
+        // The most frequent first; an order of those that are equally frequent makes the same file of the same pictures.
+        all.sort_unstable_by_key(|(colour, count)| (std::cmp::Reverse(*count), *colour));
+        let all: Vec<Colour> = all.into_iter().map(|(colour, _)| colour).collect();
+        let colours = if all.len() <= MOST { all.clone() } else { few(&all) };
+        let index = |colour: &Colour| nearest(&colours, *colour);
+        let indices = all.iter().map(|colour| (*colour, index(colour))).collect();
+        Palette { colours, indices }
+    }
+}
+
+/// The colours of a film.
+pub(super) struct Palette {
+    colours: Vec<Colour>,
+    indices: HashMap<Colour, u8>,
+}
+
+impl Palette {
+    /// Three bytes for each colour.
+    pub(super) fn rgb(&self) -> &[u8] {
+        self.colours.as_flattened()
+    }
+
+    /// The numbers of the colours of pixels, all of which must have been counted.
+    pub(super) fn indices(&self, rgb: &[u8]) -> Vec<u8> {
+        let pixels = rgb.as_chunks::<3>().0.iter();
+        pixels.map(|colour| self.indices.get(colour).copied().unwrap_or(0)).collect()
+    }
+}
+
+/// A few colours that stand for all of these, the most frequent of which come first.
+fn few(all: &[Colour]) -> Vec<Colour> {
+    let (kept, others) = all.split_at(KEPT);
+    let pixels: Vec<u8> = others.iter().flat_map(|&[red, green, blue]| [red, green, blue, u8::MAX]).collect();
+    let found = NeuQuant::new(1, MOST - KEPT, &pixels).color_map_rgb();
+    [kept, found.as_chunks().0].concat()
+}
+
+/// The number of the colour that is nearest to this one.
+fn nearest(colours: &[Colour], wanted: Colour) -> u8 {
+    let distance = |colour: &Colour| -> i32 {
+        (0..3).map(|i| (i32::from(colour[i]) - i32::from(wanted[i])).pow(2)).sum()
+    };
+    let found = colours.iter().enumerate().min_by_key(|(_, colour)| distance(colour));
+    found.map_or(0, |(number, _)| number as u8)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The largest difference of a channel between colours and what stands for them, and the mean of the differences.
+    fn error(colours: &[Colour]) -> (u8, f64) {
+        let mut histogram = Histogram::default();
+        histogram.add(colours.as_flattened());
+        let palette = histogram.palette();
+        assert!(palette.colours.len() <= MOST);
+        let shown = palette.indices(colours.as_flattened());
+        let channels = colours.iter().zip(shown).flat_map(|(colour, index)| {
+            let shown = palette.colours[usize::from(index)];
+            (0..3).map(move |i| colour[i].abs_diff(shown[i]))
+        });
+        let (mut largest, mut sum) = (0, 0.0);
+        for difference in channels {
+            largest = largest.max(difference);
+            sum += f64::from(difference);
+        }
+        (largest, sum / (3 * colours.len()) as f64)
+    }
+
+    #[test]
+    fn as_many_colours_as_there_is_room_for_stay_as_they_are() {
+        let colours: Vec<Colour> = (0..=255).map(|i: u8| [i, i.wrapping_mul(37), 255 - i]).collect();
+        assert_eq!(error(&colours), (0, 0.0));
+        assert_eq!(error(&[[1, 2, 3]]), (0, 0.0));
+    }
+
+    #[test]
+    fn more_colours_are_met_nearly() {
+        // A map of colours under light of many strengths, on a lot of white.
+        let mut colours = vec![[255; 3]; 20_000];
+        for hue in 0..=255_u16 {
+            for light in 20..100_u16 {
+                colours.push([hue, 255 - hue / 2, 60 + hue / 3].map(|channel| (channel * light / 100) as u8));
+            }
+        }
+        let (largest, mean) = error(&colours);
+        assert!(largest <= 24 && mean < 2.5, "{largest} {mean}");
+        // All over the cube, which is the worst there can be.
+        let cube: Vec<Colour> =
+            (0..32_768_u32).map(|i| [i % 32, i / 32 % 32, i / 1024].map(|c| (8 * c) as u8)).collect();
+        let (largest, mean) = error(&cube);
+        assert!(largest <= 72 && mean < 16.0, "{largest} {mean}");
+    }
+
+    #[test]
+    fn what_is_there_most_stays_as_it_is() {
+        let mut colours: Vec<Colour> = (0..2000_u16).map(|i| [(i % 251) as u8, (i / 8) as u8, 90]).collect();
+        colours.extend([[255; 3]; 100]);
+        colours.extend([[41, 46, 56]; 50]);
+        let mut histogram = Histogram::default();
+        histogram.add(colours.as_flattened());
+        let palette = histogram.palette();
+        assert_eq!(palette.colours[..2], [[255; 3], [41, 46, 56]]);
+        assert_eq!(palette.indices(&[41, 46, 56, 255, 255, 255]), [1, 0]);
+    }
+}

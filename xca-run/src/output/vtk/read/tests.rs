@@ -1,0 +1,135 @@
+use super::super::{DataArray, Values, write_dense, write_particles};
+use super::*;
+use std::fs;
+use tempfile::TempDir;
+
+fn bytes<T, const N: usize>(numbers: &[T], of: impl Fn(&T) -> [u8; N]) -> Vec<u8> {
+    numbers.iter().flat_map(of).collect()
+}
+
+const GRID: Grid = Grid { cells: [3, 1, 2], origin: [0.0, -0.5, 1e300], spacing: [0.1, 0.25, 1e-7] };
+
+fn dense() -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("d.vti");
+    let arrays = [
+        DataArray::new("alive", &[1_u8, 0, 1, 1, 0, 9][..]),
+        DataArray::new("a < \"b\" & >", &[[1.5_f32, f32::NAN]; 6][..]),
+        DataArray::new("depth", &[-1_i32, 2, i32::MIN, 4, 5, i32::MAX][..]),
+    ];
+    write_dense(&path, -1.25e-3, &GRID, &arrays).unwrap();
+    (folder, path)
+}
+
+fn particles(count: usize) -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("p.vtp");
+    let positions: Vec<[f64; 3]> = (0..count).map(|i| [i as f64, 0.1, f64::NEG_INFINITY]).collect();
+    let labels: Vec<u32> = (0..count).map(|i| u32::MAX - i as u32).collect();
+    // Bytes that look like the end of the file, and like the beginning of its data.
+    let labelled = DataArray::new("label", &labels[..]);
+    // Bytes that look like the end of the file, and like the beginning of its data.
+    let text = b"\n</AppendedData>\n<AppendedData encoding=\"raw\">\n_";
+    let components = text.len() / count.max(1);
+    let text = Values::interleaved(components, &text[..count * components]);
+    let arrays = [labelled, DataArray { name: "text", values: text }];
+    write_particles(&path, 0.5, positions[..].into(), &arrays).unwrap();
+    (folder, path)
+}
+
+#[test]
+fn what_is_written_of_cells_is_read_back_to_the_last_bit() {
+    let (_folder, path) = dense();
+    let file = read_dense(&path).unwrap();
+    assert_eq!((file.time, file.grid), (-1.25e-3, GRID));
+    let found: Vec<(&str, NumberType, usize)> =
+        file.arrays.iter().map(|array| (array.name.as_str(), array.numbers, array.components)).collect();
+    let wanted =
+        [("alive", NumberType::U8, 1), ("a < \"b\" & >", NumberType::F32, 2), ("depth", NumberType::I32, 1)];
+    assert_eq!(found, wanted);
+    assert_eq!(file.arrays[0].bytes, [1, 0, 1, 1, 0, 9]);
+    assert_eq!(file.arrays[1].bytes, bytes(&[[1.5_f32, f32::NAN]; 6].concat(), |x| x.to_ne_bytes()));
+    assert_eq!(file.arrays[2].bytes, bytes(&[-1_i32, 2, i32::MIN, 4, 5, i32::MAX], |x| x.to_ne_bytes()));
+}
+
+#[test]
+fn what_is_written_of_particles_is_read_back_to_the_last_bit() {
+    for count in [0, 1, 4] {
+        let (_folder, path) = particles(count);
+        let file = read_particles(&path).unwrap();
+        assert_eq!(file.time, 0.5);
+        assert_eq!((file.positions.numbers, file.positions.components), (NumberType::F64, 3));
+        let points: Vec<f64> = (0..count).flat_map(|i| [i as f64, 0.1, f64::NEG_INFINITY]).collect();
+        assert_eq!(file.positions.bytes, bytes(&points, |x| x.to_ne_bytes()));
+        assert_eq!((file.arrays[0].name.as_str(), file.arrays[0].numbers), ("label", NumberType::U32));
+        let labels: Vec<u32> = (0..count).map(|i| u32::MAX - i as u32).collect();
+        assert_eq!(file.arrays[0].bytes, bytes(&labels, |x| x.to_ne_bytes()));
+        assert_eq!(file.arrays.len(), 2);
+    }
+}
+
+#[test]
+fn a_truncated_file_is_refused_wherever_it_ends() {
+    for (path, read) in [
+        (dense(), (|path| read_dense(path).map(drop)) as fn(&Path) -> Result<(), ReadVtkError>),
+        (particles(4), |path| read_particles(path).map(drop)),
+    ] {
+        let ((_folder, path), whole) = (&path, fs::read(&path.1).unwrap());
+        // Everywhere near the end, and here and there before it.
+        let near_end = |length: &usize| length.is_multiple_of(7) || length + 60 > whole.len();
+        for length in (0..whole.len()).filter(near_end) {
+            fs::write(path, &whole[..length]).unwrap();
+            let error = read(path).unwrap_err();
+            let ReadVtkError::Truncated { found, .. } = &error else { panic!("{length}: {error}") };
+            assert_eq!(*found, length, "{error}");
+        }
+        fs::write(path, &whole).unwrap();
+        read(path).unwrap();
+        fs::write(path, [&whole[..], b"x"].concat()).unwrap();
+        assert!(read(path).unwrap_err().to_string().contains("it goes on where it should end"));
+    }
+}
+
+#[test]
+fn a_file_of_something_else_is_refused() {
+    let (_folder, path) = dense();
+    let whole = fs::read(&path).unwrap();
+    let error = read_particles(&path).unwrap_err().to_string();
+    assert!(error.contains("d.vti is not a VTK file as this program writes them"), "{error}");
+    let text = String::from_utf8_lossy(&whole).into_owned();
+    // Only the lines of XML are text, but these are the ones to be changed.
+    let changed = |from: &str, to: &str| {
+        assert_eq!(text.matches(from).count(), 1, "{from}");
+        let at = text.find(from).unwrap();
+        let bytes = [&whole[..at], to.as_bytes(), &whole[at + from.len()..]].concat();
+        fs::write(&path, bytes).unwrap();
+        read_dense(&path).unwrap_err().to_string()
+    };
+    for (from, to, wanted) in [
+        ("type=\"UInt8\"", "type=\"UInt9\"", "one of its arrays"),
+        ("offset=\"16\"", "offset=\"17\"", "one of its arrays"),
+        ("NumberOfComponents=\"2\"", "NumberOfComponents=\"0\"", "one of its arrays"),
+        ("Name=\"TimeValue\"", "Name=\"Time\"", "does not say its time"),
+        ("Origin=\"0.0 ", "Origin=\"", "its grid"),
+        ("<Piece Extent=\"0 3 0 1 0 2\"", "<Piece Extent=\"0 3 0 1 1 2\"", "its grid"),
+        (
+            "<Piece Extent=\"0 3 0 1 0 2\"",
+            "<Piece Extent=\"0 4294967295 0 4294967295 0 4294967295\"",
+            "its grid",
+        ),
+        ("header_type=\"UInt64\"", "header_type=\"UInt64\" compressor=\"x\"", "its first lines"),
+        ("Name=\"depth\" NumberOfComponents=\"1\"", "Name=\"depth\" NumberOfComponents=\"9\"", "truncated"),
+    ] {
+        let error = changed(from, to);
+        assert!(error.contains(wanted), "{to}: {error}");
+    }
+    // The length before the values of the first array.
+    let data = whole.windows(DATA.len()).position(|window| window == DATA.as_bytes()).unwrap() + DATA.len();
+    let mut bytes = whole.clone();
+    bytes[data + 16] ^= 1;
+    fs::write(&path, bytes).unwrap();
+    assert!(read_dense(&path).unwrap_err().to_string().contains("its data are not those of its arrays"));
+    assert!(
+        read_dense(Path::new("/nowhere/d.vti")).unwrap_err().to_string().contains("cannot read /nowhere")
+    );
+}

@@ -1,0 +1,143 @@
+//! What is wanted of a drawing, and the view of the model that it comes to.
+
+use super::Recorder;
+use super::drawing::Panel;
+use super::shown::Shown;
+use crate::view::AnyView;
+use clap::ValueEnum;
+
+/// How a state is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ViewKind {
+    /// One layer of cells
+    Slice,
+    /// All cells as cubes; those that are not 0 of a whole number, else with an octant cut out
+    Isometric,
+    /// The items of a population
+    Spheres,
+}
+
+/// What is drawn, and how; what is not said is as in the pictures of a run.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Look {
+    pub(crate) substate: Option<String>,
+    pub(crate) view: Option<ViewKind>,
+    /// The number of the axis that layers are counted along.
+    pub(crate) axis: Option<usize>,
+    pub(crate) layer: Option<usize>,
+    /// Whether axis and layer are meant for slices alone, and nothing to others.
+    pub(crate) slices_only: bool,
+    /// The ends of the scale.
+    pub(crate) range: Option<[f64; 2]>,
+}
+
+/// A look that does not fit the model.
+#[derive(Debug, PartialEq, Eq, thiserror::Error)]
+pub(crate) enum LookError {
+    #[error("no substate is called `{name}`; there are {known}")]
+    NoSubstate { name: String, known: String },
+    #[error("`{of}` are substates of {kind}, which cannot be drawn as {view}")]
+    View { of: String, kind: &'static str, view: &'static str },
+    #[error("this model has no {0} to draw")]
+    Nothing(&'static str),
+    #[error("--axis and --layer are for slices of cells")]
+    NotLayered,
+    #[error("there is no layer {layer}: along that axis there are {layers}, from 0")]
+    Layer { layer: usize, layers: usize },
+    #[error(
+        "{width}x{height} pixels are too few for {panels} panels; they take {least_width}x{least_height} or more"
+    )]
+    Pixels { width: usize, height: usize, panels: usize, least_width: usize, least_height: usize },
+}
+
+impl Recorder {
+    /// The panel of a look.
+    pub(super) fn panel(&self, look: &Look) -> Result<Panel, LookError> {
+        let (original, field) = self.chosen(look)?;
+        let mut shown = Shown::new(original.group, original.view.clone());
+        let kind = match &shown.view {
+            AnyView::Items(_) => ViewKind::Spheres,
+            AnyView::Cells(_) => ViewKind::Slice,
+        };
+        let wanted = look.view.unwrap_or(kind);
+        if (kind == ViewKind::Spheres) != (wanted == ViewKind::Spheres) {
+            let (of, view) = (shown.view.name().to_owned(), wanted.words());
+            return Err(LookError::View {
+                of,
+                kind: if shown.is_of_items() { "items" } else { "cells" },
+                view,
+            });
+        }
+        let is_layered = look.axis.is_some() || look.layer.is_some();
+        if wanted != ViewKind::Slice && is_layered && !look.slices_only {
+            return Err(LookError::NotLayered);
+        }
+        match &mut shown.view {
+            AnyView::Items(view) => {
+                if let Some((field, name)) = field.filter(|field| !is_named(view.colour.as_ref(), field)) {
+                    view.colour = Some((field, name));
+                }
+            }
+            AnyView::Cells(view) => {
+                view.block = wanted == ViewKind::Isometric;
+                if let Some((field, name)) = field.filter(|field| !is_named(view.drawn.as_ref(), field)) {
+                    // The scale and the kinds are those of another substate.
+                    (view.drawn, view.range, view.map) = (Some((field, name)), None, None);
+                    view.kinds.clear();
+                }
+                view.range = look.range.or(view.range);
+                if !view.block {
+                    if let Some(axis) = look.axis {
+                        (view.axis, view.layer) = (axis, None);
+                    }
+                    view.layer = look.layer.or(view.layer);
+                }
+                let layers = self.model().geometry().extents()[view.axis];
+                if let Some(layer) = view.layer.filter(|layer| *layer >= layers) {
+                    return Err(LookError::Layer { layer, layers });
+                }
+            }
+        }
+        Ok(Panel { shown, range: look.range })
+    }
+
+    /// The view that shows what is wanted, and the number and the name of its substate where one is named.
+    fn chosen(&self, look: &Look) -> Result<(&Shown, Option<Named>), LookError> {
+        let Some(name) = &look.substate else {
+            let of_items = look.view.map(|view| view == ViewKind::Spheres);
+            let found =
+                self.shown.iter().find(|shown| of_items.is_none_or(|wanted| shown.is_of_items() == wanted));
+            let what = if of_items == Some(true) { "items" } else { "cells" };
+            return found.map(|shown| (shown, None)).ok_or(LookError::Nothing(what));
+        };
+        let fields = |shown: &Shown| {
+            let schema = self.model().groups()[shown.group].schema();
+            schema.fields.iter().map(|field| field.name).collect::<Vec<_>>()
+        };
+        for shown in &self.shown {
+            if let Some(field) = fields(shown).iter().position(|field| field == name) {
+                return Ok((shown, Some((field, name.clone()))));
+            }
+        }
+        let known: Vec<&str> = self.shown.iter().flat_map(fields).collect();
+        Err(LookError::NoSubstate { name: name.clone(), known: known.join(", ") })
+    }
+}
+
+/// The number of a substate, and what it is called.
+type Named = (usize, String);
+
+/// Whether a view shows this substate already, and has words for it.
+fn is_named(shown: Option<&Named>, (field, _): &Named) -> bool {
+    shown.is_some_and(|(shown, _)| shown == field)
+}
+
+impl ViewKind {
+    fn words(self) -> &'static str {
+        match self {
+            Self::Slice => "a slice",
+            Self::Isometric => "a block",
+            Self::Spheres => "spheres",
+        }
+    }
+}

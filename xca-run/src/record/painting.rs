@@ -1,0 +1,148 @@
+//! From what a view sees of a state to its picture.
+
+use super::seen::{Seen, wider};
+use super::shown::Shown;
+use crate::output::picture::{
+    BlockPicture, ColourMap, Domain, ParticlePicture, Picture, PictureError, Scalar, SlicePicture,
+};
+use crate::view::{AnyCellView, AnyItemView, AnyView};
+use xca_core::model::Group;
+use xca_core::{Geometry, Model};
+
+/// The texts above a picture, its scale and its size.
+#[derive(Clone, Copy)]
+pub(super) struct Frame<'a> {
+    pub(super) title: &'a str,
+    pub(super) caption: &'a str,
+    /// For cells, the scale of earlier pictures, which is widened to what there is; for items, the scale.
+    pub(super) range: Option<[f64; 2]>,
+    /// Width and height in pixels; those of the kind of picture unless they are given.
+    pub(super) size: Option<[usize; 2]>,
+}
+
+/// A substate of cells that is painted.
+struct Field<'a> {
+    view: &'a AnyCellView,
+    geometry: &'a Geometry,
+    label: &'a str,
+    is_float: bool,
+    values: &'a [f64],
+}
+
+impl Shown {
+    /// What has to be said of a picture of this view beside its step.
+    pub(super) fn details(&self, model: &Model, seen: &Seen) -> Option<String> {
+        match (&self.view, seen) {
+            (AnyView::Items(view), Seen::Items { positions, .. }) => {
+                Some(format!("{} {}", positions.len(), view.name))
+            }
+            (AnyView::Cells(view), _) => {
+                let layers = model.geometry().extents()[view.axis];
+                let axis = ["along x", "along y", ""][view.axis];
+                let layer = view.drawn_layer(model.geometry());
+                let of_layers = || format!("layer {layer} of {layers} {axis}").trim_end().to_owned();
+                (layers > 1 && !view.block).then(of_layers)
+            }
+            _ => None,
+        }
+    }
+
+    /// The picture of what this view sees.
+    pub(super) fn paint(
+        &self,
+        model: &Model,
+        seen: &Seen,
+        frame: Frame<'_>,
+    ) -> Result<Option<Picture>, PictureError> {
+        let (group, geometry) = (&model.groups()[self.group], model.geometry());
+        Ok(match (&self.view, seen) {
+            (AnyView::Items(view), Seen::Items { positions, values }) => {
+                let range = frame.range.or_else(|| seen.range());
+                Some(spheres(view, group, geometry, (positions, values), Frame { range, ..frame })?)
+            }
+            (AnyView::Cells(view), Seen::Cells { is_float, values }) => {
+                let label = view.label(group.schema());
+                let field = Field { view, geometry, label, is_float: *is_float, values };
+                let range = seen.range();
+                Some(if view.block { field.block(frame, range)? } else { field.slice(frame, range)? })
+            }
+            _ => None,
+        })
+    }
+}
+
+/// Draws items as spheres.
+fn spheres(
+    view: &AnyItemView,
+    group: &Group,
+    geometry: &Geometry,
+    (positions, values): (&[[f64; 3]], &[f64]),
+    frame: Frame<'_>,
+) -> Result<Picture, PictureError> {
+    let side = geometry.side();
+    let upper = geometry.extents().map(|extent| extent as f64 * side);
+    let colour = view.colour(group.schema());
+    let radius = view.radius.unwrap_or(side / 4.0);
+    let mut picture = ParticlePicture::new(positions, radius, Domain { lower: [0.0; 3], upper });
+    picture.colour =
+        colour.as_ref().map(|(_, label)| Scalar { range: frame.range, ..Scalar::new(label, values) });
+    picture.size = frame.size.unwrap_or(picture.size);
+    (picture.title, picture.caption) = (frame.title, frame.caption);
+    picture.render()
+}
+
+impl Field<'_> {
+    /// Draws a layer. The picture has its natural size unless one is given.
+    fn slice(&self, frame: Frame<'_>, present: Option<[f64; 2]>) -> Result<Picture, PictureError> {
+        let kinds = self.kinds(frame.range);
+        let [columns, rows, layers] = self.geometry.extents();
+        let [across, down] = match self.view.axis {
+            0 => [rows, layers],
+            1 => [columns, layers],
+            _ => [columns, rows],
+        };
+        let mut picture = SlicePicture::new(across, down, self.scalar(frame.range, present));
+        picture.categories = &kinds;
+        (picture.title, picture.caption) = (frame.title, frame.caption);
+        picture.size = frame.size;
+        // A side that no one gave is no length.
+        if self.geometry.side() != 1.0 {
+            picture.cell_side = self.geometry.side();
+            picture.length_unit = "m";
+        }
+        picture.render()
+    }
+
+    /// Draws all cells, or those that are not 0 where the substate is a whole number.
+    fn block(&self, frame: Frame<'_>, present: Option<[f64; 2]>) -> Result<Picture, PictureError> {
+        let kinds = self.kinds(frame.range);
+        let mut picture = BlockPicture::new(self.geometry.extents(), self.scalar(frame.range, present));
+        picture.categories = &kinds;
+        // In a single layer nothing is hidden that an empty cell would show.
+        let is_flat = self.geometry.extents()[2] == 1;
+        picture.empty = (!self.is_float && !is_flat).then_some(0.0);
+        (picture.title, picture.caption) = (frame.title, frame.caption);
+        picture.size = frame.size.unwrap_or(picture.size);
+        picture.render()
+    }
+
+    fn scalar(&self, earlier: Option<[f64; 2]>, present: Option<[f64; 2]>) -> Scalar<'_> {
+        let mut scalar = Scalar::new(self.label, self.values);
+        let of_type = if self.is_float { ColourMap::Sequential } else { ColourMap::Paper };
+        scalar.map = self.view.map.unwrap_or(of_type);
+        scalar.range = self.view.range.or(earlier.map(|earlier| wider(earlier, present)));
+        scalar
+    }
+
+    /// The values that are kinds rather than magnitudes, with their names.
+    fn kinds(&self, range: Option<[f64; 2]>) -> Vec<(f64, &str)> {
+        let view = self.view;
+        let is_plain = view.kinds.is_empty() && view.map.is_none() && view.range.is_none();
+        let mut all = self.values.iter().copied().chain(range.into_iter().flatten());
+        // Cells that are 0 or 1 need no scale.
+        if is_plain && !self.is_float && all.all(|value| [0.0, 1.0].contains(&value)) {
+            return vec![(0.0, "0"), (1.0, "1")];
+        }
+        view.kinds.iter().map(|(value, name)| (*value, name.as_str())).collect()
+    }
+}

@@ -1,0 +1,127 @@
+//! What a view sees of the states that a run has saved: its frames.
+
+use super::Recorder;
+use super::cells;
+use super::seen::Seen;
+use super::shown::Shown;
+use super::values::Plane;
+use crate::output::vtk::{NumberType, ReadArray, ReadVtkError, read_dense, read_particles};
+use crate::view::{AnyCellView, AnyItemView, AnyView};
+use std::path::{Path, PathBuf};
+use xca_core::model::Group;
+use xca_core::{Geometry, GroupSnapshot, Model, Precision, Snapshot, StoredScalar, StoredType};
+
+/// A saved state that cannot be drawn.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum SavedError {
+    #[error(transparent)]
+    Vtk(#[from] ReadVtkError),
+    #[error(
+        "{} does not hold the substate `{substate}`, but {saved}: the model's view of `{view}` saves no more; \
+         a checkpoint holds everything",
+        path.display()
+    )]
+    NotSaved { path: PathBuf, substate: &'static str, saved: String, view: String },
+    #[error("{} does not fit the model: {what}", path.display())]
+    OtherShape { path: PathBuf, what: String },
+}
+
+impl Recorder {
+    /// Whether a state has all values that the model's views may look at.
+    pub(crate) fn fits(&self, precision: Precision, snapshot: &Snapshot) -> bool {
+        let cells = self.model().geometry().cells();
+        let of_group = |(group, state): (&Group, &GroupSnapshot)| {
+            let (count, fields) = match state {
+                GroupSnapshot::Cells(fields) => (cells, fields),
+                GroupSnapshot::Population(population, _) => {
+                    let items = population.counts.iter().map(|count| *count as usize).sum::<usize>();
+                    if population.counts.len() != cells || population.labels.len() != items {
+                        return false;
+                    }
+                    (items, &population.fields)
+                }
+            };
+            let stored = group.stored(precision);
+            let lengths = fields.iter().map(Vec::len);
+            lengths.eq(stored.iter().map(|stored| count * stored.size()))
+        };
+        let groups = self.model().groups();
+        groups.len() == snapshot.groups.len() && groups.iter().zip(&snapshot.groups).all(of_group)
+    }
+}
+
+impl Shown {
+    /// What it draws of the frame in a file.
+    pub(super) fn seen_in(&self, model: &Model, path: &Path) -> Result<Seen, SavedError> {
+        let (group, geometry) = (&model.groups()[self.group], model.geometry());
+        match &self.view {
+            AnyView::Items(view) => items(view, group, path),
+            AnyView::Cells(view) => of_cells(view, group, geometry, path),
+        }
+    }
+}
+
+fn of_cells(view: &AnyCellView, group: &Group, geometry: &Geometry, path: &Path) -> Result<Seen, SavedError> {
+    let file = read_dense(path)?;
+    if file.grid.cells != geometry.extents() {
+        let what = format!("it has {:?} cells, not {:?}", file.grid.cells, geometry.extents());
+        return Err(SavedError::OtherShape { path: path.to_owned(), what });
+    }
+    let array = Arrays { path, view: &view.name, group, arrays: &file.arrays }.of_field(view.field())?;
+    Ok(cells::seen(view, geometry, stored(array), &array.bytes))
+}
+
+fn items(view: &AnyItemView, group: &Group, path: &Path) -> Result<Seen, SavedError> {
+    let file = read_particles(path)?;
+    let arrays = Arrays { path, view: &view.name, group, arrays: &file.arrays };
+    let plane = |array: &ReadArray| Plane::all(stored(array), &array.bytes);
+    let positions = plane(&file.positions);
+    let values = match view.colour(group.schema()) {
+        None => Vec::new(),
+        Some((field, _)) if group.schema().position == Some(field) => positions.magnitudes(),
+        Some((field, _)) => plane(arrays.of_field(field)?).magnitudes(),
+    };
+    Ok(Seen::Items { positions: positions.to_points(), values })
+}
+
+/// The arrays of a frame.
+struct Arrays<'a> {
+    path: &'a Path,
+    view: &'a str,
+    group: &'a Group,
+    arrays: &'a [ReadArray],
+}
+
+impl<'a> Arrays<'a> {
+    /// The array of a substate.
+    fn of_field(&self, field: usize) -> Result<&'a ReadArray, SavedError> {
+        let definition = &self.group.schema().fields[field];
+        let array = self.arrays.iter().find(|array| array.name == definition.name).ok_or_else(|| {
+            let saved: Vec<&str> = self.arrays.iter().map(|array| array.name.as_str()).collect();
+            SavedError::NotSaved {
+                path: self.path.to_owned(),
+                substate: definition.name,
+                saved: saved.join(", "),
+                view: self.view.to_owned(),
+            }
+        })?;
+        let lanes = usize::from(definition.value_type.lanes);
+        if array.components != lanes {
+            let what = format!("`{}` has {} lanes, not {lanes}", array.name, array.components);
+            return Err(SavedError::OtherShape { path: self.path.to_owned(), what });
+        }
+        Ok(array)
+    }
+}
+
+/// The type of the numbers of an array; of a substate there are 4 lanes at most.
+fn stored(array: &ReadArray) -> StoredType {
+    let scalar = match array.numbers {
+        NumberType::U8 => StoredScalar::U8,
+        NumberType::I32 => StoredScalar::I32,
+        NumberType::U32 => StoredScalar::U32,
+        NumberType::F32 => StoredScalar::F32,
+        NumberType::F64 => StoredScalar::F64,
+    };
+    StoredType { scalar, lanes: array.components as u8 }
+}
