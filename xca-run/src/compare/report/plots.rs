@@ -30,7 +30,7 @@ pub(super) struct Plot {
 }
 
 /// In pixels; about as many as the page has room for, so that text is as large as beside the plot.
-const WIDE: u32 = 760;
+const WIDE: u32 = 860;
 const NARROW: u32 = 340;
 /// The size of text, and the room that a character takes at most, on the average of a word.
 const SIZE: u32 = 14;
@@ -106,7 +106,9 @@ fn draw_bars(bars: &[Bar], longest: f64, what: &str, width: u32) -> Result<Strin
     let left = bars.iter().map(|bar| room(&bar.name)).max().unwrap_or(0).min(names) + 16;
     // What the texts at the ends of the bars need.
     let right = bars.iter().map(|bar| room(&bar.text)).max().unwrap_or(0) + 14;
-    let plot = width - left - 8;
+    // Half of a number at the end of the axis has room in the margin.
+    let margin = 24;
+    let plot = width - left - 4 - margin;
     let farthest = longest * f64::from(plot) / f64::from(plot - right.min(plot / 2));
     let height = 56 + 34 * u32::try_from(bars.len()).unwrap_or(100).min(100);
     let mut svg = String::new();
@@ -114,6 +116,7 @@ fn draw_bars(bars: &[Bar], longest: f64, what: &str, width: u32) -> Result<Strin
         let root = SVGBackend::with_string(&mut svg, (width, height)).into_drawing_area();
         let mut chart = ChartBuilder::on(&root)
             .margin(4)
+            .margin_right(margin)
             .x_label_area_size(40)
             .y_label_area_size(left)
             .build_cartesian_2d(0.0..farthest, (0..bars.len() - 1).into_segmented())
@@ -130,7 +133,7 @@ fn draw_bars(bars: &[Bar], longest: f64, what: &str, width: u32) -> Result<Strin
             .light_line_style(TRANSPARENT)
             .bold_line_style(GRID)
             .axis_style(GRID)
-            .x_labels((plot / 80).max(2) as usize)
+            .x_labels((plot / 60).max(2) as usize)
             .y_labels(bars.len())
             .x_label_formatter(&|value| significant(*value, 4))
             .y_label_formatter(&name)
@@ -181,12 +184,14 @@ fn draw_lines(
     [least, largest]: [f64; 2],
     width: u32,
 ) -> Result<String, ReportError> {
+    // The largest number at the axis.
+    let step = room(&significant(last, 6));
     let mut svg = String::new();
     {
         let root = SVGBackend::with_string(&mut svg, (width, 300)).into_drawing_area();
         let mut chart = ChartBuilder::on(&root)
             .margin(8)
-            .margin_right(24)
+            .margin_right(step / 2 + 12)
             .x_label_area_size(42)
             .y_label_area_size(66)
             .build_cartesian_2d(0.0..last, least..largest)
@@ -196,7 +201,7 @@ fn draw_lines(
             .light_line_style(TRANSPARENT)
             .bold_line_style(GRID)
             .axis_style(GRID)
-            .x_labels((width / 80) as usize)
+            .x_labels((width / (step + 30)).max(2) as usize)
             // Whole powers of ten and no others.
             .y_labels((largest - least).min(9.0) as usize)
             .x_label_formatter(&|step| significant(*step, 6))

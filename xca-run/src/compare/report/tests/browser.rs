@@ -1,9 +1,12 @@
 //! The page as a reader sees it, in a browser without a screen.
 
 use super::rounded;
+use crate::compare::lane::Check;
 use crate::compare::report::page;
+use crate::compare::report::plots::{self, Plot};
 use crate::compare::result::Comparison;
 use crate::compare::tests::{SubstateOrFailure, with_harm};
+use crate::compare::timing::Spread;
 use scraper::{Html, Selector};
 use serde_json::{Value, json};
 use std::collections::HashSet;
@@ -12,8 +15,8 @@ use std::io;
 use std::path::Path;
 use std::process::{Command, Output};
 
-/// The widths of a page on a desk and on a phone.
-const WIDTHS: [u32; 2] = [1280, 400];
+/// The widths of a page on a desk, on half of it, and on a phone.
+const WIDTHS: [u32; 3] = [1280, 870, 400];
 
 /// The browser that CHROMIUM names, or one of those that are known by name.
 fn browser() -> String {
@@ -31,7 +34,7 @@ fn open(folder: &Path, file: &str, arguments: &[String]) -> Output {
     Command::new(browser())
         .args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"])
         .args(["--disable-background-networking", "--disable-component-update", "--disable-sync"])
-        .args(["--hide-scrollbars", "--window-size=1800,2400", "--enable-logging=stderr"])
+        .args(["--hide-scrollbars", "--window-size=2600,2400", "--enable-logging=stderr"])
         .arg(format!("--user-data-dir={}", folder.join("profile").display()))
         .args(arguments)
         .arg(format!("file://{}", folder.join(file).display()))
@@ -80,7 +83,11 @@ fn seen(text: &str) -> Vec<Value> {
 
 /// Checks all that must hold of any page, at any width; gives what was seen.
 fn assert_pleasant(comparison: &Comparison) -> Vec<Value> {
-    let all = seen(&page::page(comparison).unwrap());
+    assert_pleasant_page(&page::page(comparison).unwrap())
+}
+
+fn assert_pleasant_page(text: &str) -> Vec<Value> {
+    let all = seen(text);
     for (seen, width) in all.iter().zip(WIDTHS) {
         assert_eq!(seen["page"], width);
         assert_eq!(seen["content"], width, "the page is wider than its window");
@@ -119,29 +126,34 @@ const AMBER: &str = "rgb(168, 106, 0)";
 const RED: &str = "rgb(179, 38, 30)";
 
 #[track_caller]
-fn assert_shown(comparison: &Comparison, harmed: (&str, &str), plots: usize, tables: usize) {
-    for seen in assert_pleasant(comparison) {
+fn assert_shown(comparison: Comparison, harmed: (&str, &str), plots: usize, tables: usize) -> Vec<Value> {
+    // The times of this machine, whatever they are, decide nothing here.
+    let all = assert_pleasant(&timed(comparison, [31.4e-3, 2.83e-3, 1.5e-3]));
+    for seen in &all {
         let of = |(text, colour): (&str, &str)| (text.to_owned(), colour.to_owned());
-        assert_eq!(badges(&seen), [of(harmed), of(("IDENTICAL", GREEN))]);
-        assert_eq!(seen["plots"].as_array().unwrap().len(), plots);
-        assert_eq!(seen["tables"].as_array().unwrap().len(), tables);
+        assert_eq!(badges(seen), [of(harmed), of(("IDENTICAL", GREEN))]);
+        let tables_seen = seen["tables"].as_array().unwrap();
+        assert_eq!((seen["plots"].as_array().unwrap().len(), tables_seen.len()), (plots, tables));
+        // On a desk they are there at once.
+        let moves = tables_seen.iter().any(|table| table["hidden"].as_u64() > Some(0));
+        assert_eq!(moves, seen["page"] != WIDTHS[0], "at {}", seen["page"]);
         assert!(
             seen["headings"].to_string().contains("\"Do they agree with reference?\""),
             "{}",
             seen["headings"]
         );
     }
+    all
 }
 
 #[test]
 fn engines_that_agree_are_shown() {
-    assert_shown(&with_harm(SubstateOrFailure::Kind(0), 21, 5), ("IDENTICAL", GREEN), 2, 3);
+    assert_shown(with_harm(SubstateOrFailure::Kind(0), 21, 5), ("IDENTICAL", GREEN), 2, 3);
 }
 
 #[test]
 fn rounding_is_shown() {
-    assert_shown(&rounded(), ("ROUNDING", AMBER), 3, 3);
-    for seen in assert_pleasant(&rounded()) {
+    for seen in assert_shown(rounded(), ("ROUNDING", AMBER), 3, 3) {
         // The first colour of the lines.
         assert_eq!(seen["legend"], json!([["Grain.position", "rgb(0, 114, 178)"]]));
     }
@@ -149,8 +161,8 @@ fn rounding_is_shown() {
 
 #[test]
 fn differences_and_failures_are_shown() {
-    assert_shown(&with_harm(SubstateOrFailure::Kind(0), 3, 1), ("DIFFERENT", RED), 3, 3);
-    assert_shown(&with_harm(SubstateOrFailure::Failure, 4, 5), ("DIFFERENT", RED), 2, 3);
+    assert_shown(with_harm(SubstateOrFailure::Kind(0), 3, 1), ("DIFFERENT", RED), 3, 3);
+    assert_shown(with_harm(SubstateOrFailure::Failure, 4, 5), ("DIFFERENT", RED), 2, 3);
 }
 
 /// Names, titles and numbers of engines as they may come.
@@ -159,6 +171,7 @@ fn long_names_have_room() {
     let mut comparison = with_harm(SubstateOrFailure::Temperature(33), 2, 1);
     comparison.subject.title =
         "A plate of uncommonly_long_words_that_no_one_would_want_to_break_anywhere".to_owned();
+    comparison.engines[1].device.insert("adapter".to_owned(), "NVIDIA GeForce RTX 4090 Laptop GPU".into());
     comparison.engines[1].name = "gpu:NVIDIA GeForce RTX 4090 Laptop GPU@f32".to_owned();
     let more = comparison.engines[2].clone();
     for threads in 1..14 {
@@ -172,31 +185,73 @@ fn long_names_have_room() {
     assert_pleasant(&comparison);
 }
 
+/// A comparison as if the engines had taken these times for a step, give or take a tenth.
+fn timed(mut comparison: Comparison, times: [f64; 3]) -> Comparison {
+    for (engine, median) in comparison.engines.iter_mut().zip(times) {
+        // One that failed has none.
+        engine.speed_up = engine.step_seconds.map(|_| times[0] / median);
+        engine.step_seconds =
+            engine.step_seconds.map(|_| Spread { median, least: 0.9 * median, largest: 1.1 * median });
+    }
+    comparison
+}
+
+/// A comparison as if the positions had come apart so far, in powers of ten, in so many steps.
+fn apart(mut comparison: Comparison, steps: u64, [from, to]: [f64; 2]) -> Comparison {
+    let check = |part: u64| {
+        let distance = 10_f64.powf(from + (to - from) * part as f64 / 16.0);
+        Check { step: steps * part / 16, substates: vec![("Grain.position".to_owned(), distance)] }
+    };
+    comparison.engines[1].history = (0..=16).map(check).collect();
+    comparison
+}
+
+/// What is written at axes and bars depends on the numbers; all kinds of them, on one page.
+#[test]
+fn all_numbers_have_room_in_plots() {
+    let comparison = rounded();
+    let mut figures = String::new();
+    let mut add = |plot: Option<Plot>| figures.push_str(&page::figure("", &plot.unwrap()).into_string());
+    for exponent in -8..5 {
+        for mantissa in [1.0, 1.497, 2.51, 3.999, 6.05, 9.996] {
+            let time = mantissa * 10_f64.powi(exponent);
+            let timed = timed(comparison.clone(), [time, time * 0.371, time * 0.00123]);
+            add(plots::times(&timed).unwrap());
+            add(plots::speed_ups(&timed).unwrap());
+        }
+    }
+    for steps in [16, 100, 8945, 1_234_567, 2_000_000_000] {
+        for powers in
+            [[-16.3, -16.2], [-16.0, -15.0], [-16.9, -9.2], [-17.0, 0.0], [-200.0, 150.0], [2.0, 7.5]]
+        {
+            add(plots::divergence(&apart(comparison.clone(), steps, powers).engines[1]).unwrap());
+        }
+    }
+    let page = page::page(&comparison).unwrap().replace("</main>", &format!("{figures}</main>"));
+    assert!(assert_pleasant_page(&page)[0]["plots"].as_array().unwrap().len() > 180);
+}
+
 /// That the tests above could fail: what is put on a page here is seen.
 #[test]
 fn faults_of_a_page_are_seen() {
-    let text = page::page(&rounded()).unwrap();
-    let with = |harm: &str| seen(&text.replace("</main>", &format!("{harm}</main>"))).remove(1);
-    let loading = with("<img src='https://example.org/a.png'>");
-    assert!(
-        loading["loads"].to_string().contains("img-src https://example.org/a.png"),
-        "{}",
-        loading["loads"]
-    );
-    assert!(loading["console"].to_string().contains("example.org"), "{}", loading["console"]);
-    assert!(with("<div style='width: 900px'>wide</div>")["content"].as_u64() > Some(800));
-    let cut = with(
+    let faults = [
+        "<img src='https://example.org/a.png'>",
+        "<div style='width: 900px'>wide</div>",
         "<p style='width: 40px; overflow: hidden; white-space: nowrap; font-size: 9px'>much too long</p>",
-    );
+        "<svg width='300' height='80'><text x='-20' y='20'>one</text><text x='0' y='22'>two</text></svg>",
+        "<div style='overflow: hidden; width: 90px'><table><tr><td>a<td class='number'>a long text</table></div>",
+    ];
+    let page = page::page(&rounded()).unwrap().replace("</main>", &format!("{}</main>", faults.concat()));
+    let seen = seen(&page).remove(2);
+    for list in ["loads", "console"] {
+        assert!(seen[list].to_string().contains("https://example.org/a.png"), "{}", seen[list]);
+    }
+    assert!(seen["content"].as_u64() > Some(800));
     let faults = ["is cut off", "is too small to read"].map(|fault| format!("p \"much too long\" {fault}"));
-    assert_eq!(cut["faults"], json!(faults));
-    let plot =
-        "<svg width='300' height='80'><text x='-20' y='20'>one</text><text x='0' y='22'>two</text></svg>";
-    let faults = with(plot)["plots"].as_array().unwrap().last().unwrap()["faults"].clone();
-    assert_eq!(faults, json!(["\"one\" leaves the plot", "\"one\" and \"two\" overlap"]));
-    let table = "<div style='overflow: hidden; width: 90px'><table><tr><td>a<td>a long text</table></div>";
-    let faults = with(table)["tables"].as_array().unwrap().last().unwrap()["faults"].clone();
-    assert_eq!(faults, json!(["its end cannot be reached"]));
+    assert_eq!(seen["faults"], json!(faults));
+    let last = |list: &str| seen[list].as_array().unwrap().last().unwrap()["faults"].clone();
+    assert_eq!(last("plots"), json!(["\"one\" leaves the plot", "\"one\" and \"two\" overlap"]));
+    assert_eq!(last("tables"), json!(["its end cannot be reached"]));
 }
 
 #[test]

@@ -36,13 +36,15 @@ function table(element) {
   if (element.offsetWidth > around.clientWidth + 1 && !moves) faults.push("its end cannot be reached");
   for (const cell of all("th, td", element)) {
     if (cell.scrollWidth > cell.clientWidth + 1) faults.push(`"${cell.textContent}" is cut off`);
-    if (cell.getClientRects()[0].height > 40) faults.push(`"${cell.textContent}" is broken into lines`);
+    const text = document.createRange();
+    text.selectNodeContents(cell);
+    if (cell.className === "number" && box(text).height > 30) faults.push(`"${cell.textContent}" is broken into lines`);
   }
   const first = all("tr > :first-child", element);
   around.scrollLeft = around.scrollWidth;
   if (first.some((cell) => box(cell).left < box(around).left - 1)) faults.push("the first column does not stay");
   around.scrollLeft = 0;
-  return { rows: all("tbody tr", element).length, faults };
+  return { rows: all("tbody tr", element).length, hidden: Math.max(0, element.offsetWidth - around.clientWidth), faults };
 }
 
 function texts() {
