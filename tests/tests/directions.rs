@@ -8,7 +8,7 @@ use toml::{Table, Value};
 type TestResult = Result<(), Box<dyn Error>>;
 
 /// For each member, the members that it may depend on. A new member finds its place here first.
-const DIRECTIONS: [(&str, &[&str]); 10] = [
+const DIRECTIONS: [(&str, &[&str]); 11] = [
     ("xca-macros", &[]),
     ("xca-core", &["xca-macros"]),
     ("xca-wgsl", &["xca-core"]),
@@ -17,6 +17,7 @@ const DIRECTIONS: [(&str, &[&str]); 10] = [
     ("xca-run", &["xca-core", "xca-cpu", "xca-gpu"]),
     ("cadem", &["xca-core"]),
     ("xca-examples", &["xca-core", "xca-run", "cadem"]),
+    ("new-model", &["xca-core", "xca-run"]),
     ("xca-benchmarks", &["xca-core", "xca-cpu", "xca-gpu", "cadem"]),
     ("xca-tests", &["xca-core", "xca-cpu", "xca-gpu", "xca-run", "xca-wgsl", "cadem"]),
 ];

@@ -17,3 +17,4 @@ mod resumed;
 mod running;
 mod same_bits;
 mod shaders;
+mod vtk_library;

@@ -12,14 +12,14 @@ pub(super) const NAME: &str = "new";
 
 const ABOUT: &str = "Write a new crate: a small model, its program, and a test that runs it on all engines";
 
-/// The files of the crate, and what is in them.
+/// The files of the crate, and what is in them. The crate `tests/new` of this workspace is built of the same ones, and tests them.
 const FILES: [(&str, &str); 6] = [
     ("Cargo.toml", include_str!("new/Cargo.toml.template")),
     ("README.md", include_str!("new/README.md.template")),
     (".gitignore", "/target\n/out\n"),
-    ("src/lib.rs", include_str!("new/lib.rs.template")),
-    ("src/main.rs", include_str!("new/main.rs.template")),
-    ("tests/engines.rs", include_str!("new/engines.rs.template")),
+    ("src/lib.rs", include_str!("new/lib.rs")),
+    ("src/main.rs", include_str!("new/main.rs")),
+    ("tests/engines.rs", include_str!("new/engines.rs")),
 ];
 
 /// Where this workspace was when the program was compiled.
@@ -97,11 +97,12 @@ fn filled(template: &str, name: &str, xca: Option<&Path>) -> String {
         Some(xca) => format!("path = {}", toml::Value::String(xca.join(of).display().to_string())),
         None => format!("version = \"{}\"", env!("CARGO_PKG_VERSION")),
     };
+    // The path comes last: it may have the words in it that a name stands for; and of the names that without hyphens comes first.
     template
+        .replace("new_model", &name.replace('-', "_"))
+        .replace("new-model", name)
         .replace("{xca-core}", &dependency("xca-core"))
         .replace("{xca-run}", &dependency("xca-run"))
-        .replace("{name}", name)
-        .replace("{crate}", &name.replace('-', "_"))
 }
 
 /// Words that no crate can be named by: those of Rust, and crates that this one needs.
@@ -147,7 +148,7 @@ mod tests {
         for xca in [None, Some(Path::new("/home/o'hara/\"xca\" 1"))] {
             for (file, template) in FILES {
                 let text = filled(template, "my-waves", xca);
-                for word in ["{name}", "{crate}", "{xca-core}", "{xca-run}"] {
+                for word in ["new-model", "new_model", "{xca-core}", "{xca-run}"] {
                     assert!(!text.contains(word), "{file} has {word}");
                 }
             }
@@ -158,5 +159,10 @@ mod tests {
                 None => assert_eq!(of_core["version"].as_str(), Some(env!("CARGO_PKG_VERSION"))),
             }
         }
+        // Names that have the word in them that they replace.
+        let text = filled("new-model new_model", "a-new_model-b", None);
+        assert_eq!(text, "a-new_model-b a_new_model_b");
+        let text = filled(FILES[0].1, "waves", Some(Path::new("/home/new-model/xca")));
+        assert!(text.contains("/home/new-model/xca/xca-core"), "{text}");
     }
 }

@@ -6,7 +6,6 @@ use crate::compare::result::{Comparison, EngineResult};
 use crate::numbers::significant;
 use plotters::prelude::*;
 
-const WIDTH: u32 = 860;
 const TEXT: RGBColor = RGBColor(0x2b, 0x2f, 0x36);
 const GRID: RGBColor = RGBColor(0xe3, 0xe6, 0xea);
 const BAR: RGBColor = RGBColor(0x3b, 0x6e, 0xa5);
@@ -21,6 +20,26 @@ const LINES: [RGBColor; 7] = [
     RGBColor(0x55, 0x55, 0x55),
 ];
 
+/// A plot, drawn once for wide pages and once for narrow ones: shrunk to the width of a phone, its text could not be read.
+#[derive(Debug)]
+pub(super) struct Plot {
+    pub(super) wide: String,
+    pub(super) narrow: String,
+    /// What the lines mean, and their colours.
+    pub(super) legend: Vec<(String, String)>,
+}
+
+/// In pixels; about as many as the page has room for, so that text is as large as beside the plot.
+const WIDE: u32 = 860;
+const NARROW: u32 = 340;
+/// The size of text, and the room that a character takes at most, on the average of a word.
+const SIZE: u32 = 14;
+const CHARACTER: u32 = 7;
+
+fn room(text: &str) -> u32 {
+    u32::try_from(text.chars().count()).unwrap_or(100).min(100) * CHARACTER
+}
+
 fn plot_error(error: impl std::fmt::Display) -> ReportError {
     ReportError::Plot(error.to_string())
 }
@@ -34,49 +53,78 @@ struct Bar {
     text: String,
 }
 
+impl Bar {
+    /// Up to where it or its line goes.
+    fn end(&self) -> f64 {
+        self.range.map_or(self.value, |[_, largest]| largest.max(self.value))
+    }
+}
+
 /// Median time of a step with least and largest, of each engine.
-pub(super) fn times(comparison: &Comparison) -> Result<Option<String>, ReportError> {
+pub(super) fn times(comparison: &Comparison) -> Result<Option<Plot>, ReportError> {
+    let spreads = || comparison.engines.iter().filter_map(|engine| engine.step_seconds);
+    let (factor, unit) = sheets::unit_of(spreads().map(|step| step.largest).fold(0.0, f64::max));
     let bar = |engine: &EngineResult| {
         let step = engine.step_seconds?;
-        let range = Some([step.least * 1e3, step.largest * 1e3]);
+        let range = Some([step.least * factor, step.largest * factor]);
         let text = sheets::seconds(step.median);
-        Some(Bar { name: engine.name.clone(), value: step.median * 1e3, range, text })
+        Some(Bar { name: engine.name.clone(), value: step.median * factor, range, text })
     };
-    bars(comparison.engines.iter().filter_map(bar).collect(), "milliseconds a step")
+    bars(&comparison.engines.iter().filter_map(bar).collect::<Vec<_>>(), &format!("{unit} a step"))
 }
 
 /// How many times as fast each engine is as the first one.
-pub(super) fn speed_ups(comparison: &Comparison) -> Result<Option<String>, ReportError> {
+pub(super) fn speed_ups(comparison: &Comparison) -> Result<Option<Plot>, ReportError> {
     let bar = |engine: &EngineResult| {
         let value = engine.speed_up?;
         Some(Bar { name: engine.name.clone(), value, range: None, text: significant(value, 3) })
     };
     let what = format!("times as fast as {}", comparison.first_name());
-    bars(comparison.engines.iter().filter_map(bar).collect(), &what)
+    bars(&comparison.engines.iter().filter_map(bar).collect::<Vec<_>>(), &what)
 }
 
-fn bars(bars: Vec<Bar>, what: &str) -> Result<Option<String>, ReportError> {
-    let longest =
-        bars.iter().map(|bar| bar.range.map_or(bar.value, |[_, largest]| largest)).fold(0.0, f64::max);
+fn bars(bars: &[Bar], what: &str) -> Result<Option<Plot>, ReportError> {
+    let longest = bars.iter().map(Bar::end).fold(0.0, f64::max);
     if bars.is_empty() || !(longest.is_finite() && longest > 0.0) {
         return Ok(None);
     }
-    let widest = bars.iter().map(|bar| bar.name.chars().count()).max().unwrap_or(0);
-    let left = u32::try_from(widest * 8 + 16).unwrap_or(WIDTH).clamp(70, WIDTH / 3);
+    let [wide, narrow] = [WIDE, NARROW].map(|width| draw_bars(bars, longest, what, width));
+    Ok(Some(Plot { wide: wide?, narrow: narrow?, legend: Vec::new() }))
+}
+
+/// A text cut to so many pixels; the table beside the plot has all of it.
+fn cut(text: &str, pixels: u32) -> String {
+    if room(text) <= pixels {
+        return text.to_owned();
+    }
+    let kept = (pixels / CHARACTER).saturating_sub(1) as usize;
+    text.chars().take(kept).chain(['…']).collect()
+}
+
+fn draw_bars(bars: &[Bar], longest: f64, what: &str, width: u32) -> Result<String, ReportError> {
+    let names = width * 2 / 5;
+    let left = bars.iter().map(|bar| room(&bar.name)).max().unwrap_or(0).min(names) + 16;
+    // What the texts at the ends of the bars need.
+    let right = bars.iter().map(|bar| room(&bar.text)).max().unwrap_or(0) + 14;
+    // Half of a number at the end of the axis has room in the margin.
+    let margin = 24;
+    let plot = width - left - 4 - margin;
+    let farthest = longest * f64::from(plot) / f64::from(plot - right.min(plot / 2));
     let height = 56 + 34 * u32::try_from(bars.len()).unwrap_or(100).min(100);
     let mut svg = String::new();
     {
-        let root = SVGBackend::with_string(&mut svg, (WIDTH, height)).into_drawing_area();
+        let root = SVGBackend::with_string(&mut svg, (width, height)).into_drawing_area();
         let mut chart = ChartBuilder::on(&root)
             .margin(4)
+            .margin_right(margin)
             .x_label_area_size(40)
             .y_label_area_size(left)
-            .build_cartesian_2d(0.0..longest * 1.15, (0..bars.len() - 1).into_segmented())
+            .build_cartesian_2d(0.0..farthest, (0..bars.len() - 1).into_segmented())
             .map_err(plot_error)?;
         // From above in the order of the command line.
         let row = |index: usize| bars.len() - 1 - index;
         let name = |at: &SegmentValue<usize>| match at {
-            SegmentValue::CenterOf(at) if *at < bars.len() => bars[row(*at)].name.clone(),
+            SegmentValue::CenterOf(at) if *at < bars.len() => cut(&bars[row(*at)].name, names),
             _ => String::new(),
         };
         chart
@@ -85,11 +133,12 @@ fn bars(bars: Vec<Bar>, what: &str) -> Result<Option<String>, ReportError> {
             .light_line_style(TRANSPARENT)
             .bold_line_style(GRID)
             .axis_style(GRID)
-            .x_labels(8)
+            .x_labels((plot / 60).max(2) as usize)
             .y_labels(bars.len())
+            .x_label_formatter(&|value| significant(*value, 4))
             .y_label_formatter(&name)
-            .x_desc(what)
-            .label_style(("sans-serif", 14).into_font().color(&TEXT))
+            .x_desc(cut(what, plot))
+            .label_style(("sans-serif", SIZE).into_font().color(&TEXT))
             .draw()
             .map_err(plot_error)?;
         for (index, bar) in bars.iter().enumerate() {
@@ -98,24 +147,22 @@ fn bars(bars: Vec<Bar>, what: &str) -> Result<Option<String>, ReportError> {
             let mut rectangle = Rectangle::new(corners, BAR.filled());
             rectangle.set_margin(6, 6, 0, 0);
             chart.draw_series([rectangle]).map_err(plot_error)?;
-            let mut end = bar.value;
-            if let Some([least, largest]) = bar.range {
-                end = end.max(largest);
-                let line = [least, largest].map(|value| (value, SegmentValue::CenterOf(at)));
+            if let Some(range) = bar.range {
+                let line = range.map(|value| (value, SegmentValue::CenterOf(at)));
                 chart.draw_series([PathElement::new(line, TEXT.stroke_width(2))]).map_err(plot_error)?;
             }
-            let style = ("sans-serif", 14).into_font().color(&TEXT);
-            let place = EmptyElement::at((end, SegmentValue::CenterOf(at)))
-                + Text::new(bar.text.clone(), (6, -7), style);
+            let style = ("sans-serif", SIZE).into_font().color(&TEXT);
+            let place = EmptyElement::at((bar.end(), SegmentValue::CenterOf(at)))
+                + Text::new(bar.text.clone(), (6, -6), style);
             chart.draw_series([place]).map_err(plot_error)?;
         }
         root.present().map_err(plot_error)?;
     }
-    Ok(Some(svg))
+    Ok(svg)
 }
 
 /// How far an engine is from the first one over time: a line for each substate, in powers of ten. Nothing where it never is.
-pub(super) fn divergence(engine: &EngineResult) -> Result<Option<String>, ReportError> {
+pub(super) fn divergence(engine: &EngineResult) -> Result<Option<Plot>, ReportError> {
     let lines = lines(&engine.history);
     let all = || lines.iter().flat_map(|(_, points)| points).map(|(_, value)| *value);
     let (least, largest) = (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max));
@@ -123,56 +170,64 @@ pub(super) fn divergence(engine: &EngineResult) -> Result<Option<String>, Report
     if !least.is_finite() {
         return Ok(None);
     }
+    let range = [least.floor() - 0.5, largest.ceil() + 0.5];
+    let [wide, narrow] = [WIDE, NARROW].map(|width| draw_lines(&lines, last, range, width));
+    let legend = lines.iter().zip(LINES.iter().cycle());
+    let legend =
+        legend.map(|((name, _), RGBColor(r, g, b))| (name.clone(), format!("#{r:02x}{g:02x}{b:02x}")));
+    Ok(Some(Plot { wide: wide?, narrow: narrow?, legend: legend.collect() }))
+}
+
+fn draw_lines(
+    lines: &[Line],
+    last: f64,
+    [least, largest]: [f64; 2],
+    width: u32,
+) -> Result<String, ReportError> {
+    // The largest number at the axis.
+    let step = room(&significant(last, 6));
     let mut svg = String::new();
     {
-        let root = SVGBackend::with_string(&mut svg, (WIDTH, 340)).into_drawing_area();
+        let root = SVGBackend::with_string(&mut svg, (width, 300)).into_drawing_area();
         let mut chart = ChartBuilder::on(&root)
             .margin(8)
-            .margin_right(24)
-            .x_label_area_size(44)
-            .y_label_area_size(70)
-            .build_cartesian_2d(0.0..last, least.floor() - 0.5..largest.ceil() + 0.5)
+            .margin_right(step / 2 + 12)
+            .x_label_area_size(42)
+            .y_label_area_size(66)
+            .build_cartesian_2d(0.0..last, least..largest)
             .map_err(plot_error)?;
         chart
             .configure_mesh()
             .light_line_style(TRANSPARENT)
             .bold_line_style(GRID)
             .axis_style(GRID)
-            .x_labels(10)
-            .y_labels(9)
+            .x_labels((width / (step + 30)).max(2) as usize)
+            // Whole powers of ten and no others.
+            .y_labels((largest - least).min(9.0) as usize)
             .x_label_formatter(&|step| significant(*step, 6))
             .y_label_formatter(&|power| format!("1e{}", significant(*power, 3)))
             .x_desc("step")
             .y_desc("relative RMS difference")
-            .label_style(("sans-serif", 14).into_font().color(&TEXT))
+            .label_style(("sans-serif", SIZE).into_font().color(&TEXT))
             .draw()
             .map_err(plot_error)?;
-        for (index, (name, points)) in lines.iter().enumerate() {
-            let colour = LINES[index % LINES.len()];
+        for ((_, points), colour) in lines.iter().zip(LINES.iter().cycle()) {
             let dots = points.iter().map(|point| Circle::new(*point, 2, colour.filled()));
             chart.draw_series(dots).map_err(plot_error)?;
-            chart
-                .draw_series(LineSeries::new(points.iter().copied(), colour.stroke_width(2)))
-                .map_err(plot_error)?
-                .label(name.clone())
-                .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], colour.stroke_width(2)));
+            let line = LineSeries::new(points.iter().copied(), colour.stroke_width(2));
+            chart.draw_series(line).map_err(plot_error)?;
         }
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::LowerRight)
-            .background_style(WHITE.mix(0.85))
-            .border_style(GRID)
-            .label_font(("sans-serif", 13).into_font().color(&TEXT))
-            .draw()
-            .map_err(plot_error)?;
         root.present().map_err(plot_error)?;
     }
-    Ok(Some(svg))
+    Ok(svg)
 }
 
+/// A substate, with steps and logarithms of a distance.
+type Line = (String, Vec<(f64, f64)>);
+
 /// The substates that ever differ, each with the steps at which it does and the logarithm of how far it is away.
-fn lines(history: &[Check]) -> Vec<(String, Vec<(f64, f64)>)> {
-    let mut lines: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
+fn lines(history: &[Check]) -> Vec<Line> {
+    let mut lines: Vec<Line> = Vec::new();
     for check in history {
         for (name, rms) in check.substates.iter().filter(|(_, rms)| *rms > 0.0 && rms.is_finite()) {
             let point = (check.step as f64, rms.log10());

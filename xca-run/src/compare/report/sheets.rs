@@ -31,24 +31,32 @@ pub(super) fn all(comparison: &Comparison) -> Vec<Sheet> {
 }
 
 pub(super) fn headline(comparison: &Comparison) -> String {
+    let times = match comparison.repeats {
+        1 => "once".to_owned(),
+        repeats => format!("{repeats} times"),
+    };
     format!(
-        "{}: {} steps of {} {} on {} engines, timed {} times",
+        "{}: {} steps of {} {} on {} engines, timed {times}",
         comparison.subject.title,
         comparison.steps,
         comparison.number,
         comparison.updated,
         comparison.engines.len(),
-        comparison.repeats
     )
+}
+
+/// The unit in which a time is told, and how many of it a second has.
+pub(super) fn unit_of(seconds: f64) -> (f64, &'static str) {
+    match seconds {
+        ..1e-3 => (1e6, "µs"),
+        ..1.0 => (1e3, "ms"),
+        _ => (1.0, "s"),
+    }
 }
 
 /// A time for people.
 pub(super) fn seconds(seconds: f64) -> String {
-    let (factor, unit) = match seconds {
-        ..1e-3 => (1e6, "µs"),
-        ..1.0 => (1e3, "ms"),
-        _ => (1.0, "s"),
-    };
+    let (factor, unit) = unit_of(seconds);
     format!("{} {unit}", significant(seconds * factor, 3))
 }
 

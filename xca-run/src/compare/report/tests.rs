@@ -1,11 +1,11 @@
 //! The forms of the report, read again by what reads such files.
 
+mod browser;
+
 use super::*;
 use crate::compare::tests::{SubstateOrFailure, with_harm};
 use scraper::{Html, Selector};
 use std::collections::HashSet;
-use std::path::Path;
-use std::process::Command;
 
 fn rounded() -> Comparison {
     with_harm(SubstateOrFailure::Position(2), 9, 1)
@@ -98,7 +98,7 @@ fn assert_self_contained(text: &str, page: &Html) {
     for element in ["script", "link", "iframe", "object", "embed", "img", "base"] {
         assert!(texts(page, element).is_empty(), "{element}");
     }
-    let addresses: Vec<&str> = text.match_indices("http").map(|(at, _)| &text[at..at + 26]).collect();
+    let addresses: Vec<&str> = text.match_indices("://").map(|(at, _)| &text[at - 4..at + 22]).collect();
     assert!(addresses.iter().all(|address| *address == "http://www.w3.org/2000/svg"), "{addresses:?}");
     assert!(!text.contains("url(") && !text.contains("@import"));
 }
@@ -113,61 +113,14 @@ fn the_page_is_sound_and_needs_nothing_but_itself() {
     assert_eq!(texts(&page, "#verdicts .verdict"), ["ROUNDING", "IDENTICAL"]);
     assert_eq!(texts(&page, "#notes li"), ["harmed: one <bit> & no more"]);
     assert_eq!(texts(&page, "#verdicts p").len(), 1);
-    assert_eq!(texts(&page, "#plots svg").len(), 2);
-    let plots = texts(&page, "#divergence svg");
-    assert!(plots.len() == 1 && plots[0].contains("Grain.position"), "{plots:?}");
+    // Each for wide and for narrow pages.
+    for width in [".wide", ".narrow"] {
+        let times = texts(&page, &format!("#plots {width} svg"));
+        assert!(times.len() == 2 && times[0].contains("harmed"), "{times:?}");
+        assert_eq!(texts(&page, &format!("#divergence {width} svg")).len(), 1);
+    }
+    assert_eq!(texts(&page, "#divergence .legend li"), ["Grain.position"]);
     assert_eq!(texts(&page, "tbody tr").len(), 3 + 10 + rounded().observables.len());
-    assert!(texts(&page, "#plots svg")[0].contains("harmed"));
     let alike = page::page(&with_harm(SubstateOrFailure::Kind(0), 21, 5)).unwrap();
     assert!(texts(&Html::parse_document(&alike), "#divergence, #verdicts p").is_empty());
-}
-
-/// The browsers that can draw a page without a screen.
-const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
-
-/// Where one of them is installed, it must draw the page; what the page consists of is tested in any case by the test above.
-#[test]
-fn a_browser_draws_the_page() {
-    let folder = tempfile::tempdir().unwrap();
-    let files = Files::prepare(folder.path().join("out")).unwrap();
-    files.write(&rounded()).unwrap();
-    let page = folder.path().join("out").join(PAGE);
-    assert_self_contained(
-        &std::fs::read_to_string(&page).unwrap(),
-        &Html::parse_document(&std::fs::read_to_string(&page).unwrap()),
-    );
-    let is_there = |browser: &&&str| {
-        Command::new(browser).arg("--version").output().is_ok_and(|said| said.status.success())
-    };
-    if let Some(browser) = BROWSERS.iter().find(is_there) {
-        let picture = folder.path().join("page.png");
-        let said = Command::new(browser)
-            .args([
-                "--headless",
-                "--no-sandbox",
-                "--disable-gpu",
-                "--hide-scrollbars",
-                "--window-size=1200,2000",
-            ])
-            .arg(format!("--user-data-dir={}", folder.path().join("profile").display()))
-            .arg(format!("--screenshot={}", picture.display()))
-            .arg(format!("file://{}", page.display()))
-            .output()
-            .unwrap();
-        assert!(picture.is_file(), "{browser}: {}", String::from_utf8_lossy(&said.stderr));
-        let colours = colours(&picture);
-        // A bar, a line of the divergence, and a verdict.
-        for colour in [[0x3b, 0x6e, 0xa5], [0x00, 0x72, 0xb2], [0x1a, 0x7f, 0x4b]] {
-            assert!(colours.contains(&colour), "{colour:?} is not in the picture");
-        }
-    }
-}
-
-fn colours(picture: &Path) -> HashSet<[u8; 3]> {
-    let file = io::BufReader::new(std::fs::File::open(picture).unwrap());
-    let mut reader = png::Decoder::new(file).read_info().unwrap();
-    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
-    let info = reader.next_frame(&mut pixels).unwrap();
-    let size = info.color_type.samples();
-    pixels[..info.buffer_size()].chunks_exact(size).map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect()
 }

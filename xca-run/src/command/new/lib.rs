@@ -40,7 +40,7 @@ fn excite(cell: &mut Cell<Medium>, p: &Excitation) {
 /// The whole model: space, neighbourhood, substates, parameters, processes, initial state.
 pub fn model(given: &Given) -> Result<Model, Failure> {
     let given = given.clone();
-    let model = Model::builder("{name}")
+    let model = Model::builder("new-model")
         .extents([160, 160, 1])
         .neighbourhood(Neighbourhood::moore_2d(1))
         .boundary(Boundary::Toroidal)

@@ -1,8 +1,8 @@
 //! The model on all engines: each must come to the same state, cell by cell.
 
+use new_model::{Medium, model};
 use xca_run::prelude::*;
 use xca_run::{EngineError, EngineName, EngineOptions};
-use {crate}::{Medium, model};
 
 /// The state after so many steps.
 fn after(steps: u64, engine: EngineName) -> Result<Vec<u32>, EngineError> {
