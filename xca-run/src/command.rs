@@ -14,6 +14,7 @@ mod render;
 mod resume;
 mod run;
 mod under_way;
+mod voice;
 
 pub(crate) use arguments::threads;
 

@@ -125,6 +125,12 @@ impl Earlier {
         self.command_line.as_ref().and_then(|words| words.get(1)).is_some_and(|word| word == subcommand)
     }
 
+    /// All that the report in the folder of a run tells.
+    pub(crate) fn whole(folder: &Path) -> Value {
+        let text = std::fs::read(folder.join(REPORT)).unwrap_or_default();
+        serde_json::from_slice(&text).unwrap_or_default()
+    }
+
     /// Whether there is nothing left to do.
     pub(crate) fn has_ended(&self) -> bool {
         ["done", "stopped"].contains(&self.progress.outcome.as_str())

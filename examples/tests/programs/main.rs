@@ -16,5 +16,6 @@ mod rendered;
 mod resumed;
 mod running;
 mod same_bits;
+mod scripted;
 mod shaders;
 mod vtk_library;

@@ -1,6 +1,7 @@
 //! The options that every model's program has.
 
 use super::interval::Interval;
+use super::voice::Voice;
 use crate::engines::{EngineName, EngineOptions, MOST_THREADS};
 use crate::program::{Assignment, Given};
 use clap::Args;
@@ -88,9 +89,8 @@ pub(crate) struct RunArguments {
     #[arg(long)]
     pub(crate) print_wgsl: bool,
 
-    /// Say nothing but errors
-    #[arg(long, short)]
-    pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) voice: Voice,
 }
 
 /// Which run goes on, and on what.
@@ -129,9 +129,8 @@ pub(crate) struct ResumeArguments {
     #[arg(long, value_name = "N|TIME")]
     pub(crate) checkpoint_every: Option<Interval>,
 
-    /// Say nothing but errors
-    #[arg(long, short)]
-    pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) voice: Voice,
 }
 
 impl ResumeArguments {

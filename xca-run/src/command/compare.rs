@@ -2,14 +2,13 @@
 
 use super::arguments::{interval, steps};
 use super::parse::{Choice as ModelChoice, with_help, with_model};
+use super::voice::Voice;
 use super::{Definition, Ended, Unable};
 use crate::compare::report::{self, Files};
 use crate::compare::{self, Choice, CompareError, Contender, Plan, Subject, Verdict};
 use crate::interrupt::Interrupt;
 use crate::machine::check_memory;
-use crate::progress::Progress;
 use crate::record::Recorder;
-use crate::terminal;
 use clap::{Args, Command};
 use std::path::PathBuf;
 use xca_core::{Precision, RunError};
@@ -57,13 +56,8 @@ pub(super) struct CompareArguments {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// Tell the result as JSON, not as tables
-    #[arg(long)]
-    json: bool,
-
-    /// Say nothing but errors
-    #[arg(long, short)]
-    quiet: bool,
+    #[command(flatten)]
+    voice: Voice,
 }
 
 fn repeats(text: &str) -> Result<usize, &'static str> {
@@ -122,8 +116,7 @@ pub(super) fn compare(
         arguments.out.unwrap_or_else(|| PathBuf::from("out").join(format!("{}-compare", definition.name)));
     let files = Files::prepare(folder).map_err(Unable::refused)?;
     let interrupt = Interrupt::install().map_err(Unable::failed)?;
-    let line =
-        if arguments.quiet { Progress::hidden() } else { Progress::new(Some(plan.work(contenders.len()))) };
+    let line = arguments.voice.line(plan.work(contenders.len()));
     let mut done = 0;
     let mut watch = |steps: u64| {
         done += steps;
@@ -138,14 +131,8 @@ pub(super) fn compare(
         result => result.map_err(Unable::failed)?,
     };
     files.write(&comparison).map_err(Unable::failed)?;
-    if !arguments.quiet {
-        let text = if arguments.json {
-            serde_json::to_string_pretty(&comparison).map_err(Unable::failed)?
-        } else {
-            format!("{}\n\n{}", report::text(&comparison), files.told())
-        };
-        terminal::say(&text);
-    }
+    let text = || format!("{}\n\n{}", report::text(&comparison), files.told());
+    arguments.voice.tell(&comparison, text)?;
     Ok(if comparison.verdict == Verdict::Different { Ended::Different } else { Ended::Done })
 }
 

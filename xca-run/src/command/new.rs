@@ -1,9 +1,10 @@
 //! The subcommand `new`.
 
 use super::parse::with_help;
+use super::voice::Voice;
 use super::{Definition, Ended, Unable};
-use crate::terminal;
 use clap::{Args, Command};
+use serde_json::json;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -36,6 +37,9 @@ pub(super) struct NewArguments {
     /// is given
     #[arg(long, value_name = "DIR")]
     xca: Option<PathBuf>,
+
+    #[command(flatten)]
+    voice: Voice,
 }
 
 pub(super) fn command(definition: &Definition<'_>) -> Command {
@@ -78,9 +82,13 @@ pub(super) fn new(arguments: &NewArguments) -> Result<Ended, Unable> {
         write().map_err(|source| Unable::failed(NewError::Write { path: path.clone(), source }))?;
     }
     let name = &arguments.name;
-    terminal::say(&format!(
-        "{name}/src/lib.rs has a small model to begin with; try\n  cd {name}\n  cargo test\n  cargo run --release -- run"
-    ));
+    let files: Vec<PathBuf> = FILES.iter().map(|(file, _)| folder.join(file)).collect();
+    let text = || {
+        format!(
+            "{name}/src/lib.rs has a small model to begin with; try\n  cd {name}\n  cargo test\n  cargo run --release -- run"
+        )
+    };
+    arguments.voice.tell(&json!({ "crate": name, "files": files }), text)?;
     Ok(Ended::Done)
 }
 

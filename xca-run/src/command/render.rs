@@ -10,13 +10,13 @@ pub(super) use saved::draw;
 use super::arguments::{EngineArguments, RunArguments, interval, steps};
 use super::parse::{RunInvocation, with_help, with_model};
 use super::prepare::Prepared;
+use super::voice::Voice;
 use super::{Definition, Ended, Unable};
 use crate::interrupt::Interrupt;
 use crate::output::animation::{write_apng, write_gif};
 use crate::output::atomic::WriteError;
 use crate::record::{Drawing, Look, Recorder, RunFolder, ViewKind};
 use crate::report::Earlier;
-use crate::terminal;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command, ValueEnum};
 use film::Film;
@@ -106,9 +106,8 @@ pub(super) struct RenderArguments {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// Say nothing but errors
-    #[arg(long, short)]
-    quiet: bool,
+    #[command(flatten)]
+    voice: Voice,
 }
 
 impl RenderArguments {
@@ -166,7 +165,7 @@ impl RenderArguments {
             checkpoint_every: None,
             grids: false,
             print_wgsl: false,
-            quiet: self.quiet,
+            voice: self.voice,
         }
     }
 }
@@ -283,7 +282,7 @@ pub(super) fn render(invocation: &RunInvocation<'_>, arguments: &RenderArguments
     let interrupt = Interrupt::install().map_err(Unable::failed)?;
     let (drawing, interrupt, every) = (&drawing, &interrupt, report.every);
     let states =
-        Running { engine: &*engine, options, drawing, steps, every, interrupt, quiet: arguments.quiet };
+        Running { engine: &*engine, options, drawing, steps, every, interrupt, voice: arguments.voice };
     let film = Film { drawing, states: &states, animation: arguments.animation, fps: arguments.fps };
     report.files = film.files();
     let path = arguments.out.clone().unwrap_or_else(|| default_folder(invocation.model.definition));
@@ -304,14 +303,10 @@ pub(super) fn render(invocation: &RunInvocation<'_>, arguments: &RenderArguments
     }
     report.write(&folder.report()).map_err(Unable::failed)?;
     let made = result.map_err(Unable::Failed)?;
-    if !arguments.quiet {
+    arguments.voice.tell(&report, || {
         let end = if interrupt.is_raised() { ", interrupted" } else { "" };
-        terminal::say(&format!(
-            "{} pictures of {} steps, one every {every}{end}; {}",
-            made.pictures,
-            made.steps,
-            film.places(&folder)
-        ));
-    }
+        let places = film.places(&folder);
+        format!("{} pictures of {} steps, one every {every}{end}; {places}", made.pictures, made.steps)
+    })?;
     Ok(if interrupt.is_raised() { Ended::Interrupted } else { Ended::Done })
 }

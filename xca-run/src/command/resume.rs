@@ -9,7 +9,6 @@ use crate::checkpoint::{Checkpoint, CheckpointError, CheckpointFolder, Descripti
 use crate::program::Failure;
 use crate::record::RunFolder;
 use crate::report::Earlier;
-use crate::terminal;
 use clap::{Args, Command};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -44,9 +43,9 @@ pub(super) fn resume(definition: &Definition<'_>, arguments: &ResumeArguments) -
     }
     let earlier = Earlier::read(folder);
     if arguments.checkpoint.is_none() && earlier.has_ended() {
-        if !arguments.quiet {
-            terminal::say(&format!("the run in {} has come to its end already", folder.display()));
-        }
+        arguments.voice.tell(&Earlier::whole(folder), || {
+            format!("the run in {} has come to its end already", folder.display())
+        })?;
         return Ok(Ended::Done);
     }
     let path = chosen(arguments)?;
@@ -119,7 +118,7 @@ impl Found<'_> {
             folder,
             origin,
             checkpoints,
-            quiet: self.arguments.quiet,
+            voice: self.arguments.voice,
             note: engine.note(),
             earlier,
             begin,

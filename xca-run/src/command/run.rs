@@ -57,7 +57,7 @@ pub(super) fn run(invocation: RunInvocation<'_>) -> Result<Ended, Unable> {
         folder,
         origin,
         checkpoints,
-        quiet: run.quiet,
+        voice: run.voice,
         note: engine.note(),
         earlier: Earlier::default(),
         begin,

@@ -7,15 +7,14 @@ mod words;
 pub(super) use batch::Batch;
 pub(super) use checkpoints::Checkpoints;
 
+use super::voice::Voice;
 use super::{Ended, Unable};
 use crate::checkpoint::{Checkpoint, Description, Origin};
 use crate::interrupt::Interrupt;
 use crate::machine::peak_memory;
 use crate::program::Failure;
-use crate::progress::Progress;
 use crate::record::{Recorder, RunFolder};
 use crate::report::{self, Earlier, Report};
-use crate::terminal;
 use std::time::{Duration, Instant};
 use xca_core::Simulation;
 
@@ -27,7 +26,7 @@ pub(super) struct UnderWay {
     pub(super) folder: RunFolder,
     pub(super) origin: Origin,
     pub(super) checkpoints: Option<Checkpoints>,
-    pub(super) quiet: bool,
+    pub(super) voice: Voice,
     /// What has to be known of the engine.
     pub(super) note: Option<String>,
     /// What the run had taken before it was resumed.
@@ -40,9 +39,9 @@ pub(super) struct UnderWay {
 impl UnderWay {
     pub(super) fn go(mut self) -> Result<Ended, Unable> {
         let interrupt = Interrupt::install().map_err(Unable::failed)?;
-        self.say(&self.headline());
+        self.voice.say(&self.headline());
         if let Some(note) = &self.note {
-            self.say(&format!("note: {note}"));
+            self.voice.say(&format!("note: {note}"));
         }
         self.complete_report();
         self.report.write(&self.folder.report()).map_err(Unable::failed)?;
@@ -58,7 +57,7 @@ impl UnderWay {
             (Err(error), _) => Err(Unable::FailedLeaving(error, self.remains())),
             (Ok(_), Err(error)) => Err(Unable::FailedLeaving(error.into(), self.remains())),
             (Ok(ended), Ok(())) => {
-                self.say(&self.summary());
+                self.voice.tell(&self.report, || self.summary())?;
                 Ok(ended)
             }
         }
@@ -70,7 +69,7 @@ impl UnderWay {
         if !self.recorder.has_begun() {
             self.recorder.begin(self.folder.clone(), &mut self.simulation)?;
         }
-        let line = if self.quiet { Progress::hidden() } else { Progress::new(Some(wanted)) };
+        let line = self.voice.line(wanted);
         line.begin_at(self.simulation.step_number());
         let mut batch = Batch::default();
         while self.is_unfinished() && !interrupt.is_raised() {
@@ -151,11 +150,5 @@ impl UnderWay {
         progress.steps_per_second = (steps > 0).then(|| steps as f64 / progress.step_seconds.max(1e-9));
         progress.state_bytes = Some(self.simulation.memory());
         progress.peak_memory_bytes = peak_memory();
-    }
-
-    fn say(&self, text: &str) {
-        if !self.quiet {
-            terminal::say(text);
-        }
     }
 }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::command::voice::Voice;
 use crate::engines::EngineName;
 use std::fs;
 use std::path::Path;
@@ -65,7 +66,7 @@ fn what_is_not_given_has_a_default() {
     assert_eq!((given.seed, given.precision, given.parameters.len()), (1, Precision::F64, 0));
     assert_eq!((invocation.engine.engine, invocation.engine.threads), (EngineName::Cpu, None));
     assert_eq!(invocation.run.every, None);
-    assert!(!invocation.run.quiet);
+    assert_eq!(invocation.run.voice, Voice::default());
     assert_eq!(forest(&invocation).size, 200);
     let options = serde_json::to_string(&invocation.model.options).unwrap();
     assert_eq!(options, r#"{"name":null,"size":200,"tree":[],"wet":false}"#);
@@ -140,7 +141,7 @@ fn a_file_gives_options_and_the_command_line_wins() {
     let invocation = with_config(text, &["--seed", "4", "--set", "alpha=0.5"]).unwrap();
     let forest = forest(&invocation);
     assert_eq!((forest.size, forest.wet, forest.tree.len()), (50, true, 2));
-    assert_eq!((invocation.engine.threads, invocation.run.quiet), (Some(2), false));
+    assert_eq!((invocation.engine.threads, invocation.run.voice), (Some(2), Voice::default()));
     let given = invocation.model.arguments.given(None);
     assert_eq!(given.seed, 4);
     let set: Vec<String> = given.parameters.iter().map(ToString::to_string).collect();

@@ -2,9 +2,9 @@
 
 use super::film::{Look, States};
 use crate::command::under_way::Batch;
+use crate::command::voice::Voice;
 use crate::interrupt::Interrupt;
 use crate::program::Failure;
-use crate::progress::Progress;
 use crate::record::Drawing;
 use std::time::Instant;
 use xca_core::{Engine, RunOptions, Simulation};
@@ -18,14 +18,14 @@ pub(super) struct Running<'a> {
     /// How many steps there are from picture to picture.
     pub(super) every: u64,
     pub(super) interrupt: &'a Interrupt,
-    pub(super) quiet: bool,
+    pub(super) voice: Voice,
 }
 
 impl States for Running<'_> {
     fn each(&self, doing: &str, look: &mut Look<'_>) -> Result<u64, Failure> {
         let Self { steps: wanted, every, .. } = *self;
         let mut simulation = Simulation::new(self.drawing.model(), self.engine, self.options)?;
-        let line = if self.quiet { Progress::hidden() } else { Progress::new(Some(wanted)) };
+        let line = self.voice.line(wanted);
         line.message(doing);
         let mut batch = Batch::default();
         loop {

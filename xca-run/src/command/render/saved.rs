@@ -4,13 +4,12 @@ use super::film::{Film, Look, States};
 use super::kept::Kept;
 use super::{RenderArguments, default_folder, pictures_folder};
 use crate::checkpoint::{Checkpoint, CheckpointFolder};
+use crate::command::voice::Voice;
 use crate::command::{Definition, Ended, Unable};
 use crate::interrupt::Interrupt;
 use crate::output::atomic::{OutputFolder, write_atomically};
 use crate::program::Failure;
-use crate::progress::Progress;
 use crate::record::{Drawing, FRAMES, RunFolder, SavedError};
-use crate::terminal;
 use serde_json::{Value, json};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -44,7 +43,7 @@ fn folder(
         steps: steps(path, &drawing, &frames, arguments.every)?,
         frames,
         interrupt: Interrupt::install().map_err(Unable::failed)?,
-        quiet: arguments.quiet,
+        voice: arguments.voice,
     };
     // What cannot be drawn is found before earlier pictures are removed.
     states.look_at_first().map_err(Unable::refused)?;
@@ -65,11 +64,11 @@ fn folder(
     };
     report.write(outcome, made.as_ref().map_or(0, |made| made.pictures))?;
     let made = made.map_err(unable)?;
-    if !arguments.quiet {
+    arguments.voice.tell(&report.of_run, || {
         let interrupted = if states.interrupt.is_raised() { ", interrupted" } else { "" };
         let (of, places) = (path.display(), film.places(&folder));
-        terminal::say(&format!("{} pictures of the states in {of}{interrupted}; {places}", made.pictures));
-    }
+        format!("{} pictures of the states in {of}{interrupted}; {places}", made.pictures)
+    })?;
     Ok(if outcome == "interrupted" { Ended::Interrupted } else { Ended::Done })
 }
 
@@ -129,7 +128,7 @@ struct Frames<'a> {
     steps: Vec<u64>,
     frames: OutputFolder,
     interrupt: Interrupt,
-    quiet: bool,
+    voice: Voice,
 }
 
 impl Frames<'_> {
@@ -141,7 +140,7 @@ impl Frames<'_> {
 impl States for Frames<'_> {
     fn each(&self, doing: &str, look: &mut Look<'_>) -> Result<u64, Failure> {
         let last = self.steps.last().copied().unwrap_or(0);
-        let line = if self.quiet { Progress::hidden() } else { Progress::new(Some(last)) };
+        let line = self.voice.line(last);
         line.message(doing);
         let mut reached = 0;
         for step in self.steps.iter().copied() {
@@ -184,8 +183,8 @@ fn checkpoint(
     if let Some(picture) = drawing.picture(step, &seen, &scales).map_err(Unable::failed)? {
         picture.write(&file).map_err(Unable::failed)?;
     }
-    if !arguments.quiet {
-        terminal::say(&format!("the state after {step} steps is drawn in {}", file.display()));
-    }
+    arguments.voice.tell(&json!({ "drawn": path, "step": step, "files": [&file] }), || {
+        format!("the state after {step} steps is drawn in {}", file.display())
+    })?;
     Ok(Ended::Done)
 }

@@ -1,0 +1,43 @@
+//! How a command tells what it has done: as text, as JSON, or not at all.
+
+use super::Unable;
+use crate::progress::Progress;
+use crate::terminal;
+use clap::Args;
+use serde::Serialize;
+
+/// What the command line says of that. Errors are always told, and always as text.
+#[derive(Args, Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) struct Voice {
+    /// Say nothing but errors
+    #[arg(long, short)]
+    quiet: bool,
+
+    /// Tell the result as JSON, and nothing else
+    #[arg(long, conflicts_with = "quiet")]
+    json: bool,
+}
+
+impl Voice {
+    /// Says something on the way.
+    pub(super) fn say(self, text: &str) {
+        if !self.quiet && !self.json {
+            terminal::say(text);
+        }
+    }
+
+    /// Tells the result.
+    pub(super) fn tell(self, result: &impl Serialize, text: impl FnOnce() -> String) -> Result<(), Unable> {
+        if self.json {
+            terminal::say(&serde_json::to_string_pretty(result).map_err(Unable::failed)?);
+        } else if !self.quiet {
+            terminal::say(&text());
+        }
+        Ok(())
+    }
+
+    /// The line that shows how far so many steps have come.
+    pub(super) fn line(self, steps: u64) -> Progress {
+        if self.quiet { Progress::hidden() } else { Progress::new(Some(steps)) }
+    }
+}
