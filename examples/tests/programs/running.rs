@@ -1,7 +1,9 @@
 //! Running a program in a folder of its own, and reading what it leaves.
 
+use flate2::read::ZlibDecoder;
 use serde_json::Value;
 use std::fs;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use tempfile::TempDir;
@@ -138,7 +140,7 @@ impl Table {
     }
 }
 
-/// The bytes of an array of a VTK file with appended raw data.
+/// The bytes of an array of a VTK file with appended raw data, compressed by zlib.
 pub(crate) fn vtk_array(path: &Path, name: &str) -> Vec<u8> {
     let bytes = fs::read(path).unwrap();
     let marker = b"<AppendedData encoding=\"raw\">\n_";
@@ -149,8 +151,16 @@ pub(crate) fn vtk_array(path: &Path, name: &str) -> Vec<u8> {
     let offset: usize =
         element.split("offset=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap();
     let at = start + offset;
-    let length = u64::from_le_bytes(bytes[at..at + 8].try_into().unwrap()) as usize;
-    bytes[at + 8..at + 8 + length].to_vec()
+    // How many blocks there are, two numbers more, the length of each block's stream, and the streams.
+    let number = |i: usize| u64::from_le_bytes(bytes[at + 8 * i..][..8].try_into().unwrap()) as usize;
+    let mut stream = at + 8 * (3 + number(0));
+    let mut values = Vec::new();
+    for block in 0..number(0) {
+        let length = number(3 + block);
+        ZlibDecoder::new(&bytes[stream..stream + length]).read_to_end(&mut values).unwrap();
+        stream += length;
+    }
+    values
 }
 
 /// Checks that a run's folder holds everything that its report lists, whole.

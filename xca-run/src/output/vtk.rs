@@ -8,10 +8,11 @@
 //!
 //! [`read_particles`] and [`read_dense`] read them back, and no other VTK files.
 //!
-//! Values are stored as they are (binary, little-endian, `AppendedData` in raw encoding), so nothing is lost. Units are
+//! Values are stored as they are (binary, little-endian, `AppendedData` in raw encoding) and compressed with zlib, so nothing is lost. Units are
 //! those of the model. Every file carries its time as the field `TimeValue`.
 
 mod appended;
+mod blocks;
 mod collection;
 mod dense;
 mod particles;

@@ -54,16 +54,17 @@ pub fn write_dense(path: &Path, time: f64, grid: &Grid, arrays: &[DataArray<'_>]
 
     let [nx, ny, nz] = grid.cells;
     let extent = format!("0 {nx} 0 {ny} 0 {nz}");
-    let mut appended = Appended::default();
-    let content = format!(
-        "<ImageData WholeExtent=\"{extent}\" Origin=\"{origin}\" Spacing=\"{spacing}\">\n{time}\
+    let content = |appended: &mut Appended| {
+        Ok(format!(
+            "<ImageData WholeExtent=\"{extent}\" Origin=\"{origin}\" Spacing=\"{spacing}\">\n{time}\
          <Piece Extent=\"{extent}\">\n{data}</Piece>\n</ImageData>\n",
-        origin = joined(&grid.origin),
-        spacing = joined(&grid.spacing),
-        time = appended.time(time),
-        data = appended.data("CellData", arrays),
-    );
-    write_atomically(path, |file| appended.write(file, "ImageData", &content))?;
+            origin = joined(&grid.origin),
+            spacing = joined(&grid.spacing),
+            time = appended.time(time)?,
+            data = appended.data("CellData", arrays)?,
+        ))
+    };
+    write_atomically(path, |file| Appended::write(file, "ImageData", content))?;
     Ok(())
 }
 
@@ -71,6 +72,7 @@ pub fn write_dense(path: &Path, time: f64, grid: &Grid, arrays: &[DataArray<'_>]
 mod tests {
     use super::*;
     use std::fs;
+    use std::io::Read;
 
     #[test]
     fn the_bytes_are_those_of_the_format() {
@@ -79,26 +81,37 @@ mod tests {
         let grid = Grid { cells: [3, 2, 1], origin: [0.0, -0.5, 0.0], spacing: [0.1, 0.25, 1e-7] };
         let arrays = [DataArray::new("alive", &[1_u8, 0, 1, 1, 0, 9][..])];
         write_dense(&path, 2.0, &grid, &arrays).unwrap();
-        let mut expected = br#"<?xml version="1.0"?>
-<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian" header_type="UInt64">
+        let expected = r#"<?xml version="1.0"?>
+<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian" header_type="UInt64" compressor="vtkZLibDataCompressor">
 <ImageData WholeExtent="0 3 0 2 0 1" Origin="0.0 -0.5 0.0" Spacing="0.1 0.25 1e-7">
 <FieldData>
 <DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" format="appended" offset="0"/>
 </FieldData>
 <Piece Extent="0 3 0 2 0 1">
 <CellData Scalars="alive">
-<DataArray type="UInt8" Name="alive" NumberOfComponents="1" format="appended" offset="16"/>
+<DataArray type="UInt8" Name="alive" NumberOfComponents="1" format="appended" offset="AT"/>
 </CellData>
 </Piece>
 </ImageData>
 <AppendedData encoding="raw">
-_"#
-        .to_vec();
-        expected.extend([8, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x40]);
-        expected.extend([6, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 1, 0, 9]);
-        expected.extend(b"\n</AppendedData>\n</VTKFile>\n");
-        assert_eq!(String::from_utf8_lossy(&fs::read(&path).unwrap()), String::from_utf8_lossy(&expected));
-        assert_eq!(fs::read(&path).unwrap(), expected);
+_"#;
+        // One block of 8 bytes and one of 6, each with the length of its stream; a zlib stream of little begins with 0x78.
+        let bytes = fs::read(&path).unwrap();
+        // The offset has as many digits as these letters.
+        let of_time = 32 + bytes[expected.len() + 24] as usize;
+        let place = expected.replace("AT", &of_time.to_string());
+        assert_eq!(String::from_utf8_lossy(&bytes[..place.len()]), place);
+        let (data, end) = bytes[place.len()..].split_at(bytes.len() - place.len() - 28);
+        assert_eq!(end, b"\n</AppendedData>\n</VTKFile>\n");
+        for (block, length, values) in
+            [(&data[..of_time], 8_u8, &2.0_f64.to_le_bytes()[..]), (&data[of_time..], 6, &[1, 0, 1, 1, 0, 9])]
+        {
+            let numbers = [[1, 0, 0, 0, 0, 0, 0, 0], [0, 0, 4, 0, 0, 0, 0, 0], [length, 0, 0, 0, 0, 0, 0, 0]];
+            assert_eq!(block[..24], numbers.concat());
+            let mut found = Vec::new();
+            flate2::read::ZlibDecoder::new(&block[32..]).read_to_end(&mut found).unwrap();
+            assert_eq!((found.as_slice(), block[32]), (values, 0x78));
+        }
     }
 
     #[test]

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::Grid;
 use super::appended::{DATA, END, head, unescaped};
+use super::blocks::{Broken, expanded};
 
 /// A VTK file that cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -167,31 +168,29 @@ impl<'a> Parts<'a> {
     /// The time, and all arrays, which have so many values each.
     fn arrays(&self, count: usize) -> Result<(f64, Vec<ReadArray>), ReadVtkError> {
         let wrong = || self.foreign("one of its arrays makes no sense");
-        let mut blocks = Vec::new();
-        let mut offset = 0_usize;
+        let mut arrays = Vec::new();
+        let mut rest = self.data.as_slice();
         for line in self.head.lines().filter(|line| line.starts_with("<DataArray ")) {
-            let block = Block::new(line, count).ok_or_else(wrong)?;
-            if block.offset != offset {
+            let element = Element::new(line, count).ok_or_else(wrong)?;
+            // The values of one array follow those of the one before.
+            if element.offset != self.data.len() - rest.len() {
                 return Err(wrong());
             }
-            offset = block
-                .length
-                .checked_add(8)
-                .and_then(|length| offset.checked_add(length))
-                .ok_or_else(wrong)?;
-            blocks.push(block);
+            let (bytes, others) = expanded(rest, element.length).map_err(|broken| match broken {
+                Broken::Short => self.truncated(),
+                Broken::Wrong => self.foreign("its data are not those of its arrays"),
+            })?;
+            arrays.push(element.array(bytes));
+            rest = others;
         }
-        let wanted = offset.checked_add(END.len()).ok_or_else(wrong)?;
-        if self.data.len() < wanted {
-            let found = self.head.len() + DATA.len() + self.data.len();
-            return Err(ReadVtkError::Truncated { path: self.path.to_owned(), found });
+        if rest != END.as_bytes() {
+            let is_short = END.as_bytes().starts_with(rest);
+            return Err(if is_short {
+                self.truncated()
+            } else {
+                self.foreign("it goes on where it should end")
+            });
         }
-        if &self.data[offset..] != END.as_bytes() {
-            return Err(self.foreign("it goes on where it should end"));
-        }
-        let arrays: Option<Vec<ReadArray>> =
-            blocks.into_iter().map(|block| block.array(&self.data)).collect();
-        let mut arrays = arrays.ok_or_else(|| self.foreign("its data are not those of its arrays"))?;
         match arrays.first() {
             Some(ReadArray { name, bytes, .. }) if name == "TimeValue" && bytes.len() == 8 => {
                 let time = arrays.remove(0).bytes.as_chunks().0[0];
@@ -199,6 +198,11 @@ impl<'a> Parts<'a> {
             }
             _ => Err(self.foreign("it does not say its time")),
         }
+    }
+
+    fn truncated(&self) -> ReadVtkError {
+        let found = self.head.len() + DATA.len() + self.data.len();
+        ReadVtkError::Truncated { path: self.path.to_owned(), found }
     }
 }
 
@@ -208,17 +212,18 @@ fn attribute(element: &str, name: &str) -> Option<String> {
     Some(unescaped(value))
 }
 
-/// Where the values of an array stand.
-struct Block {
+/// What the head says of an array.
+struct Element {
     name: String,
     numbers: NumberType,
     components: usize,
+    /// Where its values stand, and how many bytes they are when they are expanded.
     offset: usize,
     length: usize,
 }
 
-impl Block {
-    /// What an element says of its array; `count` is the number of its values.
+impl Element {
+    /// From a line of the head; `count` is the number of its values.
     fn new(element: &str, count: usize) -> Option<Self> {
         let (numbers, size) = match attribute(element, "type")?.as_str() {
             "UInt8" => (NumberType::U8, 1),
@@ -236,12 +241,10 @@ impl Block {
         Some(Self { name, numbers, components, offset: number("offset")?.ok()?, length })
     }
 
-    /// The array, where the data say the same of its length.
-    fn array(self, data: &[u8]) -> Option<ReadArray> {
-        let Self { name, numbers, components, offset, length } = self;
-        let (before, values) = data.get(offset..)?.split_first_chunk()?;
-        let bytes = values.get(..length).filter(|_| u64::from_le_bytes(*before) == length as u64)?.to_vec();
-        Some(ReadArray { name, numbers, components, bytes: numbers.of_this_machine(bytes) })
+    /// The array with its values.
+    fn array(self, bytes: Vec<u8>) -> ReadArray {
+        let Self { name, numbers, components, .. } = self;
+        ReadArray { name, numbers, components, bytes: numbers.of_this_machine(bytes) }
     }
 }
 
