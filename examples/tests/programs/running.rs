@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 use std::fs;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use tempfile::TempDir;
@@ -137,7 +138,7 @@ impl Table {
     }
 }
 
-/// The bytes of an array of a VTK file with appended raw data.
+/// The bytes of an array of a VTK file with appended raw data, compressed by zlib.
 pub(crate) fn vtk_array(path: &Path, name: &str) -> Vec<u8> {
     let bytes = fs::read(path).unwrap();
     let marker = b"<AppendedData encoding=\"raw\">\n_";
@@ -147,9 +148,16 @@ pub(crate) fn vtk_array(path: &Path, name: &str) -> Vec<u8> {
         head.split("<DataArray ").find(|element| element.contains(&format!("Name=\"{name}\""))).unwrap();
     let offset: usize =
         element.split("offset=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap();
-    let at = start + offset;
-    let length = u64::from_le_bytes(bytes[at..at + 8].try_into().unwrap()) as usize;
-    bytes[at + 8..at + 8 + length].to_vec()
+    let of_array = &bytes[start + offset..];
+    // The number of blocks, the bytes of a full and of the last one before they were compressed, and those of each after.
+    let number = |place: usize| u64::from_le_bytes(of_array[8 * place..][..8].try_into().unwrap()) as usize;
+    let (mut values, mut at) = (Vec::new(), 8 * (3 + number(0)));
+    for block in 0..number(0) {
+        let compressed = &of_array[at..][..number(3 + block)];
+        flate2::read::ZlibDecoder::new(compressed).read_to_end(&mut values).unwrap();
+        at += compressed.len();
+    }
+    values
 }
 
 /// Checks that a run's folder holds everything that its report lists, whole.

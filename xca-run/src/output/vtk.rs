@@ -6,13 +6,16 @@
 //! | [`write_dense`] | `.vti`, ImageData | dense substates: one value, or vector, a cell |
 //! | [`Collection`] | `.pvd` | the files of a run with their times: what to open to see the run as a film |
 //!
-//! Values are stored as they are (binary, little-endian, `AppendedData` in raw encoding), so nothing is lost. Units are
-//! those of the model. Every file carries its time as the field `TimeValue`.
+//! Values are stored as they are (binary, little-endian, `AppendedData` in raw encoding, compressed by zlib), so nothing is
+//! lost. Units are those of the model. Every file carries its time as the field `TimeValue`.
 
 mod appended;
 mod collection;
+mod compressed;
 mod dense;
 mod particles;
+#[cfg(test)]
+mod reading;
 mod values;
 
 use std::path::PathBuf;

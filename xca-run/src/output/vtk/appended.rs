@@ -3,92 +3,69 @@
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
-use super::values::{DataArray, Values};
+use super::compressed::Compressed;
+use super::values::DataArray;
 
-/// The values that stand at the end of a file.
+/// The values that stand at the end of a file, compressed.
 #[derive(Default)]
-pub(super) struct Appended<'a> {
-    blocks: Vec<Block<'a>>,
-    /// Where the next block begins, in bytes after the underscore.
-    offset: u64,
+pub(super) struct Appended {
+    bytes: Vec<u8>,
 }
 
-enum Block<'a> {
-    Values(Values<'a>),
-    Time(f64),
-    /// `from`, `from + 1`, ... as `i32`.
-    Count {
-        from: i32,
-        len: i32,
-    },
-}
-
-impl Block<'_> {
-    fn bytes(&self) -> u64 {
-        match self {
-            Self::Values(values) => values.bytes(),
-            Self::Time(_) => 8,
-            Self::Count { len, .. } => u64::from(len.unsigned_abs()) * 4,
-        }
-    }
-
-    fn write_to(&self, out: &mut dyn Write) -> io::Result<()> {
-        match self {
-            Self::Values(values) => values.write_to(out),
-            Self::Time(time) => out.write_all(&time.to_le_bytes()),
-            Self::Count { from, len } => (0..*len).try_for_each(|i| out.write_all(&(from + i).to_le_bytes())),
-        }
-    }
-}
-
-impl<'a> Appended<'a> {
+impl Appended {
     /// The element of an array whose values are appended.
-    pub(super) fn array(&mut self, array: &DataArray<'a>) -> String {
+    pub(super) fn array(&mut self, array: &DataArray<'_>) -> io::Result<String> {
         let attributes = format!(
             r#"type="{}" Name="{}" NumberOfComponents="{}""#,
-            array.values.vtk_type().0,
+            array.values.vtk_type(),
             escaped(array.name),
             array.values.components()
         );
-        self.append(&attributes, Block::Values(array.values))
+        self.append(&attributes, |out| array.values.write_to(out))
     }
 
     /// The element of an array `from`, `from + 1`, ... of `len` numbers.
-    pub(super) fn count(&mut self, name: &str, from: i32, len: i32) -> String {
-        self.append(&format!(r#"type="Int32" Name="{name}""#), Block::Count { from, len })
+    pub(super) fn count(&mut self, name: &str, from: i32, len: i32) -> io::Result<String> {
+        self.append(&format!(r#"type="Int32" Name="{name}""#), |out| {
+            (0..len).try_for_each(|i| out.write_all(&(from + i).to_le_bytes()))
+        })
     }
 
     /// The elements of point or cell data (`kind`): the first scalars are what ParaView colours by.
-    pub(super) fn data(&mut self, kind: &str, arrays: &[DataArray<'a>]) -> String {
+    pub(super) fn data(&mut self, kind: &str, arrays: &[DataArray<'_>]) -> io::Result<String> {
         let scalars = arrays.iter().find(|array| array.values.components() == 1);
         let scalars =
             scalars.map(|array| format!(r#" Scalars="{}""#, escaped(array.name))).unwrap_or_default();
-        let elements: String = arrays.iter().map(|array| self.array(array)).collect();
-        format!("<{kind}{scalars}>\n{elements}</{kind}>\n")
+        let elements: io::Result<String> = arrays.iter().map(|array| self.array(array)).collect();
+        Ok(format!("<{kind}{scalars}>\n{}</{kind}>\n", elements?))
     }
 
     /// The element that holds the time of the file.
-    pub(super) fn time(&mut self, time: f64) -> String {
+    pub(super) fn time(&mut self, time: f64) -> io::Result<String> {
         let attributes = r#"type="Float64" Name="TimeValue" NumberOfTuples="1""#;
-        format!("<FieldData>\n{}</FieldData>\n", self.append(attributes, Block::Time(time)))
+        let element = self.append(attributes, |out| out.write_all(&time.to_le_bytes()))?;
+        Ok(format!("<FieldData>\n{element}</FieldData>\n"))
     }
 
-    fn append(&mut self, attributes: &str, block: Block<'a>) -> String {
-        let element = format!("<DataArray {attributes} format=\"appended\" offset=\"{}\"/>\n", self.offset);
-        self.offset += 8 + block.bytes();
-        self.blocks.push(block);
-        element
+    /// The element with these attributes of the values that `fill` writes.
+    fn append(
+        &mut self,
+        attributes: &str,
+        fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> io::Result<String> {
+        let offset = self.bytes.len();
+        let mut values = Compressed::default();
+        fill(&mut values)?;
+        self.bytes.append(&mut values.finish()?);
+        Ok(format!("<DataArray {attributes} format=\"appended\" offset=\"{offset}\"/>\n"))
     }
 
     /// Writes the file: `content` is the element named `kind`.
     pub(super) fn write(&self, out: &mut dyn Write, kind: &str, content: &str) -> io::Result<()> {
-        let head = r#"version="1.0" byte_order="LittleEndian" header_type="UInt64""#;
+        let head = r#"version="1.0" byte_order="LittleEndian" header_type="UInt64" compressor="vtkZLibDataCompressor""#;
         write!(out, "<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" {head}>\n{content}")?;
         out.write_all(b"<AppendedData encoding=\"raw\">\n_")?;
-        for block in &self.blocks {
-            out.write_all(&block.bytes().to_le_bytes())?;
-            block.write_to(out)?;
-        }
+        out.write_all(&self.bytes)?;
         out.write_all(b"\n</AppendedData>\n</VTKFile>\n")
     }
 }

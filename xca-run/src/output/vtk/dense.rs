@@ -54,22 +54,25 @@ pub fn write_dense(path: &Path, time: f64, grid: &Grid, arrays: &[DataArray<'_>]
 
     let [nx, ny, nz] = grid.cells;
     let extent = format!("0 {nx} 0 {ny} 0 {nz}");
-    let mut appended = Appended::default();
-    let content = format!(
-        "<ImageData WholeExtent=\"{extent}\" Origin=\"{origin}\" Spacing=\"{spacing}\">\n{time}\
-         <Piece Extent=\"{extent}\">\n{data}</Piece>\n</ImageData>\n",
-        origin = joined(&grid.origin),
-        spacing = joined(&grid.spacing),
-        time = appended.time(time),
-        data = appended.data("CellData", arrays),
-    );
-    write_atomically(path, |file| appended.write(file, "ImageData", &content))?;
+    write_atomically(path, |file| {
+        let mut appended = Appended::default();
+        let content = format!(
+            "<ImageData WholeExtent=\"{extent}\" Origin=\"{origin}\" Spacing=\"{spacing}\">\n{time}\
+             <Piece Extent=\"{extent}\">\n{data}</Piece>\n</ImageData>\n",
+            origin = joined(&grid.origin),
+            spacing = joined(&grid.spacing),
+            time = appended.time(time)?,
+            data = appended.data("CellData", arrays)?,
+        );
+        appended.write(file, "ImageData", &content)
+    })?;
     Ok(())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::vtk::reading::parse;
     use std::fs;
 
     #[test]
@@ -79,26 +82,32 @@ mod tests {
         let grid = Grid { cells: [3, 2, 1], origin: [0.0, -0.5, 0.0], spacing: [0.1, 0.25, 1e-7] };
         let arrays = [DataArray::new("alive", &[1_u8, 0, 1, 1, 0, 9][..])];
         write_dense(&path, 2.0, &grid, &arrays).unwrap();
-        let mut expected = br#"<?xml version="1.0"?>
-<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian" header_type="UInt64">
+        let bytes = fs::read(&path).unwrap();
+        let (head, arrays) = parse(&bytes);
+        let values: Vec<&[u8]> = arrays.iter().map(|(_, values)| values.as_slice()).collect();
+        assert_eq!(values, [&2.0_f64.to_le_bytes()[..], &[1, 0, 1, 1, 0, 9]]);
+        // Four numbers stand before the first block, which ends where the next begins; after the last, the file does.
+        let before = head.len() + "<AppendedData encoding=\"raw\">\n_".len();
+        let length = |at: usize| 32 + bytes[before + at + 24] as usize;
+        let second = length(0);
+        let expected = format!(
+            r#"<?xml version="1.0"?>
+<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian" header_type="UInt64" compressor="vtkZLibDataCompressor">
 <ImageData WholeExtent="0 3 0 2 0 1" Origin="0.0 -0.5 0.0" Spacing="0.1 0.25 1e-7">
 <FieldData>
 <DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" format="appended" offset="0"/>
 </FieldData>
 <Piece Extent="0 3 0 2 0 1">
 <CellData Scalars="alive">
-<DataArray type="UInt8" Name="alive" NumberOfComponents="1" format="appended" offset="16"/>
+<DataArray type="UInt8" Name="alive" NumberOfComponents="1" format="appended" offset="{second}"/>
 </CellData>
 </Piece>
 </ImageData>
-<AppendedData encoding="raw">
-_"#
-        .to_vec();
-        expected.extend([8, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x40]);
-        expected.extend([6, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 1, 0, 9]);
-        expected.extend(b"\n</AppendedData>\n</VTKFile>\n");
-        assert_eq!(String::from_utf8_lossy(&fs::read(&path).unwrap()), String::from_utf8_lossy(&expected));
-        assert_eq!(fs::read(&path).unwrap(), expected);
+"#
+        );
+        assert_eq!(head, expected);
+        let end = before + second + length(second);
+        assert_eq!(&bytes[end..], b"\n</AppendedData>\n</VTKFile>\n");
     }
 
     #[test]

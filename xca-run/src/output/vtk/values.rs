@@ -76,23 +76,19 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// VTK's name of the scalar type and its size in bytes.
-    pub(super) fn vtk_type(&self) -> (&'static str, u64) {
+    /// VTK's name of the scalar type.
+    pub(super) fn vtk_type(&self) -> &'static str {
         match self.data {
-            Data::U8(_) => ("UInt8", 1),
-            Data::I32(_) => ("Int32", 4),
-            Data::U32(_) => ("UInt32", 4),
-            Data::F32(_) => ("Float32", 4),
-            Data::F64(_) => ("Float64", 8),
+            Data::U8(_) => "UInt8",
+            Data::I32(_) => "Int32",
+            Data::U32(_) => "UInt32",
+            Data::F32(_) => "Float32",
+            Data::F64(_) => "Float64",
         }
     }
 
     pub(super) fn is_float(&self) -> bool {
         matches!(self.data, Data::F32(_) | Data::F64(_))
-    }
-
-    pub(super) fn bytes(&self) -> u64 {
-        self.scalars() as u64 * self.vtk_type().1
     }
 
     /// Writes the scalars in little-endian order.
