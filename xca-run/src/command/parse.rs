@@ -6,7 +6,9 @@ use super::inspect::InspectArguments;
 use super::list::ListArguments;
 use super::new::NewArguments;
 use super::render::RenderArguments;
-use super::{Definition, EXIT_CODES, Unable, compare, config, inspect, list, new, render, resume, run};
+use super::{
+    Definition, EXIT_CODES, Unable, clashes, compare, config, inspect, list, new, render, resume, run,
+};
 use crate::program::Given;
 use crate::set_up::SetUp;
 use clap::error::ErrorKind;
@@ -119,6 +121,7 @@ pub(super) fn invocation<'a>(
     definition: &'a Definition<'a>,
     arguments: &[OsString],
 ) -> Result<Invocation<'a>, Unable> {
+    clashes::check(definition).map_err(Unable::refused)?;
     let command = command(definition);
     let mut arguments = arguments.to_vec();
     if let Some(path) = config_file(&command, &arguments)? {
