@@ -1,6 +1,7 @@
 //! The command line of a model's program.
 
 mod arguments;
+mod clashes;
 mod compare;
 mod config;
 mod initial;

@@ -7,7 +7,8 @@ use super::list::ListArguments;
 use super::new::NewArguments;
 use super::render::RenderArguments;
 use super::{
-    Definition, EXIT_CODES, Unable, compare, config, initial, inspect, list, new, render, resume, run,
+    Definition, EXIT_CODES, Unable, clashes, compare, config, initial, inspect, list, new, render, resume,
+    run,
 };
 use crate::program::Given;
 use crate::set_up::SetUp;
@@ -122,6 +123,7 @@ pub(super) fn invocation<'a>(
     definition: &'a Definition<'a>,
     arguments: &[OsString],
 ) -> Result<Invocation<'a>, Unable> {
+    clashes::check(definition).map_err(Unable::refused)?;
     let command = command(definition);
     let mut arguments = arguments.to_vec();
     if let Some(path) = config_file(&command, &arguments)? {

@@ -26,6 +26,9 @@ use std::time::Instant;
 
 pub(super) const NAME: &str = "render";
 
+/// What has been run already: a name that no field of a model has.
+const SAVED: &str = "DIR|CHECKPOINT";
+
 const ABOUT: &str = "Draw a run: pictures of its states, and an animation of them";
 
 const STATES: &str = "\
@@ -59,7 +62,7 @@ enum Animation {
 #[derive(Args, Debug, Clone)]
 pub(super) struct RenderArguments {
     /// The folder of a run, or a checkpoint, that is drawn as it is; the model is run unless it is given
-    #[arg(value_name = "DIR|CHECKPOINT")]
+    #[arg(id = SAVED, value_name = "DIR|CHECKPOINT")]
     of: Option<PathBuf>,
 
     /// How many steps are done; the model says how many unless it is given
@@ -224,7 +227,7 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
     let command = EngineArguments::augment_args(with_model(Command::new(NAME), definition));
     // Which a run that is drawn has been given already.
     let command = command.mut_args(|option| {
-        if option.is_required_set() { option.required(false).required_unless_present("of") } else { option }
+        if option.is_required_set() { option.required(false).required_unless_present(SAVED) } else { option }
     });
     let command = RenderArguments::augment_args(command).next_help_heading(None::<&str>);
     let examples = [

@@ -2,6 +2,7 @@
 
 use color_quant::NeuQuant;
 use std::collections::HashMap;
+use std::iter::repeat_n;
 
 /// A colour in sRGB.
 type Colour = [u8; 3];
@@ -32,10 +33,9 @@ impl Histogram {
         let mut all: Vec<(Colour, u64)> = self.counts.into_iter().collect();
         // The most frequent first; an order of those that are equally frequent makes the same file of the same pictures.
         all.sort_unstable_by_key(|(colour, count)| (std::cmp::Reverse(*count), *colour));
-        let all: Vec<Colour> = all.into_iter().map(|(colour, _)| colour).collect();
-        let colours = if all.len() <= MOST { all.clone() } else { few(&all) };
-        let index = |colour: &Colour| nearest(&colours, *colour);
-        let indices = all.iter().map(|colour| (*colour, index(colour))).collect();
+        let colours =
+            if all.len() <= MOST { all.iter().map(|(colour, _)| *colour).collect() } else { few(&all) };
+        let indices = all.iter().map(|(colour, _)| (*colour, nearest(&colours, *colour))).collect();
         Palette { colours, indices }
     }
 }
@@ -60,11 +60,13 @@ impl Palette {
 }
 
 /// A few colours that stand for all of these, the most frequent of which come first.
-fn few(all: &[Colour]) -> Vec<Colour> {
+fn few(all: &[(Colour, u64)]) -> Vec<Colour> {
     let (kept, others) = all.split_at(KEPT);
-    let pixels: Vec<u8> = others.iter().flat_map(|&[red, green, blue]| [red, green, blue, u8::MAX]).collect();
+    // A colour that is there often counts for more, but not for so much that the rare ones are lost.
+    let weighed = others.iter().flat_map(|(colour, count)| repeat_n(colour, 1 + count.ilog2() as usize));
+    let pixels: Vec<u8> = weighed.flat_map(|&[red, green, blue]| [red, green, blue, u8::MAX]).collect();
     let found = NeuQuant::new(1, MOST - KEPT, &pixels).color_map_rgb();
-    [kept, found.as_chunks().0].concat()
+    kept.iter().map(|(colour, _)| *colour).chain(found.as_chunks().0.iter().copied()).collect()
 }
 
 /// The number of the colour that is nearest to this one.

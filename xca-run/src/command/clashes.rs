@@ -1,0 +1,166 @@
+//! A model's own options, which must not have the names of the frame's.
+
+use super::{Definition, parse};
+use clap::{Arg, Command};
+use std::collections::BTreeSet;
+
+/// Options of a model that a command line could not give.
+#[derive(Debug, PartialEq, Eq, thiserror::Error)]
+pub(super) enum ClashError {
+    #[error(
+        "the model's own options must not have names that its program has already: {0}; give them other names"
+    )]
+    Taken(String),
+    #[error("the model's own option `{0}` has no `--` before its name: write #[arg(long)] at its field")]
+    Positional(String),
+}
+
+/// Stands for the options of the model.
+const MARK: &str = "options of the model";
+
+/// Finds what of the model's own options is taken by the frame, in whichever subcommand: at once, not when that subcommand is used.
+pub(super) fn check(definition: &Definition<'_>) -> Result<(), ClashError> {
+    let own = (definition.options)(Command::new(definition.name));
+    if let Some(option) = own.get_arguments().find(|option| option.is_positional()) {
+        return Err(ClashError::Positional(option.get_id().to_string()));
+    }
+    let Definition { name, about, version, examples, set_up, .. } = *definition;
+    let options = |command: Command| command.arg(Arg::new(MARK).long(MARK));
+    let frame = parse::command(&Definition { name, about, version, examples, options, set_up });
+    let with_model = |command: &&Command| command.get_arguments().any(|option| option.get_id() == MARK);
+    let commands: Vec<(&str, BTreeSet<String>)> = frame
+        .get_subcommands()
+        .filter(with_model)
+        .map(|command| (command.get_name(), taken(command)))
+        .collect();
+    let mut clashes = Vec::new();
+    for name in names(&own) {
+        let takers: Vec<&str> =
+            commands.iter().filter(|(_, taken)| taken.contains(&name)).map(|(command, _)| *command).collect();
+        if !takers.is_empty() {
+            clashes.push(format!("{name} (of {})", takers.join(", ")));
+        }
+    }
+    // A field and its option, which are mostly called alike, are one clash.
+    if clashes.iter().any(|clash| !clash.starts_with(FIELD)) {
+        clashes.retain(|clash| !clash.starts_with(FIELD));
+    }
+    if clashes.is_empty() { Ok(()) } else { Err(ClashError::Taken(clashes.join(", "))) }
+}
+
+/// Before the name of a field: options are told apart by these, too.
+const FIELD: &str = "the field ";
+
+/// What a command line, and its parser, know the options of a command by.
+fn names(command: &Command) -> BTreeSet<String> {
+    let mut names = BTreeSet::new();
+    for option in command.get_arguments().filter(|option| option.get_id() != MARK) {
+        names.insert(format!("{FIELD}`{}`", option.get_id()));
+        let long = option.get_long().into_iter().chain(option.get_all_aliases().into_iter().flatten());
+        names.extend(long.map(|name| format!("`--{name}`")));
+        let short =
+            option.get_short().into_iter().chain(option.get_all_short_aliases().into_iter().flatten());
+        names.extend(short.map(|name| format!("`-{name}`")));
+    }
+    names.extend(command.get_groups().map(|group| format!("the struct `{}`", group.get_id())));
+    names
+}
+
+/// The names that a command has without the model.
+fn taken(command: &Command) -> BTreeSet<String> {
+    let of_help = ["`--help`", "`-h`"].map(str::to_owned).into_iter();
+    names(command).into_iter().chain(of_help).chain([format!("{FIELD}`help`")]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Unable;
+    use super::*;
+    use clap::Args;
+    use std::ffi::OsString;
+
+    fn definition(options: fn(Command) -> Command) -> Definition<'static> {
+        Definition {
+            name: "rock",
+            about: "Layers of rock",
+            version: "1.0.0",
+            examples: "",
+            options,
+            set_up: &|_, _| Err(Unable::refused("not here")),
+        }
+    }
+
+    #[derive(Args)]
+    struct Layered {
+        #[arg(long)]
+        size: usize,
+        /// The layer that is struck
+        #[arg(long)]
+        layer: usize,
+    }
+
+    #[derive(Args)]
+    struct Short {
+        #[arg(long, short)]
+        quick: bool,
+        #[arg(long = "depth", id = "engines")]
+        depth: usize,
+        #[arg(long = "help")]
+        aid: bool,
+    }
+
+    #[derive(Args)]
+    struct RunArguments {
+        #[arg(long)]
+        grain: usize,
+    }
+
+    #[derive(Args)]
+    struct Field {
+        #[arg(long = "grain")]
+        every: usize,
+    }
+
+    #[derive(Args)]
+    struct Bare {
+        grain: usize,
+    }
+
+    #[derive(Args)]
+    struct Fine {
+        #[arg(long, short, alias = "corn", required = true)]
+        grain: usize,
+    }
+
+    fn said(options: fn(Command) -> Command) -> String {
+        check(&definition(options)).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn names_that_are_taken_are_told_with_who_takes_them() {
+        let text = said(Layered::augment_args);
+        assert!(text.contains("already: `--layer` (of render); give"), "{text}");
+        let text = said(Short::augment_args);
+        assert!(text.contains("`-q` (of run, render, compare)"), "{text}");
+        assert!(text.contains("`--help` (of run, render, list, compare)"), "{text}");
+        assert!(said(Field::augment_args).contains("the field `every` (of run, render)"));
+        assert!(said(RunArguments::augment_args).contains("the struct `RunArguments` (of run)"));
+        assert!(said(Bare::augment_args).contains("`grain` has no `--` before its name"));
+        check(&definition(Fine::augment_args)).unwrap();
+        check(&definition(std::convert::identity)).unwrap();
+    }
+
+    #[test]
+    fn they_are_found_whatever_is_asked_for() {
+        let definition = definition(Layered::augment_args);
+        for words in
+            [&["--help"][..], &[], &["run", "--size", "3"], &["inspect", "out"], &["render", "--layer", "1"]]
+        {
+            let words: Vec<OsString> = ["rock"].iter().chain(words).map(OsString::from).collect();
+            let Err(Unable::Refused(error)) = parse::invocation(&definition, &words) else {
+                panic!("{words:?}")
+            };
+            assert!(error.to_string().contains("`--layer` (of render)"), "{error}");
+        }
+    }
+}
