@@ -116,8 +116,49 @@ fn items_are_found_by_cell_and_by_label() {
         "{text}"
     );
     assert!(!text.contains("Dem 8"));
-    // A run without checkpoints has its report.
+    // A run without checkpoints has its frames.
     place.succeed(CADEM, "--particles drop.csv --side 8 --steps 3 --out plain");
-    assert!(told(&place, CADEM, "inspect plain").starts_with("cadem 0.1.0: done, 3 of 3 steps"));
-    refused(&place, CADEM, "inspect plain --label 5", "there is no checkpoint in plain to look into");
+    let text = told(&place, CADEM, "inspect plain");
+    assert!(text.starts_with("cadem 0.1.0: done, 3 of 3 steps"), "{text}");
+    assert!(text.contains("\nplain/frames: cadem 0.1.0 after 3 of 3 steps, time 3.354"), "{text}");
+    assert_eq!(row(&text, "particles.velocity.z")[..2], ["Vector3<f64>", "2"]);
+    let found = json(&place, CADEM, "inspect plain --label 8 --json");
+    let of_last = place.read("plain/final.csv");
+    let last: Vec<f64> =
+        of_last.lines().last().unwrap().split(',').map(|number| number.parse().unwrap()).collect();
+    let item = &found["state"]["places"][0];
+    assert_eq!((&item["of"], &item["label"], &item["cell"]), (&"particles".into(), &8.into(), &Value::Null));
+    assert_eq!(item["values"][0]["lanes"], serde_json::json!(last[1..4]));
+    refused(
+        &place,
+        CADEM,
+        "inspect plain --label 6",
+        "the frames in plain/frames have no item with the label 6",
+    );
+    refused(&place, CADEM, "inspect plain --cell 5,5,2", "the frames in plain/frames have no cell [5, 5, 2]");
+}
+
+#[test]
+fn the_last_frames_are_looked_into_where_there_is_no_checkpoint() {
+    let place = Workplace::new();
+    place.succeed(HEAT, "--size 9 --steps 20 --until 0");
+    let found = json(&place, MOD2, "inspect out/heat --cell 4,4,4 --json");
+    assert_eq!((&found["state"]["step"], &found["state"]["steps_wanted"]), (&20.into(), &20.into()));
+    let of_substate = &found["state"]["substates"][0];
+    assert_eq!((&of_substate["name"], &of_substate["type"]), (&"heat.temperature".into(), &"f64".into()));
+    let fade = 1.0 - 12.0 * 0.125 * (std::f64::consts::PI / 20.0).sin().powi(2);
+    let largest = of_substate["largest"].as_f64().unwrap();
+    assert!((largest / (100.0 * fade.powi(20)) - 1.0).abs() < 1e-12, "{of_substate}");
+    assert_eq!(found["state"]["places"][0]["values"][0]["lanes"][0].as_f64(), Some(largest));
+    refused(
+        &place,
+        HEAT,
+        "inspect out/heat --cell 4,4,9",
+        "the space of [9, 9, 9] cells has no cell [4, 4, 9]",
+    );
+    // Half a frame is none.
+    let frame = place.path("out/heat/frames/heat_00000020.vti");
+    let bytes = fs::read(&frame).unwrap();
+    fs::write(&frame, &bytes[..bytes.len() / 2]).unwrap();
+    refused(&place, HEAT, "inspect out/heat", "heat_00000020.vti is truncated");
 }

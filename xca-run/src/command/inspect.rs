@@ -1,5 +1,6 @@
 //! The subcommand `inspect`.
 
+mod frames;
 mod state;
 mod words;
 
@@ -23,7 +24,8 @@ const ABOUT: &str = "Tell what the folder of a run or a checkpoint holds";
 /// What is looked at, and how it is told.
 #[derive(Args, Debug, Clone)]
 pub(super) struct InspectArguments {
-    /// The folder of a run, or a checkpoint. The state that is told of is that of the latest checkpoint
+    /// The folder of a run, or a checkpoint. The state that is told of is that of the latest checkpoint, and where there is none, what the
+    /// last frames hold
     #[arg(value_name = "DIR|CHECKPOINT")]
     path: PathBuf,
 
@@ -87,6 +89,7 @@ struct Inside {
     step: u64,
     time: Exact,
     steps_wanted: u64,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     parameters: Vec<Parameter>,
     substates: Vec<Statistics>,
     /// The cell and the items that were asked for.
@@ -131,9 +134,14 @@ fn in_folder(arguments: &InspectArguments) -> Result<Findings, Unable> {
             "{folder} is no folder of a run: it has neither {REPORT} nor checkpoints"
         )));
     }
+    if let (None, Some(run)) = (&state, &run) {
+        state = frames::inside(&arguments.path, run, arguments)?;
+    }
     if state.is_none() && (arguments.cell.is_some() || arguments.label.is_some()) {
         let folder = arguments.path.display();
-        return Err(Unable::refused(format!("there is no checkpoint in {folder} to look into")));
+        return Err(Unable::refused(format!(
+            "there is neither a checkpoint nor a frame in {folder} to look into"
+        )));
     }
     Ok(Findings { run, checkpoints, state })
 }

@@ -4,12 +4,12 @@ use super::Recorder;
 use super::cells;
 use super::seen::Seen;
 use super::shown::Shown;
-use super::values::Plane;
-use crate::output::vtk::{NumberType, ReadArray, ReadVtkError, read_dense, read_particles};
+use super::values::{Plane, stored_of};
+use crate::output::vtk::{ReadArray, ReadVtkError, read_dense, read_particles};
 use crate::view::{AnyCellView, AnyItemView, AnyView};
 use std::path::{Path, PathBuf};
 use xca_core::model::Group;
-use xca_core::{Geometry, GroupSnapshot, Model, Precision, Snapshot, StoredScalar, StoredType};
+use xca_core::{Geometry, GroupSnapshot, Model, Precision, Snapshot};
 
 /// A saved state that cannot be drawn.
 #[derive(Debug, thiserror::Error)]
@@ -68,13 +68,13 @@ fn of_cells(view: &AnyCellView, group: &Group, geometry: &Geometry, path: &Path)
         return Err(SavedError::OtherShape { path: path.to_owned(), what });
     }
     let array = Arrays { path, view: &view.name, group, arrays: &file.arrays }.of_field(view.field())?;
-    Ok(cells::seen(view, geometry, stored(array), &array.bytes))
+    Ok(cells::seen(view, geometry, stored_of(array), &array.bytes))
 }
 
 fn items(view: &AnyItemView, group: &Group, path: &Path) -> Result<Seen, SavedError> {
     let file = read_particles(path)?;
     let arrays = Arrays { path, view: &view.name, group, arrays: &file.arrays };
-    let plane = |array: &ReadArray| Plane::all(stored(array), &array.bytes);
+    let plane = Plane::of_array;
     let positions = plane(&file.positions);
     let values = match view.colour(group.schema()) {
         None => Vec::new(),
@@ -112,16 +112,4 @@ impl<'a> Arrays<'a> {
         }
         Ok(array)
     }
-}
-
-/// The type of the numbers of an array; of a substate there are 4 lanes at most.
-fn stored(array: &ReadArray) -> StoredType {
-    let scalar = match array.numbers {
-        NumberType::U8 => StoredScalar::U8,
-        NumberType::I32 => StoredScalar::I32,
-        NumberType::U32 => StoredScalar::U32,
-        NumberType::F32 => StoredScalar::F32,
-        NumberType::F64 => StoredScalar::F64,
-    };
-    StoredType { scalar, lanes: array.components as u8 }
 }

@@ -1,7 +1,19 @@
 //! Stored bytes as numbers.
 
-use crate::output::vtk::Values;
+use crate::output::vtk::{NumberType, ReadArray, Values};
 use xca_core::{StoredScalar, StoredType};
+
+/// The type of the numbers of an array; of a substate there are 4 lanes at most.
+pub(super) fn stored_of(array: &ReadArray) -> StoredType {
+    let scalar = match array.numbers {
+        NumberType::U8 => StoredScalar::U8,
+        NumberType::I32 => StoredScalar::I32,
+        NumberType::U32 => StoredScalar::U32,
+        NumberType::F32 => StoredScalar::F32,
+        NumberType::F64 => StoredScalar::F64,
+    };
+    StoredType { scalar, lanes: array.components as u8 }
+}
 
 /// The values of a substate of cells or items.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +37,11 @@ fn decoded<T, const N: usize>(chosen: &[&[u8]], from: impl Fn([u8; N]) -> T) -> 
 }
 
 impl Plane {
+    /// All values of an array that was read back.
+    pub(crate) fn of_array(array: &ReadArray) -> Self {
+        Self::all(stored_of(array), &array.bytes)
+    }
+
     /// All values.
     pub(crate) fn all(stored: StoredType, bytes: &[u8]) -> Self {
         Self::decode(stored, &[bytes])
@@ -89,6 +106,11 @@ impl Plane {
     /// How many values there are.
     pub(crate) fn len(&self) -> usize {
         self.places() / self.lanes
+    }
+
+    /// How many numbers a value has.
+    pub(crate) fn lanes(&self) -> usize {
+        self.lanes
     }
 
     /// Whether the numbers are floating.

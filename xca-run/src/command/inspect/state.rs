@@ -27,7 +27,8 @@ pub(super) struct Statistics {
 pub(super) struct Place {
     /// The struct of its substates.
     pub(super) of: String,
-    pub(super) cell: [usize; 3],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) cell: Option<[usize; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) label: Option<u32>,
     pub(super) values: Vec<NamedValue>,
@@ -58,19 +59,25 @@ pub(super) fn statistics(checkpoint: &Checkpoint) -> Vec<Statistics> {
     let mut all = Vec::new();
     for (shape, _, fields) in groups(checkpoint) {
         for (substate, bytes) in shape.substates.iter().zip(fields) {
+            let name = format!("{}.{}", shape.name, substate.name);
             let plane = Plane::all(substate.stored, bytes);
-            let lanes = usize::from(substate.stored.lanes);
-            for (lane, letter) in LANES.into_iter().enumerate().take(lanes) {
-                let suffix = if lanes > 1 { format!(".{letter}") } else { String::new() };
-                let name = format!("{}.{}{suffix}", shape.name, substate.name);
-                all.push(Statistics::of(name, substate.value_type.clone(), &plane.lane(lane)));
-            }
+            all.extend(Statistics::of_plane(&name, &substate.value_type, &plane));
         }
     }
     all
 }
 
 impl Statistics {
+    /// Of each lane.
+    pub(super) fn of_plane(name: &str, value_type: &str, plane: &Plane) -> Vec<Self> {
+        let lanes = LANES.into_iter().enumerate().take(plane.lanes());
+        let of_lane = |(lane, letter): (usize, &str)| {
+            let name = if plane.lanes() > 1 { format!("{name}.{letter}") } else { name.to_owned() };
+            Self::of(name, value_type.to_owned(), &plane.lane(lane))
+        };
+        lanes.map(of_lane).collect()
+    }
+
     fn of(name: String, value_type: String, values: &[f64]) -> Self {
         let numbers = || values.iter().copied().filter(|value| !value.is_nan());
         let found = numbers().count();
@@ -106,18 +113,23 @@ fn values(shape: &GroupShape, fields: &[Vec<u8>], index: usize) -> Vec<NamedValu
         .collect()
 }
 
-/// A cell, and the items in it.
-pub(super) fn cell(checkpoint: &Checkpoint, cell: [usize; 3]) -> Result<Vec<Place>, String> {
-    let extents = extents(checkpoint);
+/// The number of a cell, x fastest.
+pub(super) fn linear(extents: [usize; 3], cell: [usize; 3]) -> Result<usize, String> {
     if cell.iter().zip(extents).any(|(index, extent)| *index >= extent) {
         return Err(format!("the space of {extents:?} cells has no cell {cell:?}"));
     }
-    let linear = (cell[2] * extents[1] + cell[1]) * extents[0] + cell[0];
+    Ok((cell[2] * extents[1] + cell[1]) * extents[0] + cell[0])
+}
+
+/// A cell, and the items in it.
+pub(super) fn cell(checkpoint: &Checkpoint, cell: [usize; 3]) -> Result<Vec<Place>, String> {
+    let extents = extents(checkpoint);
+    let linear = linear(extents, cell)?;
     let mut places = Vec::new();
     for (shape, state, fields) in groups(checkpoint) {
         let place = |label, index| Place {
             of: shape.name.clone(),
-            cell,
+            cell: Some(cell),
             label,
             values: values(shape, fields, index),
         };
@@ -149,7 +161,7 @@ pub(super) fn items(checkpoint: &Checkpoint, label: u32) -> Result<Vec<Place>, S
         let cell = ends.find(|(_, end)| index < *end).map_or(0, |(cell, _)| cell);
         places.push(Place {
             of: shape.name.clone(),
-            cell: [cell % width, cell / width % height, cell / (width * height)],
+            cell: Some([cell % width, cell / width % height, cell / (width * height)]),
             label: Some(label),
             values: values(shape, fields, index),
         });

@@ -91,10 +91,13 @@ fn of_substates(substates: &[Statistics]) -> String {
 
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { of, cell: [x, y, z], label, values } = self;
-        match label {
-            Some(label) => write!(f, "{of} {label} in cell {x},{y},{z}")?,
-            None => write!(f, "{of} in cell {x},{y},{z}")?,
+        let Self { of, cell, label, values } = self;
+        f.write_str(of)?;
+        if let Some(label) = label {
+            write!(f, " {label}")?;
+        }
+        if let Some([x, y, z]) = cell {
+            write!(f, " in cell {x},{y},{z}")?;
         }
         for value in values {
             // All digits: to look at one value is to want to know it.
