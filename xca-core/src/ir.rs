@@ -392,6 +392,10 @@ pub enum Builtin {
     Extents,
     /// `space.step()`: the number of the step, from 0, `u32` (its low 32 bits).
     Step,
+    /// `space.nearest_image(separation)`: a separation by the shorter way round, `Vector3<Real>`.
+    NearestImage,
+    /// `space.wrapped(position)`: a position inside the space, `Vector3<Real>`.
+    Wrapped,
     /// `space.cell_containing(position)`: a destination.
     CellContaining,
     /// `Destination::Stay`

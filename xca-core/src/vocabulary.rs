@@ -238,6 +238,18 @@ impl Space {
         match self.never {}
     }
 
+    /// A separation of two positions, by the shorter way round each toroidal axis (the nearest image); along the others it is what it was.
+    /// A search measures distances in the same way.
+    pub fn nearest_image(&self, _separation: Vector3<Real>) -> Vector3<Real> {
+        match self.never {}
+    }
+
+    /// A position inside the space: one that lies beyond a face of a toroidal axis, by less than the length of the space, comes in again
+    /// at the opposite face. Along the other axes it is what it was.
+    pub fn wrapped(&self, _position: Vector3<Real>) -> Vector3<Real> {
+        match self.never {}
+    }
+
     /// The cell that contains the position: cell `i` holds `i * side <= x < (i + 1) * side`. Outside the space it is
     /// [`Destination::Outside`]; a position that is no number is a fault.
     pub fn cell_containing(&self, _position: Vector3<Real>) -> Destination {

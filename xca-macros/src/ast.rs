@@ -203,6 +203,8 @@ pub(crate) enum Builtin {
     Side,
     Extents,
     Step,
+    NearestImage,
+    Wrapped,
     CellContaining,
     Stay,
     Outside,

@@ -116,6 +116,9 @@ fn provided(
     if routines.nearest_image {
         texts.push(space::nearest_image(options.toroidal, options.precision));
     }
+    if routines.wrapped {
+        texts.push(space::wrapped(options.toroidal));
+    }
     if routines.cell_containing {
         texts.push(space::cell_containing());
     }

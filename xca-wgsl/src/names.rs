@@ -33,7 +33,7 @@ const OWN: &str = "
 Real Destination Space Moment Fault Faults main space moment neighbour_offsets item_starts item_ends item_labels
 item_cells destinations faults here here_index this_item reported_fault first_fault storage_index cell_index linear_index
 neighbour_at checked_neighbour_at report_fault has_fault multiply_high philox random_words random_bits random_real
-cell_containing nearest_image
+cell_containing nearest_image shorter_way wrapped wrapped_along
 
 ";
 

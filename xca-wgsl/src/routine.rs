@@ -9,8 +9,10 @@ use xca_core::{Precision, ScalarType};
 #[derive(Debug, Default)]
 pub(crate) struct Routines {
     texts: BTreeMap<String, String>,
-    /// A search goes the shorter way round toroidal axes.
+    /// A search, or the process itself, goes the shorter way round toroidal axes.
     pub(crate) nearest_image: bool,
+    /// Positions are brought into the space.
+    pub(crate) wrapped: bool,
     /// The index of a neighbour may lie beyond the neighbourhood.
     pub(crate) checked_neighbours: bool,
     pub(crate) cell_containing: bool,

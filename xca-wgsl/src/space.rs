@@ -60,18 +60,7 @@ pub(crate) fn nearest_image(toroidal: [bool; 3], precision: Precision) -> String
         Precision::F32 => "0.5f",
         Precision::F64 => "0.5lf",
     };
-    let lanes = ["x", "y", "z"];
-    let lanes: Vec<String> = lanes
-        .iter()
-        .zip(toroidal)
-        .map(|(lane, toroidal)| {
-            if toroidal {
-                format!("shorter_way(separation.{lane}, space.extents.{lane})")
-            } else {
-                format!("separation.{lane}")
-            }
-        })
-        .collect();
+    let lanes = along_toroidal(toroidal, "separation", "shorter_way");
     format!(
         "fn shorter_way(separation: Real, extent: i32) -> Real {{
     let period: Real = Real(extent) * space.side;
@@ -85,10 +74,57 @@ pub(crate) fn nearest_image(toroidal: [bool; 3], precision: Precision) -> String
 }}
 
 fn nearest_image(separation: vec3<Real>) -> vec3<Real> {{
-    return vec3<Real>({});
+    return {lanes};
 }}
-",
-        lanes.join(", ")
+"
+    )
+}
+
+/// A vector in whose lanes of toroidal axes a function is applied, together with the extent.
+fn along_toroidal(toroidal: [bool; 3], vector: &str, function: &str) -> String {
+    let lane = |(lane, toroidal): (&str, bool)| {
+        if toroidal {
+            format!("{function}({vector}.{lane}, space.extents.{lane})")
+        } else {
+            format!("{vector}.{lane}")
+        }
+    };
+    let lanes: Vec<String> = ["x", "y", "z"].into_iter().zip(toroidal).map(lane).collect();
+    format!("vec3<Real>({})", lanes.join(", "))
+}
+
+/// The position inside the space, as far as axes are toroidal.
+pub(crate) fn wrapped(toroidal: [bool; 3]) -> String {
+    let lanes = along_toroidal(toroidal, "position", "wrapped_along");
+    format!(
+        "fn wrapped_along(value: Real, extent: i32) -> Real {{
+    let zero: Real = Real();
+    let period: Real = Real(extent) * space.side;
+    let quotient: Real = value / space.side;
+    if !(abs(quotient) < Real(2147483648u)) {{
+        return value;
+    }}
+    if quotient < zero {{
+        let above: Real = value + period;
+        if floor(above / space.side) < Real(extent) {{
+            return above;
+        }}
+        return zero;
+    }}
+    if floor(quotient) >= Real(extent) {{
+        let below: Real = value - period;
+        if below < zero {{
+            return zero;
+        }}
+        return below;
+    }}
+    return value;
+}}
+
+fn wrapped(position: vec3<Real>) -> vec3<Real> {{
+    return {lanes};
+}}
+"
     )
 }
 

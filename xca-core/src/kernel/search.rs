@@ -189,7 +189,7 @@ impl<'a> Row<'a> {
         if self.frame.toroidal.contains(&true) {
             self.ranges::<REACH>(x, touched, |range| {
                 keep(range, item, positions, found, |other| {
-                    length_squared(self.nearest_image(position - other)) < reach
+                    length_squared(self.space::<R>().nearest_image(position - other)) < reach
                 });
             });
         } else if let (Some((CellFilter { wide: Some(wide), .. }, _)), Precision::F64) =
@@ -275,26 +275,6 @@ impl<'a> Row<'a> {
             }
         }
         each(joined);
-    }
-
-    /// The separation by the shorter way round each toroidal axis.
-    #[inline]
-    fn nearest_image<R: Float>(&self, separation: Vector3<R>) -> Vector3<R> {
-        let along = |value: R, axis: usize| {
-            if !self.frame.toroidal[axis] {
-                return value;
-            }
-            let period = R::from_f64(f64::from(self.frame.extents[axis])) * R::from_f64(self.frame.side);
-            let half = R::from_f64(0.5) * period;
-            if value > half {
-                value - period
-            } else if value < R::default() - half {
-                value + period
-            } else {
-                value
-            }
-        };
-        Vector3::new(along(separation.x, 0), along(separation.y, 1), along(separation.z, 2))
     }
 }
 

@@ -163,6 +163,8 @@ pub(super) fn builtin(builtin: Builtin) -> TokenStream {
         Builtin::Side => quote!(Side),
         Builtin::Extents => quote!(Extents),
         Builtin::Step => quote!(Step),
+        Builtin::NearestImage => quote!(NearestImage),
+        Builtin::Wrapped => quote!(Wrapped),
         Builtin::CellContaining => quote!(CellContaining),
         Builtin::Stay => quote!(Stay),
         Builtin::Outside => quote!(Outside),

@@ -172,6 +172,8 @@ impl Writer<'_> {
             Builtin::Side => quote!(#space.side()),
             Builtin::Extents => quote!(#space.extents()),
             Builtin::Step => quote!(#space.step()),
+            Builtin::NearestImage => quote_spanned!(span=> #space.nearest_image(#(#arguments),*)),
+            Builtin::Wrapped => quote_spanned!(span=> #space.wrapped(#(#arguments),*)),
             Builtin::CellContaining => quote_spanned!(span=> #space.cell_containing(#(#arguments),*)),
             Builtin::Stay => quote!(::xca_core::kernel::STAY),
             Builtin::Outside => quote!(::xca_core::kernel::OUTSIDE),

@@ -36,6 +36,10 @@ const OF_ITEM: &str = "an item has its substates (`me.substate`), label(), index
 const OF_CELL: &str = "a cell has its substates (`cell.substate`), neighbours(), neighbour(n), index(), random(draw), random_bits(draw) and \
                        fault(code, value)";
 
+/// What can be asked of the space.
+pub(super) const SPACE_METHODS: &str = "the space has side(), extents(), step(), nearest_image(separation), wrapped(position) and, for a \
+     migration, cell_containing(position)";
+
 impl Scope {
     pub(super) fn method_call(&mut self, call: &ExprMethodCall) -> Result<Expression> {
         if let Some(turbofish) = &call.turbofish {
@@ -147,6 +151,8 @@ impl Scope {
             "side" => (Builtin::Side, 0),
             "extents" => (Builtin::Extents, 0),
             "step" => (Builtin::Step, 0),
+            "nearest_image" => (Builtin::NearestImage, 1),
+            "wrapped" => (Builtin::Wrapped, 1),
             "cell_containing" if self.kind == FunctionKind::Migration => (Builtin::CellContaining, 1),
             "cell_containing" => {
                 return Err(Error::new_spanned(
@@ -156,10 +162,7 @@ impl Scope {
                 ));
             }
             _ => {
-                return Err(Error::new_spanned(
-                    &call.method,
-                    "the space has side(), extents(), step() and, for a migration, cell_containing(position)",
-                ));
+                return Err(Error::new_spanned(&call.method, SPACE_METHODS));
             }
         };
         self.builtin(builtin, count, call)

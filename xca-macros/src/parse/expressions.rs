@@ -1,5 +1,6 @@
 //! Expressions.
 
+use super::calls::SPACE_METHODS;
 use super::matches::is_constant;
 use super::refusals::{is_component, no_component, refused};
 use super::scope::{Binding, Scope};
@@ -205,10 +206,7 @@ impl Scope {
                     ));
                 }
                 Some(Binding::Space) => {
-                    return Err(Error::new_spanned(
-                        member,
-                        "the space has side(), extents(), step() and, for a migration, cell_containing(position)",
-                    ));
+                    return Err(Error::new_spanned(member, SPACE_METHODS));
                 }
                 Some(Binding::Value | Binding::Argument) | None => {}
             }

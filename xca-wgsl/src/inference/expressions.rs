@@ -139,7 +139,9 @@ impl<'a> Inference<'a> {
     fn builtin(&mut self, builtin: Builtin, arguments: &'a [Expression]) -> Result<Variable, Problem> {
         let argument_type = match builtin {
             Builtin::Random | Builtin::RandomBits => Some(Type::U32),
-            Builtin::CellContaining => Some(Type::Vector(ScalarType::Real, 3)),
+            Builtin::NearestImage | Builtin::Wrapped | Builtin::CellContaining => {
+                Some(Type::Vector(ScalarType::Real, 3))
+            }
             _ => None,
         };
         for argument in arguments {
@@ -153,6 +155,7 @@ impl<'a> Inference<'a> {
             Builtin::Neighbours | Builtin::Label | Builtin::RandomBits | Builtin::Step => Type::U32,
             Builtin::Index | Builtin::Extents => Type::Vector(ScalarType::I32, 3),
             Builtin::Random | Builtin::Side => Type::Scalar(ScalarType::Real),
+            Builtin::NearestImage | Builtin::Wrapped => Type::Vector(ScalarType::Real, 3),
             Builtin::CellContaining | Builtin::Stay | Builtin::Outside => Type::Destination,
         };
         Ok(self.table.known(&result))

@@ -237,6 +237,14 @@ impl Writer<'_, '_> {
             Builtin::Side => "space.side".to_owned(),
             Builtin::Extents => "space.extents".to_owned(),
             Builtin::Step => "moment.step.x".to_owned(),
+            Builtin::NearestImage => {
+                self.shared.routines.nearest_image = true;
+                format!("nearest_image({arguments})")
+            }
+            Builtin::Wrapped => {
+                self.shared.routines.wrapped = true;
+                format!("wrapped({arguments})")
+            }
             Builtin::CellContaining => {
                 self.shared.routines.cell_containing = true;
                 format!("cell_containing({arguments})")
