@@ -317,3 +317,6 @@ pub(super) fn render(invocation: &RunInvocation<'_>, arguments: &RenderArguments
     }
     Ok(if interrupt.is_raised() { Ended::Interrupted } else { Ended::Done })
 }
+
+#[cfg(test)]
+mod tests;
