@@ -192,7 +192,7 @@ fn a_checkpoint_is_drawn() {
 }
 
 #[test]
-fn an_animated_gif_has_the_colours_of_the_pictures() {
+fn an_animated_gif_shows_the_pictures() {
     let place = Workplace::new();
     said(&place, LIFE, "render --steps 3 --every 1 --pixels 420x380 --fps 7 --animation gif --out a --quiet");
     assert!(!place.path("a/animation.png").exists());
@@ -208,10 +208,13 @@ fn an_animated_gif_has_the_colours_of_the_pictures() {
         for (at, [red, green, blue, _]) in frame.buffer.as_chunks::<4>().0.iter().enumerate() {
             shown[(top + at / width) * 420 + left + at % width] = [*red, *green, *blue];
         }
-        // Paper, ink, the colours of cells that share a pixel, and those at the edges of letters: few.
+        // There are more than 256, as letters and cells have soft edges; what there is most of is exact.
         let (_, wanted) = decoded(&place.path(&format!("a/frames/frame_{step:08}.png")));
-        assert!(shown.iter().collect::<BTreeSet<_>>().len() < 256);
-        assert!(shown == wanted, "step {step}");
+        let paper = |(wanted, shown): &(&[u8; 3], &[u8; 3])| **wanted != [255; 3] || wanted == shown;
+        assert!(wanted.iter().zip(&shown).all(|pair| paper(&pair)), "step {step}");
+        let channels = wanted.as_flattened().iter().zip(shown.as_flattened());
+        let largest = channels.map(|(wanted, shown)| wanted.abs_diff(*shown)).max().unwrap();
+        assert!(largest <= 24, "step {step}: {largest}");
     }
     assert!(decoder.read_next_frame().unwrap().is_none());
 }
