@@ -9,7 +9,7 @@
 //! | [`table_csv`] | `observables.csv` | time series |
 //! | [`vtk`] | `.vtp`, `.vti`, `.pvd` | particles and dense substates in ParaView |
 //! | [`picture`] | `.png` | pictures, made without a display |
-//! | [`animation`] | `.png` | the same in motion |
+//! | [`animation`] | `.png`, `.gif` | the same in motion |
 
 pub mod animation;
 pub mod atomic;
