@@ -86,23 +86,27 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
     with_help(command, ABOUT, &examples).long_about(format!("{ABOUT}\n\n{STATES}"))
 }
 
-/// Refuses options that only a run could heed, where one is drawn that has been done.
-pub(super) fn check_saved(command: &Command, matches: &ArgMatches) -> Result<(), Unable> {
+/// Refuses options that nothing would heed, where a run is drawn that has been done.
+pub(super) fn check_saved(command: &Command, matches: &ArgMatches, saved: &Path) -> Result<(), Unable> {
     let own = RenderArguments::augment_args(Command::new(NAME));
-    let is_heeded = |id: &str| {
-        id == "config" || (id != "steps" && own.get_arguments().any(|option| option.get_id() == id))
-    };
     let all = command.find_subcommand(NAME).into_iter().flat_map(Command::get_arguments);
-    let given = |option: &&clap::Arg| {
-        matches.value_source(option.get_id().as_str()) == Some(ValueSource::CommandLine)
-    };
-    match all.filter(given).find(|option| !is_heeded(option.get_id().as_str())) {
-        None => Ok(()),
-        Some(option) => Err(Unable::refused(format!(
-            "--{} is for a run that is done now; one that is drawn from its files has its own options",
-            option.get_long().unwrap_or(option.get_id().as_str())
-        ))),
+    let given =
+        all.filter(|option| matches.value_source(option.get_id().as_str()) == Some(ValueSource::CommandLine));
+    for option in given {
+        let id = option.get_id();
+        let is_own = own.get_arguments().any(|option| option.get_id() == id);
+        let reason = match id.as_str() {
+            "every" | "animation" | "fps" if saved.is_file() => {
+                "for several pictures; of a checkpoint there is one"
+            }
+            "config" => continue,
+            id if is_own && id != "steps" => continue,
+            _ => "for a run that is done now; one that is drawn from its files has its own options",
+        };
+        let name = option.get_long().unwrap_or(id.as_str());
+        return Err(Unable::refused(format!("--{name} is {reason}")));
     }
+    Ok(())
 }
 
 fn default_folder(definition: &Definition<'_>) -> PathBuf {

@@ -62,6 +62,8 @@ fn a_checkpoint_looks_like_the_state_of_its_step() {
     // Alone, it has a scale of its own.
     place.succeed(&format!("render {checkpoint} {SMALL} --out @alone"));
     place.succeed(&format!("render {checkpoint} {SMALL} --out @saved --range 0,3"));
+    let said = place.refused(&format!("render {checkpoint} --every 2"));
+    assert_eq!(said, "--every is for several pictures; of a checkpoint there is one");
     assert!(place.files("alone")[0].1 != place.files("saved")[0].1);
 }
 
@@ -137,7 +139,9 @@ fn runs_of_others_are_refused() {
 fn files_that_are_none_of_a_run_are_refused() {
     let place = Place::new(pond);
     let write = |name: &str, bytes: &[u8]| fs::write(place.folder.path().join(name), bytes).unwrap();
-    assert!(place.refused("render @nothing").contains("cannot read the checkpoint"));
+    assert!(
+        place.refused("render @nothing").ends_with("nothing, neither the folder of a run nor a checkpoint")
+    );
     write("notes.txt", b"a day at the pond");
     assert!(place.refused("render @notes.txt").contains("is no checkpoint of an xca program"));
     fs::create_dir(place.folder.path().join("empty")).unwrap();
