@@ -10,7 +10,7 @@
 //! | [`ascii_grid`] | `.asc` | a layer of cells for geographic information systems, also to begin from |
 //! | [`vtk`] | `.vtp`, `.vti`, `.pvd` | particles and dense substates in ParaView |
 //! | [`picture`] | `.png` | pictures, made without a display |
-//! | [`animation`] | `.png` | the same in motion |
+//! | [`animation`] | `.png`, `.gif` | the same in motion |
 
 pub mod animation;
 pub mod ascii_grid;

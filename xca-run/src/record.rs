@@ -262,7 +262,7 @@ impl Recorder {
 
     /// The step, and what else has to be said of a picture of one view.
     fn whole_caption(&self, shown: &Shown, seen: &Seen, step: u64) -> String {
-        let details = shown.details(&self.set_up.model, seen);
+        let details = shown.details(&self.set_up.model, seen, false);
         [Some(self.caption(step)), details].into_iter().flatten().collect::<Vec<_>>().join(", ")
     }
 

@@ -125,3 +125,133 @@ fn what_cannot_be_drawn_is_said_before_anything_is_run() {
     }
     assert!(!place.path("out").exists());
 }
+
+/// The names of the files of a folder, with their bytes.
+fn all(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let name = |path: &Path| path.file_name().unwrap().to_str().unwrap().to_owned();
+    let mut all: Vec<_> =
+        entries.filter(|path| path.is_file()).map(|path| (name(&path), fs::read(path).unwrap())).collect();
+    all.sort();
+    all
+}
+
+/// Calls a program, which must succeed and say nothing on stderr; gives what it said else.
+fn said(place: &Workplace, program: &str, words: &str) -> String {
+    let output = place.invocation(program, words).output().unwrap();
+    let complaint = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success() && complaint.is_empty(), "{program} {words}: {complaint}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn what_a_run_has_left_is_drawn_as_the_run_itself() {
+    let place = Workplace::new();
+    for (program, name, run, look) in [
+        (HEAT, "heat", "--size 12 --steps 40 --every 20", "--range 0,100 --pixels 420x380"),
+        (
+            HEAT,
+            "heat",
+            "--size 12 --steps 40 --every 20 --precision f32",
+            "--view isometric --pixels 420x380",
+        ),
+        (LIFE, "life", "--steps 12 --every 4", ""),
+        (CADEM, "cadem", "--steps 10 --every 5", "--range 0,0.5 --pixels 420x380"),
+    ] {
+        said(&place, program, &format!("run {run} --quiet"));
+        let run_folder = place.path("out").join(name);
+        let before = [all(&run_folder), all(&run_folder.join("frames"))];
+        let told = said(&place, program, &format!("render out/{name} {look}"));
+        assert!(
+            told.contains(&format!("pictures of the states in out/{name}; they are in out/{name}_pictures"))
+        );
+        said(&place, program, &format!("render {run} {look} --out again --quiet"));
+        let [saved, again] = [place.path(&format!("out/{name}_pictures")), place.path("again")];
+        assert!(all(&saved.join("frames")) == all(&again.join("frames")), "{name} {look}");
+        let animation = |folder: &Path| fs::read(folder.join("animation.png")).unwrap();
+        assert!(animation(&saved) == animation(&again), "{name} {look}");
+        assert!(before == [all(&run_folder), all(&run_folder.join("frames"))], "{name} has been changed");
+    }
+}
+
+#[test]
+fn a_checkpoint_is_drawn() {
+    let place = Workplace::new();
+    said(&place, CADEM, "run --steps 10 --every 5 --checkpoint-every 5 --quiet");
+    let told = said(&place, CADEM, "render out/cadem/checkpoints/step_00000005.checkpoint --range 0,0.5");
+    assert_eq!(told, "the state after 5 steps is drawn in out/cadem_pictures/step_00000005.png\n");
+    said(&place, CADEM, "render out/cadem --range 0,0.5 --out all --animation none");
+    let frame = fs::read(place.path("all/frames/frame_00000005.png")).unwrap();
+    assert!(frame == fs::read(place.path("out/cadem_pictures/step_00000005.png")).unwrap());
+    assert!(!place.path("all/animation.png").exists());
+    // Elsewhere, it does not tell whose it was.
+    fs::copy(place.path("out/cadem/checkpoints/step_00000005.checkpoint"), place.path("five")).unwrap();
+    fs::remove_dir_all(place.path("out")).unwrap();
+    said(&place, CADEM, "render five --range 0,0.5");
+    assert!(frame == fs::read(place.path("out/cadem_pictures/step_00000005.png")).unwrap());
+}
+
+#[test]
+fn an_animated_gif_shows_the_pictures() {
+    let place = Workplace::new();
+    said(&place, LIFE, "render --steps 3 --every 1 --pixels 420x380 --fps 7 --animation gif --out a --quiet");
+    assert!(!place.path("a/animation.png").exists());
+    let mut options = gif::DecodeOptions::new();
+    options.set_color_output(gif::ColorOutput::RGBA);
+    let mut decoder = options.read_info(File::open(place.path("a/animation.gif")).unwrap()).unwrap();
+    assert_eq!((decoder.width(), decoder.height(), decoder.repeat()), (420, 380, gif::Repeat::Infinite));
+    let mut shown = vec![[0; 3]; 420 * 380];
+    for (step, delay) in [14, 15, 14, 14].into_iter().enumerate() {
+        let frame = decoder.read_next_frame().unwrap().unwrap();
+        assert_eq!(frame.delay, delay);
+        let [left, top, width] = [frame.left, frame.top, frame.width].map(usize::from);
+        for (at, [red, green, blue, _]) in frame.buffer.as_chunks::<4>().0.iter().enumerate() {
+            shown[(top + at / width) * 420 + left + at % width] = [*red, *green, *blue];
+        }
+        // There are more than 256, as letters and cells have soft edges; what there is most of is exact.
+        let (_, wanted) = decoded(&place.path(&format!("a/frames/frame_{step:08}.png")));
+        let paper = |(wanted, shown): &(&[u8; 3], &[u8; 3])| **wanted != [255; 3] || wanted == shown;
+        assert!(wanted.iter().zip(&shown).all(|pair| paper(&pair)), "step {step}");
+        let channels = wanted.as_flattened().iter().zip(shown.as_flattened());
+        let largest = channels.map(|(wanted, shown)| wanted.abs_diff(*shown)).max().unwrap();
+        assert!(largest <= 24, "step {step}: {largest}");
+    }
+    assert!(decoder.read_next_frame().unwrap().is_none());
+}
+
+#[test]
+fn several_views_stand_side_by_side() {
+    let place = Workplace::new();
+    said(&place, MOD2, "run --size 16 --steps 4 --quiet");
+    said(&place, MOD2, "render out/mod2 --view slice,isometric --pixels 900x420 --out both");
+    said(&place, MOD2, "render out/mod2 --view isometric --view slice --pixels 900x420 --out turned");
+    let (size, both) = decoded(&place.path("both/frames/frame_00000003.png"));
+    let (_, turned) = decoded(&place.path("turned/frames/frame_00000003.png"));
+    assert_eq!(size, [900, 420]);
+    // Below the texts, the halves change places.
+    for (y, row) in both.chunks(900).enumerate().skip(130) {
+        let other = &turned[900 * y..900 * (y + 1)];
+        assert!(row[..450] == other[450..] && row[450..] == other[..450], "row {y}");
+    }
+    assert!(both != turned);
+}
+
+#[test]
+fn what_was_run_by_another_program_is_not_drawn() {
+    let place = Workplace::new();
+    said(&place, LIFE, "run --steps 2 --quiet");
+    for (words, wanted) in [
+        ("render out/life", "error: cannot draw out/life: its program is life, not heat\n"),
+        ("render out", "error: out is no folder of a run: there is no run.json of one in it\n"),
+        ("render out/life/initial.png", "error: out/life/initial.png is no checkpoint of an xca program\n"),
+        (
+            "render out/life --size 3",
+            "error: --size is for a run that is done now; one that is drawn from its files has its own options\n",
+        ),
+    ] {
+        let output = place.invocation(HEAT, words).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{words}");
+        assert_eq!(String::from_utf8(output.stderr).unwrap(), wanted);
+    }
+    assert!(!place.path("out/life_pictures").exists());
+}

@@ -181,7 +181,7 @@ fn complete<'a>(
         Some((render::NAME, matches)) => {
             let render: RenderArguments = from(matches)?;
             if let Some(path) = render.saved() {
-                render::check_saved(command, matches)?;
+                render::check_saved(command, matches, &path)?;
                 return Ok(Invocation::Draw(definition, path, render, words(arguments)));
             }
             let run = RunInvocation {

@@ -139,7 +139,7 @@ impl Drawing<'_> {
         let size = self.size.map_or(PANEL, |[width, height]| [width / count, height - PanelPicture::ABOVE]);
         let mut panels = Vec::new();
         for ((panel, seen), range) in self.panels.iter().zip(seen).zip(&scales.0) {
-            let caption = panel.shown.details(self.model(), seen).unwrap_or_default();
+            let caption = panel.shown.details(self.model(), seen, true).unwrap_or_default();
             let frame = Frame { title: "", caption: &caption, range: *range, size: Some(size) };
             panels.extend(panel.shown.paint(self.model(), seen, frame)?);
         }

@@ -30,15 +30,16 @@ struct Field<'a> {
 }
 
 impl Shown {
-    /// What has to be said of a picture of this view beside its step.
-    pub(super) fn details(&self, model: &Model, seen: &Seen) -> Option<String> {
+    /// What has to be said of a picture of this view beside its step. That layers are counted along z goes without saying, unless there are
+    /// `others` beside it.
+    pub(super) fn details(&self, model: &Model, seen: &Seen, others: bool) -> Option<String> {
         match (&self.view, seen) {
             (AnyView::Items(view), Seen::Items { positions, .. }) => {
                 Some(format!("{} {}", positions.len(), view.name))
             }
             (AnyView::Cells(view), _) => {
                 let layers = model.geometry().extents()[view.axis];
-                let axis = ["along x", "along y", ""][view.axis];
+                let axis = ["along x", "along y", if others { "along z" } else { "" }][view.axis];
                 let layer = view.drawn_layer(model.geometry());
                 let of_layers = || format!("layer {layer} of {layers} {axis}").trim_end().to_owned();
                 (layers > 1 && !view.block).then(of_layers)

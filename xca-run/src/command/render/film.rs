@@ -1,6 +1,6 @@
 //! Pictures of states, and the animation of them.
 
-use super::Animation;
+use super::arguments::Animation;
 use crate::program::Failure;
 use crate::record::{Drawing, FRAMES, RunFolder, Scales, Seen};
 

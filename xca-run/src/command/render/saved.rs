@@ -23,8 +23,13 @@ pub(in crate::command) fn draw(
 ) -> Result<Ended, Unable> {
     if path.is_dir() {
         folder(definition, path, arguments, command_line)
-    } else {
+    } else if path.exists() {
         checkpoint(definition, path, arguments)
+    } else {
+        Err(Unable::refused(format!(
+            "there is no {}, neither the folder of a run nor a checkpoint",
+            path.display()
+        )))
     }
 }
 
