@@ -6,6 +6,7 @@ mod config;
 mod inspect;
 mod interval;
 mod list;
+mod look;
 mod new;
 mod parse;
 mod prepare;
@@ -13,6 +14,7 @@ mod render;
 mod resume;
 mod run;
 mod under_way;
+mod watch;
 
 pub(crate) use arguments::threads;
 
@@ -175,6 +177,7 @@ fn execute(invocation: Invocation<'_>) -> Result<Ended, Unable> {
     match invocation {
         Invocation::Run(invocation) => run::run(*invocation),
         Invocation::Render(run, arguments) => render::render(&run, &arguments),
+        Invocation::Watch(run, arguments) => watch::watch(&run, &arguments),
         Invocation::New(arguments) => new::new(&arguments),
         Invocation::List(choice, arguments) => list::list(&choice, &arguments),
         Invocation::Compare(choice, arguments, command_line) => {

@@ -7,12 +7,14 @@ mod items;
 mod measure;
 mod recorded;
 mod shown;
+mod sight;
 mod values;
 
 pub(crate) use drawing::{Drawing, Look, ViewKind};
 pub use folder::FolderError;
 pub(crate) use folder::{REPORT, RunFolder, numbered_files};
 pub(crate) use recorded::Recorded;
+pub(crate) use sight::{Sight, Subject};
 
 use crate::output::atomic::WriteError;
 use crate::output::particle_csv::WriteParticlesError;

@@ -16,3 +16,4 @@ mod resumed;
 mod running;
 mod same_bits;
 mod shaders;
+mod watched;

@@ -6,7 +6,10 @@ use super::inspect::InspectArguments;
 use super::list::ListArguments;
 use super::new::NewArguments;
 use super::render::RenderArguments;
-use super::{Definition, EXIT_CODES, Unable, compare, config, inspect, list, new, render, resume, run};
+use super::watch::WatchArguments;
+use super::{
+    Definition, EXIT_CODES, Unable, compare, config, inspect, list, new, render, resume, run, watch,
+};
 use crate::program::Given;
 use crate::set_up::SetUp;
 use clap::error::ErrorKind;
@@ -20,6 +23,7 @@ pub(super) enum Invocation<'a> {
     Run(Box<RunInvocation<'a>>),
     Resume(&'a Definition<'a>, ResumeArguments),
     Render(Box<RunInvocation<'a>>, RenderArguments),
+    Watch(Box<RunInvocation<'a>>, WatchArguments),
     List(Box<Choice<'a>>, ListArguments),
     Inspect(InspectArguments),
     /// With the whole command line.
@@ -70,7 +74,7 @@ impl<'a> Choice<'a> {
 pub(super) fn command(definition: &Definition<'_>) -> Command {
     let Definition { name, about, version, .. } = definition;
     let examples = format!(
-        "Examples:\n  {name} run\n  {name} resume out/{name}\n  {name} compare\n  {name} render\n  {name} list\n  {name} inspect out/{name}\n  {name} new waves"
+        "Examples:\n  {name} run\n  {name} resume out/{name}\n  {name} compare\n  {name} render\n  {name} watch\n  {name} list\n  {name} inspect out/{name}\n  {name} new waves"
     );
     Command::new(*name)
         .about(*about)
@@ -84,6 +88,7 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
             run::command(definition),
             resume::command(definition),
             render::command(definition),
+            watch::command(definition),
             list::command(definition),
             inspect::command(definition),
             compare::command(definition),
@@ -173,6 +178,16 @@ fn complete<'a>(
                 command_line: words(arguments),
             };
             Ok(Invocation::Render(Box::new(run), render))
+        }
+        Some((watch::NAME, matches)) => {
+            let watch: WatchArguments = from(matches)?;
+            let run = RunInvocation {
+                model: Choice::new(definition, matches)?,
+                engine: from(matches)?,
+                run: watch.as_of_run(),
+                command_line: words(arguments),
+            };
+            Ok(Invocation::Watch(Box::new(run), watch))
         }
         Some((list::NAME, matches)) => {
             Ok(Invocation::List(Box::new(Choice::new(definition, matches)?), from(matches)?))

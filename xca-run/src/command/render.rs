@@ -1,6 +1,7 @@
 //! The subcommand `render`.
 
 use super::arguments::{EngineArguments, RunArguments, interval, steps};
+use super::look::LookArguments;
 use super::parse::{RunInvocation, with_help, with_model};
 use super::prepare::Prepared;
 use super::under_way::Batch;
@@ -42,25 +43,12 @@ pub(super) struct RenderArguments {
     #[arg(long, value_name = "N", value_parser = interval)]
     every: Option<u64>,
 
-    /// The substate that gives the colours: a number, or the length of a vector
-    #[arg(long, value_name = "NAME")]
-    substate: Option<String>,
+    #[command(flatten)]
+    look: LookArguments,
 
     /// How it is drawn; cells as a slice and items as spheres unless it is given
     #[arg(long, value_enum, value_name = "VIEW")]
     view: Option<ViewKind>,
-
-    /// Of a slice: the axis that layers are counted along
-    #[arg(long, value_name = "x|y|z", value_parser = axis)]
-    axis: Option<usize>,
-
-    /// Of a slice: the layer, from 0; the middle one unless it is given
-    #[arg(long, value_name = "N")]
-    layer: Option<usize>,
-
-    /// The ends of the scale of colours; the least and the largest value of all pictures unless it is given
-    #[arg(long, value_name = "LOW,HIGH", value_parser = range)]
-    range: Option<[f64; 2]>,
 
     /// The size of the pictures in pixels
     #[arg(long, value_name = "WxH", value_parser = pixels)]
@@ -81,8 +69,7 @@ pub(super) struct RenderArguments {
 
 impl RenderArguments {
     fn look(&self) -> Look {
-        let Self { substate, view, axis, layer, pixels, range, .. } = self.clone();
-        Look { substate, view, axis, layer, size: pixels, range }
+        Look { view: self.view, size: self.pixels, ..self.look.look() }
     }
 
     /// What a run would be told.
@@ -96,18 +83,6 @@ impl RenderArguments {
             quiet: self.quiet,
         }
     }
-}
-
-fn axis(text: &str) -> Result<usize, &'static str> {
-    ["x", "y", "z"].iter().position(|name| *name == text).ok_or("it must be x, y or z")
-}
-
-fn range(text: &str) -> Result<[f64; 2], &'static str> {
-    const WANTED: &str = "it must be two numbers, the lower one first, such as 0,20";
-    let (low, high) = text.split_once(',').ok_or(WANTED)?;
-    let ends = [low, high].map(|end| end.trim().parse().unwrap_or(f64::NAN));
-    // Not so for what is no number.
-    if ends[0] < ends[1] && ends.iter().all(|end| end.is_finite()) { Ok(ends) } else { Err(WANTED) }
 }
 
 fn pixels(text: &str) -> Result<[usize; 2], &'static str> {

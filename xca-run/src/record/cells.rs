@@ -43,23 +43,38 @@ impl<'a> Cells<'a> {
         Ok(write_dense(path, time, &grid, &arrays)?)
     }
 
-    fn drawn(&self) -> (usize, String) {
+    pub(super) fn drawn(&self) -> (usize, String) {
         let first = || (0, self.group.schema().fields.first().map_or("", |field| field.name).to_owned());
         self.view.drawn.clone().unwrap_or_else(first)
     }
 
-    fn layer(&self) -> usize {
+    pub(super) fn layer(&self) -> usize {
         self.view.layer.unwrap_or(self.geometry.extents()[self.view.axis] / 2)
+    }
+
+    /// The axis that layers are counted along.
+    pub(super) fn axis(&self) -> usize {
+        self.view.axis
+    }
+
+    /// The cells of a layer across and down, and the number of layers.
+    pub(super) fn plane(&self) -> ([usize; 2], usize) {
+        let [columns, rows, layers] = self.geometry.extents();
+        match self.view.axis {
+            0 => ([rows, layers], columns),
+            1 => ([columns, layers], rows),
+            _ => ([columns, rows], layers),
+        }
     }
 
     /// The least and the largest finite value of the drawn layer.
     pub(super) fn range(&self) -> Option<[f64; 2]> {
-        ends(self.layer_values().1)
+        ends(&self.layer_values().1)
     }
 
     /// The least and the largest finite value of all cells.
     pub(super) fn whole_range(&self) -> Option<[f64; 2]> {
-        ends(self.values().1)
+        ends(&self.values().1)
     }
 
     /// Whether the drawn substate is floating, and its values in all cells.
@@ -72,7 +87,7 @@ impl<'a> Cells<'a> {
     }
 
     /// Whether the drawn substate is floating, and its values in the drawn layer.
-    fn layer_values(&self) -> (bool, Vec<f64>) {
+    pub(super) fn layer_values(&self) -> (bool, Vec<f64>) {
         let (field, _) = self.drawn();
         let Some(bytes) = self.fields.get(field) else { return (false, Vec::new()) };
         let stored = self.group.schema().fields[field].value_type.stored(self.precision);
@@ -108,12 +123,7 @@ impl<'a> Cells<'a> {
         let (is_float, values) = self.layer_values();
         let scalar = self.scalar(&label, is_float, &values, range, self.range());
         let kinds = self.kinds(is_float, &values, range);
-        let [columns, rows, layers] = self.geometry.extents();
-        let ([across, down], along) = match self.view.axis {
-            0 => ([rows, layers], columns),
-            1 => ([columns, layers], rows),
-            _ => ([columns, rows], layers),
-        };
+        let ([across, down], along) = self.plane();
         let mut picture = SlicePicture::new(across, down, scalar);
         picture.categories = &kinds;
         picture.title = title;
@@ -152,7 +162,7 @@ impl<'a> Cells<'a> {
         Ok(picture.render()?)
     }
 
-    fn scalar<'v>(
+    pub(super) fn scalar<'v>(
         &self,
         label: &'v str,
         is_float: bool,
@@ -167,7 +177,7 @@ impl<'a> Cells<'a> {
     }
 
     /// The values that are kinds rather than magnitudes, with their names.
-    fn kinds(&self, is_float: bool, values: &[f64], range: Option<[f64; 2]>) -> Vec<(f64, &str)> {
+    pub(super) fn kinds(&self, is_float: bool, values: &[f64], range: Option<[f64; 2]>) -> Vec<(f64, &str)> {
         let view = self.view;
         let is_plain = view.kinds.is_empty() && view.map.is_none() && view.range.is_none();
         let mut all = values.iter().copied().chain(range.into_iter().flatten());
@@ -180,8 +190,8 @@ impl<'a> Cells<'a> {
 }
 
 /// The least and the largest finite value.
-fn ends(values: Vec<f64>) -> Option<[f64; 2]> {
-    let finite = values.into_iter().filter(|value| value.is_finite());
+pub(super) fn ends(values: &[f64]) -> Option<[f64; 2]> {
+    let finite = values.iter().copied().filter(|value| value.is_finite());
     finite.map(|value| [value; 2]).reduce(|range, one| wider(range, Some(one)))
 }
 

@@ -20,7 +20,7 @@ pub(crate) enum ViewKind {
 }
 
 /// What is drawn, and how; what is not said is as in the pictures of a run.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Look {
     pub(crate) substate: Option<String>,
     pub(crate) view: Option<ViewKind>,
@@ -50,9 +50,9 @@ pub(crate) enum LookError {
 /// What is drawn of every state.
 pub(crate) struct Drawing<'a> {
     recorder: &'a Recorder,
-    shown: Shown,
+    pub(super) shown: Shown,
     is_block: bool,
-    look: Look,
+    pub(super) look: Look,
 }
 
 impl Recorder {

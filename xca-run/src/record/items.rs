@@ -49,12 +49,12 @@ impl<'a> Items<'a> {
         self.which.len()
     }
 
-    fn plane(&self, field: usize) -> Plane {
+    pub(super) fn plane(&self, field: usize) -> Plane {
         Plane::chosen(self.stored[field], &self.population.fields[field], &self.which)
     }
 
     /// The positions; of items without one, the centres of their cells.
-    fn positions(&self) -> Plane {
+    pub(super) fn positions(&self) -> Plane {
         if let Some(field) = self.group.schema().position {
             return self.plane(field);
         }
@@ -133,7 +133,7 @@ impl<'a> Items<'a> {
         let positions = self.positions().to_points();
         let side = self.geometry.side();
         let upper = self.geometry.extents().map(|extent| extent as f64 * side);
-        let radius = self.view.radius.unwrap_or(side / 4.0);
+        let radius = self.radius();
         let colour = self.colour();
         let values = colour.as_ref().map(|(field, _)| self.plane(*field).magnitudes()).unwrap_or_default();
         let mut picture = ParticlePicture::new(&positions, radius, Domain { lower: [0.0; 3], upper });
@@ -147,8 +147,13 @@ impl<'a> Items<'a> {
         Ok(picture.render()?)
     }
 
+    /// The radius of an item.
+    pub(super) fn radius(&self) -> f64 {
+        self.view.radius.unwrap_or(self.geometry.side() / 4.0)
+    }
+
     /// The substate that colours the items, and what it is called.
-    fn colour(&self) -> Option<(usize, String)> {
+    pub(super) fn colour(&self) -> Option<(usize, String)> {
         let schema = self.group.schema();
         let default = || {
             let other = |field: &usize| schema.position != Some(*field);
