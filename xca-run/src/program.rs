@@ -12,7 +12,7 @@ pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 /// see [`crate::main_of`].
 ///
 /// [`crate::main()`] makes a whole program of it. The options that all models share (`--engine`, `--steps`, `--set`, `--out`, …)
-/// come with it; a field must not be named like one of them (`life run --help` and `life render --help` list them).
+/// come with it; a field must not be named like one of them (`life run --help`, `life render --help` and `life watch --help` list them).
 ///
 /// ```no_run
 /// use xca_run::prelude::*;

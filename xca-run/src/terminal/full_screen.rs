@@ -7,7 +7,7 @@ use ratatui::crossterm::execute;
 use ratatui::crossterm::terminal::{
     EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
 };
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 use std::io::{self, Stdout, stdout};
 use std::panic;
 use std::sync::Once;
@@ -31,9 +31,11 @@ impl FullScreen {
         terminal.map(|terminal| Self { terminal }).inspect_err(|_| give_back())
     }
 
-    /// Forgets what is on the screen: a terminal that has changed its size may have kept nothing of it.
-    pub(crate) fn clear(&mut self) -> io::Result<()> {
-        self.terminal.clear()
+    /// Takes the size that the terminal has now, and forgets what is on the screen: a terminal that has changed its size may have kept
+    /// nothing of it.
+    pub(crate) fn resize(&mut self) -> io::Result<()> {
+        let size = self.terminal.size()?;
+        self.terminal.resize(Rect::from((Position::ORIGIN, size)))
     }
 
     /// Draws the whole screen.

@@ -48,6 +48,8 @@ pub(super) struct Screen {
     pub(super) colours: Colours,
     pub(super) pace: Pace,
     pub(super) is_paused: bool,
+    /// Steps are being done that no one has asked for one by one.
+    pub(super) is_under_way: bool,
     pub(super) place: Place,
     pub(super) news: Option<News>,
     /// The steps that are done, which may be more than those of the news.
@@ -73,6 +75,7 @@ impl Screen {
             colours,
             pace,
             is_paused: false,
+            is_under_way: false,
             place: Place::default(),
             news: None,
             done: 0,
@@ -162,8 +165,8 @@ impl Screen {
                 return self
                     .stale(|screen| screen.next_substate(screen.facts.substates.len().saturating_sub(1)));
             }
-            KeyCode::Char(']') | KeyCode::PageUp => return self.stale(|screen| screen.to_layer(1)),
-            KeyCode::Char('[') | KeyCode::PageDown => return self.stale(|screen| screen.to_layer(-1)),
+            KeyCode::Char(']') | KeyCode::PageUp => return self.stale(|screen| screen.change_layer(1)),
+            KeyCode::Char('[') | KeyCode::PageDown => return self.stale(|screen| screen.change_layer(-1)),
             _ => return Reaction::Nothing,
         }
         Reaction::Redraw
@@ -215,7 +218,7 @@ impl Screen {
         self.place.middle = [0.5; 2];
     }
 
-    fn to_layer(&mut self, by: i64) {
+    fn change_layer(&mut self, by: i64) {
         if let Some(&Subject::Layer { layer, layers, .. }) = self.subject() {
             let layer = self.look.layer.unwrap_or(layer) as i64 + by;
             self.look.layer = Some(layer.clamp(0, layers as i64 - 1) as usize);

@@ -99,6 +99,7 @@ impl Session<'_> {
                 is_stale |= done != self.screen.done;
                 self.screen.done = done;
             }
+            self.screen.is_under_way = matches!(self.under_way, Some((Advance::ToMultiple(_), _)));
             self.screen.rate = rate.of(self.screen.is_running(), self.screen.done, now);
             if is_stale {
                 let screen = &mut *self.screen;
@@ -116,7 +117,7 @@ impl Session<'_> {
                         Reaction::Quit => return Ok(Ended::Done),
                         Reaction::Interrupt => return Ok(Ended::Interrupted),
                     },
-                    Event::Resize(..) => self.full_screen.clear()?,
+                    Event::Resize(..) => self.full_screen.resize()?,
                     _ => continue,
                 }
                 is_stale = true;

@@ -85,7 +85,7 @@ fn status(screen: &Screen, room: u16) -> Line<'static> {
     let end = screen.news.as_ref().and_then(|news| news.end.clone());
     pieces.push(match (end, screen.is_paused, screen.rate) {
         (Some(end), ..) => vec![end.bold()],
-        (None, true, _) => vec!["paused".bold()],
+        (None, true, _) => vec![if screen.is_under_way { "pausing".bold() } else { "paused".bold() }],
         (None, false, rate) => plain(rate.map_or_else(|| "…".to_owned(), rate_text)),
     });
     if let Some(seconds) = facts.time_step {
