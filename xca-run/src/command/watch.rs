@@ -108,7 +108,7 @@ pub(super) fn watch(invocation: &RunInvocation<'_>, arguments: &WatchArguments) 
     let interrupt = Interrupt::install().map_err(Unable::failed)?;
     let facts = Facts {
         title: recorder.set_up().title.clone(),
-        engine: engine_words(&report),
+        engine: [engine_words(&report), format!("{} engine", report.engine)],
         note: engine.note(),
         time_step: recorder.set_up().time_step,
         wanted: arguments.steps,

@@ -19,7 +19,8 @@ const DARKEST_ITEM: f32 = 0.5;
 #[derive(Debug, Clone, Default)]
 pub(super) struct Facts {
     pub(super) title: String,
-    pub(super) engine: String,
+    /// The engine with all that is to say of it, and its name.
+    pub(super) engine: [String; 2],
     /// What has to be known of the engine.
     pub(super) note: Option<String>,
     /// In seconds, if the model says.

@@ -61,11 +61,11 @@ impl Window {
         Some(Self { first, cells, pixels })
     }
 
-    /// The place after a move by an eighth of what is seen, each way; it does not leave the plane.
+    /// The place after a move by a quarter of what is seen, each way; it does not leave the plane.
     pub(super) fn moved(&self, plane: [usize; 2], [right, up]: [i8; 2]) -> Place {
         let middle = std::array::from_fn(|i| {
             let (cells, all) = (self.cells[i] as f64, plane[i] as f64);
-            let by = f64::from([right, up][i]) * (cells / 8.0).floor().max(1.0);
+            let by = f64::from([right, up][i]) * (cells / 4.0).floor().max(1.0);
             let middle = self.first[i] as f64 + cells / 2.0 + by;
             middle.clamp(cells / 2.0, all - cells / 2.0) / all
         });
@@ -127,7 +127,7 @@ mod tests {
         let corner = Window::new(plane, room, place, true).unwrap();
         assert_eq!(corner.first, [0, 216]);
         let back = Window::new(plane, room, corner.moved(plane, [1, -1]), true).unwrap();
-        assert_eq!(back.first, [10, 211]);
+        assert_eq!(back.first, [20, 206]);
     }
 
     proptest! {

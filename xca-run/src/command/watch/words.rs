@@ -91,17 +91,18 @@ fn status(screen: &Screen, room: u16) -> Line<'static> {
     if let Some(seconds) = facts.time_step {
         pieces.push(plain(format!("time {} s", significant(screen.done as f64 * seconds, 4))));
     }
-    let engine = Span::from(facts.engine.clone()).dim();
     // The engine is more needed than what follows.
-    let needed = joined(pieces.clone(), u16::MAX).width() + 2 + engine.width();
-    let has_engine = needed <= usize::from(room);
-    pieces.extend([plain(screen.pace.words()), vec![facts.title.clone().bold()]]);
-    let of_engine = if has_engine { engine.width() as u16 + 2 } else { 0 };
-    let mut line = joined(pieces, room - of_engine);
-    if has_engine {
-        let gap = usize::from(room) - line.width() - engine.width();
-        line.spans.extend([Span::raw(" ".repeat(gap)), engine]);
+    let needed = joined(pieces.clone(), u16::MAX).width() + 2;
+    let engines = facts.engine.iter().map(|engine| Span::from(engine.clone()).dim());
+    let engine = engines.into_iter().find(|engine| needed + engine.width() <= usize::from(room));
+    if !screen.has_ended() {
+        pieces.push(plain(screen.pace.words()));
     }
+    pieces.push(vec![facts.title.clone().bold()]);
+    let Some(engine) = engine else { return joined(pieces, room) };
+    let mut line = joined(pieces, room - engine.width() as u16 - 2);
+    let gap = usize::from(room) - line.width() - engine.width();
+    line.spans.extend([Span::raw(" ".repeat(gap)), engine]);
     line
 }
 
