@@ -117,12 +117,8 @@ fn of_items(
         farness.push((far / depth).clamp(0.0, 1.0) as f32);
         let x = (position[right] - window.first[0] as f64) * side[0];
         let y = height as f64 - (position[up] - window.first[1] as f64) * side[1];
-        // A place that is no number is nowhere.
-        if (x + y + far).is_finite() {
-            let radius = (items.radius * side[0]) as f32;
-            let thickness = items.radius as f32;
-            nearest.draw(Disc { at: [x as f32, y as f32], radius, depth: far as f32, thickness }, owner);
-        }
+        let (radius, thickness) = ((items.radius * side[0]) as f32, items.radius as f32);
+        nearest.draw(Disc { at: [x as f32, y as f32], radius, depth: far as f32, thickness }, owner);
     }
     let scale = scale(sight);
     let mut pixels = Pixels::new(window.pixels, if is_coloured { BEHIND } else { [0.0; 3] });

@@ -61,13 +61,13 @@ impl Window {
         Some(Self { first, cells, pixels })
     }
 
-    /// The place after a move by a quarter of what is seen, each way; it does not leave the plane.
+    /// The place after a move by a quarter of what is seen, each way.
     pub(super) fn moved(&self, plane: [usize; 2], [right, up]: [i8; 2]) -> Place {
         let middle = std::array::from_fn(|i| {
             let (cells, all) = (self.cells[i] as f64, plane[i] as f64);
             let by = f64::from([right, up][i]) * (cells / 4.0).floor().max(1.0);
-            let middle = self.first[i] as f64 + cells / 2.0 + by;
-            middle.clamp(cells / 2.0, all - cells / 2.0) / all
+            // From what is seen, which is within the plane: so one that was pushed beyond the edge turns at once.
+            (self.first[i] as f64 + cells / 2.0 + by) / all
         });
         Place { is_close: true, middle }
     }
