@@ -1,13 +1,17 @@
 //! What a state looks like in so many pixels.
 
+use super::blocks::Colours;
 use super::window::Window;
 use crate::output::picture::{DepthBuffer, Disc, Mosaic, Palette, Scalar, Scale};
 use crate::record::{Sight, Subject};
 
 /// What is behind items, in linear RGB.
 const BEHIND: [f32; 3] = [0.010, 0.012, 0.018];
-/// How much darker the furthest items are.
+/// How much darker the furthest items are, and the rims of those that are large enough to look round.
 const DUSK: f32 = 0.5;
+const RIM: f32 = 0.5;
+/// The radius in pixels from which an item looks round.
+const ROUND: f32 = 2.0;
 
 /// Pixels in linear RGB, row by row from the top left.
 pub(super) struct Pixels {
@@ -64,14 +68,14 @@ pub(super) fn pixels(
     window: Window,
     axis: Option<usize>,
     palette: &Palette,
-    is_coloured: bool,
+    colours: Colours,
 ) -> Pixels {
     match &sight.subject {
         Subject::Layer { cells, .. } => of_layer(sight, *cells, window, palette),
         Subject::Items { positions, radius, extents } => {
             let items = Items { positions, radius: *radius, extents: *extents };
             let axis = looked_along(axis, *extents);
-            of_items(sight, &items, window, axis, palette, is_coloured)
+            of_items(sight, &items, window, axis, palette, colours)
         }
     }
 }
@@ -103,33 +107,43 @@ fn of_items(
     window: Window,
     axis: usize,
     palette: &Palette,
-    is_coloured: bool,
+    colours: Colours,
 ) -> Pixels {
     let [width, height] = window.pixels;
     let [right, up] = plane_axes(axis);
     let side: [f64; 2] = std::array::from_fn(|i| window.pixels[i] as f64 / window.cells[i] as f64);
     let depth = items.extents[axis] as f64;
     let mut nearest = DepthBuffer::new(width, height);
-    let mut farness = Vec::with_capacity(items.positions.len());
+    let mut discs = Vec::with_capacity(items.positions.len());
     for (owner, position) in (0..).zip(items.positions) {
         // The eye is at the low end of y, and at the high end of x and z.
         let far = if axis == 1 { position[1] } else { depth - position[axis] };
-        farness.push((far / depth).clamp(0.0, 1.0) as f32);
         let x = (position[right] - window.first[0] as f64) * side[0];
         let y = height as f64 - (position[up] - window.first[1] as f64) * side[1];
         let (radius, thickness) = ((items.radius * side[0]) as f32, items.radius as f32);
-        nearest.draw(Disc { at: [x as f32, y as f32], radius, depth: far as f32, thickness }, owner);
+        let disc = Disc { at: [x as f32, y as f32], radius, depth: far as f32, thickness };
+        nearest.draw(disc, owner);
+        discs.push(disc);
     }
     let scale = scale(sight);
-    let mut pixels = Pixels::new(window.pixels, if is_coloured { BEHIND } else { [0.0; 3] });
+    let mut pixels = Pixels::new(window.pixels, if colours == Colours::None { [0.0; 3] } else { BEHIND });
     for y in 0..height {
         for x in 0..width {
             if let Some(owner) = nearest.owner(x, y) {
                 let colour = palette.of(sight.values.get(owner).and_then(|value| scale.place(*value)));
-                let dusk = if is_coloured { 1.0 - DUSK * farness[owner] } else { 1.0 };
-                pixels.set(x, y, colour.map(|c| c * dusk));
+                // With few colours, one that is darker looks like that of another value.
+                let is_lit = colours == Colours::True;
+                let light = if is_lit { light(&discs[owner], depth as f32, x, y) } else { 1.0 };
+                pixels.set(x, y, colour.map(|c| c * light));
             }
         }
     }
     pixels
+}
+
+/// How much light a pixel of an item has.
+fn light(disc: &Disc, depth: f32, x: usize, y: usize) -> f32 {
+    let dusk = 1.0 - DUSK * (disc.depth / depth).clamp(0.0, 1.0);
+    let [_, _, towards_the_eye] = disc.normal(x, y);
+    if disc.radius < ROUND { dusk } else { dusk * (1.0 - RIM * (1.0 - towards_the_eye)) }
 }

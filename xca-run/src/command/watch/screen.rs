@@ -255,8 +255,7 @@ impl Screen {
         let picture = words::draw(self, area, buffer);
         self.room = [usize::from(picture.width), 2 * usize::from(picture.height)];
         if let (Some(news), Some(palette), Some(window)) = (&self.news, self.palette(), self.window()) {
-            let is_coloured = self.colours != Colours::None;
-            let pixels = pixels(&news.sight, window, self.look.axis, &palette, is_coloured);
+            let pixels = pixels(&news.sight, window, self.look.axis, &palette, self.colours);
             blocks::draw(&pixels, picture, buffer, self.colours);
         }
     }

@@ -28,7 +28,7 @@ impl Disc {
     }
 
     /// The direction of the surface at a sample: right, up and towards the eye.
-    pub(super) fn normal(&self, x: usize, y: usize) -> [f32; 3] {
+    pub(crate) fn normal(&self, x: usize, y: usize) -> [f32; 3] {
         let disc = self.visible();
         let u = (x as f32 + 0.5 - disc.at[0]) / disc.radius;
         let v = (disc.at[1] - y as f32 - 0.5) / disc.radius;
