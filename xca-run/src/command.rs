@@ -8,6 +8,7 @@ mod initial;
 mod inspect;
 mod interval;
 mod list;
+mod look;
 mod new;
 mod parse;
 mod prepare;
@@ -16,6 +17,7 @@ mod resume;
 mod run;
 mod under_way;
 mod voice;
+mod watch;
 
 pub(crate) use arguments::threads;
 
@@ -181,6 +183,7 @@ fn execute(invocation: Invocation<'_>) -> Result<Ended, Unable> {
         Invocation::Draw(definition, path, arguments, command_line) => {
             render::draw(definition, &path, &arguments, &command_line)
         }
+        Invocation::Watch(run, arguments) => watch::watch(&run, &arguments),
         Invocation::New(arguments) => new::new(&arguments),
         Invocation::List(choice, arguments) => list::list(&choice, &arguments),
         Invocation::Compare(choice, arguments, command_line) => {

@@ -12,6 +12,7 @@ mod recorded;
 mod saved;
 mod seen;
 mod shown;
+mod sight;
 mod values;
 
 pub(crate) use drawing::{Drawing, Scales};
@@ -21,6 +22,7 @@ pub(crate) use look::{Look, ViewKind};
 pub(crate) use recorded::Recorded;
 pub(crate) use saved::SavedError;
 pub(crate) use seen::Seen;
+pub(crate) use sight::{Sight, Subject};
 
 use crate::output::atomic::WriteError;
 use crate::output::particle_csv::WriteParticlesError;

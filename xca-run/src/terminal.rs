@@ -3,6 +3,10 @@
 //! Results go to stdout and are left out by `--quiet`; errors and what happens meanwhile go to stderr. That no one listens any more, as
 //! after `| head`, is no error.
 
+mod full_screen;
+
+pub(crate) use full_screen::{FullScreen, give_back};
+
 use std::io::{self, Write};
 
 /// A line of the results.

@@ -19,3 +19,4 @@ mod same_bits;
 mod scripted;
 mod shaders;
 mod vtk_library;
+mod watched;

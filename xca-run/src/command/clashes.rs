@@ -139,11 +139,11 @@ mod tests {
     #[test]
     fn names_that_are_taken_are_told_with_who_takes_them() {
         let text = said(Layered::augment_args);
-        assert!(text.contains("already: `--layer` (of render); give"), "{text}");
+        assert!(text.contains("already: `--layer` (of render, watch); give"), "{text}");
         let text = said(Short::augment_args);
         assert!(text.contains("`-q` (of run, render, compare)"), "{text}");
-        assert!(text.contains("`--help` (of run, render, list, compare)"), "{text}");
-        assert!(said(Field::augment_args).contains("the field `every` (of run, render)"));
+        assert!(text.contains("`--help` (of run, render, watch, list, compare)"), "{text}");
+        assert!(said(Field::augment_args).contains("the field `every` (of run, render, watch)"));
         assert!(said(RunArguments::augment_args).contains("the struct `RunArguments` (of run)"));
         assert!(said(Bare::augment_args).contains("`grain` has no `--` before its name"));
         check(&definition(Fine::augment_args)).unwrap();
@@ -160,7 +160,7 @@ mod tests {
             let Err(Unable::Refused(error)) = parse::invocation(&definition, &words) else {
                 panic!("{words:?}")
             };
-            assert!(error.to_string().contains("`--layer` (of render)"), "{error}");
+            assert!(error.to_string().contains("`--layer` (of render, watch)"), "{error}");
         }
     }
 }

@@ -6,9 +6,10 @@ use super::inspect::InspectArguments;
 use super::list::ListArguments;
 use super::new::NewArguments;
 use super::render::RenderArguments;
+use super::watch::WatchArguments;
 use super::{
     Definition, EXIT_CODES, Unable, clashes, compare, config, initial, inspect, list, new, render, resume,
-    run,
+    run, watch,
 };
 use crate::program::Given;
 use crate::set_up::SetUp;
@@ -25,6 +26,7 @@ pub(super) enum Invocation<'a> {
     Render(Box<RunInvocation<'a>>, RenderArguments),
     /// With what has to be drawn, and with the whole command line.
     Draw(&'a Definition<'a>, PathBuf, RenderArguments, Vec<String>),
+    Watch(Box<RunInvocation<'a>>, WatchArguments),
     List(Box<Choice<'a>>, ListArguments),
     Inspect(InspectArguments),
     /// With the whole command line.
@@ -76,7 +78,7 @@ impl<'a> Choice<'a> {
 pub(super) fn command(definition: &Definition<'_>) -> Command {
     let Definition { name, about, version, .. } = definition;
     let examples = format!(
-        "Examples:\n  {name} run\n  {name} resume out/{name}\n  {name} compare\n  {name} render\n  {name} list\n  {name} inspect out/{name}\n  {name} new waves"
+        "Examples:\n  {name} run\n  {name} resume out/{name}\n  {name} compare\n  {name} render\n  {name} watch\n  {name} list\n  {name} inspect out/{name}\n  {name} new waves"
     );
     Command::new(*name)
         .about(*about)
@@ -90,6 +92,7 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
             run::command(definition),
             resume::command(definition),
             render::command(definition),
+            watch::command(definition),
             list::command(definition),
             inspect::command(definition),
             compare::command(definition),
@@ -191,6 +194,16 @@ fn complete<'a>(
                 command_line: words(arguments),
             };
             Ok(Invocation::Render(Box::new(run), render))
+        }
+        Some((watch::NAME, matches)) => {
+            let watch: WatchArguments = from(matches)?;
+            let run = RunInvocation {
+                model: Choice::new(definition, matches)?,
+                engine: from(matches)?,
+                run: watch.as_of_run(),
+                command_line: words(arguments),
+            };
+            Ok(Invocation::Watch(Box::new(run), watch))
         }
         Some((list::NAME, matches)) => {
             Ok(Invocation::List(Box::new(Choice::new(definition, matches)?), from(matches)?))

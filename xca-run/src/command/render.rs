@@ -45,18 +45,6 @@ panels side by side, each with its own scale; what is given once holds for all."
 /// How many pictures there are, unless the command line says how often.
 const PICTURES: u64 = 60;
 
-pub(super) fn axis(text: &str) -> Result<usize, &'static str> {
-    ["x", "y", "z"].iter().position(|name| *name == text).ok_or("it must be x, y or z")
-}
-
-pub(super) fn range(text: &str) -> Result<[f64; 2], &'static str> {
-    const WANTED: &str = "it must be two numbers, the lower one first, such as 0,20";
-    let (low, high) = text.split_once(',').ok_or(WANTED)?;
-    let ends = [low, high].map(|end| end.trim().parse().unwrap_or(f64::NAN));
-    // Not so for what is no number.
-    if ends[0] < ends[1] && ends.iter().all(|end| end.is_finite()) { Ok(ends) } else { Err(WANTED) }
-}
-
 fn pixels(text: &str) -> Result<[usize; 2], &'static str> {
     const WANTED: &str = "it must be width and height in pixels, from 320x280 to 4096x4096, such as 640x480";
     let (width, height) = text.split_once('x').ok_or(WANTED)?;

@@ -68,7 +68,7 @@ pub(super) fn run(invocation: RunInvocation<'_>) -> Result<Ended, Unable> {
 }
 
 /// An initial state that cannot be made is a mistake in what was given.
-fn not_started(error: RunError) -> Unable {
+pub(super) fn not_started(error: RunError) -> Unable {
     match error {
         RunError::Steering { step: 0, source } => Unable::Refused(source),
         other => Unable::refused(other),

@@ -34,6 +34,7 @@ mod depth;
 mod glyphs;
 mod legend;
 mod light;
+mod mosaic;
 mod panels;
 mod particles;
 mod scene;
@@ -45,9 +46,14 @@ use std::path::Path;
 
 use super::atomic::{WriteError, write_atomically};
 
+pub(crate) use averaging::fitted;
 pub use block::BlockPicture;
 pub use colour::ColourMap;
+pub(crate) use colour::encode;
+pub(crate) use depth::{DepthBuffer, Disc};
 pub use legend::Scalar;
+pub(crate) use legend::Scale;
+pub(crate) use mosaic::{Mosaic, Palette};
 pub use panels::PanelPicture;
 pub use particles::{Domain, ParticlePicture};
 pub use slice::SlicePicture;

@@ -20,7 +20,7 @@ pub(crate) struct Drawing<'a> {
 }
 
 /// One view, drawn in one way.
-pub(super) struct Panel {
+pub(crate) struct Panel {
     pub(super) shown: Shown,
     /// The scale that was asked for.
     pub(super) range: Option<[f64; 2]>,

@@ -18,7 +18,7 @@ pub(crate) enum ViewKind {
 }
 
 /// What is drawn, and how; what is not said is as in the pictures of a run.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Look {
     pub(crate) substate: Option<String>,
     pub(crate) view: Option<ViewKind>,

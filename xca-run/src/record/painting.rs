@@ -21,12 +21,12 @@ pub(super) struct Frame<'a> {
 }
 
 /// A substate of cells that is painted.
-struct Field<'a> {
-    view: &'a AnyCellView,
-    geometry: &'a Geometry,
-    label: &'a str,
-    is_float: bool,
-    values: &'a [f64],
+pub(super) struct Field<'a> {
+    pub(super) view: &'a AnyCellView,
+    pub(super) geometry: &'a Geometry,
+    pub(super) label: &'a str,
+    pub(super) is_float: bool,
+    pub(super) values: &'a [f64],
 }
 
 impl Shown {
@@ -96,12 +96,7 @@ impl Field<'_> {
     /// Draws a layer. The picture has its natural size unless one is given.
     fn slice(&self, frame: Frame<'_>, present: Option<[f64; 2]>) -> Result<Picture, PictureError> {
         let kinds = self.kinds(frame.range);
-        let [columns, rows, layers] = self.geometry.extents();
-        let [across, down] = match self.view.axis {
-            0 => [rows, layers],
-            1 => [columns, layers],
-            _ => [columns, rows],
-        };
+        let ([across, down], _) = self.plane();
         let mut picture = SlicePicture::new(across, down, self.scalar(frame.range, present));
         picture.categories = &kinds;
         (picture.title, picture.caption) = (frame.title, frame.caption);
@@ -127,7 +122,18 @@ impl Field<'_> {
         picture.render()
     }
 
-    fn scalar(&self, earlier: Option<[f64; 2]>, present: Option<[f64; 2]>) -> Scalar<'_> {
+    /// The cells of a layer across and down, and the number of layers.
+    pub(super) fn plane(&self) -> ([usize; 2], usize) {
+        let [columns, rows, layers] = self.geometry.extents();
+        match self.view.axis {
+            0 => ([rows, layers], columns),
+            1 => ([columns, layers], rows),
+            _ => ([columns, rows], layers),
+        }
+    }
+
+    /// The values with their colours.
+    pub(super) fn scalar(&self, earlier: Option<[f64; 2]>, present: Option<[f64; 2]>) -> Scalar<'_> {
         let mut scalar = Scalar::new(self.label, self.values);
         let of_type = if self.is_float { ColourMap::Sequential } else { ColourMap::Paper };
         scalar.map = self.view.map.unwrap_or(of_type);
@@ -136,7 +142,7 @@ impl Field<'_> {
     }
 
     /// The values that are kinds rather than magnitudes, with their names.
-    fn kinds(&self, range: Option<[f64; 2]>) -> Vec<(f64, &str)> {
+    pub(super) fn kinds(&self, range: Option<[f64; 2]>) -> Vec<(f64, &str)> {
         let view = self.view;
         let is_plain = view.kinds.is_empty() && view.map.is_none() && view.range.is_none();
         let mut all = self.values.iter().copied().chain(range.into_iter().flatten());

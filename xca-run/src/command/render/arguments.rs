@@ -1,8 +1,9 @@
 //! What `render` is told.
 
-use super::{SAVED, axis, pixels, range};
+use super::{SAVED, pixels};
 use crate::command::Unable;
 use crate::command::arguments::{RunArguments, interval, steps};
+use crate::command::look::{axis, range};
 use crate::command::voice::Voice;
 use crate::output::animation::{write_apng, write_gif};
 use crate::output::atomic::WriteError;

@@ -10,20 +10,15 @@ use xca_core::Model;
 impl UnderWay {
     /// The line at the start.
     pub(super) fn headline(&self) -> String {
-        let Report { engine, threads, device, precision, progress, resumed, .. } = &self.report;
-        let fact = |name: &str| device.get(name).and_then(|fact| fact.as_str());
-        let means = match (fact("adapter"), fact("arithmetic"), threads) {
-            (Some(adapter), Some(arithmetic), _) => format!("on {adapter}, {arithmetic} arithmetic"),
-            (.., 1) => "with 1 thread".to_owned(),
-            (.., threads) => format!("with {threads} threads"),
-        };
+        let Report { progress, resumed, .. } = &self.report;
         let resumed =
             (!resumed.is_empty()).then(|| format!(", resumed after step {}", self.simulation.step_number()));
         let time_step = progress.time_step.map(|seconds| format!(" of {} s", significant(seconds, 4)));
         format!(
-            "{}, {}, {engine} engine {means}, {precision}, {} steps{}{}",
+            "{}, {}, {}, {} steps{}{}",
             self.recorder.set_up().title,
             cells(self.recorder.model()),
+            engine_words(&self.report),
             progress.steps_wanted,
             time_step.unwrap_or_default(),
             resumed.unwrap_or_default(),
@@ -82,6 +77,18 @@ impl UnderWay {
             if frames == 1 { "frame" } else { "frames" },
         )
     }
+}
+
+/// The engine of a run, and what it runs on.
+pub(in crate::command) fn engine_words(report: &Report) -> String {
+    let Report { engine, threads, device, precision, .. } = report;
+    let fact = |name: &str| device.get(name).and_then(|fact| fact.as_str());
+    let means = match (fact("adapter"), fact("arithmetic"), threads) {
+        (Some(adapter), Some(arithmetic), _) => format!("on {adapter}, {arithmetic} arithmetic"),
+        (.., 1) => "with 1 thread".to_owned(),
+        (.., threads) => format!("with {threads} threads"),
+    };
+    format!("{engine} engine {means}, {precision}")
 }
 
 /// The number of cells along each axis that has more than one.

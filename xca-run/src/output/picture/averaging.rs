@@ -37,6 +37,16 @@ impl Share {
     }
 }
 
+/// The pixels across and down that show cells in a room: whole ones for each cell where there are as many. There must be cells.
+pub(crate) fn fitted(cells: [usize; 2], room: [usize; 2]) -> [usize; 2] {
+    let side = (room[0] / cells[0]).min(room[1] / cells[1]);
+    if side > 0 {
+        return cells.map(|n| n * side);
+    }
+    let share = (0..2).map(|i| room[i] as f64 / cells[i] as f64).fold(f64::INFINITY, f64::min);
+    std::array::from_fn(|i| ((cells[i] as f64 * share).round() as usize).clamp(1, room[i]))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

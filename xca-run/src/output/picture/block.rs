@@ -3,6 +3,7 @@
 use super::canvas::{Canvas, Strokes};
 use super::colour::{category, encode, mix};
 use super::legend::{INK, Scalar, draw_bar, draw_categories, draw_title};
+use super::mosaic::GREY;
 use super::{Picture, PictureError, check_size};
 
 /// Samples a pixel, each way.
@@ -11,8 +12,6 @@ const SAMPLES: usize = 2;
 const BRIGHTNESS: [f32; 3] = [0.60, 0.80, 1.0];
 /// How much of white the faces of cubes have that stand alone.
 const LIT: [f32; 3] = [0.0, 0.06, 0.22];
-/// Linear RGB of cells without a value.
-const GREY: [f32; 3] = [0.35, 0.35, 0.35];
 
 /// All cells of a dense substate as small cubes, seen from above and the front without perspective, z up.
 #[derive(Debug, Clone)]

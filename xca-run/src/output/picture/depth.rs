@@ -1,7 +1,7 @@
 //! Which sphere is in front.
 
 /// For each sample the nearest sphere and its depth.
-pub(super) struct DepthBuffer {
+pub(crate) struct DepthBuffer {
     pub(super) width: usize,
     pub(super) height: usize,
     depth: Vec<f32>,
@@ -10,14 +10,14 @@ pub(super) struct DepthBuffer {
 
 /// A sphere as a surface sees it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Disc {
+pub(crate) struct Disc {
     /// The middle, in samples from the top left.
-    pub(super) at: [f32; 2],
+    pub(crate) at: [f32; 2],
     /// The radius in samples.
-    pub(super) radius: f32,
+    pub(crate) radius: f32,
     /// The depth of the middle, and the radius in units of depth.
-    pub(super) depth: f32,
-    pub(super) thickness: f32,
+    pub(crate) depth: f32,
+    pub(crate) thickness: f32,
 }
 
 impl Disc {
@@ -28,7 +28,7 @@ impl Disc {
     }
 
     /// The direction of the surface at a sample: right, up and towards the eye.
-    pub(super) fn normal(&self, x: usize, y: usize) -> [f32; 3] {
+    pub(crate) fn normal(&self, x: usize, y: usize) -> [f32; 3] {
         let disc = self.visible();
         let u = (x as f32 + 0.5 - disc.at[0]) / disc.radius;
         let v = (disc.at[1] - y as f32 - 0.5) / disc.radius;
@@ -40,7 +40,7 @@ impl DepthBuffer {
     /// The owner of a sample that shows no sphere.
     const NONE: u32 = u32::MAX;
 
-    pub(super) fn new(width: usize, height: usize) -> Self {
+    pub(crate) fn new(width: usize, height: usize) -> Self {
         Self {
             width,
             height,
@@ -50,7 +50,7 @@ impl DepthBuffer {
     }
 
     /// Draws sphere `owner` where it is in front of what is there.
-    pub(super) fn draw(&mut self, disc: Disc, owner: u32) {
+    pub(crate) fn draw(&mut self, disc: Disc, owner: u32) {
         let disc = disc.visible();
         let [cx, cy] = disc.at;
         let r = disc.radius;
@@ -97,7 +97,7 @@ impl DepthBuffer {
     }
 
     /// The sphere at a sample. The sample must be inside.
-    pub(super) fn owner(&self, x: usize, y: usize) -> Option<usize> {
+    pub(crate) fn owner(&self, x: usize, y: usize) -> Option<usize> {
         let owner = self.owner[y * self.width + x];
         (owner != Self::NONE).then_some(owner as usize)
     }

@@ -1,9 +1,10 @@
 //! Pictures of dense substates, one layer at a time.
 
-use super::averaging::Share;
+use super::averaging::fitted;
 use super::canvas::{Canvas, Strokes};
-use super::colour::{category, encode};
+use super::colour::encode;
 use super::legend::{FAINT_INK, INK, Scalar, draw_bar, draw_categories, draw_title};
+use super::mosaic::{Mosaic, Palette};
 use super::text::{self, Anchor, Style};
 use super::{Picture, PictureError, check_size};
 use crate::numbers::significant;
@@ -97,7 +98,7 @@ impl<'a> SlicePicture<'a> {
     fn plate_and_drawing(&self) -> Result<[[usize; 2]; 2], PictureError> {
         let Some(size) = self.size else {
             check_size([self.pixels; 2])?;
-            let drawing = self.drawing_size([self.pixels; 2]);
+            let drawing = fitted([self.columns, self.rows], [self.pixels; 2]);
             // A narrow drawing leaves room for the title, a flat one for the bar.
             return Ok([[drawing[0].max(320), drawing[1].max(240)], drawing]);
         };
@@ -105,54 +106,20 @@ impl<'a> SlicePicture<'a> {
         if plate.iter().any(|room| *room < 100) {
             return Err(PictureError::Size { size });
         }
-        Ok([plate, self.drawing_size(plate)])
+        Ok([plate, fitted([self.columns, self.rows], plate)])
     }
 
-    /// Pixels across and down: whole ones for each cell where there are as many.
-    fn drawing_size(&self, room: [usize; 2]) -> [usize; 2] {
-        let cells = [self.columns, self.rows];
-        let side = (room[0] / cells[0]).min(room[1] / cells[1]);
-        if side > 0 {
-            return cells.map(|n| n * side);
-        }
-        let share = (0..2).map(|i| room[i] as f64 / cells[i] as f64).fold(f64::INFINITY, f64::min);
-        std::array::from_fn(|i| ((cells[i] as f64 * share).round() as usize).clamp(1, room[i]))
-    }
-
-    fn draw_cells(&self, canvas: &mut Canvas, [x0, y0]: [usize; 2], [w, h]: [usize; 2]) {
-        let scale = self.scalar.scale();
-        let table = self.scalar.map.table();
-        let across: Vec<Share> = (0..w).map(|x| Share::new(x, w, self.columns)).collect();
-        for y in 0..h {
-            // The first row of cells is at the bottom.
-            let down = Share::new(h - 1 - y, h, self.rows);
-            for (x, across) in across.iter().enumerate() {
-                let cells = down.cells().flat_map(|(row, a)| {
-                    across
-                        .cells()
-                        .map(move |(column, b)| (self.scalar.values[row * self.columns + column], a * b))
-                });
-                let colour = if self.categories.is_empty() {
-                    let (sum, weight) = cells
-                        .filter(|(value, _)| value.is_finite())
-                        .fold((0.0, 0.0), |(sum, weight), (value, w)| (sum + value * w, weight + w));
-                    let place = scale.place(sum / weight);
-                    place.map_or(GREY, |place| table[(place * 255.0).round() as usize])
-                } else {
-                    let (sum, weight) = cells.fold(([0.0_f32; 3], 0.0), |(sum, weight), (value, w)| {
-                        let colour = self.colour_of(value);
-                        (std::array::from_fn(|i| sum[i] + colour[i] * w as f32), weight + w as f32)
-                    });
-                    sum.map(|c| c / weight)
-                };
-                canvas.set(x0 + x, y0 + y, encode(colour));
-            }
-        }
-    }
-
-    /// The colour of a category, in linear RGB.
-    fn colour_of(&self, value: f64) -> [f32; 3] {
-        self.categories.iter().position(|(of, _)| *of == value).map_or(GREY, category)
+    fn draw_cells(&self, canvas: &mut Canvas, [x0, y0]: [usize; 2], size: [usize; 2]) {
+        let kinds: Vec<f64> = self.categories.iter().map(|(value, _)| *value).collect();
+        let mosaic = Mosaic {
+            columns: self.columns,
+            rows: self.rows,
+            values: self.scalar.values,
+            scale: self.scalar.scale(),
+            kinds: &kinds,
+            palette: &Palette::coloured(self.scalar.map, kinds.len()),
+        };
+        mosaic.draw(size, |x, y, colour| canvas.set(x0 + x, y0 + y, encode(colour)));
     }
 
     /// A bar of a round length below the drawing, whose lower left corner is at `[x, y]`.
@@ -176,13 +143,12 @@ impl<'a> SlicePicture<'a> {
     }
 }
 
-/// Linear RGB of cells without a value.
-const GREY: [f32; 3] = [0.35, 0.35, 0.35];
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::output::picture::ColourMap;
+    use crate::output::picture::colour::category;
+    use crate::output::picture::mosaic::GREY;
 
     fn colour(t: f64) -> [u8; 3] {
         encode(ColourMap::Sequential.linear(t)).map(|x| (x * 255.0).round() as u8)

@@ -1,0 +1,43 @@
+//! The options that say what is looked at, in pictures and on the terminal.
+
+use crate::record::Look;
+use clap::Args;
+
+/// What is looked at.
+#[derive(Args, Debug, Clone)]
+pub(super) struct LookArguments {
+    /// The substate that gives the colours: a number, or the length of a vector
+    #[arg(long, value_name = "NAME")]
+    substate: Option<String>,
+
+    /// Of a slice: the axis that layers are counted along
+    #[arg(long, value_name = "x|y|z", value_parser = axis)]
+    axis: Option<usize>,
+
+    /// Of a slice: the layer, from 0; the middle one unless it is given
+    #[arg(long, value_name = "N")]
+    layer: Option<usize>,
+
+    /// The ends of the scale of colours; the least and the largest value of what is drawn unless it is given
+    #[arg(long, value_name = "LOW,HIGH", value_parser = range)]
+    range: Option<[f64; 2]>,
+}
+
+impl LookArguments {
+    pub(super) fn look(&self) -> Look {
+        let Self { substate, axis, layer, range } = self.clone();
+        Look { substate, axis, layer, range, ..Look::default() }
+    }
+}
+
+pub(super) fn axis(text: &str) -> Result<usize, &'static str> {
+    ["x", "y", "z"].iter().position(|name| *name == text).ok_or("it must be x, y or z")
+}
+
+pub(super) fn range(text: &str) -> Result<[f64; 2], &'static str> {
+    const WANTED: &str = "it must be two numbers, the lower one first, such as 0,20";
+    let (low, high) = text.split_once(',').ok_or(WANTED)?;
+    let ends = [low, high].map(|end| end.trim().parse().unwrap_or(f64::NAN));
+    // Not so for what is no number.
+    if ends[0] < ends[1] && ends.iter().all(|end| end.is_finite()) { Ok(ends) } else { Err(WANTED) }
+}

@@ -1,0 +1,126 @@
+//! The subcommand `watch`.
+
+mod blocks;
+mod pace;
+mod pixels;
+mod screen;
+mod session;
+mod window;
+mod words;
+mod worker;
+
+use super::arguments::{EngineArguments, RunArguments, interval, steps};
+use super::look::LookArguments;
+use super::parse::{RunInvocation, with_help, with_model};
+use super::prepare::Prepared;
+use super::run::not_started;
+use super::under_way::engine_words;
+use super::voice::Voice;
+use super::{Definition, Ended, Unable};
+use crate::interrupt::Interrupt;
+use blocks::Colours;
+use clap::{Args, Command};
+use pace::Pace;
+use screen::{Facts, Screen};
+use std::io::{IsTerminal, stdin, stdout};
+use worker::{Shared, Worker};
+use xca_core::Simulation;
+
+pub(super) const NAME: &str = "watch";
+
+const ABOUT: &str = "Run the model, and watch it in the terminal";
+
+const KEYS: &str = "\
+Cells are seen layer by layer, items from the front (--axis looks from elsewhere).
+The scale of colours grows with what is seen, unless --range says its ends.
+Colours follow COLORTERM and NO_COLOR.
+
+Keys:
+  space      pause, go on
+  n .        one step, and pause
+  + -        more or fewer steps a picture
+  tab        the next substate
+  [ ]        the layer below or above (also page down and page up)
+  a          look along the next axis
+  z          closer: a cell is half a character; arrows then move
+  s          begin the scale of colours anew
+  r          begin the run anew
+  q          quit (also Esc), with exit code 0
+  Ctrl-C     quit, with exit code 130";
+
+/// In how many pictures the steps of the model are shown, unless the command line says how many there are from one to the next.
+const PICTURES: u64 = 1000;
+
+/// What is watched.
+#[derive(Args, Debug, Clone)]
+pub(super) struct WatchArguments {
+    /// End after so many steps; there is no end unless it is given, or the model stops
+    #[arg(long, value_name = "N", value_parser = steps)]
+    steps: Option<u64>,
+
+    /// Draw a picture every so many steps, sooner where they take longer than half a second; a thousandth of the steps of the model
+    /// unless it is given
+    #[arg(long, value_name = "N", value_parser = interval)]
+    every: Option<u64>,
+
+    /// How many pictures are drawn a second, at most
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u16).range(1..=60))]
+    fps: u16,
+
+    #[command(flatten)]
+    look: LookArguments,
+}
+
+impl WatchArguments {
+    /// What a run would be told.
+    pub(super) fn as_of_run(&self) -> RunArguments {
+        RunArguments {
+            steps: self.steps,
+            out: None,
+            every: None,
+            checkpoint_every: None,
+            grids: false,
+            print_wgsl: false,
+            voice: Voice::default(),
+        }
+    }
+}
+
+pub(super) fn command(definition: &Definition<'_>) -> Command {
+    let name = definition.name;
+    let command = EngineArguments::augment_args(with_model(Command::new(NAME), definition));
+    let command = WatchArguments::augment_args(command).next_help_heading(None::<&str>);
+    let examples = [format!("{name} watch"), format!("{name} watch --every 1 --fps 10 --engine reference")];
+    with_help(command, ABOUT, &examples).long_about(format!("{ABOUT}\n\n{KEYS}"))
+}
+
+/// Shows a run in the terminal.
+pub(super) fn watch(invocation: &RunInvocation<'_>, arguments: &WatchArguments) -> Result<Ended, Unable> {
+    let name = invocation.model.definition.name;
+    if !(stdin().is_terminal() && stdout().is_terminal()) {
+        return Err(Unable::refused(format!(
+            "`{name} watch` needs a terminal to draw on and to read keys from; without one, `{name} run` writes files and `{name} render` draws pictures"
+        )));
+    }
+    let Prepared { engine, recorder, options, origin, report } =
+        Prepared::new(invocation, &invocation.engine)?;
+    let look = arguments.look.look();
+    recorder.sighting(&look).map_err(Unable::refused)?;
+    let simulation = Simulation::new(recorder.model(), &*engine, options).map_err(not_started)?;
+    let interrupt = Interrupt::install().map_err(Unable::failed)?;
+    let facts = Facts {
+        title: recorder.set_up().title.clone(),
+        engine: [engine_words(&report), format!("{} engine", report.engine)],
+        note: engine.note(),
+        time_step: recorder.set_up().time_step,
+        wanted: arguments.steps,
+        substates: recorder.substates(),
+    };
+    let every = arguments.every.unwrap_or(origin.steps_wanted / PICTURES);
+    let pace = Pace::new(every, arguments.fps);
+    let mut screen = Screen::new(facts, Colours::of_environment(), pace, look);
+    let shared = Shared::default();
+    let worker =
+        Worker { recorder: &recorder, engine: &*engine, options, wanted: arguments.steps, shared: &shared };
+    session::watch(&mut screen, &worker, simulation, &interrupt).map_err(Unable::Failed)
+}

@@ -1,0 +1,102 @@
+//! A layer of cells in as many pixels as there is room for.
+
+use super::averaging::Share;
+use super::colour::{ColourMap, category};
+use super::legend::Scale;
+
+/// Linear RGB of what has no value.
+pub(super) const GREY: [f32; 3] = [0.35, 0.35, 0.35];
+
+/// What values look like, in linear RGB.
+#[derive(Debug, Clone)]
+pub(crate) struct Palette {
+    map: Vec<[f32; 3]>,
+    kinds: Vec<[f32; 3]>,
+    unknown: [f32; 3],
+}
+
+impl Palette {
+    /// The colours of a map, and of so many kinds.
+    pub(crate) fn coloured(map: ColourMap, kinds: usize) -> Self {
+        Self { map: map.table(), kinds: (0..kinds).map(category).collect(), unknown: GREY }
+    }
+
+    /// Without colours: ever lighter, from this lightness to 1, for values and for kinds.
+    pub(crate) fn shades(darkest: f32, kinds: usize) -> Self {
+        let shades = |number: usize| {
+            let last = number.saturating_sub(1).max(1) as f32;
+            (0..number).map(|i| [darkest + (1.0 - darkest) * i as f32 / last; 3]).collect()
+        };
+        Self { map: shades(256), kinds: shades(kinds), unknown: [0.5; 3] }
+    }
+
+    /// The colour at a place of the scale, from 0 to 1.
+    pub(crate) fn of(&self, place: Option<f64>) -> [f32; 3] {
+        let entry = place.and_then(|place| self.map.get((place * 255.0).round() as usize));
+        entry.copied().unwrap_or(self.unknown)
+    }
+
+    /// The colour of the kind with this number.
+    pub(crate) fn kind(&self, number: Option<usize>) -> [f32; 3] {
+        number.and_then(|number| self.kinds.get(number)).copied().unwrap_or(self.unknown)
+    }
+}
+
+/// A layer of cells, x fastest, the lowest y first.
+pub(crate) struct Mosaic<'a> {
+    pub(crate) columns: usize,
+    pub(crate) rows: usize,
+    pub(crate) values: &'a [f64],
+    pub(crate) scale: Scale,
+    /// If not empty, the values are no magnitudes but these kinds; others are unknown.
+    pub(crate) kinds: &'a [f64],
+    pub(crate) palette: &'a Palette,
+}
+
+impl Mosaic<'_> {
+    /// Calls `set` with the column and the row of each pixel, from the top left, and its colour: that of its cell, or of the mean of its cells.
+    /// There must be a value for each cell, and a cell.
+    pub(crate) fn draw(&self, [width, height]: [usize; 2], mut set: impl FnMut(usize, usize, [f32; 3])) {
+        let across: Vec<Share> = (0..width).map(|x| Share::new(x, width, self.columns)).collect();
+        for y in 0..height {
+            // The first row of cells is at the bottom.
+            let down = Share::new(height - 1 - y, height, self.rows);
+            for (x, across) in across.iter().enumerate() {
+                set(x, y, self.colour(across, &down));
+            }
+        }
+    }
+
+    fn colour(&self, across: &Share, down: &Share) -> [f32; 3] {
+        let cells = down.cells().flat_map(|(row, a)| {
+            across.cells().map(move |(column, b)| (self.values[row * self.columns + column], a * b))
+        });
+        if self.kinds.is_empty() {
+            let (sum, weight) = cells
+                .filter(|(value, _)| value.is_finite())
+                .fold((0.0, 0.0), |(sum, weight), (value, w)| (sum + value * w, weight + w));
+            return self.palette.of(self.scale.place(sum / weight));
+        }
+        let (sum, weight) = cells.fold(([0.0_f32; 3], 0.0), |(sum, weight), (value, w)| {
+            let colour = self.palette.kind(self.kinds.iter().position(|kind| *kind == value));
+            (std::array::from_fn(|i| sum[i] + colour[i] * w as f32), weight + w as f32)
+        });
+        sum.map(|c| c / weight)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shades_run_from_the_darkest_to_white() {
+        let palette = Palette::shades(0.5, 3);
+        assert_eq!(palette.of(Some(0.0)), [0.5; 3]);
+        assert_eq!(palette.of(Some(1.0)), [1.0; 3]);
+        assert_eq!([0, 1, 2].map(|kind| palette.kind(Some(kind))[0]), [0.5, 0.75, 1.0]);
+        // One kind, and none.
+        assert_eq!(Palette::shades(0.25, 1).kind(Some(0)), [0.25; 3]);
+        assert_eq!(palette.kind(None), palette.of(None));
+    }
+}
