@@ -6,7 +6,7 @@
 use xca_run::prelude::*;
 
 /// What a cell is.
-#[derive(Substates, Clone)]
+#[derive(Substates, Clone, Debug)]
 pub struct Medium {
     /// 0 at rest, 1 excited, and counted on while it recovers.
     pub phase: u32,
