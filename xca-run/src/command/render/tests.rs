@@ -2,8 +2,10 @@
 
 mod pond;
 
+use crate::record::Recorder;
 use pond::{Place, pond};
 use std::fs;
+use xca_core::{GroupSnapshot, Precision, Reference, RunOptions, Simulation};
 
 const SMALL: &str = "--pixels 700x320";
 
@@ -228,4 +230,35 @@ fn panels_are_counted() {
     }
     assert!(!place.folder.path().join("out").exists());
     place.succeed("render --width 4 --steps 0 --view slice,isometric --axis x --layer 3 --out @out");
+}
+
+#[test]
+fn a_state_of_another_shape_does_not_fit() {
+    let recorder = Recorder::new(pond(4).unwrap()).unwrap();
+    let options = RunOptions { precision: Precision::F64, seed: 1 };
+    let simulation = Simulation::new(recorder.model(), &Reference, options).unwrap();
+    let snapshot = simulation.snapshot().unwrap();
+    assert!(recorder.fits(Precision::F64, &snapshot));
+    assert!(!recorder.fits(Precision::F32, &snapshot));
+    let changes: [fn(&mut Vec<GroupSnapshot>); 5] = [
+        |groups| drop(groups.pop()),
+        |groups| groups.swap(0, 1),
+        |groups| {
+            let GroupSnapshot::Cells(fields) = &mut groups[0] else { panic!("no cells") };
+            fields[2].pop();
+        },
+        |groups| {
+            let GroupSnapshot::Population(population, _) = &mut groups[1] else { panic!("no items") };
+            population.counts[0] += 1;
+        },
+        |groups| {
+            let GroupSnapshot::Population(population, _) = &mut groups[1] else { panic!("no items") };
+            population.fields.pop();
+        },
+    ];
+    for (number, change) in changes.into_iter().enumerate() {
+        let mut changed = snapshot.clone();
+        change(&mut changed.groups);
+        assert!(!recorder.fits(Precision::F64, &changed), "{number}");
+    }
 }
