@@ -59,6 +59,8 @@ pub(crate) struct AnyCellView {
     pub(crate) range: Option<[f64; 2]>,
     pub(crate) map: Option<ColourMap>,
     pub(crate) kinds: Vec<(f64, String)>,
+    /// The substate that it is drawn over, and the value up to which that is seen.
+    pub(crate) relief: Option<(usize, f64)>,
     /// Whether all cells are drawn, as cubes: only by `render`.
     pub(crate) block: bool,
 }
@@ -130,6 +132,14 @@ impl<S: Substates> CellView<S> {
         self
     }
 
+    /// Draws over the relief of the ground, whose heights in metres are another substate: where the drawn one is not more than `bare`, the
+    /// ground is seen.
+    #[must_use]
+    pub fn relief<V: HostValue + Into<f64>>(mut self, heights: Substate<S, V>, bare: f64) -> Self {
+        self.view.relief = Some((heights.index(), bare));
+        self
+    }
+
     /// The values at the ends of the scale. Without it, they are the least and the largest of the initial state, or of the state that is drawn
     /// where it goes beyond.
     #[must_use]
@@ -180,7 +190,7 @@ impl AnyItemView {
 impl AnyCellView {
     fn plain(group: TypeId, name: String) -> Self {
         let (drawn, layer, range, map) = (None, None, None, None);
-        Self { group, name, drawn, layer, axis: 2, range, map, kinds: Vec::new(), block: false }
+        Self { group, name, drawn, layer, axis: 2, range, map, kinds: Vec::new(), relief: None, block: false }
     }
 
     /// The number of the substate that is drawn.

@@ -194,6 +194,7 @@ impl Program for Landslide {
             ])
         };
         let view = CellView::named("landslide").draw(Slope::THICKNESS, "thickness of the debris (m)");
+        let view = view.relief(Slope::ALTITUDE, 0.0);
         let set_up = SetUp::new(model, 4000).observables(observe).cells(view).corner(corner);
         Ok(files.into_iter().fold(set_up, SetUp::input))
     }

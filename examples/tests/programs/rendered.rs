@@ -1,6 +1,6 @@
 //! Pictures of runs, and the animation of them.
 
-use crate::running::{CADEM, HEAT, LIFE, MOD2, Workplace};
+use crate::running::{CADEM, HEAT, LANDSLIDE, LIFE, MOD2, Workplace};
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::BufReader;
@@ -156,6 +156,8 @@ fn what_a_run_has_left_is_drawn_as_the_run_itself() {
             "--view isometric --pixels 420x380",
         ),
         (LIFE, "life", "--steps 12 --every 4", ""),
+        (LANDSLIDE, "landslide", "--steps 60 --every 30", "--pixels 480x500"),
+        (LANDSLIDE, "landslide", "--steps 60 --every 30", "--substate altitude,thickness"),
         (CADEM, "cadem", "--steps 10 --every 5", "--range 0,0.5 --pixels 420x380"),
     ] {
         said(&place, program, &format!("run {run} --quiet"));

@@ -37,6 +37,7 @@ mod light;
 mod mosaic;
 mod panels;
 mod particles;
+mod relief;
 mod scene;
 mod slice;
 mod text;
@@ -56,6 +57,7 @@ pub(crate) use legend::Scale;
 pub(crate) use mosaic::{Mosaic, Palette};
 pub use panels::PanelPicture;
 pub use particles::{Domain, ParticlePicture};
+pub use relief::Relief;
 pub use slice::SlicePicture;
 pub use view::Viewpoint;
 

@@ -43,22 +43,35 @@ impl<'a> Cells<'a> {
         Ok(write_dense(path, time, &grid, &arrays)?)
     }
 
-    /// The values of the drawn substate.
+    /// What is drawn.
     pub(super) fn seen(&self) -> Seen {
-        let field = self.view.field();
-        let Some(bytes) = self.fields.get(field) else {
-            return Seen::Cells { is_float: false, values: Vec::new() };
+        let fields = self.group.schema().fields.iter().zip(self.fields);
+        let fields: Vec<_> =
+            fields.map(|(field, bytes)| (field.value_type.stored(self.precision), bytes)).collect();
+        let plane = |field: usize| {
+            fields.get(field).map(|(stored, bytes)| drawn(self.view, self.geometry, *stored, bytes))
         };
-        let stored = self.group.schema().fields[field].value_type.stored(self.precision);
-        seen(self.view, self.geometry, stored, bytes)
+        match plane(self.view.field()) {
+            Some(values) => seen(values, self.view.relief.and_then(|(field, _)| plane(field))),
+            None => Seen::Cells { is_float: false, values: Vec::new(), heights: None },
+        }
     }
 }
 
-/// What a view draws of the stored bytes of its substate: those of its layer, or all of them.
-pub(super) fn seen(view: &AnyCellView, geometry: &Geometry, stored: StoredType, bytes: &[u8]) -> Seen {
+/// What is seen of a substate, over the heights of the ground.
+pub(super) fn seen(values: Plane, heights: Option<Plane>) -> Seen {
+    Seen::Cells {
+        is_float: values.is_float(),
+        values: values.magnitudes(),
+        heights: heights.map(|heights| heights.lane(0)),
+    }
+}
+
+/// What a view draws of the stored bytes of a substate: those of its layer, or all of them.
+pub(super) fn drawn(view: &AnyCellView, geometry: &Geometry, stored: StoredType, bytes: &[u8]) -> Plane {
     let [columns, rows, layers] = geometry.extents();
     let (layer, plane) = (view.drawn_layer(geometry), columns * rows);
-    let plane = match view.axis {
+    match view.axis {
         _ if view.block => Plane::all(stored, bytes),
         0 => {
             let cells: Vec<usize> = (0..rows * layers).map(|row| row * columns + layer).collect();
@@ -73,6 +86,5 @@ pub(super) fn seen(view: &AnyCellView, geometry: &Geometry, stored: StoredType, 
             let size = plane * stored.size();
             Plane::all(stored, &bytes[layer * size..(layer + 1) * size])
         }
-    };
-    Seen::Cells { is_float: plane.is_float(), values: plane.magnitudes() }
+    }
 }

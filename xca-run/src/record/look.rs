@@ -83,12 +83,16 @@ impl Recorder {
                 if let Some((field, name)) = field.filter(|field| !is_named(view.drawn.as_ref(), field)) {
                     // The scale and the kinds are those of another substate.
                     (view.drawn, view.range, view.map) = (Some((field, name)), None, None);
+                    view.relief = None;
                     view.kinds.clear();
                 }
                 view.range = look.range.or(view.range);
-                if !view.block {
+                if view.block {
+                    view.relief = None;
+                } else {
                     if let Some(axis) = look.axis {
                         (view.axis, view.layer) = (axis, None);
+                        view.relief = view.relief.filter(|_| axis == 2);
                     }
                     view.layer = look.layer.or(view.layer);
                 }

@@ -3,7 +3,7 @@
 use super::seen::{Seen, wider};
 use super::shown::Shown;
 use crate::output::picture::{
-    BlockPicture, ColourMap, Domain, ParticlePicture, Picture, PictureError, Scalar, SlicePicture,
+    BlockPicture, ColourMap, Domain, ParticlePicture, Picture, PictureError, Relief, Scalar, SlicePicture,
 };
 use crate::view::{AnyCellView, AnyItemView, AnyView};
 use xca_core::model::Group;
@@ -27,6 +27,8 @@ pub(super) struct Field<'a> {
     pub(super) label: &'a str,
     pub(super) is_float: bool,
     pub(super) values: &'a [f64],
+    /// Of the ground, where it is drawn over one.
+    pub(super) heights: Option<&'a [f64]>,
 }
 
 impl Shown {
@@ -61,9 +63,10 @@ impl Shown {
                 let range = frame.range.or_else(|| seen.range());
                 Some(spheres(view, group, geometry, (positions, values), Frame { range, ..frame })?)
             }
-            (AnyView::Cells(view), Seen::Cells { is_float, values }) => {
+            (AnyView::Cells(view), Seen::Cells { is_float, values, heights }) => {
                 let label = view.label(group.schema());
-                let field = Field { view, geometry, label, is_float: *is_float, values };
+                let heights = heights.as_deref();
+                let field = Field { view, geometry, label, is_float: *is_float, values, heights };
                 let range = seen.range();
                 Some(if view.block { field.block(frame, range)? } else { field.slice(frame, range)? })
             }
@@ -99,6 +102,8 @@ impl Field<'_> {
         let ([across, down], _) = self.plane();
         let mut picture = SlicePicture::new(across, down, self.scalar(frame.range, present));
         picture.categories = &kinds;
+        let relief = self.heights.zip(self.view.relief);
+        picture.relief = relief.map(|(heights, (_, bare))| Relief { heights, bare });
         (picture.title, picture.caption) = (frame.title, frame.caption);
         picture.size = frame.size;
         // A side that no one gave is no length.

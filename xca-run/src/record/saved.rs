@@ -67,8 +67,13 @@ fn of_cells(view: &AnyCellView, group: &Group, geometry: &Geometry, path: &Path)
         let what = format!("it has {:?} cells, not {:?}", file.grid.cells, geometry.extents());
         return Err(SavedError::OtherShape { path: path.to_owned(), what });
     }
-    let array = Arrays { path, view: &view.name, group, arrays: &file.arrays }.of_field(view.field())?;
-    Ok(cells::seen(view, geometry, stored_of(array), &array.bytes))
+    let arrays = Arrays { path, view: &view.name, group, arrays: &file.arrays };
+    let plane = |field: usize| -> Result<Plane, SavedError> {
+        let array = arrays.of_field(field)?;
+        Ok(cells::drawn(view, geometry, stored_of(array), &array.bytes))
+    };
+    let heights = view.relief.map(|(field, _)| plane(field)).transpose()?;
+    Ok(cells::seen(plane(view.field())?, heights))
 }
 
 fn items(view: &AnyItemView, group: &Group, path: &Path) -> Result<Seen, SavedError> {

@@ -88,9 +88,9 @@ impl Panel {
         let present = seen.range();
         let range = earlier.map_or(present, |earlier| Some(wider(earlier, present)));
         match (&self.shown.view, seen) {
-            (AnyView::Cells(view), Seen::Cells { is_float, values }) => {
+            (AnyView::Cells(view), Seen::Cells { is_float, values, .. }) => {
                 let label = view.label(schema);
-                let field = Field { view, geometry, label, is_float, values: &values };
+                let field = Field { view, geometry, label, is_float, values: &values, heights: None };
                 let Scalar { map, range, .. } = field.scalar(range, None);
                 let kinds = field.kinds(earlier).into_iter();
                 let kinds = kinds.map(|(value, name)| (value, name.to_owned())).collect();

@@ -88,7 +88,7 @@ fn of_layer(sight: &Sight, cells: [usize; 2], window: Window, palette: &Palette)
     };
     let values: Vec<f64> = (0..rows).flat_map(row).copied().collect();
     let kinds: Vec<f64> = sight.kinds.iter().map(|(value, _)| *value).collect();
-    let mosaic = Mosaic { columns, rows, values: &values, scale: scale(sight), kinds: &kinds, palette };
+    let mosaic = Mosaic::new([columns, rows], &values, &kinds, scale(sight), palette);
     let mut pixels = Pixels::new(window.pixels, [0.0; 3]);
     mosaic.draw(window.pixels, |x, y, colour| pixels.set(x, y, colour));
     pixels

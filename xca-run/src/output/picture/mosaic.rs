@@ -3,6 +3,7 @@
 use super::averaging::Share;
 use super::colour::{ColourMap, category};
 use super::legend::Scale;
+use super::relief::Ground;
 
 /// Linear RGB of what has no value.
 pub(super) const GREY: [f32; 3] = [0.35, 0.35, 0.35];
@@ -44,16 +45,34 @@ impl Palette {
 
 /// A layer of cells, x fastest, the lowest y first.
 pub(crate) struct Mosaic<'a> {
-    pub(crate) columns: usize,
-    pub(crate) rows: usize,
-    pub(crate) values: &'a [f64],
-    pub(crate) scale: Scale,
+    columns: usize,
+    rows: usize,
+    values: &'a [f64],
+    scale: Scale,
     /// If not empty, the values are no magnitudes but these kinds; others are unknown.
-    pub(crate) kinds: &'a [f64],
-    pub(crate) palette: &'a Palette,
+    kinds: &'a [f64],
+    palette: &'a Palette,
+    /// What it is drawn over.
+    ground: Option<&'a Ground>,
 }
 
-impl Mosaic<'_> {
+impl<'a> Mosaic<'a> {
+    /// A layer of magnitudes, or of kinds, on no ground.
+    pub(crate) fn new(
+        [columns, rows]: [usize; 2],
+        values: &'a [f64],
+        kinds: &'a [f64],
+        scale: Scale,
+        palette: &'a Palette,
+    ) -> Self {
+        Self { columns, rows, values, scale, kinds, palette, ground: None }
+    }
+
+    /// The same over this ground.
+    pub(super) fn over(self, ground: Option<&'a Ground>) -> Self {
+        Self { ground, ..self }
+    }
+
     /// Calls `set` with the column and the row of each pixel, from the top left, and its colour: that of its cell, or of the mean of its cells.
     /// There must be a value for each cell, and a cell.
     pub(crate) fn draw(&self, [width, height]: [usize; 2], mut set: impl FnMut(usize, usize, [f32; 3])) {
@@ -68,20 +87,32 @@ impl Mosaic<'_> {
     }
 
     fn colour(&self, across: &Share, down: &Share) -> [f32; 3] {
-        let cells = down.cells().flat_map(|(row, a)| {
-            across.cells().map(move |(column, b)| (self.values[row * self.columns + column], a * b))
-        });
-        if self.kinds.is_empty() {
+        let cells = down
+            .cells()
+            .flat_map(|(row, a)| across.cells().map(move |(column, b)| (row * self.columns + column, a * b)));
+        if self.kinds.is_empty() && self.ground.is_none() {
             let (sum, weight) = cells
+                .map(|(cell, weight)| (self.values[cell], weight))
                 .filter(|(value, _)| value.is_finite())
                 .fold((0.0, 0.0), |(sum, weight), (value, w)| (sum + value * w, weight + w));
             return self.palette.of(self.scale.place(sum / weight));
         }
-        let (sum, weight) = cells.fold(([0.0_f32; 3], 0.0), |(sum, weight), (value, w)| {
-            let colour = self.palette.kind(self.kinds.iter().position(|kind| *kind == value));
+        let (sum, weight) = cells.fold(([0.0_f32; 3], 0.0), |(sum, weight), (cell, w)| {
+            let colour = self.colour_of(cell);
             (std::array::from_fn(|i| sum[i] + colour[i] * w as f32), weight + w as f32)
         });
         sum.map(|c| c / weight)
+    }
+
+    /// The colour of a single cell.
+    fn colour_of(&self, cell: usize) -> [f32; 3] {
+        let value = self.values[cell];
+        let own = if self.kinds.is_empty() {
+            self.palette.of(self.scale.place(value))
+        } else {
+            self.palette.kind(self.kinds.iter().position(|kind| *kind == value))
+        };
+        self.ground.map_or(own, |ground| ground.colour(cell, value, own))
     }
 }
 

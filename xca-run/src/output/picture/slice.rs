@@ -5,6 +5,7 @@ use super::canvas::{Canvas, Strokes};
 use super::colour::encode;
 use super::legend::{FAINT_INK, INK, Scalar, draw_bar, draw_categories, draw_title};
 use super::mosaic::{Mosaic, Palette};
+use super::relief::{Ground, Relief};
 use super::text::{self, Anchor, Style};
 use super::{Picture, PictureError, check_size};
 use crate::numbers::significant;
@@ -29,6 +30,8 @@ pub struct SlicePicture<'a> {
     pub scalar: Scalar<'a>,
     /// If not empty, the values are no magnitudes but kinds: each with its name. Others are drawn in grey.
     pub categories: &'a [(f64, &'a str)],
+    /// What the layer is drawn over, if it is no plain.
+    pub relief: Option<Relief<'a>>,
     /// The text above the picture.
     pub title: &'a str,
     /// The smaller text below the title.
@@ -52,6 +55,7 @@ impl<'a> SlicePicture<'a> {
             rows,
             scalar,
             categories: &[],
+            relief: None,
             title: "",
             caption: "",
             cell_side: 1.0,
@@ -70,7 +74,11 @@ impl<'a> SlicePicture<'a> {
         if columns == 0 || rows == 0 {
             return Err(PictureError::NoCells { columns, rows });
         }
-        self.scalar.check(columns.saturating_mul(rows), "cells")?;
+        let cells = columns.saturating_mul(rows);
+        self.scalar.check(cells, "cells")?;
+        if let Some(Relief { heights, .. }) = self.relief {
+            Scalar::new("heights", heights).check(cells, "cells")?;
+        }
         let [plate, drawing] = self.plate_and_drawing()?;
         let size = [LEFT + plate[0] + RIGHT, TOP + plate[1] + BOTTOM];
         check_size(size)?;
@@ -111,15 +119,11 @@ impl<'a> SlicePicture<'a> {
 
     fn draw_cells(&self, canvas: &mut Canvas, [x0, y0]: [usize; 2], size: [usize; 2]) {
         let kinds: Vec<f64> = self.categories.iter().map(|(value, _)| *value).collect();
-        let mosaic = Mosaic {
-            columns: self.columns,
-            rows: self.rows,
-            values: self.scalar.values,
-            scale: self.scalar.scale(),
-            kinds: &kinds,
-            palette: &Palette::coloured(self.scalar.map, kinds.len()),
-        };
-        mosaic.draw(size, |x, y, colour| canvas.set(x0 + x, y0 + y, encode(colour)));
+        let palette = Palette::coloured(self.scalar.map, kinds.len());
+        let cells = [self.columns, self.rows];
+        let ground = self.relief.map(|relief| Ground::new(relief, cells, self.cell_side));
+        let mosaic = Mosaic::new(cells, self.scalar.values, &kinds, self.scalar.scale(), &palette);
+        mosaic.over(ground.as_ref()).draw(size, |x, y, colour| canvas.set(x0 + x, y0 + y, encode(colour)));
     }
 
     /// A bar of a round length below the drawing, whose lower left corner is at `[x, y]`.
@@ -235,6 +239,10 @@ mod tests {
         assert_eq!(error(3, 2, 5), "cannot draw `t`: 5 values for 6 cells");
         assert_eq!(error(0, 2, 0), "cannot draw a slice of 0 by 2 cells");
         assert!(error(usize::MAX, 2, 0).contains("0 values"));
+        let relief = Some(Relief { heights: &[0.0; 5], bare: 0.0 });
+        let picture = SlicePicture { relief, ..SlicePicture::new(3, 2, Scalar::new("t", &[0.0; 6])) };
+        let error = picture.render().unwrap_err().to_string();
+        assert_eq!(error, "cannot draw `heights`: 5 values for 6 cells");
         assert!(
             SlicePicture { pixels: 9000, ..SlicePicture::new(1, 1, Scalar::new("t", &[f64::NAN])) }
                 .render()
