@@ -43,17 +43,18 @@
 //! | `frames/life_00000050.vti`, … | all substates (`.vtp` for the items of a population) |
 //! | `initial.png`, `final.png` | pictures of the first state and the last |
 //! | `final.csv` | of a population, all items with 17 digits, by label |
+//! | `final_altitude.asc`, … | of a model of one layer, if [`SetUp::corner`] or `--grids` says so, each substate of cells for geographic information systems |
 //! | `run.json` | everything about the run: options, parameters, engine, seed, times, why it ended |
 //!
 //! Every program has the same command line: `--engine`, `--threads`, `--precision`, `--steps`, `--seed`, `--set`, `--config`, `--out`, `--every`,
-//! `--checkpoint-every`, `--quiet`; and `life resume out/life` goes on with a run that was interrupted or killed,
+//! `--initial`, `--checkpoint-every`, `--quiet`, `--json`; and `life resume out/life` goes on with a run that was interrupted or killed,
 //! `life inspect out/life` tells what it holds, `life render` draws a run and animates it, `life watch` shows it in the terminal, and `life list` tells what there is. A model that has options of its own is a struct that implements [`Program`]; what is saved and drawn is refined with
 //! [`ItemView`] and [`CellView`].
 //!
 //! # The parts
 //! | module | holds |
 //! |---|---|
-//! | [`output`] | the files of a run: particles and time series as CSV, VTK files for ParaView, PNG pictures |
+//! | [`output`] | the files of a run: particles and time series as CSV, VTK files for ParaView, ESRI ASCII grids, PNG pictures |
 //! | [`progress`] | the line that shows how far a run has come, and the table at its end |
 //! | [`interrupt`] | Ctrl-C and termination: the run ends after its current step |
 //!

@@ -92,7 +92,7 @@ fn grids_that_do_not_fit_are_refused() {
         ),
         (LIFE, "--initial heat=half.asc", "no substate of cells is called `heat`; there are Life.alive"),
         (LIFE, "--initial alive=nowhere.asc", "cannot open the grid nowhere.asc"),
-        (LIFE, "--initial alive", "NAME=VALUE"),
+        (LIFE, "--initial alive", "of the form NAME=FILE, such as altitude=ground.asc"),
         (HEAT, "--initial temperature=small.asc", "--initial is for models of one layer, and `heat` has 64"),
         (HEAT, "--grids", "--grids is for models of one layer, and `heat` has 64"),
         (LANDSLIDE, "--dem small.asc", "add --debris FILE"),

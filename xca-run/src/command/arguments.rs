@@ -25,7 +25,7 @@ pub(crate) struct ModelArguments {
     set: Vec<Assignment>,
 
     /// Have a substate of a one-layer model begin with the values of an ESRI ASCII grid; can be given several times
-    #[arg(long, value_name = "NAME=FILE")]
+    #[arg(long, value_name = "NAME=FILE", value_parser = grid)]
     pub(crate) initial: Vec<Assignment>,
 
     /// Take options from a TOML file. Its keys are these options; those on the command line win
@@ -153,6 +153,10 @@ impl ModelArguments {
     pub(crate) fn given(&self, steps: Option<u64>) -> Given {
         Given { seed: self.seed, precision: self.precision, steps, parameters: self.set.clone() }
     }
+}
+
+fn grid(text: &str) -> Result<Assignment, &'static str> {
+    text.parse().map_err(|_| "it must be of the form NAME=FILE, such as altitude=ground.asc")
 }
 
 pub(crate) fn threads(text: &str) -> Result<usize, String> {
