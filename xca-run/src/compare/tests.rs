@@ -348,6 +348,7 @@ fn the_drift_of_what_the_model_keeps_is_told() {
         Ok(vec![
             Observable::number("heat", heat(state)?).conserved(),
             lost.conserved(),
+            Observable::number("grown", -10.0 - state.step() as f64).conserved(),
             Observable::number("age", state.sum(Grain::AGE)? as f64),
         ])
     });
@@ -358,7 +359,9 @@ fn the_drift_of_what_the_model_keeps_is_told() {
         contender("harmed", Harmed { harm: Harm::Failure, after: 4 }, Precision::F64),
     ];
     let comparison = compare(&recorder, &contenders, &plan(20, 5), subject(), &mut |_| true).unwrap();
-    let [of_heat, of_lost, of_age] = &comparison.observables[..] else { panic!("three observables") };
+    let [of_heat, of_lost, of_grown, of_age] = &comparison.observables[..] else {
+        panic!("four observables")
+    };
     // (x^2 + y) / 3 over 7 x 5 x 3 cells.
     assert!((of_heat.initial - 525.0).abs() < 1e-9, "{}", of_heat.initial);
     let drift = |engine: usize| of_heat.drift[engine].unwrap();
@@ -366,6 +369,8 @@ fn the_drift_of_what_the_model_keeps_is_told() {
     assert!(drift(0).abs() < 1e-14 && drift(1).abs() < 1e-5 && drift(1) != 0.0, "{} {}", drift(0), drift(1));
     // From 0 it is counted as it is; an engine that fails has none.
     assert_eq!(of_lost.drift, [Some(20.0), Some(20.0), None]);
+    // From -10 to -30 it is twice as much, downwards.
+    assert_eq!(of_grown.drift, [Some(-2.0), Some(-2.0), None]);
     assert!(of_age.drift.is_empty());
     let text = report::text(&comparison);
     let row = text.lines().find(|line| line.contains("lost: drift")).unwrap();
