@@ -84,7 +84,7 @@ impl Callable<NoResult<1>> for PlainFunction {}
 /// A type whose constants can stand in a pattern.
 #[diagnostic::on_unimplemented(
     message = "a constant of type `{Self}` cannot be a pattern in a process",
-    label = "this constant is neither an integer nor a bool",
+    label = "this constant is neither an integer nor a bool nor a state",
     note = "compare floats and vectors with `if`"
 )]
 pub trait PatternConstant {
@@ -100,6 +100,9 @@ macro_rules! pattern_constants {
 }
 
 pattern_constants!(bool u8 i32 u32 usize);
+
+#[diagnostic::do_not_recommend]
+impl<T: crate::states::States> PatternConstant for T {}
 
 /// A struct of substates with a position.
 #[diagnostic::on_unimplemented(

@@ -6,6 +6,7 @@
 
 pub use crate::ir_constant::ConstantValue;
 use crate::schema::Schema;
+use crate::states::StateNames;
 use crate::value::ScalarType;
 
 /// A parsed function.
@@ -73,6 +74,8 @@ pub enum Type {
     Scalar(ScalarType),
     /// `Vector2`, `Vector3` or `Vector4` of a scalar; the second is the number of lanes.
     Vector(ScalarType, u8),
+    /// An enum that derives `States`.
+    State(&'static StateNames),
     /// `[T; N]`
     Array(Box<Type>, usize),
     /// `Destination`, the result of a migration.
@@ -367,6 +370,8 @@ pub enum Constant {
     F32(f32),
     /// `f64`, which in a process is `Real`.
     Real(f64),
+    /// A state by its number.
+    State(u8, &'static StateNames),
     /// A small vector.
     Vector(Vec<Constant>),
     /// An array.

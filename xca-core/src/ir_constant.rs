@@ -1,13 +1,14 @@
 //! The values of a user's Rust constants as data.
 
 use crate::ir::Constant;
+use crate::states::States;
 use crate::vector::{Vector2, Vector3, Vector4};
 
 /// A type that a constant can have which a process uses.
 #[diagnostic::on_unimplemented(
     message = "a constant of type `{Self}` cannot be used in a process",
     label = "used in a process",
-    note = "a process can use constants of type bool, u8, i32, u32, usize, f32, f64 and Real, vectors and arrays of these"
+    note = "a process can use constants of type bool, u8, i32, u32, usize, f32, f64 and Real, enums that derive `States`, vectors and arrays of these"
 )]
 pub trait ConstantValue {
     /// The value as data.
@@ -25,6 +26,12 @@ macro_rules! scalar {
 }
 
 scalar!(bool Bool, u8 U8, i32 I32, u32 U32, f32 F32, f64 Real);
+
+impl<T: States> ConstantValue for T {
+    fn constant(&self) -> Constant {
+        Constant::State(self.number(), T::NAMES)
+    }
+}
 
 /// A number of elements or an index.
 impl ConstantValue for usize {

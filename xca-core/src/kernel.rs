@@ -4,15 +4,14 @@
 //! (its [`Access`] list) and works through the row. One dynamic call serves a whole row, and inside it everything is
 //! monomorphic, so that the compiler can vectorise.
 //!
-//! This module is for engines and for code that the macros write. Its functions trust the numbers that such code passes:
-//! entries that are in the process's list, with the types of the schema, each asked for once a row.
+//! This module is for engines and for code that the macros write. An engine promises much of a row ([`Row::new`]); a kernel is trusted with
+//! nothing: what it asks for is compared with the row's entries, once a row.
 #![allow(unsafe_code)]
 
 use crate::random::{self, Owner};
 use crate::schema::Schema;
 use crate::value::Float;
 use crate::vector::Vector3;
-use bytemuck::Pod;
 use std::any::{Any, TypeId};
 use std::cell::Cell;
 use std::marker::PhantomData;
@@ -21,11 +20,16 @@ use std::ops::Range;
 mod constants;
 mod search;
 mod space;
+mod values;
 mod wide;
 
 pub use constants::{KernelConstant, Ordered, constant};
 pub use search::{CellFilter, Found, Scratch, reach};
 pub use space::NativeSpace;
+pub use values::{
+    ArrayCells, ArrayValue, AroundRead, CellsOf, CentreRead, Column, Columns, KernelElement, KernelValue,
+    Offset, Planes, load, load_element, store,
+};
 
 /// A migration's answer: the item stays where it is.
 pub const STAY: u32 = u32::MAX;
@@ -75,11 +79,43 @@ pub struct Access {
 /// One substate as a kernel reaches it.
 #[derive(Debug, Clone, Copy)]
 pub struct Entry {
-    /// Of cells: the value in the row's first cell. Of items: the value of the first item of all.
+    /// Of cells: the first element's value in the row's first cell. Of items: the value of the first item of all. Null where the kernel
+    /// reads through `write`: where the process writes the substate and reads it at the centre only.
     pub read: *const u8,
-    /// Where results go: of cells, the row's first cell; of items, the row's first item. The same memory as `read` exactly where
-    /// the process reads the substate at the centre only.
+    /// Where results go: of cells, the row's first cell; of items, the row's first item. Null where the process does not write.
     pub write: *mut u8,
+    /// What lies there.
+    pub memory: Memory,
+}
+
+/// How a substate lies in memory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Memory {
+    /// The bytes of an element.
+    pub element: usize,
+    /// The elements of a value: 1, or the length of an array.
+    pub length: usize,
+    /// Whose values these are, and which of them can be read.
+    pub of: MemoryOf,
+}
+
+/// Whose values an entry holds, and which of them can be read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MemoryOf {
+    /// Of cells, each element in a plane of its own; of the row's cells.
+    Cells {
+        /// The elements from one plane to the next, where values are read.
+        read_stride: usize,
+        /// The same where they are written.
+        write_stride: usize,
+        /// Whether neighbours can be read too.
+        around: bool,
+    },
+    /// Of items, whole values one after the other.
+    Items {
+        /// Whether items can be read that are not the row's own.
+        all: bool,
+    },
 }
 
 /// What is the same in all rows of a step.
@@ -173,6 +209,8 @@ pub struct Row<'a> {
     scratch: &'a Scratch,
     origin: [u32; 3],
     length: usize,
+    /// The entries that the kernel has asked to write.
+    taken: Cell<u128>,
     fault: Cell<Option<RowFault>>,
     stopped: Cell<Option<StoppedAt>>,
 }
@@ -190,15 +228,16 @@ impl<'a> Row<'a> {
     /// Describes a row of `length` cells along x, the first of which has the indices `origin`.
     ///
     /// # Safety
-    /// For the lifetime `'a`, and for the process whose kernel runs on this row:
-    /// - there is one entry for each access of the process, in order, aligned for its type;
-    /// - an entry of cells can be read at every cell of the row and, where the access reads neighbours, at all of `frame.offsets` from there;
-    ///   where it is written, `length` elements at `write` are this row's alone;
-    /// - an entry of items can be read at every item up to `labels.len()`; where it is written, the elements of the row's own items at
-    ///   `write` are this row's alone;
-    /// - `write` is apart from everything readable, except that a substate read at the centre only is the same memory;
+    /// For the lifetime `'a`, and for every entry (that is not null, aligned for its elements):
+    /// - each plane of cells can be read at every cell of the row and, with `around`, at all of `frame.offsets` from there;
+    /// - of items, the row's own can be read and, with `all`, as many as `labels.len()`;
+    /// - no one writes meanwhile what can be read by this (other rows' cells and own items may be written by other threads);
+    /// - `length` elements of each plane of cells at `write` are this row's alone;
+    /// - the row's own items at `write` are this row's alone;
+    /// - `write` is apart from everything that can be read through any entry, but for another entry's `read` of cells or own items of the
+    ///   same substate;
     /// - `starts` and `ends` can be read at every cell of the row and at all offsets from there, hold ranges within
-    ///   `labels.len()`, and the ranges of the row's cells lie within `own`.
+    ///   `labels.len()`, and the ranges of the row's cells lie within `own`, which lies within `labels.len()`.
     pub unsafe fn new(
         frame: &'a Frame<'a>,
         entries: &'a [Entry],
@@ -216,6 +255,7 @@ impl<'a> Row<'a> {
             scratch,
             origin,
             length,
+            taken: Cell::new(0),
             fault: Cell::new(None),
             stopped: Cell::new(None),
         }
@@ -274,35 +314,103 @@ impl<'a> Row<'a> {
         Offsets { fixed, any: self.frame.offsets }
     }
 
-    /// A substate of cells, to be read.
+    /// The cells of the row.
     #[inline(always)]
-    pub fn read_cells<T: Pod>(&self, entry: usize) -> CellRead<'a, T> {
-        CellRead { first: self.entries[entry].read.cast(), row: PhantomData }
+    pub fn columns(&self) -> Columns<'_> {
+        Columns { numbers: 0..self.length, row: PhantomData }
     }
 
-    /// A substate of the row's cells, to be written.
+    /// The entry with this number, compared with what a kernel takes it for.
     #[inline(always)]
-    #[allow(clippy::mut_from_ref, reason = "each written entry is asked for once, see the module")]
-    pub fn write_cells<T: Pod>(&self, entry: usize) -> &'a mut [T] {
-        // SAFETY: `Row::new`: `length` elements, aligned, this row's alone; asked for once.
-        unsafe { std::slice::from_raw_parts_mut(self.entries[entry].write.cast(), self.length) }
+    fn entry<T: KernelValue>(&self, number: usize) -> &Entry {
+        let entry = &self.entries[number];
+        let memory = entry.memory;
+        let element = size_of::<<T::Element as KernelElement>::Memory>();
+        assert!(memory.element == element && memory.length == T::LENGTH, "an entry of another type");
+        entry
+    }
+
+    /// The planes of cells that an entry lets read.
+    #[inline(always)]
+    fn planes<T: KernelValue>(&self, number: usize) -> (AroundRead<'_, T>, bool) {
+        let entry = self.entry::<T>(number);
+        let MemoryOf::Cells { read_stride: stride, around, .. } = entry.memory.of else { panic!("an entry of items") };
+        assert!(!entry.read.is_null(), "an entry that is written in place");
+        (AroundRead { first: entry.read.cast(), stride, row: PhantomData }, around)
+    }
+
+    /// A substate of the row's cells, to be read.
+    #[inline(always)]
+    pub fn read_cells<T: KernelValue>(&self, number: usize) -> CentreRead<'_, T> {
+        CentreRead { around: self.planes(number).0 }
+    }
+
+    /// A substate of the row's cells and of their neighbours, to be read.
+    #[inline(always)]
+    pub fn read_around<T: KernelValue>(&self, number: usize) -> AroundRead<'_, T> {
+        let (planes, around) = self.planes(number);
+        assert!(around, "an entry whose neighbours cannot be read");
+        planes
+    }
+
+    /// A substate of the row's cells, to be written. Each can be asked for once.
+    #[inline(always)]
+    pub fn write_cells<T: KernelValue>(&self, number: usize) -> T::Cells<'_> {
+        let entry = self.entry::<T>(number);
+        let MemoryOf::Cells { write_stride: stride, .. } = entry.memory.of else { panic!("an entry of items") };
+        self.take(number);
+        let planes = Planes { first: entry.write.cast(), stride, cells: self.length };
+        // SAFETY: `Row::new`: where it can be written, each plane has `length` elements, aligned, this row's alone. It is, and is asked for
+        // once, see `take`; it is not read through the entry but where `read` is other memory.
+        unsafe { T::Cells::new(planes) }
+    }
+
+    /// Checks that an entry can be written, and that no one else has asked for it.
+    #[inline(always)]
+    fn take(&self, number: usize) {
+        assert!(!self.entries[number].write.is_null(), "an entry that cannot be written");
+        let mark = 1_u128.checked_shl(number as u32).unwrap_or_default();
+        let taken = self.taken.get();
+        assert!(mark != 0 && taken & mark == 0, "an entry that is written already");
+        self.taken.set(taken | mark);
     }
 
     /// A substate of all items, to be read.
     #[inline(always)]
-    pub fn read_items<T: Pod>(&self, entry: usize) -> &'a [T] {
+    pub fn read_items<T: KernelValue>(&self, number: usize) -> &[T::Memory] {
+        let entry = self.entry::<T>(number);
+        assert!(entry.memory.of == MemoryOf::Items { all: true }, "an entry whose other items cannot be read");
+        assert!(!entry.read.is_null(), "an entry that is written in place");
         let count = self.items.map_or(0, |items| items.labels.len());
-        // SAFETY: `Row::new`: as many elements as labels, aligned, and not written through another entry.
-        unsafe { std::slice::from_raw_parts(self.entries[entry].read.cast(), count) }
+        // SAFETY: `Row::new`: as many elements as labels, aligned, which no one writes.
+        unsafe { std::slice::from_raw_parts(entry.read.cast(), count) }
     }
 
-    /// A substate of the row's own items, to be written; element 0 belongs to item [`Self::first_item`].
+    /// A substate of the row's own items, to be read; element 0 belongs to item [`Self::first_item`].
     #[inline(always)]
-    #[allow(clippy::mut_from_ref, reason = "each written entry is asked for once, see the module")]
-    pub fn write_items<T: Pod>(&self, entry: usize) -> &'a mut [T] {
+    pub fn read_own_items<T: KernelValue>(&self, number: usize) -> &[T::Memory] {
+        let entry = self.entry::<T>(number);
+        assert!(matches!(entry.memory.of, MemoryOf::Items { .. }), "an entry of cells");
+        assert!(!entry.read.is_null(), "an entry that is written in place");
         let (first, end) = self.items.map_or((0, 0), |items| items.own);
-        // SAFETY: `Row::new`: the row's own items, aligned, this row's alone; asked for once.
-        unsafe { std::slice::from_raw_parts_mut(self.entries[entry].write.cast(), end - first) }
+        // SAFETY: `Row::new`: the row's own items, aligned, which no one else writes.
+        unsafe {
+            let values: *const T::Memory = entry.read.cast();
+            std::slice::from_raw_parts(values.add(first), end - first)
+        }
+    }
+
+    /// A substate of the row's own items, to be written; element 0 belongs to item [`Self::first_item`]. Each can be asked for once.
+    #[inline(always)]
+    #[allow(clippy::mut_from_ref, reason = "each written entry is asked for once, see `take`")]
+    pub fn write_items<T: KernelValue>(&self, number: usize) -> &mut [T::Memory] {
+        let entry = self.entry::<T>(number);
+        assert!(matches!(entry.memory.of, MemoryOf::Items { .. }), "an entry of cells");
+        self.take(number);
+        let (first, end) = self.items.map_or((0, 0), |items| items.own);
+        // SAFETY: `Row::new`: where they can be written, the row's own items, aligned, this row's alone. They are, and are asked for once,
+        // see `take`.
+        unsafe { std::slice::from_raw_parts_mut(entry.write.cast(), end - first) }
     }
 
     /// The number of the row's first own item.
@@ -319,16 +427,20 @@ impl<'a> Row<'a> {
 
     /// The items of a cell of the row.
     #[inline(always)]
-    pub fn items(&self, x: usize) -> Range<usize> {
-        self.items_at(x, 0)
+    pub fn items(&self, cell: Column<'_>) -> Range<usize> {
+        // SAFETY: the cell itself.
+        unsafe { self.items_at(cell, 0) }
     }
 
+    /// The items of a cell near a cell of the row.
+    ///
+    /// # Safety
+    /// The distance is 0 or that of a cell of the neighbourhood.
     #[inline(always)]
-    fn items_at(&self, x: usize, offset: isize) -> Range<usize> {
-        debug_assert!(x < self.length);
+    unsafe fn items_at(&self, cell: Column<'_>, distance: isize) -> Range<usize> {
         let Some(items) = &self.items else { return 0..0 };
-        let at = x as isize + offset;
-        // SAFETY: `Row::new`: readable at every cell of the row and at all offsets from there.
+        let at = cell.number() as isize + distance;
+        // SAFETY: `Row::new`: readable at every cell of the row and at all offsets from there; the column is this row's.
         unsafe { *items.starts.offset(at) as usize..*items.ends.offset(at) as usize }
     }
 
@@ -409,31 +521,16 @@ impl<const K: usize> Offsets<'_, K> {
 
     /// The offset of the neighbour with this index. Beyond the neighbourhood it is a fault, and the cell itself is read.
     #[inline(always)]
-    pub fn at(&self, index: u32, row: &Row<'_>, x: usize) -> isize {
+    pub fn at<'r>(&self, index: u32, row: &'r Row<'_>, x: usize) -> Offset<'r> {
         let offset = if K > 0 {
             self.fixed.get(index as usize).copied()
         } else {
             self.any.get(index as usize).copied()
         };
-        offset.unwrap_or_else(|| {
+        let distance = offset.unwrap_or_else(|| {
             row.beyond_neighbourhood(x, index);
             0
-        })
-    }
-}
-
-/// A substate of cells, readable at a row's cells and their neighbours.
-#[derive(Debug, Clone, Copy)]
-pub struct CellRead<'a, T> {
-    first: *const T,
-    row: PhantomData<&'a T>,
-}
-
-impl<T: Pod> CellRead<'_, T> {
-    /// The value at an offset from a cell of the row; `x` is below the row's length and the offset one of the neighbourhood.
-    #[inline(always)]
-    pub fn at(&self, x: usize, offset: isize) -> T {
-        // SAFETY: `Row::new`: readable at every cell of the row and at all offsets from there.
-        unsafe { *self.first.offset(x as isize + offset) }
+        });
+        Offset { distance, row: PhantomData }
     }
 }

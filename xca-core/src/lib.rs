@@ -88,6 +88,8 @@ extern crate self as xca_core;
 #[doc(hidden)]
 pub mod checks;
 pub mod engine;
+#[doc(hidden)]
+pub mod field_type;
 mod geometry;
 pub mod ir;
 mod ir_constant;
@@ -103,6 +105,7 @@ mod reference;
 mod schema;
 mod simulation;
 mod state;
+mod states;
 mod steering;
 pub mod storage;
 mod substates;
@@ -114,12 +117,13 @@ pub use engine::{Engine, EngineFailure, Fault, StartError};
 pub use geometry::{Boundary, Geometry};
 pub use model::{InitialError, Model, ModelBuilder, ModelError};
 pub use neighbourhood::{Hexagons, Neighbourhood, NeighbourhoodError, Parity};
-pub use parameters::{AnyParameters, FromLane, ParameterError, ParameterValue, Parameters};
+pub use parameters::{AnyParameters, ParameterError, ParameterValue, Parameters};
 pub use process::{ElementaryProcess, Process, ProcessKind};
 pub use random::{Owner, draw_words, philox};
 pub use reference::Reference;
 pub use schema::{Field, Schema};
 pub use simulation::{GroupSnapshot, Outcome, RunError, RunOptions, Simulation, Snapshot, SnapshotError};
+pub use states::{StateNames, States};
 pub use state::{Item, State, StateError};
 pub use steering::{Schedule, SteeringError};
 pub use substates::{HasSubstate, Substate, Substates};
@@ -129,14 +133,14 @@ pub use value::{
 };
 pub use vector::{Vector2, Vector3, Vector4};
 pub use vocabulary::{Cell, Destination, Other, Others, Slot, Slots, Space};
-pub use xca_macros::{Parameters, Substates, elementary_process, helper, migration};
+pub use xca_macros::{Parameters, States, Substates, elementary_process, helper, migration};
 
 /// What a model's source needs.
 pub mod prelude {
     pub use crate::{
         Boundary, Cell, Destination, Engine, Hexagons, Item, Model, ModelError, Neighbourhood, Other,
         Outcome, ParameterError, Parameters, Precision, Real, Reference, RunError, RunOptions, Schedule,
-        Simulation, Slot, Slots, Space, State, SteeringError, Substate, Substates, Vector2, Vector3, Vector4,
+        Simulation, Slot, Slots, Space, State, States, SteeringError, Substate, Substates, Vector2, Vector3, Vector4,
         elementary_process, helper, migration,
     };
 }

@@ -1,14 +1,16 @@
 //! Parameters: values that are the same in all cells, and that steering may change between steps.
 
 use crate::schema::Schema;
-use crate::value::{Float, HostValue, Precision, ScalarType, ValueType};
+use crate::value::{Float, HostScalar, HostValue, Precision, ScalarType, ValueType};
 use std::any::{Any, TypeId};
 use std::fmt;
 use std::sync::Arc;
 
 /// A struct whose fields are parameters; derive it.
 ///
-/// Fields are of type `i32`, `u32`, `f32`, `f64`, `Real`, or a small vector of one of these. They can be read and set by name:
+/// Fields are of the types that substates have: `bool`, `u8`, `i32`, `u32`, `f32`, `f64`, `Real`, small vectors of a number, enums that
+/// derive `States`, and arrays of these. They can be read and set by name, from a number, `true` or `false`, the name of a state, or
+/// as many of them as a vector or an array has, separated by commas:
 ///
 /// ```
 /// use xca_core::prelude::*;
@@ -45,7 +47,7 @@ pub trait Parameters: Clone + fmt::Debug + Send + Sync + 'static {
     /// The value of the field with this number.
     fn value(&self, field: usize) -> ParameterValue;
 
-    /// Sets the field with this number; the value has as many lanes as the field and fits its type.
+    /// Sets the field with this number; the value has as many components as the field and fits its type.
     fn set_value(&mut self, field: usize, value: &ParameterValue);
 
     /// The value of the parameter with this name.
@@ -56,7 +58,8 @@ pub trait Parameters: Clone + fmt::Debug + Send + Sync + 'static {
         find(Self::SCHEMA, name).map(|(index, _)| self.value(index))
     }
 
-    /// Sets the parameter with this name from text: a number, or as many numbers as the vector has lanes, separated by commas.
+    /// Sets the parameter with this name from text: a number, `true` or `false`, the name of a state, or as many of them as the value has
+    /// components, separated by commas.
     ///
     /// # Errors
     /// Where no parameter has the name, or the text is no value of its type.
@@ -83,41 +86,39 @@ impl Parameters for () {
     fn native<R: Float>(&self) {}
 
     fn value(&self, _field: usize) -> ParameterValue {
-        ParameterValue { value_type: ValueType { scalar: ScalarType::Real, lanes: 1 }, lanes: Vec::new() }
+        ParameterValue { value_type: ValueType::scalar(ScalarType::Real), components: Vec::new() }
     }
 
     fn set_value(&mut self, _field: usize, _value: &ParameterValue) {}
 }
 
-/// The value of a parameter, with its type. Every scalar type fits exactly into the `f64` of its lanes.
+/// The value of a parameter, with its type. Every scalar type fits exactly into the `f64` of its components.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ParameterValue {
     value_type: ValueType,
-    lanes: Vec<f64>,
+    components: Vec<f64>,
 }
 
 impl ParameterValue {
     /// From the value of a field; for the derive.
     #[doc(hidden)]
-    pub fn new<V: HostValue>(value_type: ValueType, value: V) -> Self
-    where
-        V::Scalar: Into<f64>,
-    {
-        Self { value_type, lanes: (0..V::LANES).map(|lane| value.lane(lane).into()).collect() }
+    pub fn new<V: HostValue>(value_type: ValueType, value: V) -> Self {
+        let components = (0..V::COMPONENTS).map(|index| value.component(index).to_number()).collect();
+        Self { value_type, components }
     }
 
-    /// A value with these lanes; nothing where the type has another number of them.
-    pub fn from_lanes(value_type: ValueType, lanes: Vec<f64>) -> Option<Self> {
-        (lanes.len() == usize::from(value_type.lanes)).then_some(Self { value_type, lanes })
+    /// A value with these components; nothing where the type has another number of them, or one is no value of it.
+    pub fn from_components(value_type: ValueType, components: Vec<f64>) -> Option<Self> {
+        let all_fit = components.iter().all(|number| value_type.scalar.holds(*number));
+        (components.len() == value_type.components() && all_fit).then_some(Self { value_type, components })
     }
 
     /// The value of a field; for the derive.
     #[doc(hidden)]
-    pub fn to<V: HostValue>(&self) -> V
-    where
-        V::Scalar: FromLane,
-    {
-        V::from_lanes(|lane| V::Scalar::from_lane(self.lanes[lane]))
+    pub fn to<V: HostValue>(&self) -> V {
+        V::from_components(&mut |index| {
+            V::Scalar::from_number(self.components.get(index).copied().unwrap_or_default())
+        })
     }
 
     /// The type.
@@ -125,22 +126,19 @@ impl ParameterValue {
         self.value_type
     }
 
-    /// The lanes: one for a scalar.
-    pub fn lanes(&self) -> &[f64] {
-        &self.lanes
+    /// The components: one of a scalar, the lanes of a vector, those of all elements of an array.
+    pub fn components(&self) -> &[f64] {
+        &self.components
     }
 
     fn parse(name: &str, value_type: ValueType, text: &str) -> Result<Self, ParameterError> {
         let invalid = || ParameterError::Invalid { name: name.to_owned(), text: text.to_owned(), value_type };
-        let lanes = text
+        let components: Vec<f64> = text
             .split(',')
-            .map(|part| {
-                let number: f64 = part.trim().parse().map_err(|_| invalid())?;
-                if value_type.scalar.fits(number) { Ok(number) } else { Err(invalid()) }
-            })
-            .collect::<Result<Vec<_>, _>>()?;
-        if lanes.len() == usize::from(value_type.lanes) {
-            Ok(Self { value_type, lanes })
+            .map(|part| value_type.scalar.parse(part.trim()).ok_or_else(invalid))
+            .collect::<Result<_, _>>()?;
+        if components.len() == value_type.components() {
+            Ok(Self { value_type, components })
         } else {
             Err(invalid())
         }
@@ -149,31 +147,13 @@ impl ParameterValue {
 
 impl fmt::Display for ParameterValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (index, lane) in self.lanes.iter().enumerate() {
+        for (index, component) in self.components.iter().enumerate() {
             let separator = if index > 0 { ", " } else { "" };
-            write!(f, "{separator}{lane}")?;
+            write!(f, "{separator}{}", self.value_type.scalar.text(*component))?;
         }
         Ok(())
     }
 }
-
-/// A scalar that can be made of a lane of a [`ParameterValue`].
-#[doc(hidden)]
-pub trait FromLane {
-    fn from_lane(lane: f64) -> Self;
-}
-
-macro_rules! from_lane {
-    ($($type:ident)*) => {$(
-        impl FromLane for $type {
-            fn from_lane(lane: f64) -> Self {
-                lane as $type
-            }
-        }
-    )*};
-}
-
-from_lane!(u8 i32 u32 f32 f64);
 
 /// A parameter that cannot be read or set.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -189,7 +169,7 @@ pub enum ParameterError {
         known: String,
     },
     /// The text is no value of the parameter's type.
-    #[error("`{text}` is no value for the parameter `{name}`, which is a {value_type}")]
+    #[error("`{text}` is no value for the parameter `{name}`, which is {}", value_type.described())]
     Invalid {
         /// The parameter.
         name: String,
@@ -208,7 +188,7 @@ pub trait AnyParameters: Any + fmt::Debug + Send + Sync {
     /// The value of the field with this number.
     fn value_of(&self, field: usize) -> ParameterValue;
 
-    /// Sets the field with this number; the value has as many lanes as the field and fits its type.
+    /// Sets the field with this number; the value has as many components as the field and fits its type.
     fn set_value_of(&mut self, field: usize, value: &ParameterValue);
 
     /// Sets the parameter with this name from text.

@@ -83,11 +83,10 @@ impl Reduced {
     }
 }
 
-/// Reduces consecutive stored values, lane by lane.
+/// Reduces consecutive stored values, component by component.
 pub fn reduce_values(reduction: &Reduction, stored: StoredType, values: &[u8]) -> Vec<Reduced> {
-    let lanes = usize::from(stored.lanes);
     let size = stored.scalar.size();
-    let mut results = vec![Reduced::Nothing; lanes];
+    let mut results = vec![Reduced::Nothing; stored.components()];
     for value in values.chunks_exact(stored.size()) {
         for (result, lane) in results.iter_mut().zip(value.chunks_exact(size)) {
             *result = result.combine(one(reduction, stored.scalar, lane), reduction);
@@ -115,15 +114,20 @@ fn one(reduction: &Reduction, scalar: StoredScalar, bytes: &[u8]) -> Reduced {
     }
 }
 
-/// A value whose lanes can be reduced to values of the same shape.
+/// A value whose components can be reduced to values of the same shape.
+#[diagnostic::on_unimplemented(
+    message = "values of `{Self}` have no sum, product, minimum or maximum",
+    label = "not a substate of numbers",
+    note = "count the cells or items in a state: `state.count(substate, value)`"
+)]
 pub trait Reducible: HostValue {
-    /// The type of a sum: `i64` for integers, `f64` for floating numbers, or a vector of these.
+    /// The type of a sum: `i64` for integers and `bool`, `f64` for floating numbers, or a vector or an array of these.
     type Sum;
 
-    /// The sum or product from the results of the lanes; where there was no value, in each lane what it is of nothing: 0 or 1.
+    /// The sum or product from the results of the components; where there was no value, in each what it is of nothing: 0 or 1.
     fn total(results: &[Reduced], of_nothing: u8) -> Self::Sum;
 
-    /// A value of the same type from the results of the lanes; nothing where there was no value.
+    /// A value of the same type from the results of the components; nothing where there was no value.
     fn same(results: &[Reduced]) -> Option<Self>;
 }
 
@@ -153,6 +157,32 @@ macro_rules! reducible {
 
 reducible!(u8 => i64, i32 => i64, u32 => i64, f32 => f64, f64 => f64);
 
+/// The sum is how many are `true`, the product whether all are, the minimum and the maximum are "and" and "or".
+impl Reducible for bool {
+    type Sum = i64;
+
+    fn total(results: &[Reduced], of_nothing: u8) -> i64 {
+        u8::total(results, of_nothing)
+    }
+
+    fn same(results: &[Reduced]) -> Option<bool> {
+        u8::same(results).map(|value| value != 0)
+    }
+}
+
+impl<T: Reducible, const N: usize> Reducible for [T; N] {
+    type Sum = [T::Sum; N];
+
+    fn total(results: &[Reduced], of_nothing: u8) -> Self::Sum {
+        std::array::from_fn(|element| T::total(&results[element * T::COMPONENTS..], of_nothing))
+    }
+
+    fn same(results: &[Reduced]) -> Option<Self> {
+        let elements = results.chunks(T::COMPONENTS).map(T::same).collect::<Option<Vec<T>>>()?;
+        elements.try_into().ok()
+    }
+}
+
 macro_rules! reducible_vector {
     ($($vector:ident { $($index:literal),+ }),*) => {$(
         impl<T> Reducible for crate::vector::$vector<T>
@@ -181,7 +211,7 @@ mod tests {
 
     #[test]
     fn each_reduction_by_hand() {
-        let stored = StoredType { scalar: StoredScalar::I32, lanes: 1 };
+        let stored = StoredType { scalar: StoredScalar::I32, lanes: 1, length: 1 };
         let values: Vec<u8> = [6_i32, -3, 0, 6].iter().flat_map(|value| value.to_ne_bytes()).collect();
         let reduce = |reduction: Reduction| reduce_values(&reduction, stored, &values)[0];
         assert_eq!(reduce(Reduction::Sum), Reduced::Integer(9));
@@ -200,7 +230,7 @@ mod tests {
 
     #[test]
     fn lanes_are_apart() {
-        let stored = StoredType { scalar: StoredScalar::F32, lanes: 2 };
+        let stored = StoredType { scalar: StoredScalar::F32, lanes: 2, length: 1 };
         let values: Vec<u8> =
             [1.0_f32, 10.0, 2.0, 20.0].iter().flat_map(|value| value.to_ne_bytes()).collect();
         assert_eq!(
@@ -211,7 +241,7 @@ mod tests {
 
     #[test]
     fn nan_and_zeros() {
-        let stored = StoredType { scalar: StoredScalar::F64, lanes: 1 };
+        let stored = StoredType { scalar: StoredScalar::F64, lanes: 1, length: 1 };
         let values: Vec<u8> =
             [f64::NAN, 0.0, -0.0, 3.0].iter().flat_map(|value| value.to_ne_bytes()).collect();
         let reduce = |reduction: Reduction| reduce_values(&reduction, stored, &values)[0];

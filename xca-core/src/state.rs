@@ -7,7 +7,7 @@ use crate::parameters::{AnyParameters, ParameterError, ParameterValue, Parameter
 use crate::reduction::{Reduced, Reducible, Reduction};
 use crate::steering::SteeringError;
 use crate::substates::{Substate, Substates};
-use crate::value::{HostValue, Precision, StoredScalar};
+use crate::value::{HostScalar, HostValue, Precision, StoredScalar};
 
 /// The state between steps. Values of `Real` pass as `f64`, whatever the precision of the run.
 pub struct State<'a> {
@@ -319,7 +319,7 @@ impl State<'_> {
         Ok(self.execution.largest_occupancy(self.population_of::<S>()?)?)
     }
 
-    /// Any reduction of a substate, lane by lane.
+    /// Any reduction of a substate, component by component.
     ///
     /// # Errors
     /// Where the model does not have the substate, or bits of floating numbers are asked for.
@@ -356,7 +356,7 @@ impl State<'_> {
         Ok(V::total(&self.reduce(substate, &Reduction::Product)?, 1))
     }
 
-    /// The smallest value of a substate, lane by lane; nothing of an empty population.
+    /// The smallest value of a substate, component by component; nothing of an empty population.
     ///
     /// # Errors
     /// Where the model does not have the substate.
@@ -367,7 +367,7 @@ impl State<'_> {
         Ok(V::same(&self.reduce(substate, &Reduction::Minimum)?))
     }
 
-    /// The largest value of a substate, lane by lane; nothing of an empty population.
+    /// The largest value of a substate, component by component; nothing of an empty population.
     ///
     /// # Errors
     /// Where the model does not have the substate.
@@ -382,7 +382,7 @@ impl State<'_> {
     ///
     /// # Errors
     /// Where the model does not have the substate.
-    pub fn count<S: Substates, V: Reducible<Scalar = V> + crate::value::HostScalar>(
+    pub fn count<S: Substates, V: HostValue<Scalar = V> + HostScalar>(
         &self,
         substate: Substate<S, V>,
         value: V,

@@ -23,7 +23,8 @@ use std::marker::PhantomData;
 /// assert_eq!(Lava::THICKNESS.name(), "thickness");
 /// ```
 ///
-/// Fields are of type `u8`, `i32`, `u32`, `f32`, `f64`, `Real`, or `Vector2`, `Vector3`, `Vector4` of one of these.
+/// Fields are of type `bool`, `u8`, `i32`, `u32`, `f32`, `f64`, `Real`, of `Vector2`, `Vector3`, `Vector4` of a number, of an enum that
+/// derives [`crate::States`], or arrays of these, `[T; N]`.
 /// For each field there is a constant in capitals, a [`Substate`], by which the host names it. In a struct for the items
 /// of a population one field of type `Vector3<Real>` may be marked `#[position]`: searches for near items use it.
 #[diagnostic::on_unimplemented(
@@ -51,7 +52,7 @@ pub trait Substates: Clone + Send + Sync + 'static {
 )]
 pub trait HasSubstate<const NAME: u64> {
     /// The type in a kernel of precision `R`.
-    type Native<R: Float>: bytemuck::Pod;
+    type Native<R: Float>: crate::kernel::KernelValue;
     /// The number of the field.
     const INDEX: usize;
 }

@@ -1,10 +1,16 @@
 //! What a substate or a parameter can hold.
 
+use crate::kernel::KernelElement;
+use crate::states::StateNames;
 use std::fmt;
 
 /// The scalar types of substates and parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum ScalarType {
+    /// `bool`
+    Bool,
+    /// An enum that derives `States`.
+    State(&'static StateNames),
     /// `u8`
     U8,
     /// `i32`
@@ -36,16 +42,19 @@ pub enum Precision {
 /// make one copy for each [`Precision`]. In all other code, on the host, it is `f64`, into which both convert exactly.
 pub type Real = f64;
 
-/// A scalar or a small vector of scalars.
+/// A scalar, a small vector of scalars, or an array of either.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct ValueType {
     /// The scalar.
     pub scalar: ScalarType,
     /// The number of lanes: 1 for a scalar, 2 to 4 for a vector.
     pub lanes: u8,
+    /// The number of elements of an array.
+    pub length: Option<u32>,
 }
 
-/// The machine type of a stored scalar, after `Real` has been resolved by the run's precision.
+/// The machine type of a stored scalar, after `Real` has been resolved by the run's precision. `bool` is stored as 0 or 1 in a `U8`, a
+/// state by its number in a `U8`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[expect(missing_docs, reason = "the names say it")]
@@ -64,17 +73,47 @@ pub struct StoredType {
     pub scalar: StoredScalar,
     /// The number of lanes, 1 to 4.
     pub lanes: u8,
+    /// The number of elements of an array, 1 for a single value.
+    pub length: u32,
 }
 
 impl ScalarType {
-    /// Whether a number is a value of this type; of floating ones, whether it is finite.
+    /// Whether a number is a value of this type; of floating ones, whether it is finite. `bool` has 0 and 1, states have their numbers.
     pub fn fits(self, number: f64) -> bool {
         let within = |least: f64, largest: f64| number.fract() == 0.0 && (least..=largest).contains(&number);
         match self {
+            Self::Bool => within(0.0, 1.0),
+            Self::State(names) => within(0.0, names.largest().into()),
             Self::U8 => within(0.0, u8::MAX.into()),
             Self::I32 => within(i32::MIN.into(), i32::MAX.into()),
             Self::U32 => within(0.0, u32::MAX.into()),
             Self::F32 | Self::F64 | Self::Real => number.is_finite(),
+        }
+    }
+
+    /// Whether a number can be what a value of this type has become: as [`Self::fits`], but floating ones may be anything.
+    pub(crate) fn holds(self, number: f64) -> bool {
+        matches!(self, Self::F32 | Self::F64 | Self::Real) || self.fits(number)
+    }
+
+    /// The number that a text means: of `bool` 0 or 1, of a state its number. Nothing where the text is no value of this type.
+    pub fn parse(self, text: &str) -> Option<f64> {
+        match self {
+            Self::Bool => text.parse().ok().map(|value: bool| value.into()),
+            Self::State(names) => names.number(text).map(f64::from),
+            _ => text.parse().ok().filter(|number| self.fits(*number)),
+        }
+    }
+
+    /// The number as a text that [`Self::parse`] reads back.
+    pub fn text(self, number: f64) -> String {
+        match self {
+            Self::Bool => (number != 0.0).to_string(),
+            Self::State(names) => {
+                let name = names.states.get(number as usize);
+                name.map_or_else(|| number.to_string(), |name| (*name).to_owned())
+            }
+            _ => number.to_string(),
         }
     }
 }
@@ -101,29 +140,97 @@ impl StoredScalar {
 }
 
 impl StoredType {
-    /// The size in bytes of one value; lanes are stored next to each other.
+    /// The size in bytes of one value: its elements one after the other, the lanes of each next to each other.
     pub const fn size(self) -> usize {
+        self.scalar.size() * self.components()
+    }
+
+    /// The size in bytes of an element: of a value that is no array, its own.
+    pub const fn element_size(self) -> usize {
         self.scalar.size() * self.lanes as usize
+    }
+
+    /// The number of scalars in a value.
+    pub const fn components(self) -> usize {
+        self.lanes as usize * self.length as usize
     }
 }
 
 impl ValueType {
+    /// A single scalar.
+    pub const fn scalar(scalar: ScalarType) -> Self {
+        Self { scalar, lanes: 1, length: None }
+    }
+
+    /// A small vector.
+    pub const fn vector(scalar: ScalarType, lanes: u8) -> Self {
+        Self { scalar, lanes, length: None }
+    }
+
+    /// An array of so many values of this type, which is none itself.
+    pub const fn array(self, length: u32) -> Self {
+        Self { length: Some(length), ..self }
+    }
+
+    /// The type of an element: of a value that is no array, its own.
+    pub const fn element(self) -> Self {
+        Self { length: None, ..self }
+    }
+
+    /// The number of scalars in a value.
+    pub const fn components(self) -> usize {
+        let length = match self.length {
+            Some(length) => length as usize,
+            None => 1,
+        };
+        self.lanes as usize * length
+    }
+
+    /// The type in a sentence, with what it can be where that is a matter of names.
+    pub(crate) fn described(self) -> String {
+        match self.scalar {
+            ScalarType::Bool => format!("a {self}: true or false"),
+            ScalarType::State(names) => format!("a {self}: {}", names.states.join(", ")),
+            _ => format!("a {self}"),
+        }
+    }
+
+    /// What tells the components of a value apart in names: nothing for a scalar, `x` to `w` for the lanes of a vector, the number
+    /// for the elements of an array, both (`3_x`) for an array of vectors.
+    pub fn component_names(self) -> Vec<String> {
+        let lanes = &["x", "y", "z", "w"][..usize::from(self.lanes)];
+        match (self.length, self.lanes) {
+            (None, 1) => vec![String::new()],
+            (None, _) => lanes.iter().map(|lane| (*lane).to_owned()).collect(),
+            (Some(length), 1) => (0..length).map(|element| element.to_string()).collect(),
+            (Some(length), _) => {
+                (0..length).flat_map(|element| lanes.iter().map(move |lane| format!("{element}_{lane}"))).collect()
+            }
+        }
+    }
+
     /// The machine type at this precision.
     pub const fn stored(self, precision: Precision) -> StoredType {
         let scalar = match (self.scalar, precision) {
-            (ScalarType::U8, _) => StoredScalar::U8,
+            (ScalarType::U8 | ScalarType::Bool | ScalarType::State(_), _) => StoredScalar::U8,
             (ScalarType::I32, _) => StoredScalar::I32,
             (ScalarType::U32, _) => StoredScalar::U32,
             (ScalarType::F32, _) | (ScalarType::Real, Precision::F32) => StoredScalar::F32,
             (ScalarType::F64, _) | (ScalarType::Real, Precision::F64) => StoredScalar::F64,
         };
-        StoredType { scalar, lanes: self.lanes }
+        let length = match self.length {
+            Some(length) => length,
+            None => 1,
+        };
+        StoredType { scalar, lanes: self.lanes, length }
     }
 }
 
 impl fmt::Display for ScalarType {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
+            Self::Bool => "bool",
+            Self::State(names) => names.name,
             Self::U8 => "u8",
             Self::I32 => "i32",
             Self::U32 => "u32",
@@ -136,9 +243,10 @@ impl fmt::Display for ScalarType {
 
 impl fmt::Display for ValueType {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.lanes {
-            1 => write!(f, "{}", self.scalar),
-            lanes => write!(f, "Vector{lanes}<{}>", self.scalar),
+        match (self.length, self.lanes) {
+            (Some(length), _) => write!(f, "[{}; {length}]", self.element()),
+            (None, 1) => write!(f, "{}", self.scalar),
+            (None, lanes) => write!(f, "Vector{lanes}<{}>", self.scalar),
         }
     }
 }
@@ -180,6 +288,10 @@ pub trait Float:
     sealed::Sealed
     + HostScalar
     + bytemuck::Pod
+    + Default
+    + PartialOrd
+    + fmt::Debug
+    + KernelElement<Memory = Self>
     + std::ops::Add<Output = Self>
     + std::ops::Sub<Output = Self>
     + std::ops::Mul<Output = Self>
@@ -243,12 +355,18 @@ float!(f64, F64, words => {
 });
 
 /// A scalar as the host sees it: `Real` is `f64` there.
-pub trait HostScalar: Copy + Default + PartialEq + PartialOrd + fmt::Debug + Send + Sync + 'static {
+pub trait HostScalar: Copy + PartialEq + Send + Sync + 'static {
     /// Writes the value in the stored type: `f64` may be stored as `f32`.
     fn encode(self, stored: StoredScalar, out: &mut [u8]);
 
     /// Reads the value back.
     fn decode(stored: StoredScalar, bytes: &[u8]) -> Self;
+
+    /// The value as a number, into which it fits exactly: of `bool` 0 or 1, of a state its number.
+    fn to_number(self) -> f64;
+
+    /// The value that is this number, which fits the type.
+    fn from_number(number: f64) -> Self;
 }
 
 macro_rules! host_scalar {
@@ -262,6 +380,14 @@ macro_rules! host_scalar {
             fn decode(stored: StoredScalar, bytes: &[u8]) -> Self {
                 debug_assert!(matches!(stored, $stored));
                 bytemuck::pod_read_unaligned(bytes)
+            }
+
+            fn to_number(self) -> f64 {
+                self.into()
+            }
+
+            fn from_number(number: f64) -> Self {
+                number as $type
             }
         }
     };
@@ -286,34 +412,60 @@ impl HostScalar for f64 {
             _ => bytemuck::pod_read_unaligned(bytes),
         }
     }
+
+    fn to_number(self) -> f64 {
+        self
+    }
+
+    fn from_number(number: f64) -> Self {
+        number
+    }
+}
+
+impl HostScalar for bool {
+    fn encode(self, _stored: StoredScalar, out: &mut [u8]) {
+        out.copy_from_slice(&[u8::from(self)]);
+    }
+
+    fn decode(_stored: StoredScalar, bytes: &[u8]) -> Self {
+        bytes != [0]
+    }
+
+    fn to_number(self) -> f64 {
+        self.into()
+    }
+
+    fn from_number(number: f64) -> Self {
+        number != 0.0
+    }
 }
 
 /// A value of a substate or parameter as the host sees it.
-pub trait HostValue: Copy + Default + PartialEq + fmt::Debug + Send + Sync + 'static {
-    /// The type of its lanes.
+pub trait HostValue: Copy + PartialEq + Send + Sync + 'static {
+    /// The type of its components.
     type Scalar: HostScalar;
 
-    /// The number of lanes.
-    const LANES: usize;
+    /// The number of components: the lanes of a vector, the elements of an array, the lanes of all elements of an array of vectors.
+    const COMPONENTS: usize;
 
-    /// One lane.
-    fn lane(&self, index: usize) -> Self::Scalar;
+    /// One component.
+    fn component(&self, index: usize) -> Self::Scalar;
 
-    /// The value with these lanes.
-    fn from_lanes(lane: impl FnMut(usize) -> Self::Scalar) -> Self;
+    /// The value with these components, asked for in order.
+    fn from_components(component: &mut dyn FnMut(usize) -> Self::Scalar) -> Self;
 
     /// Writes the value in the stored type.
     fn encode(&self, stored: StoredType, out: &mut [u8]) {
         let size = stored.scalar.size();
         for (index, bytes) in out.chunks_exact_mut(size).enumerate() {
-            self.lane(index).encode(stored.scalar, bytes);
+            self.component(index).encode(stored.scalar, bytes);
         }
     }
 
     /// Reads the value back.
     fn decode(stored: StoredType, bytes: &[u8]) -> Self {
         let size = stored.scalar.size();
-        Self::from_lanes(|index| {
+        Self::from_components(&mut |index| {
             Self::Scalar::decode(stored.scalar, &bytes[index * size..(index + 1) * size])
         })
     }
@@ -323,17 +475,58 @@ macro_rules! scalar_host_value {
     ($($type:ident)*) => {$(
         impl HostValue for $type {
             type Scalar = $type;
-            const LANES: usize = 1;
+            const COMPONENTS: usize = 1;
 
-            fn lane(&self, _index: usize) -> $type {
+            fn component(&self, _index: usize) -> $type {
                 *self
             }
 
-            fn from_lanes(mut lane: impl FnMut(usize) -> $type) -> Self {
-                lane(0)
+            fn from_components(component: &mut dyn FnMut(usize) -> $type) -> Self {
+                component(0)
             }
         }
     )*};
 }
 
-scalar_host_value!(u8 i32 u32 f32 f64);
+scalar_host_value!(bool u8 i32 u32 f32 f64);
+
+impl<T: HostValue, const N: usize> HostValue for [T; N] {
+    type Scalar = T::Scalar;
+    const COMPONENTS: usize = N * T::COMPONENTS;
+
+    fn component(&self, index: usize) -> T::Scalar {
+        self[index / T::COMPONENTS].component(index % T::COMPONENTS)
+    }
+
+    fn from_components(component: &mut dyn FnMut(usize) -> T::Scalar) -> Self {
+        std::array::from_fn(|element| {
+            T::from_components(&mut |lane| component(element * T::COMPONENTS + lane))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{HostValue, ScalarType, StoredScalar, StoredType, ValueType};
+    use crate::vector::Vector2;
+
+    #[test]
+    fn components_are_named() {
+        let names = |value_type: ValueType| value_type.component_names().join(" ");
+        assert_eq!(names(ValueType::scalar(ScalarType::Real)), "");
+        assert_eq!(names(ValueType::vector(ScalarType::Real, 3)), "x y z");
+        assert_eq!(names(ValueType::scalar(ScalarType::Bool).array(3)), "0 1 2");
+        assert_eq!(names(ValueType::vector(ScalarType::I32, 2).array(2)), "0_x 0_y 1_x 1_y");
+    }
+
+    #[test]
+    fn arrays_of_vectors_are_stored_element_by_element() {
+        let stored = StoredType { scalar: StoredScalar::F32, lanes: 2, length: 3 };
+        let value = [Vector2::new(1.0_f64, 2.0), Vector2::new(3.0, 4.0), Vector2::new(5.0, 6.0)];
+        let mut bytes = vec![0; stored.size()];
+        value.encode(stored, &mut bytes);
+        let expected: Vec<u8> = (1..7_u8).flat_map(|number| f32::from(number).to_ne_bytes()).collect();
+        assert_eq!(bytes, expected);
+        assert_eq!(<[Vector2<f64>; 3]>::decode(stored, &bytes), value);
+    }
+}

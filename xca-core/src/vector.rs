@@ -79,15 +79,15 @@ macro_rules! vector {
 
         impl<T: HostScalar> HostValue for $name<T> {
             type Scalar = T;
-            const LANES: usize = $lanes;
+            const COMPONENTS: usize = $lanes;
 
-            fn lane(&self, index: usize) -> T {
+            fn component(&self, index: usize) -> T {
                 [self.$first $(, self.$lane)+][index]
             }
 
-            fn from_lanes(mut lane: impl FnMut(usize) -> T) -> Self {
+            fn from_components(component: &mut dyn FnMut(usize) -> T) -> Self {
                 let mut next = 0..;
-                let mut take = || lane(next.next().unwrap_or_default());
+                let mut take = || component(next.next().unwrap_or_default());
                 Self { $first: take() $(, $lane: take())+ }
             }
         }

@@ -1,11 +1,13 @@
-//! Substates of cells: a plane each, with a halo.
+//! Substates of cells: a plane for each single value or element of an array, with a halo.
 
 use crate::layout::Layout;
+use std::borrow::Cow;
+use std::ops::Range;
 use xca_core::StoredType;
 use xca_core::storage::Buffer;
 
-/// One substate of cells.
-pub(crate) struct Plane {
+/// One substate of cells: as many planes, one after the other, as a value has elements.
+pub(crate) struct Dense {
     pub(crate) stored: StoredType,
     pub(crate) current: Buffer,
     /// Where a process writes that also reads neighbours; made when there is such a process.
@@ -26,7 +28,7 @@ enum Halo {
     Stale,
 }
 
-impl Plane {
+impl Dense {
     pub(crate) fn new(
         stored: StoredType,
         layout: &Layout,
@@ -35,7 +37,11 @@ impl Plane {
         read_elsewhere: bool,
     ) -> Self {
         let mut current = Buffer::zeroed(layout.cells() * stored.size());
-        layout.fill_halo(current.bytes_mut(), stored.size(), Some(outside), false);
+        let element = stored.element_size();
+        let planes = current.bytes_mut().chunks_exact_mut(layout.cells() * element);
+        for (plane, outside) in planes.zip(outside.chunks_exact(element)) {
+            layout.fill_halo(plane, element, Some(outside), false);
+        }
         let next = doubled.then(|| current.clone());
         Self { stored, current, next, read_elsewhere, halo: Halo::Whole }
     }
@@ -60,45 +66,79 @@ impl Plane {
         let [along_rows, elsewhere] = layout.halo_follows();
         let continued = self.halo == Halo::Rows;
         if self.halo != Halo::Whole && (elsewhere || (along_rows && !continued)) {
-            layout.fill_halo(self.current.bytes_mut(), self.stored.size(), None, continued);
+            let element = self.stored.element_size();
+            for plane in self.current.bytes_mut().chunks_exact_mut(layout.cells() * element) {
+                layout.fill_halo(plane, element, None, continued);
+            }
         }
         self.halo = Halo::Whole;
     }
 
+    /// The values of all cells, each with its elements one after the other.
     pub(crate) fn read(&self, layout: &Layout) -> Vec<u8> {
-        let size = self.stored.size();
-        let row_size = layout.width() * size;
-        let mut values = Vec::with_capacity(layout.rows() * row_size);
+        let mut values = Vec::with_capacity(layout.rows() * layout.width() * self.stored.size());
         for row in 0..layout.rows() {
-            values.extend_from_slice(self.row(layout, row));
+            values.extend_from_slice(&self.row(layout, row));
         }
         values
     }
 
     /// The values of a row of the space.
-    pub(crate) fn row(&self, layout: &Layout, row: usize) -> &[u8] {
-        let size = self.stored.size();
-        &self.current.bytes()[layout.first(row) * size..(layout.first(row) + layout.width()) * size]
+    pub(crate) fn row(&self, layout: &Layout, row: usize) -> Cow<'_, [u8]> {
+        let element = self.stored.element_size();
+        let elements = self.stored.length as usize;
+        let of_plane = |number: usize| {
+            let first = number * layout.cells() + layout.first(row);
+            &self.current.bytes()[first * element..(first + layout.width()) * element]
+        };
+        if elements == 1 {
+            return of_plane(0).into();
+        }
+        let mut values = vec![0; layout.width() * self.stored.size()];
+        for number in 0..elements {
+            let whole = values.chunks_exact_mut(self.stored.size());
+            for (value, of_cell) in whole.zip(of_plane(number).chunks_exact(element)) {
+                value[number * element..(number + 1) * element].copy_from_slice(of_cell);
+            }
+        }
+        values.into()
     }
 
     pub(crate) fn write(&mut self, layout: &Layout, values: &[u8]) {
-        let size = self.stored.size();
-        let row_size = layout.width() * size;
-        for (row, values) in values.chunks_exact(row_size).enumerate() {
-            let first = layout.first(row) * size;
-            self.current.bytes_mut()[first..first + row_size].copy_from_slice(values);
+        let (size, element) = (self.stored.size(), self.stored.element_size());
+        for (row, values) in values.chunks_exact(layout.width() * size).enumerate() {
+            for number in 0..self.stored.length as usize {
+                let first = (number * layout.cells() + layout.first(row)) * element;
+                let plane = &mut self.current.bytes_mut()[first..first + layout.width() * element];
+                if size == element {
+                    plane.copy_from_slice(values);
+                    continue;
+                }
+                for (of_cell, value) in plane.chunks_exact_mut(element).zip(values.chunks_exact(size)) {
+                    of_cell.copy_from_slice(&value[number * element..(number + 1) * element]);
+                }
+            }
         }
         self.touch();
     }
 
-    pub(crate) fn cell(&self, layout: &Layout, cell: usize) -> &[u8] {
-        let (first, size) = (layout.padded(cell), self.stored.size());
-        &self.current.bytes()[first * size..(first + 1) * size]
+    /// Where the elements of a cell's value lie, in bytes.
+    fn places(&self, layout: &Layout, cell: usize) -> impl Iterator<Item = Range<usize>> + use<> {
+        let (first, element, cells) = (layout.padded(cell), self.stored.element_size(), layout.cells());
+        (0..self.stored.length as usize).map(move |number| {
+            let start = (number * cells + first) * element;
+            start..start + element
+        })
+    }
+
+    pub(crate) fn cell(&self, layout: &Layout, cell: usize) -> Vec<u8> {
+        self.places(layout, cell).flat_map(|place| &self.current.bytes()[place]).copied().collect()
     }
 
     pub(crate) fn write_cell(&mut self, layout: &Layout, cell: usize, value: &[u8]) {
-        let (first, size) = (layout.padded(cell), self.stored.size());
-        self.current.bytes_mut()[first * size..(first + 1) * size].copy_from_slice(value);
+        for (place, element) in self.places(layout, cell).zip(value.chunks_exact(self.stored.element_size())) {
+            self.current.bytes_mut()[place].copy_from_slice(element);
+        }
         self.touch();
     }
 

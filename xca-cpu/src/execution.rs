@@ -1,6 +1,6 @@
 //! The state of a model on this engine.
 
-use crate::dense::Plane;
+use crate::dense::Dense;
 use crate::layout::Layout;
 use crate::migration;
 use crate::population::Population;
@@ -106,7 +106,7 @@ fn state(model: &Model, number: usize, group: &Definition, layout: &Layout, prec
                     let substate = SubstateId { group: number, field };
                     let (doubled, elsewhere) =
                         (is_doubled(model, substate), is_read_elsewhere(model, substate));
-                    Plane::new(stored, layout, &bytes, doubled, elsewhere)
+                    Dense::new(stored, layout, &bytes, doubled, elsewhere)
                 })
                 .collect(),
         ),
@@ -149,7 +149,7 @@ impl Execution for CpuExecution {
 
     fn read_cell(&self, substate: SubstateId, cell: usize) -> Result<Vec<u8>, EngineFailure> {
         Ok(match &self.groups[substate.group] {
-            Group::Cells(planes) => planes[substate.field].cell(&self.layout, cell).to_vec(),
+            Group::Cells(planes) => planes[substate.field].cell(&self.layout, cell),
             Group::Population(_) => Vec::new(),
         })
     }
@@ -219,7 +219,7 @@ impl Execution for CpuExecution {
         let parts: Vec<Vec<Reduced>> = self.pool.install(|| match &self.groups[substate.group] {
             Group::Cells(planes) => (0..self.layout.rows())
                 .into_par_iter()
-                .map(|row| reduce_values(reduction, stored, planes[substate.field].row(&self.layout, row)))
+                .map(|row| reduce_values(reduction, stored, &planes[substate.field].row(&self.layout, row)))
                 .collect(),
             Group::Population(population) => population.items.fields[substate.field]
                 .bytes()
@@ -227,7 +227,7 @@ impl Execution for CpuExecution {
                 .map(|values| reduce_values(reduction, stored, values))
                 .collect(),
         });
-        let mut results = vec![Reduced::Nothing; usize::from(stored.lanes)];
+        let mut results = vec![Reduced::Nothing; stored.components()];
         for part in parts {
             for (result, part) in results.iter_mut().zip(part) {
                 *result = result.combine(part, reduction);
@@ -244,7 +244,7 @@ impl Execution for CpuExecution {
         self.groups
             .iter()
             .map(|group| match group {
-                Group::Cells(planes) => planes.iter().map(Plane::memory).sum(),
+                Group::Cells(planes) => planes.iter().map(Dense::memory).sum(),
                 Group::Population(population) => population.memory(),
             })
             .sum()

@@ -5,7 +5,7 @@
 #![allow(unsafe_code)]
 
 use crate::blocks::blocks;
-use crate::dense::Plane;
+use crate::dense::Dense;
 use crate::layout::Layout;
 use crate::population::Population;
 use crate::slack::{largest, slack as slack_of};
@@ -15,13 +15,13 @@ use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use xca_core::engine::{Fault, StepContext, SubstateId};
 use xca_core::kernel::{
-    Access, CellFilter, Entry, Frame, Of, Row, RowFault, RowItems, RowKernel, STAY, Scratch, StoppedAt,
+    Access, CellFilter, Entry, Frame, Memory, MemoryOf, Of, Row, RowFault, RowItems, RowKernel, STAY, Scratch, StoppedAt,
 };
 use xca_core::{Boundary, Model, Parity, Precision, Process, ProcessKind};
 
 /// The substates of one struct.
 pub(crate) enum Group {
-    Cells(Vec<Plane>),
+    Cells(Vec<Dense>),
     Population(Population),
 }
 
@@ -34,26 +34,46 @@ fn population(group: &Group) -> Option<&Population> {
 
 /// Where a substate's memory starts, shared by the threads.
 #[derive(Clone, Copy)]
-struct Memory {
+struct Shared {
+    /// Null where the process reads what it writes, in place.
     read: *const u8,
+    /// Null where the process does not write.
     write: *mut u8,
-    size: usize,
-    of_items: bool,
+    memory: Memory,
     /// Whether what is written has to go on into the halo along x.
     continued: bool,
 }
 
 // SAFETY: the pointers lead to memory that is written through rows alone, and rows are disjoint, see `run_row`.
-unsafe impl Send for Memory {}
+unsafe impl Send for Shared {}
 // SAFETY: as above.
-unsafe impl Sync for Memory {}
+unsafe impl Sync for Shared {}
+
+impl Shared {
+    /// What a kernel gets for the row whose first cell has this padded number, and whose first item this one.
+    fn entry(&self, first_cell: usize, first_item: usize) -> Entry {
+        let (element, length) = (self.memory.element, self.memory.length);
+        let (read, write) = match self.memory.of {
+            MemoryOf::Cells { .. } => (first_cell * element, first_cell * element),
+            MemoryOf::Items { .. } => (0, first_item * element * length),
+        };
+        let moved = |pointer: *mut u8, by: usize| {
+            if pointer.is_null() { pointer } else { pointer.wrapping_add(by) }
+        };
+        Entry {
+            read: moved(self.read.cast_mut(), read).cast_const(),
+            write: moved(self.write, write),
+            memory: self.memory,
+        }
+    }
+}
 
 /// A process made ready for a pass.
 struct Prepared<'a> {
     process: &'a Process,
     index: usize,
     kernel: RowKernel,
-    memory: Vec<Memory>,
+    substates: Vec<Shared>,
     population: Option<usize>,
 }
 
@@ -93,7 +113,7 @@ pub(crate) fn run(
     let geometry = model.geometry();
     let written = prepare_buffers(model, layout, groups, &processes);
     let prepared: Vec<Prepared<'_>> =
-        processes.map(|index| prepare(model, groups, index, precision, &written)).collect();
+        processes.map(|index| prepare(model, layout, groups, index, precision, &written)).collect();
     let offsets = layout.offsets(geometry);
     let filter = filter(model, layout, precision, groups, &prepared);
     let frames: [Frame<'_>; 2] = std::array::from_fn(|odd| Frame {
@@ -206,51 +226,55 @@ fn prepare_buffers(
 
 fn prepare<'a>(
     model: &'a Model,
+    layout: &Layout,
     groups: &mut [Group],
     index: usize,
     precision: Precision,
     written: &[(SubstateId, bool)],
 ) -> Prepared<'a> {
     let process = &model.processes()[index];
-    let memory =
-        process.access.iter().map(|access| memory(model, groups, process, access, written)).collect();
+    let substates =
+        process.access.iter().map(|access| shared(model, layout, groups, process, access, written)).collect();
     let population = match process.kind {
         ProcessKind::Cells => process.companion,
         ProcessKind::Items | ProcessKind::Migration => Some(process.subject),
     };
     let population = population.and_then(|group| model.group_number((group.type_id)()));
-    Prepared { process, index, kernel: process.kernel(precision), memory, population }
+    Prepared { process, index, kernel: process.kernel(precision), substates, population }
 }
 
-fn memory(
+fn shared(
     model: &Model,
+    layout: &Layout,
     groups: &mut [Group],
     process: &Process,
     access: &Access,
     written: &[(SubstateId, bool)],
-) -> Memory {
+) -> Shared {
     let substate = model.substate(process, access);
-    let (current, next, size, of_items, continued) = match &mut groups[substate.group] {
+    let (current, next, stored, of, continued) = match &mut groups[substate.group] {
         Group::Cells(planes) => {
             let plane = &mut planes[substate.field];
             let continued = access.write && plane.read_elsewhere;
-            (&mut plane.current, plane.next.as_mut(), plane.stored.size(), false, continued)
+            let stride = layout.cells();
+            let of =
+                MemoryOf::Cells { read_stride: stride, write_stride: stride, around: access.others };
+            (&mut plane.current, plane.next.as_mut(), plane.stored, of, continued)
         }
         Group::Population(population) => {
-            let size = population.types[substate.field].size();
+            let stored = population.types[substate.field];
             let next = &mut population.next.fields[substate.field];
-            (&mut population.items.fields[substate.field], Some(next), size, true, false)
+            let of = MemoryOf::Items { all: access.others };
+            (&mut population.items.fields[substate.field], Some(next), stored, of, false)
         }
     };
     let (read, write) = match next {
         _ if !access.write => (current.as_ptr(), std::ptr::null_mut()),
         Some(next) if written.contains(&(substate, true)) => (current.as_ptr(), next.as_mut_ptr()),
-        _ => {
-            let write = current.as_mut_ptr();
-            (write.cast_const(), write)
-        }
+        _ => (std::ptr::null(), current.as_mut_ptr()),
     };
-    Memory { read, write, size, of_items, continued }
+    let memory = Memory { element: stored.element_size(), length: stored.length as usize, of };
+    Shared { read, write, memory, continued }
 }
 
 /// Everything that the rows of a pass share.
@@ -346,17 +370,20 @@ impl Pass<'_> {
 
     /// Continues what a process has written to a row into the halo along x, while the row is in the cache.
     fn continue_row(&self, prepared: &Prepared<'_>, first: usize) {
-        for memory in prepared.memory.iter().filter(|memory| memory.continued) {
-            let start = memory.write.wrapping_add(first * memory.size);
-            let size = memory.size as isize;
-            for (target, source) in &self.continuation {
+        for shared in prepared.substates.iter().filter(|shared| shared.continued) {
+            let element = shared.memory.element;
+            let planes = (0..shared.memory.length).map(|number| number * self.layout.cells() + first);
+            let starts = planes.map(|first| shared.write.wrapping_add(first * element));
+            let size = element as isize;
+            let copies = starts.flat_map(|start| self.continuation.iter().map(move |copy| (start, copy)));
+            for (start, (target, source)) in copies {
                 // SAFETY:
                 // - Source and target are cells of one padded line of a plane: the source in the row, the target in the halo beside it.
                 // - No kernel writes the halo, and this is the only thread that has the row, so no one writes either of them meanwhile.
                 // - No one reads the target meanwhile: a plane that is read elsewhere in this pass is written to the second buffer, of which
                 //   nothing is read, or not written at all (`stages`).
                 unsafe {
-                    copy_value(memory.size, start.offset(source * size), start.offset(target * size));
+                    copy_value(element, start.offset(source * size), start.offset(target * size));
                 }
             }
         }
@@ -397,13 +424,7 @@ impl Pass<'_> {
         work: &mut Work<'_>,
     ) {
         work.entries.clear();
-        work.entries.extend(prepared.memory.iter().map(|memory| {
-            let (read, write) = if memory.of_items { (0, cells.own.0) } else { (cells.first, cells.first) };
-            Entry {
-                read: memory.read.wrapping_add(read * memory.size),
-                write: memory.write.wrapping_add(write * memory.size),
-            }
-        }));
+        work.entries.extend(prepared.substates.iter().map(|shared| shared.entry(cells.first, cells.own.0)));
         let items = population.map(|population| RowItems {
             starts: population.starts[cells.first..].as_ptr(),
             ends: population.ends[cells.first..].as_ptr(),

@@ -1,7 +1,7 @@
 //! `derive(Substates)` and `derive(Parameters)`.
 
 use proc_macro2::{Literal, Span, TokenStream};
-use quote::{format_ident, quote};
+use quote::{format_ident, quote, quote_spanned};
 use syn::ext::IdentExt;
 use syn::spanned::Spanned;
 use syn::{
@@ -12,14 +12,18 @@ struct Field {
     name: Ident,
     visibility: Visibility,
     type_: Type,
-    scalar: Ident,
-    lanes: u8,
     position: bool,
     documentation: Vec<syn::Attribute>,
 }
 
-const SCALARS: [(&str, &str); 6] =
-    [("u8", "U8"), ("i32", "I32"), ("u32", "U32"), ("f32", "F32"), ("f64", "F64"), ("Real", "Real")];
+/// The scalars that a field can hold.
+const SCALARS: [&str; 7] = ["bool", "u8", "i32", "u32", "f32", "f64", "Real"];
+
+/// Types that are no enum of states, whatever the user may think.
+const OTHER_TYPES: [&str; 16] = [
+    "usize", "isize", "i8", "i16", "i64", "i128", "u16", "u64", "u128", "char", "str", "String", "Vec", "Option",
+    "Box", "HashMap",
+];
 
 /// The number by which the macros find a field of a struct that they cannot see: FNV-1a of its name.
 pub(crate) fn name_number(name: &str) -> Literal {
@@ -31,9 +35,15 @@ pub(crate) fn name_number(name: &str) -> Literal {
 
 /// Whether the word is a type of values, not a struct of the user.
 pub(crate) fn is_value_type(word: &str) -> bool {
-    SCALARS.iter().any(|(scalar, _)| *scalar == word)
-        || ["Vector2", "Vector3", "Vector4", "bool", "usize", "str", "String", "Vec"].contains(&word)
+    SCALARS.contains(&word) || OTHER_TYPES.contains(&word) || VECTORS.contains(&word)
 }
+
+/// Whether the word may be the name of an enum of states.
+pub(crate) fn may_be_states(word: &str) -> bool {
+    !is_value_type(word)
+}
+
+const VECTORS: [&str; 3] = ["Vector2", "Vector3", "Vector4"];
 
 /// The name under which the position is found.
 pub(crate) const POSITION: &str = "#position";
@@ -59,9 +69,9 @@ fn fields(item: &DeriveInput) -> Result<Vec<Field>> {
                 format!("`{name}` and `{twin}` are one word in capitals; choose another name"),
             ));
         }
-        let (scalar, lanes) = value_type(&field.ty)?;
+        check_type(&field.ty)?;
         let position = field.attrs.iter().any(|attribute| attribute.path().is_ident("position"));
-        if position && (scalar != "Real" || lanes != 3) {
+        if position && !is_position(&field.ty) {
             return Err(Error::new_spanned(&field.ty, "a position is a `Vector3<Real>`"));
         }
         if let (true, Some(other)) = (position, fields.iter().find(|field| field.position)) {
@@ -77,8 +87,6 @@ fn fields(item: &DeriveInput) -> Result<Vec<Field>> {
             name,
             visibility: field.vis.clone(),
             type_: field.ty.clone(),
-            scalar: format_ident!("{scalar}"),
-            lanes,
             position,
             documentation,
         });
@@ -94,42 +102,65 @@ fn handle(name: &Ident) -> String {
     name.unraw().to_string().to_uppercase()
 }
 
-fn value_type(type_: &Type) -> Result<(&'static str, u8)> {
+/// Whether the words of a type are those of a substate or parameter. What they mean is proved by the code that the derive writes.
+fn check_type(type_: &Type) -> Result<()> {
+    if let Type::Array(array) = type_ {
+        if let Type::Array(inner) = &*array.elem {
+            return Err(Error::new_spanned(inner, "an array has one index; multiply the lengths: `[Real; 3 * 4]`"));
+        }
+        return check_type(&array.elem);
+    }
     let unsupported = || {
         Error::new_spanned(
             type_,
-            "a substate or parameter is a u8, i32, u32, f32, f64, Real, or a Vector2, Vector3, Vector4 of one of these",
+            "a substate or parameter is a bool, u8, i32, u32, f32, f64, Real, a Vector2, Vector3, Vector4 of a number, an enum \
+             that derives `States`, or an array of these",
         )
     };
     let Type::Path(path) = type_ else { return Err(unsupported()) };
     let segment = path.path.segments.last().ok_or_else(unsupported)?;
-    let lanes = match segment.ident.to_string().as_str() {
-        "Vector2" => 2,
-        "Vector3" => 3,
-        "Vector4" => 4,
-        scalar => {
-            let (_, variant) = SCALARS.iter().find(|(name, _)| *name == scalar).ok_or_else(unsupported)?;
-            return Ok((variant, 1));
-        }
-    };
-    let PathArguments::AngleBracketed(arguments) = &segment.arguments else { return Err(unsupported()) };
-    match arguments.args.first() {
-        Some(GenericArgument::Type(inner)) => match value_type(inner)? {
-            (scalar, 1) => Ok((scalar, lanes)),
+    let word = segment.ident.to_string();
+    match &segment.arguments {
+        PathArguments::None if SCALARS.contains(&&*word) || may_be_states(&word) => Ok(()),
+        PathArguments::AngleBracketed(arguments) if VECTORS.contains(&&*word) => match arguments.args.first() {
+            Some(GenericArgument::Type(Type::Path(lane)))
+                if lane
+                    .path
+                    .get_ident()
+                    .is_some_and(|lane| lane != "bool" && SCALARS.iter().any(|scalar| lane == scalar)) =>
+            {
+                Ok(())
+            }
             _ => Err(unsupported()),
         },
         _ => Err(unsupported()),
     }
 }
 
+fn is_position(type_: &Type) -> bool {
+    let text = quote!(#type_).to_string().replace(' ', "");
+    text.ends_with("Vector3<Real>")
+}
+
+/// The type with the word `Real` marked, by which `xca_core::field_type` knows all about it.
+fn marked(type_: &Type) -> TokenStream {
+    with_real(type_, &quote!(::xca_core::field_type::RealWord))
+}
+
+/// Fails to compile where the words of a type mean something else than they should.
+fn proof(field: &Field) -> TokenStream {
+    let (type_, marked) = (&field.type_, marked(&field.type_));
+    quote_spanned!(type_.span()=> const _: fn(#type_) -> <#marked as ::xca_core::field_type::FieldType>::Host = |value| value;)
+}
+
 fn schema(item: &DeriveInput, fields: &[Field]) -> TokenStream {
     let struct_name = item.ident.to_string();
     let descriptions = fields.iter().map(|field| {
-        let (name, scalar, lanes) = (field.name.unraw().to_string(), &field.scalar, field.lanes);
+        let (name, marked) = (field.name.unraw().to_string(), marked(&field.type_));
         quote! {
             ::xca_core::Field {
                 name: #name,
-                value_type: ::xca_core::ValueType { scalar: ::xca_core::ScalarType::#scalar, lanes: #lanes },
+                value_type: <#marked as ::xca_core::field_type::FieldType>::TYPE,
             }
         }
     });
@@ -137,7 +168,10 @@ fn schema(item: &DeriveInput, fields: &[Field]) -> TokenStream {
         Some(index) => quote!(::core::option::Option::Some(#index)),
         None => quote!(::core::option::Option::None),
     };
+    let proofs = fields.iter().map(proof);
     quote! {
+        #(#proofs)*
+
         const __XCA_SCHEMA: &::xca_core::Schema = &::xca_core::Schema {
             name: #struct_name,
             fields: &[#(#descriptions),*],
@@ -177,11 +211,10 @@ pub(crate) fn substates(item: &DeriveInput) -> Result<TokenStream> {
     let fields = fields(item)?;
     let name = &item.ident;
     let schema = schema(item, &fields);
-    let real = quote!(R);
     let mut named = TokenStream::new();
     let mut handles = TokenStream::new();
     for (index, field) in fields.iter().enumerate() {
-        let native = with_real(&field.type_, &real);
+        let marked = marked(&field.type_);
         let mut names = vec![field.name.unraw().to_string()];
         if field.position {
             names.push(POSITION.to_owned());
@@ -191,7 +224,7 @@ pub(crate) fn substates(item: &DeriveInput) -> Result<TokenStream> {
             named.extend(quote! {
                 #[automatically_derived]
                 impl ::xca_core::HasSubstate<#number> for #name {
-                    type Native<R: ::xca_core::Float> = #native;
+                    type Native<R: ::xca_core::Float> = <#marked as ::xca_core::field_type::FieldType>::Native<R>;
                     const INDEX: usize = #index;
                 }
             });
@@ -247,38 +280,22 @@ pub(crate) fn substates(item: &DeriveInput) -> Result<TokenStream> {
 
 pub(crate) fn parameters(item: &DeriveInput) -> Result<TokenStream> {
     let fields = fields(item)?;
-    if let Some(field) = fields.iter().find(|field| field.scalar == "U8") {
-        return Err(Error::new(field.type_.span(), "a parameter cannot be a u8; use u32"));
-    }
     if let Some(field) = fields.iter().find(|field| field.position) {
         return Err(Error::new_spanned(&field.name, "only a substate of items can be the position"));
     }
     let name = &item.ident;
     let schema = schema(item, &fields);
     let native_name = format_ident!("{}InKernel", name, span = Span::call_site());
-    let real = quote!(R);
     let names: Vec<&Ident> = fields.iter().map(|field| &field.name).collect();
-    let natives: Vec<TokenStream> = fields.iter().map(|field| with_real(&field.type_, &real)).collect();
-    let conversions: Vec<TokenStream> = fields
-        .iter()
-        .map(|field| {
-            let name = &field.name;
-            // `f64` stays itself and `Real` becomes `R`: only the word tells them apart.
-            if field.scalar == "Real" {
-                quote!(::xca_core::kernel::constant::<R, _>(self.#name))
-            } else {
-                quote!(self.#name)
-            }
-        })
-        .collect();
+    let marked: Vec<TokenStream> = fields.iter().map(|field| marked(&field.type_)).collect();
     let indices: Vec<usize> = (0..fields.len()).collect();
     Ok(quote! {
         const _: () = {
             #[doc(hidden)]
-            #[derive(Clone, Copy, Debug)]
-            #[allow(dead_code)]
-            pub struct #native_name<R> {
-                #(pub #names: #natives,)*
+            #[derive(Clone, Copy)]
+            #[allow(dead_code, missing_debug_implementations)]
+            pub struct #native_name<R: ::xca_core::Float> {
+                #(pub #names: <#marked as ::xca_core::field_type::FieldType>::Native<R>,)*
                 __xca_real: ::core::marker::PhantomData<R>,
             }
 
@@ -291,7 +308,10 @@ pub(crate) fn parameters(item: &DeriveInput) -> Result<TokenStream> {
                 type Native<R: ::xca_core::Float> = #native_name<R>;
 
                 fn native<R: ::xca_core::Float>(&self) -> #native_name<R> {
-                    #native_name { #(#names: #conversions,)* __xca_real: ::core::marker::PhantomData }
+                    #native_name {
+                        #(#names: <#marked as ::xca_core::field_type::FieldType>::native::<R>(self.#names),)*
+                        __xca_real: ::core::marker::PhantomData,
+                    }
                 }
 
                 fn value(&self, field: usize) -> ::xca_core::ParameterValue {

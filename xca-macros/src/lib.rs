@@ -8,6 +8,7 @@ mod data;
 mod fields;
 mod native;
 mod parse;
+mod states;
 
 use parse::Wanted;
 use proc_macro::TokenStream;
@@ -35,6 +36,13 @@ pub fn helper(attribute: TokenStream, item: TokenStream) -> TokenStream {
 pub fn substates(item: TokenStream) -> TokenStream {
     let item = syn::parse_macro_input!(item as syn::DeriveInput);
     fields::substates(&item).unwrap_or_else(|error| error.to_compile_error()).into()
+}
+
+/// Makes an enum without fields a type of substates and parameters; the trait of the same name says how.
+#[proc_macro_derive(States)]
+pub fn states(item: TokenStream) -> TokenStream {
+    let item = syn::parse_macro_input!(item as syn::DeriveInput);
+    states::states(&item).unwrap_or_else(|error| error.to_compile_error()).into()
 }
 
 /// Makes a struct the parameters of a model; the trait of the same name says how.

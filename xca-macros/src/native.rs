@@ -6,7 +6,7 @@ mod expressions;
 mod helper;
 mod kernels;
 
-use crate::access::{Access, GroupOf, Uses, groups};
+use crate::access::{GroupOf, Uses, groups};
 use crate::ast::{Function, FunctionKind, Role};
 use crate::fields::{POSITION, name_number};
 use proc_macro2::{Ident, Span, TokenStream};
@@ -14,6 +14,9 @@ use quote::{ToTokens, format_ident, quote, quote_spanned};
 use syn::ext::IdentExt;
 use syn::spanned::Spanned;
 use syn::{Attribute, Meta, Result, Type};
+
+/// The most substates of a process: a row marks those that it has handed out in so many bits.
+const MOST_SUBSTATES: usize = 128;
 
 /// A name of the generated code that no name of the user can meet.
 fn hidden(name: &str, span: Span) -> Ident {
@@ -62,19 +65,25 @@ fn lints(attributes: &[Attribute]) -> Vec<Attribute> {
     lints
 }
 
-/// `<S as HasSubstate<…>>` for an access.
-fn substate(access: &Access, function: &Function) -> TokenStream {
+/// `<S as HasSubstate<…>>` for a substate.
+fn substate(group: GroupOf, field: &Ident, function: &Function) -> TokenStream {
     let (subject, companion) = groups(function);
-    let type_ = match access.group {
+    let type_ = match group {
         GroupOf::Companion => companion,
         GroupOf::Subject | GroupOf::Position => subject,
     };
-    let key = match access.group {
+    let key = match group {
         GroupOf::Position => name_number(POSITION),
-        _ => name_number(&access.field.unraw().to_string()),
+        _ => name_number(&field.unraw().to_string()),
     };
-    let span = access.field.span();
+    let span = field.span();
     quote_spanned!(span=> <#type_ as ::xca_core::HasSubstate<#key>>)
+}
+
+/// The type of a substate in a kernel.
+fn native_type(group: GroupOf, field: &Ident, function: &Function, real: &TokenStream) -> TokenStream {
+    let substate = substate(group, field, function);
+    quote!(#substate::Native<#real>)
 }
 
 /// What a kernel sees of the parameters.
@@ -85,6 +94,12 @@ fn native_parameters(type_: &Type, real: &TokenStream) -> TokenStream {
 fn process(function: &Function, original: &syn::ItemFn) -> Result<TokenStream> {
     let data = crate::data::function(function)?;
     let uses = Uses::of(function);
+    if uses.accesses.len() > MOST_SUBSTATES {
+        return Err(syn::Error::new(
+            function.name.span(),
+            format!("a process uses at most {MOST_SUBSTATES} substates; join some into arrays"),
+        ));
+    }
     let (name, visibility) = (&function.name, &function.visibility);
     let kept = function
         .attributes
@@ -155,7 +170,7 @@ fn description(function: &Function, uses: &Uses, data: &TokenStream) -> TokenStr
         None => quote!(::core::option::Option::None),
     };
     let accesses = uses.accesses.iter().map(|access| {
-        let substate = substate(access, function);
+        let substate = substate(access.group, &access.field, function);
         let of = if access.group == GroupOf::Companion { quote!(Companion) } else { quote!(Subject) };
         let (centre, others, write) = (access.centre, access.others, access.write);
         quote! {

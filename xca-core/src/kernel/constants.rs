@@ -1,5 +1,6 @@
 //! Comparisons and constants as kernels have them.
 
+use crate::states::States;
 use crate::value::Float;
 
 /// Comparisons that give the same bits on every engine, whatever a processor's own minimum does with NaN and signed zeros.
@@ -53,6 +54,14 @@ impl<R: Float> KernelConstant<R> for f64 {
     #[inline(always)]
     fn native(self) -> R {
         R::from_f64(self)
+    }
+}
+
+impl<R, T: States> KernelConstant<R> for T {
+    type Native = T;
+    #[inline(always)]
+    fn native(self) -> T {
+        self
     }
 }
 

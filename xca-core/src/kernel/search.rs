@@ -3,7 +3,7 @@
 //! The result is defined by the present positions alone: the items of the reached cells that are nearer than the radius, in the order
 //! neighbour index, then label. An engine may therefore leave out cells that are too far away ([`CellFilter`]).
 
-use super::Row;
+use super::{Column, Row};
 use super::wide::{self, Wide};
 use crate::geometry::{Boundary, Geometry};
 use crate::neighbourhood::Parity;
@@ -155,9 +155,9 @@ impl<'a> Row<'a> {
 
     /// Fills the list with the items of the reached cells of the neighbourhood, without the item itself.
     #[inline]
-    pub fn others<const REACH: u8>(&self, x: usize, item: usize, found: &mut Vec<u32>) {
+    pub fn others<const REACH: u8>(&self, cell: Column<'_>, item: usize, found: &mut Vec<u32>) {
         found.clear();
-        self.ranges::<REACH>(x, None, |range| {
+        self.ranges::<REACH>(cell, None, |range| {
             found.extend(range.filter(|&other| other != item).map(|other| other as u32));
         });
     }
@@ -167,7 +167,7 @@ impl<'a> Row<'a> {
     #[inline]
     pub fn others_within<R: Float, const REACH: u8>(
         &self,
-        x: usize,
+        cell: Column<'_>,
         item: usize,
         position: Vector3<R>,
         radius: R,
@@ -180,14 +180,14 @@ impl<'a> Row<'a> {
                 let [first, y, z] = self.origin;
                 let Vector3 { x: across, y: along, z: up } = position.map(Float::to_f64);
                 let place = [across, along, up];
-                let cell = [first + x as u32, y, z];
-                Some((filter, filter.touched(cell, self.frame.side, place, radius.to_f64())))
+                let indices = [first + cell.number() as u32, y, z];
+                Some((filter, filter.touched(indices, self.frame.side, place, radius.to_f64())))
             }
             _ => None,
         };
         let reach = radius * radius;
         if self.frame.toroidal.contains(&true) {
-            self.ranges::<REACH>(x, touched, |range| {
+            self.ranges::<REACH>(cell, touched, |range| {
                 keep(range, item, positions, found, |other| {
                     length_squared(self.space::<R>().nearest_image(position - other)) < reach
                 });
@@ -197,9 +197,9 @@ impl<'a> Row<'a> {
         {
             let (positions, place) = (bytemuck::cast_slice(positions), position.map(Float::to_f64));
             let sphere = wide::Sphere { centre: place, square: reach.to_f64() };
-            self.ranges::<REACH>(x, touched, |range| wide.keep(range, item, positions, sphere, found));
+            self.ranges::<REACH>(cell, touched, |range| wide.keep(range, item, positions, sphere, found));
         } else {
-            self.ranges::<REACH>(x, touched, |range| {
+            self.ranges::<REACH>(cell, touched, |range| {
                 keep(range, item, positions, found, |other| length_squared(position - other) < reach);
             });
         }
@@ -210,26 +210,26 @@ impl<'a> Row<'a> {
     #[inline(always)]
     fn ranges<const REACH: u8>(
         &self,
-        x: usize,
+        cell: Column<'_>,
         touched: Option<(&CellFilter, Touched)>,
         mut each: impl FnMut(Range<usize>),
     ) {
         if REACH != reach::NEIGHBOURS {
-            each(self.items_at(x, 0));
+            each(self.items(cell));
         }
         if REACH == reach::CELL {
             return;
         }
         let Some((filter, touched)) = touched else {
-            return self.joined(x, |_| true, each);
+            return self.joined(cell, |_| true, each);
         };
         let margin = filter.reach[0] as usize;
-        let place = self.origin[0] as usize + x;
+        let place = self.origin[0] as usize + cell.number();
         match filter.steps {
             Some(steps) if place >= margin && place + margin < self.frame.extents[0] as usize => {
-                self.strips(x, steps, touched, each);
+                self.strips(cell, steps, touched, each);
             }
-            _ => self.joined(x, |number| touched.contains(filter.displacements[number]), each),
+            _ => self.joined(cell, |number| touched.contains(filter.displacements[number]), each),
         }
     }
 
@@ -237,22 +237,24 @@ impl<'a> Row<'a> {
     #[inline(always)]
     fn strips(
         &self,
-        x: usize,
+        cell: Column<'_>,
         [line, layer]: [isize; 2],
         touched: Touched,
         mut each: impl FnMut(Range<usize>),
     ) {
         let (low, high) = (touched.low[0] as isize, touched.high[0] as isize);
+        // SAFETY: what is touched lies in the box of the neighbourhood, whose cells are these steps apart.
+        let items_at = |distance| unsafe { self.items_at(cell, distance) };
         for z in touched.low[2]..=touched.high[2] {
             for y in touched.low[1]..=touched.high[1] {
                 let row = z as isize * layer + y as isize * line;
                 if row != 0 {
-                    each(self.items_at(x, row + low).start..self.items_at(x, row + high).end);
+                    each(items_at(row + low).start..items_at(row + high).end);
                 } else {
                     // Around the own cell, which is not a neighbour of itself.
-                    let own = self.items_at(x, 0);
-                    each(self.items_at(x, low).start..own.start);
-                    each(own.end..self.items_at(x, high).end);
+                    let own = self.items(cell);
+                    each(items_at(low).start..own.start);
+                    each(own.end..items_at(high).end);
                 }
             }
         }
@@ -260,10 +262,11 @@ impl<'a> Row<'a> {
 
     /// The neighbours one by one, those that are wanted.
     #[inline]
-    fn joined(&self, x: usize, wanted: impl Fn(usize) -> bool, mut each: impl FnMut(Range<usize>)) {
+    fn joined(&self, cell: Column<'_>, wanted: impl Fn(usize) -> bool, mut each: impl FnMut(Range<usize>)) {
         let mut joined = 0..0;
         for (number, offset) in self.frame.offsets.iter().enumerate().skip(1) {
-            let range = self.items_at(x, *offset);
+            // SAFETY: an offset of the neighbourhood.
+            let range = unsafe { self.items_at(cell, *offset) };
             if range.is_empty() || !wanted(number) {
                 continue;
             }

@@ -25,9 +25,9 @@ pub enum InitialError {
         /// Those that it may mean.
         known: String,
     },
-    /// The substate is a vector.
-    #[error("`{name}` is a {value_type}; only scalars can be given")]
-    Vector {
+    /// The substate is a vector or an array.
+    #[error("`{name}` is a {value_type}; only single numbers and states can be given")]
+    Several {
         /// The substate.
         name: String,
         /// Its type.
@@ -44,7 +44,7 @@ pub enum InitialError {
         given: usize,
     },
     /// A number that is no value of the substate's type.
-    #[error("{value} in cell {cell:?} is no value for `{name}`, which is a {value_type}")]
+    #[error("{value} in cell {cell:?} is no value for `{name}`, which is {}", value_type.described())]
     Value {
         /// The substate.
         name: String,
@@ -94,8 +94,8 @@ impl Model {
         match found.as_slice() {
             [] => Err(InitialError::Unknown { name, known: names(&all) }),
             [Named { id, field, .. }] => match field.value_type {
-                ValueType { lanes: 1, .. } => Ok((*id, field)),
-                value_type => Err(InitialError::Vector { name, value_type }),
+                ValueType { lanes: 1, length: None, .. } => Ok((*id, field)),
+                value_type => Err(InitialError::Several { name, value_type }),
             },
             several => Err(InitialError::Ambiguous { name, known: names(several.iter().copied()) }),
         }

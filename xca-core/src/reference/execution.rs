@@ -96,7 +96,7 @@ impl Execution for ReferenceExecution {
         let group = &self.groups[substate.group];
         let stored = group.types[substate.field];
         let block = if group.is_population() { ITEMS_IN_BLOCK } else { self.model.geometry().extents()[0] };
-        let mut results = vec![Reduced::Nothing; usize::from(stored.lanes)];
+        let mut results = vec![Reduced::Nothing; stored.components()];
         for values in group.values(substate.field).chunks(block * stored.size()) {
             for (result, part) in results.iter_mut().zip(reduce_values(reduction, stored, values)) {
                 *result = result.combine(part, reduction);

@@ -6,17 +6,18 @@
 use super::{GroupState, ReferenceExecution, neighbourhood};
 use crate::engine::{Fault, StepContext, SubstateId};
 use crate::geometry::Boundary;
-use crate::kernel::{Access, Entry, Frame, Row, RowItems, Scratch};
+use crate::kernel::{Access, Entry, Frame, Memory, MemoryOf, Row, RowItems, Scratch};
 use crate::process::{Process, ProcessKind};
 use crate::storage::Buffer;
+use crate::value::StoredType;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Where a process's substates are read and written during a pass.
 struct Pass {
     substate: SubstateId,
     access: Access,
-    size: usize,
-    /// Of cells, read at neighbours: the gathered values.
+    stored: StoredType,
+    /// Of cells, read at neighbours: the gathered values, element after element.
     gathered: Option<Buffer>,
     /// Written, and read elsewhere: the new values.
     next: Option<Buffer>,
@@ -49,7 +50,7 @@ impl ReferenceExecution {
             let indices = geometry.indices(cell);
             let around: Vec<Option<usize>> = neighbourhood(&geometry, indices).collect();
             let entries: Vec<Entry> =
-                passes.iter_mut().map(|pass| self.entry(pass, process, cell, &around)).collect();
+                passes.iter_mut().map(|pass| self.entry(pass, cell, &around)).collect();
             let ranges: Option<(Vec<u32>, Vec<u32>)> =
                 population.map(|group| self.groups[group].ranges(&around));
             let own = population.map_or((0, 0), |group| self.groups[group].range(cell));
@@ -97,17 +98,17 @@ impl ReferenceExecution {
     fn prepare(&self, process: &Process, access: &Access) -> Pass {
         let substate = self.model.substate(process, access);
         let group = &self.groups[substate.group];
-        let size = group.types[substate.field].size();
+        let stored = group.types[substate.field];
         let of_cells = !group.is_population();
         let gathered = (of_cells && access.others)
-            .then(|| Buffer::zeroed(size * self.model.geometry().neighbourhood().size()));
+            .then(|| Buffer::zeroed(stored.size() * self.model.geometry().neighbourhood().size()));
         let next = (access.write && access.others).then(|| group.planes[substate.field].clone());
-        Pass { substate, access: *access, size, gathered, next }
+        Pass { substate, access: *access, stored, gathered, next }
     }
 
-    fn entry(&mut self, pass: &mut Pass, _process: &Process, cell: usize, around: &[Option<usize>]) -> Entry {
+    fn entry(&mut self, pass: &mut Pass, cell: usize, around: &[Option<usize>]) -> Entry {
         let group = &mut self.groups[pass.substate.group];
-        let (field, size) = (pass.substate.field, pass.size);
+        let (field, size) = (pass.substate.field, pass.stored.size());
         let place = cell * group.slots;
         let write_plane = pass.next.as_mut().unwrap_or(&mut group.planes[field]);
         let write = if pass.access.write {
@@ -116,22 +117,34 @@ impl ReferenceExecution {
             std::ptr::null_mut()
         };
         let read = if let Some(gathered) = &mut pass.gathered {
-            for (at, value) in around.iter().zip(gathered.bytes_mut().chunks_exact_mut(size)) {
-                value.copy_from_slice(match at {
+            let element = pass.stored.element_size();
+            for (number, at) in around.iter().enumerate() {
+                let value = match at {
                     Some(cell) => group.value(field, *cell),
                     None => &group.outside[field],
-                });
+                };
+                for (plane, value) in value.chunks_exact(element).enumerate() {
+                    let place = (plane * around.len() + number) * element;
+                    gathered.bytes_mut()[place..place + element].copy_from_slice(value);
+                }
             }
             gathered.as_ptr()
         } else if pass.access.write && pass.next.is_none() {
             // In place: the kernel reads through `write` alone.
-            write.cast_const()
+            std::ptr::null()
         } else if group.is_population() {
             group.planes[field].as_ptr()
         } else {
             group.planes[field].as_ptr().wrapping_add(place * size)
         };
-        Entry { read, write }
+        let of = match (group.is_population(), pass.access.others) {
+            (true, all) => MemoryOf::Items { all },
+            // What is gathered stands element after element; the elements of one cell, one after the other.
+            (false, true) => MemoryOf::Cells { read_stride: around.len(), write_stride: 1, around: true },
+            (false, false) => MemoryOf::Cells { read_stride: 1, write_stride: 1, around: false },
+        };
+        let length = pass.stored.length as usize;
+        Entry { read, write, memory: Memory { element: pass.stored.element_size(), length, of } }
     }
 }
 

@@ -4,6 +4,8 @@ use super::{RunError, RunOptions, Simulation};
 use crate::engine::{Engine, Fault, Population, SubstateId};
 use crate::model::{Group, GroupKind, Model};
 use crate::parameters::ParameterValue;
+use crate::schema::Field;
+use crate::value::ScalarType;
 
 /// The whole state of a run between two steps: equal snapshots are equal to the last bit.
 ///
@@ -16,7 +18,7 @@ pub struct Snapshot {
     pub step: u64,
     /// The groups in the model's order.
     pub groups: Vec<GroupSnapshot>,
-    /// The lanes of each parameter, as the bits of an `f64`, into which every scalar type fits exactly.
+    /// The components of each parameter, as the bits of an `f64`, into which every scalar type fits exactly.
     pub parameters: Vec<Vec<u64>>,
     /// Why a steering operation has ended the run, if one has.
     pub stop: Option<String>,
@@ -71,7 +73,7 @@ impl Simulation {
             }
         };
         let parameter =
-            |field| self.parameters.value_of(field).lanes().iter().map(|lane| lane.to_bits()).collect();
+            |field| self.parameters.value_of(field).components().iter().map(|number| number.to_bits()).collect();
         Ok(Snapshot {
             step: self.step,
             groups: self.model.groups().iter().enumerate().map(of_group).collect::<Result<_, _>>()?,
@@ -152,8 +154,8 @@ impl Simulation {
         }
         for (field, bits) in snapshot.parameters.iter().enumerate() {
             let value_type = self.parameters.schema().fields[field].value_type;
-            let lanes = bits.iter().map(|lane| f64::from_bits(*lane)).collect();
-            if let Some(value) = ParameterValue::from_lanes(value_type, lanes) {
+            let components = bits.iter().map(|number| f64::from_bits(*number)).collect();
+            if let Some(value) = ParameterValue::from_components(value_type, components) {
                 self.parameters.set_value_of(field, &value);
             }
         }
@@ -200,8 +202,12 @@ impl Snapshot {
         });
         of_groups.or_else(|| {
             let fields = model.parameters().schema().fields;
-            let lanes = fields.iter().map(|field| usize::from(field.value_type.lanes));
-            let same = self.parameters.iter().map(Vec::len).eq(lanes);
+            let are_values = |(bits, field): (&Vec<u64>, &Field)| {
+                let numbers = bits.iter().map(|number| f64::from_bits(*number)).collect();
+                ParameterValue::from_components(field.value_type, numbers).is_some()
+            };
+            let same = self.parameters.len() == fields.len()
+                && self.parameters.iter().zip(fields).all(are_values);
             (!same).then(|| format!("its parameters are not those of {}", model.parameters().schema().name))
         })
     }
@@ -215,10 +221,22 @@ fn wrong_fields(fields: &[Vec<u8>], group: &Group, options: RunOptions, count: u
     }
     let sizes = group.stored(options.precision).into_iter().map(|stored| stored.size() * count);
     let mut wrong = fields.iter().zip(sizes).zip(wanted).filter(|((bytes, size), _)| bytes.len() != *size);
-    wrong.next().map(|((bytes, size), field)| {
+    let wrong_size = wrong.next().map(|((bytes, size), field)| {
         let precision = options.precision;
         format!("`{}` takes {} bytes, not the {size} of a run in {precision}", field.name, bytes.len())
-    })
+    });
+    wrong_size.or_else(|| fields.iter().zip(wanted).find_map(|(bytes, field)| wrong_state(bytes, field)))
+}
+
+/// What is wrong with the values of a field that has only some: bool and states.
+fn wrong_state(bytes: &[u8], field: &Field) -> Option<String> {
+    let largest = match field.value_type.scalar {
+        ScalarType::Bool => 1,
+        ScalarType::State(names) => names.largest(),
+        _ => return None,
+    };
+    let wrong = bytes.iter().find(|byte| **byte > largest)?;
+    Some(format!("`{}` is {}, which {wrong} is not", field.name, field.value_type.described()))
 }
 
 /// What is wrong with the cells and labels of items.

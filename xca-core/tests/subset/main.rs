@@ -10,4 +10,5 @@ mod helpers;
 mod integers;
 mod items;
 mod names;
+mod values;
 mod vectors;

@@ -9,7 +9,8 @@ use syn::{BinOp, Error, GenericArgument, Ident, LitFloat, LitInt, PathArguments,
 
 /// The types that a process can use, for messages.
 const SUPPORTED: &str = "a process can use bool, u8, i32, u32, f32, f64, Real, \
-                         Vector2, Vector3 and Vector4 of a number, arrays [T; N] of these, and usize as an index";
+                         Vector2, Vector3 and Vector4 of a number, enums that derive `States`, arrays [T; N] of these, and usize \
+                         as an index";
 
 /// A name without `r#`.
 pub(super) fn text(name: &Ident) -> String {
@@ -108,6 +109,10 @@ fn named_type(written: &Type, name: &Ident, arguments: &PathArguments) -> Result
         return match text.as_str() {
             "bool" => Ok(quote!(::xca_core::ir::Type::Bool)),
             "Destination" => Ok(quote!(::xca_core::ir::Type::Destination)),
+            word if crate::fields::may_be_states(word) => {
+                let states = crate::native::checked(written);
+                Ok(quote!(::xca_core::ir::Type::State(<#states as ::xca_core::States>::NAMES)))
+            }
             _ => Err(unsupported(written)),
         };
     };

@@ -1,7 +1,7 @@
 //! The body in one precision.
 
 use super::hidden;
-use crate::access::GroupOf;
+use crate::access::{Access, GroupOf, Uses};
 use crate::ast::{Block, Expression, Function, FunctionKind, Place, PlaceRoot, Projection, Reach, Statement};
 use crate::fields::with_real;
 use proc_macro2::{Ident, Span, TokenStream};
@@ -32,14 +32,22 @@ pub(super) fn write_name(field: &Ident) -> Ident {
 /// Writes a body as Rust of one precision.
 pub(super) struct Writer<'a> {
     pub(super) function: &'a Function,
+    /// The substates that a process uses; nothing for a helper.
+    uses: Option<&'a Uses>,
     pub(super) real: TokenStream,
     /// How many lists of found items the body needs.
     searches: usize,
 }
 
 impl<'a> Writer<'a> {
-    pub(super) fn new(function: &'a Function, real: TokenStream) -> Self {
-        Self { function, real, searches: 0 }
+    pub(super) fn new(function: &'a Function, uses: Option<&'a Uses>, real: TokenStream) -> Self {
+        Self { function, uses, real, searches: 0 }
+    }
+
+    /// How the process uses a substate.
+    pub(super) fn access(&self, group: GroupOf, field: &Ident) -> Option<&'a Access> {
+        let accesses = &self.uses?.accesses;
+        accesses.iter().find(|access| access.group == group && access.field == *field)
     }
 
     pub(super) fn name(&self, name: &str) -> Ident {
@@ -81,7 +89,7 @@ impl<'a> Writer<'a> {
             }
             Statement::LetNeighbour { name, index } => {
                 let offset = self.offset(index);
-                quote!(let #name: isize = #offset;)
+                quote!(let #name = #offset;)
             }
             Statement::Assign { place, operator, value, span } => {
                 let value = self.expression(value);
@@ -116,9 +124,9 @@ impl<'a> Writer<'a> {
                 self.for_others(variable, *reach, radius.as_ref(), body)
             }
             Statement::ForItems { variable, body } => {
-                let (row, x) = (self.name("row"), self.name("x"));
+                let (row, column) = (self.name("row"), self.name("column"));
                 let body = self.block(body);
-                quote!(for #variable in #row.items(#x) #body)
+                quote!(for #variable in #row.items(#column) #body)
             }
             Statement::Break(span) => quote_spanned!(*span=> break;),
             Statement::Continue(span) => quote_spanned!(*span=> continue;),
@@ -151,7 +159,7 @@ impl<'a> Writer<'a> {
         radius: Option<&Expression>,
         body: &Block,
     ) -> TokenStream {
-        let [row, x, item] = ["row", "x", "item"].map(|name| self.name(name));
+        let [row, column, item] = ["row", "column", "item"].map(|name| self.name(name));
         let number = match reach {
             Reach::Cell => quote!(0),
             Reach::Neighbours => quote!(1),
@@ -160,7 +168,7 @@ impl<'a> Writer<'a> {
         if reach == Reach::Cell && radius.is_none() {
             let body = self.block(body);
             return quote! {
-                for #variable in #row.items(#x) {
+                for #variable in #row.items(#column) {
                     if #variable == #item {
                         continue;
                     }
@@ -171,11 +179,11 @@ impl<'a> Writer<'a> {
         let list = self.list(self.searches);
         self.searches += 1;
         let search = match radius {
-            None => quote!(#row.others::<#number>(#x, #item, &mut #list.items);),
+            None => quote!(#row.others::<#number>(#column, #item, &mut #list.items);),
             Some(radius) => {
                 let radius = self.expression(radius);
                 let positions = read_name(GroupOf::Position, &Ident::new("position", Span::call_site()));
-                quote!(#row.others_within::<_, #number>(#x, #item, #positions[#item], #radius, #positions, &mut #list.items);)
+                quote!(#row.others_within::<_, #number>(#column, #item, #positions[#item], #radius, #positions, &mut #list.items);)
             }
         };
         let body = self.block(body);

@@ -65,8 +65,32 @@ fn copy(function: &Function, original: &syn::ItemFn) -> TokenStream {
 }
 
 /// Writes `a += b` as `a = a + b`: the fields of a cell are reached through `DerefMut`, and in a compound assignment of vectors that
-/// would borrow the cell while the right-hand side reads it. And has each call of a function check that it is a helper.
+/// would borrow the cell while the right-hand side reads it. For the same reason an index of what is assigned to gets a name before. And
+/// has each call of a function check that it is a helper.
 struct SpellOut<'a>(&'a [Call]);
+
+/// Gives names to the indices of a place, outermost last, but for numbers and names.
+fn name_indices(place: &mut syn::Expr, names: &mut Vec<TokenStream>) {
+    match place {
+        syn::Expr::Index(index) => {
+            name_indices(&mut index.expr, names);
+            if !matches!(*index.index, syn::Expr::Lit(_) | syn::Expr::Path(_)) {
+                let expression = &index.index;
+                let name = quote::format_ident!("__xca_index_{}", names.len(), span = Span::mixed_site());
+                names.push(quote_spanned!(expression.span()=> let #name = #expression;));
+                *index.index = syn::parse_quote!(#name);
+            }
+        }
+        syn::Expr::Field(field) => name_indices(&mut field.base, names),
+        syn::Expr::Paren(paren) => name_indices(&mut paren.expr, names),
+        _ => {}
+    }
+}
+
+/// An assignment after the names that it needs.
+fn with(names: &[TokenStream], assignment: &TokenStream) -> TokenStream {
+    if names.is_empty() { assignment.clone() } else { quote!({ #(#names)* #assignment }) }
+}
 
 impl VisitMut for SpellOut<'_> {
     fn visit_expr_mut(&mut self, expression: &mut syn::Expr) {
@@ -74,10 +98,17 @@ impl VisitMut for SpellOut<'_> {
         match expression {
             syn::Expr::Binary(binary) => {
                 let Some(operator) = crate::parse::plain_operator(&binary.op) else { return };
+                let mut names = Vec::new();
+                name_indices(&mut binary.left, &mut names);
                 let (left, right) = (&binary.left, &binary.right);
                 let span = binary.op.span();
                 let sum = quote_spanned!(span=> #left #operator (#right));
-                *expression = syn::Expr::Verbatim(quote_spanned!(span=> #left = #sum));
+                *expression = syn::Expr::Verbatim(with(&names, &quote_spanned!(span=> #left = #sum)));
+            }
+            syn::Expr::Assign(assign) => {
+                let mut names = Vec::new();
+                name_indices(&mut assign.left, &mut names);
+                *expression = syn::Expr::Verbatim(with(&names, &quote!(#assign)));
             }
             syn::Expr::Call(call) => {
                 let function = &call.func;

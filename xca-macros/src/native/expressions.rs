@@ -1,7 +1,7 @@
 //! Expressions in one precision.
 
 use super::body::{Writer, own_name, read_name};
-use super::{checked_value, hidden};
+use super::{checked_value, hidden, native_type};
 use crate::access::GroupOf;
 use crate::ast::{Arm, Builtin, Expression, FunctionKind, Pattern};
 use crate::fields::with_real;
@@ -28,22 +28,22 @@ impl Writer<'_> {
                 quote!(#own)
             }
             Expression::CellOfItem(field) => {
-                let (read, x) = (read_name(GroupOf::Companion, field), self.name("x"));
-                quote!(#read.at(#x, 0))
+                let (read, column) = (read_name(GroupOf::Companion, field), self.name("column"));
+                quote!(#read.here(#column))
             }
             Expression::Neighbour { index, field } => {
-                let (read, x) = (read_name(GroupOf::Subject, field), self.name("x"));
+                let (read, column) = (read_name(GroupOf::Subject, field), self.name("column"));
                 let offset = self.offset(index);
-                quote!(#read.at(#x, #offset))
+                quote!(#read.at(#column, #offset))
             }
             Expression::NamedNeighbour { name, field } => {
-                let (read, x) = (read_name(GroupOf::Subject, field), self.name("x"));
-                quote!(#read.at(#x, #name))
+                let (read, column) = (read_name(GroupOf::Subject, field), self.name("column"));
+                quote!(#read.at(#column, #name))
             }
             Expression::Other { name, field } => {
-                let over_cells = self.function.kind == FunctionKind::Cells;
-                let read = read_name(if over_cells { GroupOf::Companion } else { GroupOf::Subject }, field);
-                quote!(#read[#name])
+                let group = self.group_of_others();
+                let (read, type_) = (read_name(group, field), self.type_of(group, field));
+                quote!(::xca_core::kernel::load::<#type_>(#read[#name]))
             }
             Expression::OtherLabel(name) => {
                 let row = self.name("row");
@@ -97,18 +97,7 @@ impl Writer<'_> {
                 let value = self.expression(value);
                 quote!(#value.#component)
             }
-            Expression::Element(array, index) => {
-                let index = self.expression(index);
-                let array = match &**array {
-                    // At the start of a statement the brackets would be a statement of their own.
-                    block @ (Expression::If { .. } | Expression::Match { .. } | Expression::Block(_)) => {
-                        let block = self.expression(block);
-                        quote!((#block))
-                    }
-                    other => self.expression(other),
-                };
-                quote!(#array[#index])
-            }
+            Expression::Element(array, index) => self.element(array, index),
             Expression::Array(elements, span) => {
                 let elements = self.expressions(elements);
                 quote_spanned!(*span=> [#(#elements),*])
@@ -135,6 +124,63 @@ impl Writer<'_> {
             }
             Expression::Match { value, arms, span } => self.match_(value, arms, *span),
             Expression::Block(block) => self.block(block),
+        }
+    }
+
+    /// Whose items other items are: in a process over cells those of the cell.
+    fn group_of_others(&self) -> GroupOf {
+        if self.function.kind == FunctionKind::Cells { GroupOf::Companion } else { GroupOf::Subject }
+    }
+
+    fn type_of(&self, group: GroupOf, field: &Ident) -> TokenStream {
+        native_type(group, field, self.function, &self.real)
+    }
+
+    /// An element of an array: of one that stands in memory, without loading the others.
+    fn element(&mut self, array: &Expression, index: &Expression) -> TokenStream {
+        let column = self.name("column");
+        match array {
+            Expression::Own(field) => {
+                let read = read_name(GroupOf::Subject, field);
+                let own = self.access(GroupOf::Subject, field).map(|access| (access.write, access.others));
+                let index = self.expression(index);
+                match (own, self.function.kind) {
+                    (Some((false, true)), FunctionKind::Cells) => quote!(#read.element_here(#column, #index)),
+                    (Some((false, false)), FunctionKind::Cells) => quote!(#read.element(#column, #index)),
+                    _ => {
+                        let own = own_name(field);
+                        quote!(#own[#index])
+                    }
+                }
+            }
+            Expression::CellOfItem(field) => {
+                let (read, index) = (read_name(GroupOf::Companion, field), self.expression(index));
+                quote!(#read.element(#column, #index))
+            }
+            Expression::Neighbour { index: neighbour, field } => {
+                let read = read_name(GroupOf::Subject, field);
+                let (offset, index) = (self.offset(neighbour), self.expression(index));
+                quote!(#read.element(#column, #offset, #index))
+            }
+            Expression::NamedNeighbour { name, field } => {
+                let (read, index) = (read_name(GroupOf::Subject, field), self.expression(index));
+                quote!(#read.element(#column, #name, #index))
+            }
+            Expression::Other { name, field } => {
+                let group = self.group_of_others();
+                let (read, type_) = (read_name(group, field), self.type_of(group, field));
+                let index = self.expression(index);
+                quote!(::xca_core::kernel::load_element::<#type_>(&#read[#name], #index))
+            }
+            // At the start of a statement the brackets would be a statement of their own.
+            block @ (Expression::If { .. } | Expression::Match { .. } | Expression::Block(_)) => {
+                let (block, index) = (self.expression(block), self.expression(index));
+                quote!((#block)[#index])
+            }
+            other => {
+                let (other, index) = (self.expression(other), self.expression(index));
+                quote!(#other[#index])
+            }
         }
     }
 

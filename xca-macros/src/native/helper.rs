@@ -68,7 +68,7 @@ fn native(function: &Function, real: &TokenStream) -> TokenStream {
         }
     });
     let result = function.result.as_ref().map(|type_| checked(&with_real(type_, real)));
-    let body = Writer::new(function, real.clone()).block(&function.body);
+    let body = Writer::new(function, None, real.clone()).block(&function.body);
     quote! {
         #[doc(hidden)]
         #[inline(always)]

@@ -4,7 +4,7 @@
 //! what is read, without which it would not vectorise.
 
 use super::body::{Writer, own_name, read_name, write_name};
-use super::{checked_value, hidden, native_parameters, parameters_type, substate};
+use super::{checked_value, hidden, native_parameters, native_type, parameters_type};
 use crate::access::{Access, GroupOf, Uses};
 use crate::ast::{Function, FunctionKind};
 use proc_macro2::{Ident, Span, TokenStream};
@@ -22,23 +22,28 @@ pub(super) fn row(function: &Function, uses: &Uses, real: &TokenStream) -> Token
     let mut declarations = Vec::new();
     let mut values = Vec::new();
     for (number, access) in uses.accesses.iter().enumerate() {
-        let substate = substate(access, function);
-        let type_ = quote!(#substate::Native<#real>);
+        let type_ = native_type(access.group, &access.field, function, real);
         let cells = over_cells != (access.group == GroupOf::Companion);
+        let memory = quote!(<#type_ as ::xca_core::kernel::KernelValue>::Memory);
         if reads(access) {
             let read = read_name(access.group, &access.field);
-            if cells {
-                declarations.push(quote!(#read: ::xca_core::kernel::CellRead<'_, #type_>));
-                values.push(quote!(#row.read_cells::<#type_>(#number)));
-            } else {
-                declarations.push(quote!(#read: &[#type_]));
-                values.push(quote!(#row.read_items::<#type_>(#number)));
-            }
+            let (argument, take) = match (cells, access.others) {
+                (true, true) => (quote!(::xca_core::kernel::AroundRead<'_, #type_>), quote!(read_around)),
+                (true, false) => (quote!(::xca_core::kernel::CentreRead<'_, #type_>), quote!(read_cells)),
+                (false, true) => (quote!(&[#memory]), quote!(read_items)),
+                (false, false) => (quote!(&[#memory]), quote!(read_own_items)),
+            };
+            declarations.push(quote!(#read: #argument));
+            values.push(quote!(#row.#take::<#type_>(#number)));
         }
         if access.write {
             let write = write_name(&access.field);
-            declarations.push(quote!(#write: &mut [#type_]));
-            let take = if cells { quote!(write_cells) } else { quote!(write_items) };
+            let (argument, take) = if cells {
+                (quote!(<#type_ as ::xca_core::kernel::KernelValue>::Cells<'_>), quote!(write_cells))
+            } else {
+                (quote!(&mut [#memory]), quote!(write_items))
+            };
+            declarations.push(quote!(#write: #argument));
             values.push(quote!(#row.#take::<#type_>(#number)));
         }
     }
@@ -94,31 +99,32 @@ fn space(real: &TokenStream, span: Span) -> TokenStream {
 
 fn cells(function: &Function, uses: &Uses, real: &TokenStream, size: &Ident) -> TokenStream {
     let span = function.name.span();
-    let [row, x, place, offsets, length] =
-        ["row", "x", "place", "offsets", "length"].map(|name| hidden(name, span));
+    let [row, x, column, place, offsets, length] =
+        ["row", "x", "column", "place", "offsets", "length"].map(|name| hidden(name, span));
     let space = space(real, span);
+    let of_cells = quote!(::xca_core::kernel::CellsOf);
     let mut shorten = TokenStream::new();
     let mut load = TokenStream::new();
     let mut store = TokenStream::new();
     for access in uses.accesses.iter().filter(|access| access.group == GroupOf::Subject) {
         let own = own_name(&access.field);
+        let type_ = native_type(access.group, &access.field, function, real);
+        let read = read_name(access.group, &access.field);
         if access.write {
             let write = write_name(&access.field);
-            shorten.extend(quote!(let #write = &mut #write[..#length];));
+            shorten.extend(quote!(let mut #write = #of_cells::<#type_>::first(#write, #length);));
             let old = if access.others {
-                let read = read_name(access.group, &access.field);
-                quote!(#read.at(#x, 0))
+                quote!(#read.here(#column))
             } else {
-                quote!(#write[#x])
+                quote!(#of_cells::<#type_>::get(&#write, #x))
             };
             load.extend(quote!(let mut #own = #old;));
-            store.extend(quote!(#write[#x] = #own;));
+            store.extend(quote!(#of_cells::<#type_>::set(&mut #write, #x, #own);));
         } else if access.centre {
-            let read = read_name(access.group, &access.field);
-            load.extend(quote!(let #own = #read.at(#x, 0);));
+            load.extend(quote!(let #own = #read.here(#column);));
         }
     }
-    let mut writer = Writer::new(function, real.clone());
+    let mut writer = Writer::new(function, Some(uses), real.clone());
     let body = writer.block(&function.body);
     quote! {
         #space
@@ -126,7 +132,8 @@ fn cells(function: &Function, uses: &Uses, real: &TokenStream, size: &Ident) -> 
         let #length = #row.length();
         #shorten
         let mut #place = #row.place();
-        for #x in 0..#length {
+        for #column in #row.columns() {
+            let #x = #column.number();
             #place.x = #x;
             #load
             'body: #body
@@ -138,29 +145,27 @@ fn cells(function: &Function, uses: &Uses, real: &TokenStream, size: &Ident) -> 
 
 fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
     let span = function.name.span();
-    let [row, x, item, place, first, destinations, answer] =
-        ["row", "x", "item", "place", "first", "destinations", "answer"].map(|name| hidden(name, span));
+    let [row, x, column, item, place, first, destinations, answer] =
+        ["row", "x", "column", "item", "place", "first", "destinations", "answer"]
+            .map(|name| hidden(name, span));
     let space = space(real, span);
     let mut load = TokenStream::new();
     let mut store = TokenStream::new();
     for access in uses.accesses.iter().filter(|access| access.group == GroupOf::Subject) {
         let own = own_name(&access.field);
+        let type_ = native_type(access.group, &access.field, function, real);
+        let read = read_name(access.group, &access.field);
+        let number = if access.others { quote!(#item) } else { quote!(#item - #first) };
         if access.write {
             let write = write_name(&access.field);
-            let old = if access.others {
-                let read = read_name(access.group, &access.field);
-                quote!(#read[#item])
-            } else {
-                quote!(#write[#item - #first])
-            };
-            load.extend(quote!(let mut #own = #old;));
-            store.extend(quote!(#write[#item - #first] = #own;));
+            let from = if access.others { &read } else { &write };
+            load.extend(quote!(let mut #own = ::xca_core::kernel::load::<#type_>(#from[#number]);));
+            store.extend(quote!(#write[#item - #first] = ::xca_core::kernel::store::<#type_>(#own);));
         } else if access.centre {
-            let read = read_name(access.group, &access.field);
-            load.extend(quote!(let #own = #read[#item];));
+            load.extend(quote!(let #own = ::xca_core::kernel::load::<#type_>(#read[#number]);));
         }
     }
-    let mut writer = Writer::new(function, real.clone());
+    let mut writer = Writer::new(function, Some(uses), real.clone());
     let body = writer.block(&function.body);
     let lists = writer.lists();
     let (take, run) = if function.kind == FunctionKind::Migration {
@@ -177,9 +182,10 @@ fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
         #take
         let #first = #row.first_item();
         let mut #place = #row.place();
-        for #x in 0..#row.length() {
+        for #column in #row.columns() {
+            let #x = #column.number();
             #place.x = #x;
-            for #item in #row.items(#x) {
+            for #item in #row.items(#column) {
                 #place.item = ::core::option::Option::Some(#item);
                 #load
                 #run
