@@ -29,6 +29,8 @@ pub(crate) struct Mentions {
     /// The structs of substates and of parameters.
     pub(crate) substates: Vec<Type>,
     pub(crate) parameters: Vec<Type>,
+    /// The types of variables, casts, arguments and results.
+    pub(crate) types: Vec<Type>,
 }
 
 /// A helper that is called.

@@ -1,5 +1,6 @@
 //! `derive(Substates)` and `derive(Parameters)`.
 
+use crate::native::checked;
 use proc_macro2::{Literal, Span, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
 use syn::ext::IdentExt;
@@ -147,30 +148,44 @@ fn marked(type_: &Type) -> TokenStream {
     with_real(type_, &quote!(::xca_core::field_type::RealWord))
 }
 
-/// Fails to compile where the words of a type mean something else than they should.
-fn proof(field: &Field) -> TokenStream {
-    let (type_, marked) = (&field.type_, marked(&field.type_));
-    quote_spanned!(type_.span()=> const _: fn(#type_) -> <#marked as ::xca_core::field_type::FieldType>::Host = |value| value;)
+/// A constant that has a value only where the types of all fields are what their words say: all else goes through it, so that one
+/// mistake gives one message (`xca_core::checks`).
+fn proof(fields: &[Field]) -> TokenStream {
+    let name = crate::native::check_name();
+    let proofs = fields.iter().map(|field| {
+        let (type_, marked) = (&field.type_, marked(&field.type_));
+        quote_spanned! {type_.span()=>
+            let _: fn(#type_) -> <#marked as ::xca_core::field_type::FieldType>::Host = |value| value;
+        }
+    });
+    quote!(const #name: bool = { #(#proofs)* true };)
+}
+
+/// `<T as FieldType>` of a field.
+fn field_type(field: &Field) -> TokenStream {
+    let checked = checked(&marked(&field.type_));
+    quote!(<#checked as ::xca_core::field_type::FieldType>)
+}
+
+/// The value of a field, where the proof holds.
+fn value(field: &Field) -> TokenStream {
+    let name = &field.name;
+    crate::native::checked_value(&quote!(self.#name))
 }
 
 fn schema(item: &DeriveInput, fields: &[Field]) -> TokenStream {
     let struct_name = item.ident.to_string();
     let descriptions = fields.iter().map(|field| {
-        let (name, marked) = (field.name.unraw().to_string(), marked(&field.type_));
-        quote! {
-            ::xca_core::Field {
-                name: #name,
-                value_type: <#marked as ::xca_core::field_type::FieldType>::TYPE,
-            }
-        }
+        let (name, field_type) = (field.name.unraw().to_string(), field_type(field));
+        quote!(::xca_core::Field { name: #name, value_type: #field_type::TYPE })
     });
     let position = match fields.iter().position(|field| field.position) {
         Some(index) => quote!(::core::option::Option::Some(#index)),
         None => quote!(::core::option::Option::None),
     };
-    let proofs = fields.iter().map(proof);
+    let proof = proof(fields);
     quote! {
-        #(#proofs)*
+        #proof
 
         const __XCA_SCHEMA: &::xca_core::Schema = &::xca_core::Schema {
             name: #struct_name,
@@ -186,6 +201,37 @@ pub(crate) fn with_real(type_: &Type, real: &TokenStream) -> TokenStream {
     syn::visit_mut::visit_type_mut(&mut ReplaceReal(real), &mut type_);
     ReplaceReal(real).replace(&mut type_);
     quote!(#type_)
+}
+
+/// The type that the words of a type mean, whatever they are aliases of.
+pub(crate) fn meant(type_: &Type) -> TokenStream {
+    match type_ {
+        Type::Array(array) => {
+            let (element, length) = (meant(&array.elem), &array.len);
+            quote!([#element; #length])
+        }
+        Type::Group(group) => meant(&group.elem),
+        Type::Paren(paren) => meant(&paren.elem),
+        Type::Path(path) => {
+            let Some(last) = path.path.segments.last() else { return quote!(#type_) };
+            let word = &last.ident;
+            match &last.arguments {
+                PathArguments::None if word == "Real" => quote!(f64),
+                PathArguments::None if word == "usize" || SCALARS.iter().any(|scalar| word == scalar) => {
+                    quote!(::core::primitive::#word)
+                }
+                PathArguments::AngleBracketed(arguments) if VECTORS.iter().any(|vector| word == vector) => {
+                    let lanes = arguments.args.iter().map(|argument| match argument {
+                        GenericArgument::Type(lane) => meant(lane),
+                        other => quote!(#other),
+                    });
+                    quote!(::xca_core::#word<#(#lanes),*>)
+                }
+                _ => quote!(#type_),
+            }
+        }
+        _ => quote!(#type_),
+    }
 }
 
 struct ReplaceReal<'a>(&'a TokenStream);
@@ -214,7 +260,7 @@ pub(crate) fn substates(item: &DeriveInput) -> Result<TokenStream> {
     let mut named = TokenStream::new();
     let mut handles = TokenStream::new();
     for (index, field) in fields.iter().enumerate() {
-        let marked = marked(&field.type_);
+        let field_type = field_type(field);
         let mut names = vec![field.name.unraw().to_string()];
         if field.position {
             names.push(POSITION.to_owned());
@@ -224,13 +270,14 @@ pub(crate) fn substates(item: &DeriveInput) -> Result<TokenStream> {
             named.extend(quote! {
                 #[automatically_derived]
                 impl ::xca_core::HasSubstate<#number> for #name {
-                    type Native<R: ::xca_core::Float> = <#marked as ::xca_core::field_type::FieldType>::Native<R>;
+                    type Native<R: ::xca_core::Float> = #field_type::Native<R>;
                     const INDEX: usize = #index;
                 }
             });
         }
         let handle = format_ident!("{}", handle(&field.name), span = field.name.span());
-        let (visibility, type_, documentation) = (&field.visibility, &field.type_, &field.documentation);
+        let (visibility, documentation) = (&field.visibility, &field.documentation);
+        let type_ = checked(&field.type_);
         let about = format!("The name of the substate `{}` for the host.", field.name.unraw());
         let about =
             if documentation.is_empty() { quote!(#[doc = #about]) } else { quote!(#(#documentation)*) };
@@ -246,13 +293,16 @@ pub(crate) fn substates(item: &DeriveInput) -> Result<TokenStream> {
         .then(|| quote!(#[automatically_derived] impl ::xca_core::checks::HasPosition for #name {}));
     let indices: Vec<usize> = (0..fields.len()).collect();
     let names: Vec<&Ident> = fields.iter().map(|field| &field.name).collect();
+    let values = fields.iter().map(value);
+    let types = fields.iter().map(|field| checked(&field.type_));
     Ok(quote! {
-        impl #name {
-            #handles
-        }
-
         const _: () = {
             #schema
+
+            impl #name {
+                #handles
+            }
+
             #named
             #position
 
@@ -264,14 +314,14 @@ pub(crate) fn substates(item: &DeriveInput) -> Result<TokenStream> {
                 fn encode(&self, field: usize, precision: ::xca_core::Precision, out: &mut [u8]) {
                     let stored = __XCA_SCHEMA.fields[field].value_type.stored(precision);
                     match field {
-                        #(#indices => ::xca_core::HostValue::encode(&self.#names, stored, out),)*
+                        #(#indices => ::xca_core::HostValue::encode(&#values, stored, out),)*
                         _ => {}
                     }
                 }
 
                 fn decode<'a>(precision: ::xca_core::Precision, mut field: impl FnMut(usize) -> &'a [u8]) -> Self {
                     let stored = |index: usize| __XCA_SCHEMA.fields[index].value_type.stored(precision);
-                    Self { #(#names: ::xca_core::HostValue::decode(stored(#indices), field(#indices)),)* }
+                    Self { #(#names: <#types as ::xca_core::HostValue>::decode(stored(#indices), field(#indices)),)* }
                 }
             }
         };
@@ -287,19 +337,21 @@ pub(crate) fn parameters(item: &DeriveInput) -> Result<TokenStream> {
     let schema = schema(item, &fields);
     let native_name = format_ident!("{}InKernel", name, span = Span::call_site());
     let names: Vec<&Ident> = fields.iter().map(|field| &field.name).collect();
-    let marked: Vec<TokenStream> = fields.iter().map(|field| marked(&field.type_)).collect();
+    let field_types: Vec<TokenStream> = fields.iter().map(field_type).collect();
+    let types = fields.iter().map(|field| checked(&field.type_));
+    let values = fields.iter().map(value);
     let indices: Vec<usize> = (0..fields.len()).collect();
     Ok(quote! {
         const _: () = {
+            #schema
+
             #[doc(hidden)]
             #[derive(Clone, Copy)]
             #[allow(dead_code, missing_debug_implementations)]
             pub struct #native_name<R: ::xca_core::Float> {
-                #(pub #names: <#marked as ::xca_core::field_type::FieldType>::Native<R>,)*
+                #(pub #names: #field_types::Native<R>,)*
                 __xca_real: ::core::marker::PhantomData<R>,
             }
-
-            #schema
 
             #[automatically_derived]
             #[diagnostic::do_not_recommend]
@@ -309,7 +361,7 @@ pub(crate) fn parameters(item: &DeriveInput) -> Result<TokenStream> {
 
                 fn native<R: ::xca_core::Float>(&self) -> #native_name<R> {
                     #native_name {
-                        #(#names: <#marked as ::xca_core::field_type::FieldType>::native::<R>(self.#names),)*
+                        #(#names: #field_types::native::<R>(self.#names),)*
                         __xca_real: ::core::marker::PhantomData,
                     }
                 }
@@ -317,14 +369,14 @@ pub(crate) fn parameters(item: &DeriveInput) -> Result<TokenStream> {
                 fn value(&self, field: usize) -> ::xca_core::ParameterValue {
                     let value_type = __XCA_SCHEMA.fields[field].value_type;
                     match field {
-                        #(#indices => ::xca_core::ParameterValue::new(value_type, self.#names),)*
+                        #(#indices => ::xca_core::ParameterValue::new(value_type, #values),)*
                         _ => ::xca_core::ParameterValue::new(value_type, 0.0),
                     }
                 }
 
                 fn set_value(&mut self, field: usize, value: &::xca_core::ParameterValue) {
                     match field {
-                        #(#indices => self.#names = value.to(),)*
+                        #(#indices => self.#names = value.to::<#types>(),)*
                         _ => {}
                     }
                 }

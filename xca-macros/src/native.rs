@@ -37,9 +37,14 @@ pub(crate) fn checked(type_: &impl ToTokens) -> Type {
 }
 
 /// A value of the user, likewise.
-fn checked_value(value: &TokenStream) -> TokenStream {
+pub(crate) fn checked_value(value: &TokenStream) -> TokenStream {
     let check = check::name();
     quote!(<::xca_core::checks::Checked<#check> as ::xca_core::checks::Then<_>>::pass(#value))
+}
+
+/// The name of the constant that has a value only where all is right.
+pub(crate) fn check_name() -> Ident {
+    check::name()
 }
 
 /// The attributes that everything made from the function needs.

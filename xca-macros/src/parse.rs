@@ -52,9 +52,11 @@ pub(crate) fn function(item: &syn::ItemFn, wanted: Wanted) -> Result<Function> {
             Role::Parameters(type_) => {
                 mentions.parameters.push(std::mem::replace(type_, checked(type_)));
             }
-            Role::Space | Role::Value(_) => {}
+            Role::Value(type_) => mentions.types.push(type_.clone()),
+            Role::Space => {}
         }
     }
+    mentions.types.extend(signature.result.clone());
     Ok(Function {
         name: item.sig.ident.clone(),
         visibility: item.vis.clone(),

@@ -314,9 +314,10 @@ impl<T: KernelValue> fmt::Debug for AroundRead<'_, T> {
 impl<'r, T: KernelValue> AroundRead<'r, T> {
     #[inline(always)]
     fn read(&self, cell: Column<'r>, offset: Offset<'r>, element: usize) -> T::Element {
+        assert!(element < T::LENGTH, "an element beyond the value");
         let place = cell.number as isize + offset.distance + (element * self.stride) as isize;
-        // SAFETY: `Row::new`: each plane can be read at every cell of the row and at all offsets of the neighbourhood from there. The
-        // column and the offset are of this row, and the element is below the number of planes.
+        // SAFETY: `Row::new`: each plane can be read at every cell of the row and, if these can be had, at all offsets of the neighbourhood
+        // from there. The column and the offset are of this row, and there are `LENGTH` planes.
         #[allow(unsafe_code)]
         <T::Element as KernelElement>::from_memory(unsafe { *self.first.offset(place) })
     }

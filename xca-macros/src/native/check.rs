@@ -32,10 +32,16 @@ pub(super) fn check(function: &Function, original: &syn::ItemFn) -> TokenStream 
         .parameters
         .iter()
         .map(|type_| quote_spanned!(type_.span()=> let _ = <#type_ as ::xca_core::Parameters>::SCHEMA;));
+    // A word may be an alias of another type: then the kernels would not be what the body says as data.
+    let types = mentions.types.iter().map(|type_| {
+        let meant = crate::fields::meant(type_);
+        quote_spanned!(type_.span()=> let _: fn(#type_) -> #meant = |value| value;)
+    });
     let copy = copy(function, original);
     quote! {
         const #name: bool = {
             let _ = || {
+                #(#types)*
                 #(#substates)*
                 #(#parameters)*
                 #(#constants)*

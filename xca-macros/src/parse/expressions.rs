@@ -55,6 +55,7 @@ impl Scope {
             )),
             Expr::Binary(binary) => self.binary(binary.op, &binary.left, &binary.right),
             Expr::Cast(cast) => {
+                self.mentions.types.push((*cast.ty).clone());
                 Ok(Expression::Cast(Box::new(self.expression(&cast.expr)?), (*cast.ty).clone()))
             }
             Expr::Index(index) => {

@@ -59,6 +59,7 @@ impl Scope {
             Pat::Type(typed) => (&*typed.pat, Some((*typed.ty).clone())),
             other => (other, None),
         };
+        self.mentions.types.extend(type_.clone());
         let Pat::Ident(pattern) = pattern else {
             return Err(Error::new_spanned(pattern, "bind one name at a time: `let name = value;`"));
         };
