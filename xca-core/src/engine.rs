@@ -3,7 +3,7 @@
 use crate::geometry::Geometry;
 use crate::kernel::{BEYOND_NEIGHBOURHOOD, RowFault, StoppedAt};
 use crate::model::Model;
-use crate::parameters::AnyParameters;
+use crate::parameter_set::ParameterSet;
 use crate::process::Process;
 use crate::reduction::{Reduced, Reduction};
 use crate::value::Precision;
@@ -93,10 +93,10 @@ pub struct StepContext<'a> {
     pub step: u64,
     /// The seed of random numbers.
     pub seed: u64,
-    /// `P::Native<R>` of the parameters.
-    pub parameters: &'a (dyn Any + Send + Sync),
+    /// `P::Native<R>` of each struct of parameters.
+    pub parameters: &'a [Arc<dyn Any + Send + Sync>],
     /// The same parameters by name, for engines that lay them out themselves.
-    pub values: &'a dyn AnyParameters,
+    pub values: &'a ParameterSet,
 }
 
 /// An engine that cannot go on with a state: its device was lost, or has no memory left.
@@ -135,7 +135,7 @@ pub struct Population {
 /// Nothing may carry over from step to step but what these methods give and take: a run goes on from a snapshot made of them, on this engine
 /// or another, as if it had never been interrupted.
 pub trait Execution: Send {
-    /// Runs processes by their numbers in the model, in order.
+    /// Runs those of these processes that are due in the step ([`Process::is_due`]), by their numbers in the model, in order.
     ///
     /// # Errors
     /// The first fault, by process, then cell, then label. The state is then that of an unfinished step.

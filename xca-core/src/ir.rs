@@ -51,7 +51,8 @@ pub struct Argument {
 /// What an argument stands for.
 #[derive(Debug, Clone)]
 pub enum Role {
-    /// The central cell (`&mut Cell<S>`); in a process over items the cell that the item stands in (`&Cell<S>`).
+    /// The central cell: the struct that the process writes (`&mut Cell<S>`), and others of the cell (`&Cell<S>`); in a process over items
+    /// the cell that the item stands in.
     Cell(&'static Schema),
     /// The item of a population (`&mut Slot<S>`, `&Slot<S>`).
     Slot(&'static Schema),
@@ -235,10 +236,17 @@ pub enum Expression {
     },
     /// A substate of the cell or item that the process runs for: what the process has written already, if it has.
     Own(&'static str),
-    /// A substate of the item's cell, in a process over items that also takes `&Cell<S>`.
-    CellOfItem(&'static str),
+    /// A substate that another struct of the cell has (`&Cell<S>`): of the cell that the process runs for, or that its item stands in.
+    OfCell {
+        /// The number of the struct among those of substates that the process takes.
+        argument: usize,
+        /// The substate.
+        field: &'static str,
+    },
     /// `cell.neighbour(index).field`
     Neighbour {
+        /// The number of the struct; 0 is that of the cell that the process runs for.
+        argument: usize,
         /// The index of the neighbour, `u32`.
         index: Box<Expression>,
         /// The substate.
@@ -246,6 +254,8 @@ pub enum Expression {
     },
     /// `name.field` where `name` was bound by [`Statement::LetNeighbour`].
     NamedNeighbour {
+        /// The number of the struct.
+        argument: usize,
         /// The variable.
         name: &'static str,
         /// The substate.
@@ -253,6 +263,8 @@ pub enum Expression {
     },
     /// `name.field` where `name` is the variable of [`Statement::ForOthers`] or [`Statement::ForItems`].
     Other {
+        /// The number of the struct.
+        argument: usize,
         /// The variable.
         name: &'static str,
         /// The substate.
@@ -261,9 +273,14 @@ pub enum Expression {
     /// `name.label()` of such a variable, `u32`.
     OtherLabel(&'static str),
     /// `parameters.field`
-    Parameter(&'static str),
-    /// The parameters as a whole, passed on to a helper.
-    Parameters,
+    Parameter {
+        /// The name of the argument of the function.
+        argument: &'static str,
+        /// The field.
+        field: &'static str,
+    },
+    /// An argument of parameters as a whole, passed on to a helper.
+    Parameters(&'static str),
     /// The space as a whole, passed on to a helper.
     Space,
     /// Something that the engine provides.

@@ -9,26 +9,29 @@
 #![allow(unsafe_code)]
 
 use crate::random::{self, Owner};
-use crate::schema::Schema;
 use crate::value::Float;
 use crate::vector::Vector3;
-use std::any::{Any, TypeId};
+use std::any::Any;
 use std::cell::Cell;
 use std::marker::PhantomData;
 use std::ops::Range;
+use std::sync::Arc;
 
+mod cells;
 mod constants;
+mod entries;
 mod search;
 mod space;
 mod values;
 mod wide;
 
+pub use cells::{AroundRead, CentreRead, Column, Columns, Offset};
 pub use constants::{KernelConstant, Ordered, constant};
+pub use entries::{Entry, Memory, MemoryOf};
 pub use search::{CellFilter, Found, Scratch, reach};
 pub use space::NativeSpace;
 pub use values::{
-    ArrayCells, ArrayValue, AroundRead, CellsOf, CentreRead, Column, Columns, KernelElement, KernelValue,
-    Offset, Planes, load, load_element, store,
+    ArrayCells, ArrayValue, CellsOf, KernelElement, KernelValue, Planes, load, load_element, store,
 };
 
 /// A migration's answer: the item stays where it is.
@@ -43,29 +46,11 @@ pub const BEYOND_NEIGHBOURHOOD: u32 = u32::MAX;
 /// A kernel: runs a process over one row.
 pub type RowKernel = fn(&Row<'_>);
 
-/// A group of substates that a process works with.
-#[derive(Debug, Clone, Copy)]
-pub struct Group {
-    /// The type of the struct.
-    pub type_id: fn() -> TypeId,
-    /// Its fields.
-    pub schema: &'static Schema,
-}
-
-/// Which of a process's groups an access belongs to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Of {
-    /// The cell or item that the process runs for.
-    Subject,
-    /// The cell of the item, or the items of the cell.
-    Companion,
-}
-
 /// How a process uses one substate; derived from its body.
 #[derive(Debug, Clone, Copy)]
 pub struct Access {
-    /// Whose substate.
-    pub of: Of,
+    /// The number of its struct among those that the process takes.
+    pub argument: usize,
     /// The number of the field.
     pub field: usize,
     /// Read at the centre.
@@ -74,48 +59,6 @@ pub struct Access {
     pub others: bool,
     /// Written.
     pub write: bool,
-}
-
-/// One substate as a kernel reaches it.
-#[derive(Debug, Clone, Copy)]
-pub struct Entry {
-    /// Of cells: the first element's value in the row's first cell. Of items: the value of the first item of all. Null where the kernel
-    /// reads through `write`: where the process writes the substate and reads it at the centre only.
-    pub read: *const u8,
-    /// Where results go: of cells, the row's first cell; of items, the row's first item. Null where the process does not write.
-    pub write: *mut u8,
-    /// What lies there.
-    pub memory: Memory,
-}
-
-/// How a substate lies in memory.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Memory {
-    /// The bytes of an element.
-    pub element: usize,
-    /// The elements of a value: 1, or the length of an array.
-    pub length: usize,
-    /// Whose values these are, and which of them can be read.
-    pub of: MemoryOf,
-}
-
-/// Whose values an entry holds, and which of them can be read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum MemoryOf {
-    /// Of cells, each element in a plane of its own; of the row's cells.
-    Cells {
-        /// The elements from one plane to the next, where values are read.
-        read_stride: usize,
-        /// The same where they are written.
-        write_stride: usize,
-        /// Whether neighbours can be read too.
-        around: bool,
-    },
-    /// Of items, whole values one after the other.
-    Items {
-        /// Whether items can be read that are not the row's own.
-        all: bool,
-    },
 }
 
 /// What is the same in all rows of a step.
@@ -131,8 +74,8 @@ pub struct Frame<'a> {
     pub step: u64,
     /// The seed of the run's random numbers.
     pub seed: u64,
-    /// `P::Native<R>` of the model's parameters.
-    pub parameters: &'a (dyn Any + Send + Sync),
+    /// `P::Native<R>` of each struct of the model's parameters.
+    pub parameters: &'a [Arc<dyn Any + Send + Sync>],
     /// The distance in elements from a cell to each cell of its neighbourhood, index 0 being the cell itself.
     pub offsets: &'a [isize],
     /// Which cells a search can leave out; nothing to look at all of them.
@@ -295,10 +238,10 @@ impl<'a> Row<'a> {
         self.frame.offsets.len()
     }
 
-    /// The parameters; nothing where they are of another type, which building the model has excluded.
+    /// A struct of parameters; nothing where the model has none of this type, which building it has excluded.
     #[inline(always)]
     pub fn parameters<P: 'static>(&self) -> Option<&'a P> {
-        self.frame.parameters.downcast_ref()
+        self.frame.parameters.iter().find_map(|parameters| parameters.downcast_ref())
     }
 
     /// The space.
@@ -318,99 +261,6 @@ impl<'a> Row<'a> {
     #[inline(always)]
     pub fn columns(&self) -> Columns<'_> {
         Columns { numbers: 0..self.length, row: PhantomData }
-    }
-
-    /// The entry with this number, compared with what a kernel takes it for.
-    #[inline(always)]
-    fn entry<T: KernelValue>(&self, number: usize) -> &Entry {
-        let entry = &self.entries[number];
-        let memory = entry.memory;
-        let element = size_of::<<T::Element as KernelElement>::Memory>();
-        assert!(memory.element == element && memory.length == T::LENGTH, "an entry of another type");
-        entry
-    }
-
-    /// The planes of cells that an entry lets read.
-    #[inline(always)]
-    fn planes<T: KernelValue>(&self, number: usize) -> (AroundRead<'_, T>, bool) {
-        let entry = self.entry::<T>(number);
-        let MemoryOf::Cells { read_stride: stride, around, .. } = entry.memory.of else { panic!("an entry of items") };
-        assert!(!entry.read.is_null(), "an entry that is written in place");
-        (AroundRead { first: entry.read.cast(), stride, row: PhantomData }, around)
-    }
-
-    /// A substate of the row's cells, to be read.
-    #[inline(always)]
-    pub fn read_cells<T: KernelValue>(&self, number: usize) -> CentreRead<'_, T> {
-        CentreRead { around: self.planes(number).0 }
-    }
-
-    /// A substate of the row's cells and of their neighbours, to be read.
-    #[inline(always)]
-    pub fn read_around<T: KernelValue>(&self, number: usize) -> AroundRead<'_, T> {
-        let (planes, around) = self.planes(number);
-        assert!(around, "an entry whose neighbours cannot be read");
-        planes
-    }
-
-    /// A substate of the row's cells, to be written. Each can be asked for once.
-    #[inline(always)]
-    pub fn write_cells<T: KernelValue>(&self, number: usize) -> T::Cells<'_> {
-        let entry = self.entry::<T>(number);
-        let MemoryOf::Cells { write_stride: stride, .. } = entry.memory.of else { panic!("an entry of items") };
-        self.take(number);
-        let planes = Planes { first: entry.write.cast(), stride, cells: self.length };
-        // SAFETY: `Row::new`: where it can be written, each plane has `length` elements, aligned, this row's alone. It is, and is asked for
-        // once, see `take`; it is not read through the entry but where `read` is other memory.
-        unsafe { T::Cells::new(planes) }
-    }
-
-    /// Checks that an entry can be written, and that no one else has asked for it.
-    #[inline(always)]
-    fn take(&self, number: usize) {
-        assert!(!self.entries[number].write.is_null(), "an entry that cannot be written");
-        let mark = 1_u128.checked_shl(number as u32).unwrap_or_default();
-        let taken = self.taken.get();
-        assert!(mark != 0 && taken & mark == 0, "an entry that is written already");
-        self.taken.set(taken | mark);
-    }
-
-    /// A substate of all items, to be read.
-    #[inline(always)]
-    pub fn read_items<T: KernelValue>(&self, number: usize) -> &[T::Memory] {
-        let entry = self.entry::<T>(number);
-        assert!(entry.memory.of == MemoryOf::Items { all: true }, "an entry whose other items cannot be read");
-        assert!(!entry.read.is_null(), "an entry that is written in place");
-        let count = self.items.map_or(0, |items| items.labels.len());
-        // SAFETY: `Row::new`: as many elements as labels, aligned, which no one writes.
-        unsafe { std::slice::from_raw_parts(entry.read.cast(), count) }
-    }
-
-    /// A substate of the row's own items, to be read; element 0 belongs to item [`Self::first_item`].
-    #[inline(always)]
-    pub fn read_own_items<T: KernelValue>(&self, number: usize) -> &[T::Memory] {
-        let entry = self.entry::<T>(number);
-        assert!(matches!(entry.memory.of, MemoryOf::Items { .. }), "an entry of cells");
-        assert!(!entry.read.is_null(), "an entry that is written in place");
-        let (first, end) = self.items.map_or((0, 0), |items| items.own);
-        // SAFETY: `Row::new`: the row's own items, aligned, which no one else writes.
-        unsafe {
-            let values: *const T::Memory = entry.read.cast();
-            std::slice::from_raw_parts(values.add(first), end - first)
-        }
-    }
-
-    /// A substate of the row's own items, to be written; element 0 belongs to item [`Self::first_item`]. Each can be asked for once.
-    #[inline(always)]
-    #[allow(clippy::mut_from_ref, reason = "each written entry is asked for once, see `take`")]
-    pub fn write_items<T: KernelValue>(&self, number: usize) -> &mut [T::Memory] {
-        let entry = self.entry::<T>(number);
-        assert!(matches!(entry.memory.of, MemoryOf::Items { .. }), "an entry of cells");
-        self.take(number);
-        let (first, end) = self.items.map_or((0, 0), |items| items.own);
-        // SAFETY: `Row::new`: where they can be written, the row's own items, aligned, this row's alone. They are, and are asked for once,
-        // see `take`.
-        unsafe { std::slice::from_raw_parts_mut(entry.write.cast(), end - first) }
     }
 
     /// The number of the row's first own item.

@@ -97,7 +97,9 @@ pub mod kernel;
 pub mod math;
 pub mod model;
 mod neighbourhood;
+mod parameter_set;
 mod parameters;
+pub mod plan;
 mod process;
 mod random;
 pub mod reduction;
@@ -117,14 +119,15 @@ pub use engine::{Engine, EngineFailure, Fault, StartError};
 pub use geometry::{Boundary, Geometry};
 pub use model::{InitialError, Model, ModelBuilder, ModelError};
 pub use neighbourhood::{Hexagons, Neighbourhood, NeighbourhoodError, Parity};
+pub use parameter_set::ParameterSet;
 pub use parameters::{AnyParameters, ParameterError, ParameterValue, Parameters};
-pub use process::{ElementaryProcess, Process, ProcessKind};
+pub use process::{Argument, ElementaryProcess, Holds, ParametersArgument, Process, ProcessKind, Processes};
 pub use random::{Owner, draw_words, philox};
 pub use reference::Reference;
 pub use schema::{Field, Schema};
 pub use simulation::{GroupSnapshot, Outcome, RunError, RunOptions, Simulation, Snapshot, SnapshotError};
-pub use states::{StateNames, States};
 pub use state::{Item, State, StateError};
+pub use states::{StateNames, States};
 pub use steering::{Schedule, SteeringError};
 pub use substates::{HasSubstate, Substate, Substates};
 pub use value::{
@@ -140,7 +143,7 @@ pub mod prelude {
     pub use crate::{
         Boundary, Cell, Destination, Engine, Hexagons, Item, Model, ModelError, Neighbourhood, Other,
         Outcome, ParameterError, Parameters, Precision, Real, Reference, RunError, RunOptions, Schedule,
-        Simulation, Slot, Slots, Space, State, States, SteeringError, Substate, Substates, Vector2, Vector3, Vector4,
-        elementary_process, helper, migration,
+        Simulation, Slot, Slots, Space, State, States, SteeringError, Substate, Substates, Vector2, Vector3,
+        Vector4, elementary_process, helper, migration,
     };
 }

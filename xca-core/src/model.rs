@@ -10,7 +10,8 @@ pub use initial::InitialError;
 
 use crate::engine::SubstateId;
 use crate::geometry::Geometry;
-use crate::parameters::AnyParameters;
+use crate::parameter_set::ParameterSet;
+use crate::plan::Plan;
 use crate::process::Process;
 use crate::schema::Schema;
 use crate::steering::Steering;
@@ -27,7 +28,8 @@ pub struct Model {
     geometry: Geometry,
     groups: Vec<Group>,
     processes: Vec<Process>,
-    parameters: Box<dyn AnyParameters>,
+    parameters: ParameterSet,
+    plan: Plan,
     steering: Vec<Steering>,
     fault_texts: Vec<(u32, String)>,
 }
@@ -126,8 +128,13 @@ impl Model {
     }
 
     /// The parameters at the start.
-    pub fn parameters(&self) -> &dyn AnyParameters {
-        &*self.parameters
+    pub fn parameters(&self) -> &ParameterSet {
+        &self.parameters
+    }
+
+    /// What follows from the processes, for engines.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
     }
 
     pub(crate) fn steering(&self) -> &[Steering] {
@@ -152,12 +159,6 @@ impl Model {
     /// The machine type of a substate.
     pub fn stored(&self, substate: SubstateId, precision: Precision) -> StoredType {
         self.groups[substate.group].schema.fields[substate.field].value_type.stored(precision)
-    }
-
-    /// The substate that an access of a process means.
-    pub fn substate(&self, process: &Process, access: &crate::kernel::Access) -> SubstateId {
-        let group = self.group_number((process.group(access.of).type_id)()).unwrap_or_default();
-        SubstateId { group, field: access.field }
     }
 
     /// Sets a parameter of the model by name, before it is run.

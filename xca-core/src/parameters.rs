@@ -1,7 +1,7 @@
 //! Parameters: values that are the same in all cells, and that steering may change between steps.
 
 use crate::schema::Schema;
-use crate::value::{Float, HostScalar, HostValue, Precision, ScalarType, ValueType};
+use crate::value::{Float, HostScalar, HostValue, Precision, ValueType};
 use std::any::{Any, TypeId};
 use std::fmt;
 use std::sync::Arc;
@@ -73,23 +73,8 @@ pub trait Parameters: Clone + fmt::Debug + Send + Sync + 'static {
 
 fn find(schema: &'static Schema, name: &str) -> Result<(usize, ValueType), ParameterError> {
     schema.field(name).map(|(index, field)| (index, field.value_type)).ok_or_else(|| {
-        ParameterError::Unknown { name: name.to_owned(), of: schema.name, known: schema.names() }
+        ParameterError::Unknown { name: name.to_owned(), of: schema.name.to_owned(), known: schema.names() }
     })
-}
-
-/// The parameters of a model that has none.
-#[diagnostic::do_not_recommend]
-impl Parameters for () {
-    const SCHEMA: &'static Schema = &Schema { name: "()", fields: &[], position: None };
-    type Native<R: Float> = ();
-
-    fn native<R: Float>(&self) {}
-
-    fn value(&self, _field: usize) -> ParameterValue {
-        ParameterValue { value_type: ValueType::scalar(ScalarType::Real), components: Vec::new() }
-    }
-
-    fn set_value(&mut self, _field: usize, _value: &ParameterValue) {}
 }
 
 /// The value of a parameter, with its type. Every scalar type fits exactly into the `f64` of its components.
@@ -163,9 +148,17 @@ pub enum ParameterError {
     Unknown {
         /// The name that was asked for.
         name: String,
-        /// The parameter struct.
-        of: &'static str,
-        /// The names that it has.
+        /// The parameter struct or structs.
+        of: String,
+        /// The names that they have.
+        known: String,
+    },
+    /// Parameters of several structs have this name.
+    #[error("several parameters are called `{name}`; say which: {known}")]
+    Ambiguous {
+        /// The name that was asked for.
+        name: String,
+        /// What it may mean.
         known: String,
     },
     /// The text is no value of the parameter's type.

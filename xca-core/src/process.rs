@@ -1,8 +1,10 @@
 //! Elementary processes as a model holds them.
 
 use crate::ir;
-use crate::kernel::{Access, Group, Of, RowKernel};
+use crate::kernel::{Access, RowKernel};
+use crate::schema::Schema;
 use crate::value::Precision;
+use std::any::TypeId;
 
 /// What a process is run for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,6 +17,26 @@ pub enum ProcessKind {
     Migration,
 }
 
+/// A struct that a process takes.
+#[derive(Debug, Clone, Copy)]
+pub struct Argument {
+    /// The type of the struct.
+    pub type_id: fn() -> TypeId,
+    /// Its fields.
+    pub schema: &'static Schema,
+    /// What it holds.
+    pub holds: Holds,
+}
+
+/// What a struct that a process takes holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Holds {
+    /// Substates of cells.
+    Cells,
+    /// Substates of the items of a population.
+    Items,
+}
+
 /// Everything that an engine knows about a process; written by `#[elementary_process]` and `#[migration]`.
 #[derive(Debug, Clone, Copy)]
 pub struct Process {
@@ -24,12 +46,12 @@ pub struct Process {
     pub module: &'static str,
     /// What it is run for.
     pub kind: ProcessKind,
-    /// The substates of what it is run for.
-    pub subject: Group,
-    /// Of a process over items, the substates of their cell; of a process over cells, those of its items.
-    pub companion: Option<Group>,
-    /// The struct of the parameters that it takes.
-    pub parameters: Option<Group>,
+    /// In which steps it is run: in every one, or in every so many, the first time as the last of so many.
+    pub every: u64,
+    /// The structs of substates that it takes: first that of what it is run for, which alone it can write.
+    pub substates: &'static [Argument],
+    /// The structs of parameters that it takes, with their types.
+    pub parameters: &'static [ParametersArgument],
     /// Whether it looks at neighbours.
     pub local_interaction: bool,
     /// How it uses each substate; a substate may stand in two accesses, one of which is the position for a search.
@@ -42,6 +64,15 @@ pub struct Process {
     pub row_f64: RowKernel,
 }
 
+/// A struct of parameters that a process takes.
+#[derive(Debug, Clone, Copy)]
+pub struct ParametersArgument {
+    /// The type of the struct.
+    pub type_id: fn() -> TypeId,
+    /// Its fields.
+    pub schema: &'static Schema,
+}
+
 impl Process {
     /// The kernel for a precision.
     pub fn kernel(&self, precision: Precision) -> RowKernel {
@@ -51,12 +82,19 @@ impl Process {
         }
     }
 
-    /// The group of an access: the subject, or the companion where there is one.
-    pub fn group(&self, of: Of) -> Group {
-        match of {
-            Of::Subject => self.subject,
-            Of::Companion => self.companion.unwrap_or(self.subject),
-        }
+    /// The struct of what it is run for.
+    pub fn subject(&self) -> &'static Argument {
+        &self.substates[0]
+    }
+
+    /// The population whose items it runs for or goes through.
+    pub fn population(&self) -> Option<&'static Argument> {
+        self.substates.iter().find(|argument| argument.holds == Holds::Items)
+    }
+
+    /// Whether it is run in the step with this number, from 0.
+    pub fn is_due(&self, step: u64) -> bool {
+        (step % self.every) + 1 == self.every
     }
 }
 
@@ -72,3 +110,40 @@ pub trait ElementaryProcess: 'static {
     /// What an engine knows about it.
     fn process() -> Process;
 }
+
+/// One process, or several in parentheses that run one after the other: `relax`, `(flow, balance, cool)`.
+#[diagnostic::on_unimplemented(
+    message = "this is no elementary process",
+    label = "not marked as an elementary process",
+    note = "write `#[elementary_process]` or `#[migration]` above the function, and name it here: `.process(evolve)`"
+)]
+pub trait Processes {
+    /// Adds them in order.
+    fn add_to(processes: &mut Vec<Process>);
+}
+
+impl<P: ElementaryProcess> Processes for P {
+    fn add_to(processes: &mut Vec<Process>) {
+        processes.push(P::process());
+    }
+}
+
+macro_rules! several {
+    ($($process:ident)+) => {
+        #[diagnostic::do_not_recommend]
+        impl<$($process: Processes),+> Processes for ($($process,)+) {
+            fn add_to(processes: &mut Vec<Process>) {
+                $($process::add_to(processes);)+
+            }
+        }
+    };
+}
+
+several!(A);
+several!(A B);
+several!(A B C);
+several!(A B C D);
+several!(A B C D E);
+several!(A B C D E F);
+several!(A B C D E F G);
+several!(A B C D E F G H);

@@ -6,7 +6,7 @@ pub use snapshot::{GroupSnapshot, Snapshot, SnapshotError};
 
 use crate::engine::{Engine, EngineFailure, Execution, Fault, Interruption, StartError, StepContext};
 use crate::model::Model;
-use crate::parameters::AnyParameters;
+use crate::parameter_set::ParameterSet;
 use crate::state::State;
 use crate::steering::{Schedule, SteeringError};
 use crate::value::Precision;
@@ -87,7 +87,7 @@ pub struct Simulation {
     execution: Box<dyn Execution>,
     /// How many items of each population had left, beyond those that the engine has counted, when a snapshot was restored.
     left_before: Vec<u64>,
-    parameters: Box<dyn AnyParameters>,
+    parameters: ParameterSet,
     options: RunOptions,
     step: u64,
     broken: bool,
@@ -112,7 +112,7 @@ impl Simulation {
             model: model.clone(),
             execution: engine.start(model, options.precision)?,
             left_before: vec![0; model.groups().len()],
-            parameters: model.parameters().duplicate(),
+            parameters: model.parameters().clone(),
             options,
             step: 0,
             broken: false,
@@ -178,12 +178,12 @@ impl Simulation {
         if self.broken {
             return Err(RunError::Broken { step: self.step + 1 });
         }
-        let parameters = self.parameters.kernel_view(self.options.precision);
+        let parameters = self.parameters.kernel_views(self.options.precision);
         let context = StepContext {
             step: self.step,
             seed: self.options.seed,
-            parameters: &*parameters,
-            values: &*self.parameters,
+            parameters: &parameters,
+            values: &self.parameters,
         };
         match work(&mut *self.execution, &context) {
             Ok(done) => {
@@ -255,7 +255,8 @@ impl Simulation {
         self.steer(|schedule| *schedule == Schedule::End)
     }
 
-    /// Runs one process alone, by its number in the model, for debugging. It belongs to the step that is under way: steps are not counted.
+    /// Runs one process alone, by its number in the model, for debugging; nothing happens where it is not due in the step that is under
+    /// way, to which it belongs: steps are not counted.
     ///
     /// # Errors
     /// A fault of the process, or a number that no process has.

@@ -3,7 +3,8 @@
 use crate::engine::{EngineFailure, Execution, Fault, Population, SubstateId};
 use crate::geometry::Geometry;
 use crate::model::Model;
-use crate::parameters::{AnyParameters, ParameterError, ParameterValue, Parameters};
+use crate::parameter_set::ParameterSet;
+use crate::parameters::{ParameterError, ParameterValue, Parameters};
 use crate::reduction::{Reduced, Reducible, Reduction};
 use crate::steering::SteeringError;
 use crate::substates::{Substate, Substates};
@@ -14,7 +15,7 @@ pub struct State<'a> {
     pub(crate) model: &'a Model,
     pub(crate) execution: &'a mut dyn Execution,
     pub(crate) left_before: &'a [u64],
-    pub(crate) parameters: &'a mut Box<dyn AnyParameters>,
+    pub(crate) parameters: &'a mut ParameterSet,
     pub(crate) precision: Precision,
     pub(crate) seed: u64,
     pub(crate) step: u64,
@@ -70,13 +71,13 @@ pub enum StateError {
     /// Two items with the same label.
     #[error("the label {0} is given to two items")]
     LabelTwice(u32),
-    /// The parameters are of another type.
-    #[error("the model's parameters are `{given}`, not `{wanted}`")]
+    /// The model has no parameters of this type.
+    #[error("the model has no parameters `{wanted}`; it has: {given}")]
     OtherParameters {
         /// The type that was asked for.
         wanted: &'static str,
-        /// The type that the model has.
-        given: &'static str,
+        /// The types that the model has.
+        given: String,
     },
     /// A parameter that cannot be set.
     #[error(transparent)]
@@ -397,46 +398,40 @@ impl State<'_> {
         })
     }
 
-    /// The parameters.
+    /// The parameters of the struct `P`.
     ///
     /// # Errors
-    /// Where they are of another type.
+    /// Where the model has none of this type.
     pub fn parameters<P: Parameters>(&self) -> Result<P, StateError> {
-        self.parameters.as_any().downcast_ref::<P>().cloned().ok_or_else(|| StateError::OtherParameters {
-            wanted: P::SCHEMA.name,
-            given: self.parameters.schema().name,
-        })
+        self.parameters.get::<P>().cloned().ok_or_else(|| self.no_parameters::<P>())
     }
 
-    /// Replaces the parameters, from the next step on.
+    /// Replaces the parameters of the struct `P`, from the next step on.
     ///
     /// # Errors
-    /// Where they are of another type.
+    /// Where the model has none of this type.
     pub fn set_parameters<P: Parameters>(&mut self, parameters: P) -> Result<(), StateError> {
-        self.parameters::<P>()?;
-        *self.parameters = Box::new(parameters);
-        Ok(())
+        if self.parameters.replace(parameters) { Ok(()) } else { Err(self.no_parameters::<P>()) }
+    }
+
+    fn no_parameters<P: Parameters>(&self) -> StateError {
+        let given: Vec<&str> = self.parameters.schemas().map(|schema| schema.name).collect();
+        let given = if given.is_empty() { "none".to_owned() } else { given.join(", ") };
+        StateError::OtherParameters { wanted: P::SCHEMA.name, given }
     }
 
     /// The value of a parameter by name.
     ///
     /// # Errors
-    /// Where no parameter has the name.
+    /// Where no parameter has the name, or several have.
     pub fn parameter(&self, name: &str) -> Result<ParameterValue, StateError> {
-        let schema = self.parameters.schema();
-        match schema.field(name) {
-            Some((index, _)) => Ok(self.parameters.value_of(index)),
-            None => {
-                Err(ParameterError::Unknown { name: name.to_owned(), of: schema.name, known: schema.names() }
-                    .into())
-            }
-        }
+        Ok(self.parameters.value_by_name(name)?)
     }
 
     /// Sets a parameter by name, from the next step on.
     ///
     /// # Errors
-    /// Where no parameter has the name, or the text is no value of its type.
+    /// Where no parameter has the name or several have, or the text is no value of its type.
     pub fn set_parameter(&mut self, name: &str, text: &str) -> Result<(), StateError> {
         Ok(self.parameters.set_by_name(name, text)?)
     }

@@ -5,7 +5,7 @@ use crate::layout::Layout;
 use crate::migration;
 use crate::population::Population;
 use crate::rows::{self, Group};
-use crate::stages::{Stage, is_doubled, is_read_elsewhere, stages};
+use crate::stages::{Stage, stages};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Arc;
@@ -24,7 +24,7 @@ pub(crate) struct CpuExecution {
     pool: Arc<rayon::ThreadPool>,
     layout: Layout,
     groups: Vec<Group>,
-    /// The stages of a whole step.
+    /// The stages of a step in which every process is due.
     stages: Vec<Stage>,
 }
 
@@ -44,19 +44,13 @@ impl CpuExecution {
         Ok(Self { model: model.clone(), precision, pool, layout, groups, stages })
     }
 
-    fn run_stage(&mut self, stage: &Stage, context: &StepContext<'_>) -> Result<(), Fault> {
-        let movers = rows::run(
-            &self.model,
-            &self.layout,
-            self.precision,
-            &mut self.groups,
-            stage.processes.clone(),
-            context,
-        )?;
+    fn run_stage(&mut self, stage: &[usize], context: &StepContext<'_>) -> Result<(), Fault> {
+        let movers = rows::run(&self.model, &self.layout, self.precision, &mut self.groups, stage, context)?;
         // A migration is the last of its stage.
-        let Some(process) = self.model.processes()[stage.processes.clone()].last() else { return Ok(()) };
+        let Some(&last) = stage.last() else { return Ok(()) };
+        let process = &self.model.processes()[last];
         if process.kind == ProcessKind::Migration
-            && let Some(number) = self.model.group_number((process.subject.type_id)())
+            && let Some(number) = self.model.plan().process(last).population
             && let Group::Population(population) = &mut self.groups[number]
         {
             migration::migrate(population, &self.layout, self.model.geometry(), process, &movers)?;
@@ -80,7 +74,7 @@ fn check_size(model: &Model, layout: &Layout, precision: Precision) -> Result<()
 /// The bytes of a model without items: planes, some of them twice, and the ranges of the cells' items.
 pub(crate) fn least_memory(model: &Model, layout: &Layout, precision: Precision) -> u128 {
     let of_field = |group: usize, (field, stored): (usize, StoredType)| {
-        let planes = if is_doubled(model, SubstateId { group, field }) { 2 } else { 1 };
+        let planes = if model.plan().is_doubled(SubstateId { group, field }) { 2 } else { 1 };
         planes * stored.size()
     };
     let of_group = |(number, group): (usize, &Definition)| match group.kind() {
@@ -104,8 +98,8 @@ fn state(model: &Model, number: usize, group: &Definition, layout: &Layout, prec
                     let mut bytes = vec![0; stored.size()];
                     outside(field, precision, &mut bytes);
                     let substate = SubstateId { group: number, field };
-                    let (doubled, elsewhere) =
-                        (is_doubled(model, substate), is_read_elsewhere(model, substate));
+                    let plan = model.plan();
+                    let (doubled, elsewhere) = (plan.is_doubled(substate), plan.is_read_elsewhere(substate));
                     Dense::new(stored, layout, &bytes, doubled, elsewhere)
                 })
                 .collect(),
@@ -118,8 +112,10 @@ fn state(model: &Model, number: usize, group: &Definition, layout: &Layout, prec
 
 impl Execution for CpuExecution {
     fn run(&mut self, processes: Range<usize>, context: &StepContext<'_>) -> Result<(), Fault> {
-        let whole = processes == (0..self.model.processes().len());
-        let stages = if whole { self.stages.clone() } else { stages(&self.model, processes) };
+        let all = self.model.processes();
+        let whole = processes == (0..all.len()) && all.iter().all(|process| process.is_due(context.step));
+        let due = processes.filter(|number| all[*number].is_due(context.step));
+        let stages = if whole { self.stages.clone() } else { stages(&self.model, due) };
         // Parallel iterators run on the pool that they are started in.
         let pool = Arc::clone(&self.pool);
         pool.install(|| stages.iter().try_for_each(|stage| self.run_stage(stage, context)))

@@ -15,7 +15,8 @@ use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use xca_core::engine::{Fault, StepContext, SubstateId};
 use xca_core::kernel::{
-    Access, CellFilter, Entry, Frame, Memory, MemoryOf, Of, Row, RowFault, RowItems, RowKernel, STAY, Scratch, StoppedAt,
+    Access, CellFilter, Entry, Frame, Memory, MemoryOf, Row, RowFault, RowItems, RowKernel, STAY, Scratch,
+    StoppedAt,
 };
 use xca_core::{Boundary, Model, Parity, Precision, Process, ProcessKind};
 
@@ -107,13 +108,13 @@ pub(crate) fn run(
     layout: &Layout,
     precision: Precision,
     groups: &mut [Group],
-    processes: Range<usize>,
+    processes: &[usize],
     context: &StepContext<'_>,
 ) -> Result<Vec<Mover>, Fault> {
     let geometry = model.geometry();
-    let written = prepare_buffers(model, layout, groups, &processes);
+    let written = prepare_buffers(model, layout, groups, processes);
     let prepared: Vec<Prepared<'_>> =
-        processes.map(|index| prepare(model, layout, groups, index, precision, &written)).collect();
+        processes.iter().map(|&index| prepare(model, layout, groups, index, precision, &written)).collect();
     let offsets = layout.offsets(geometry);
     let filter = filter(model, layout, precision, groups, &prepared);
     let frames: [Frame<'_>; 2] = std::array::from_fn(|odd| Frame {
@@ -167,11 +168,11 @@ fn filter(
     prepared: &[Prepared<'_>],
 ) -> Option<CellFilter> {
     let position = |process: &Process| {
-        let field = process.subject.schema.position?;
+        let field = process.subject().schema.position?;
         let reads = process
             .access
             .iter()
-            .any(|access| access.of == Of::Subject && access.others && access.field == field);
+            .any(|access| access.argument == 0 && access.others && access.field == field);
         reads.then_some(field)
     };
     let mut slack: f64 = 0.0;
@@ -192,26 +193,24 @@ fn prepare_buffers(
     model: &Model,
     layout: &Layout,
     groups: &mut [Group],
-    processes: &Range<usize>,
+    processes: &[usize],
 ) -> Vec<(SubstateId, bool)> {
     let mut written: Vec<(SubstateId, bool)> = Vec::new();
-    for process in &model.processes()[processes.clone()] {
-        for access in process.access {
-            let substate = model.substate(process, access);
-            match &mut groups[substate.group] {
-                Group::Cells(planes) if access.others => planes[substate.field].refresh(layout),
-                Group::Cells(_) => {}
-                Group::Population(population) if access.others && access.write => {
-                    let bytes = population.items.fields[substate.field].len();
-                    population.next.fields[substate.field].resize(bytes);
-                }
-                Group::Population(_) => {}
+    for found in processes.iter().flat_map(|&number| &model.plan().process(number).uses) {
+        let substate = found.substate;
+        match &mut groups[substate.group] {
+            Group::Cells(planes) if found.elsewhere => planes[substate.field].refresh(layout),
+            Group::Cells(_) => {}
+            Group::Population(population) if found.is_doubled() => {
+                let bytes = population.items.fields[substate.field].len();
+                population.next.fields[substate.field].resize(bytes);
             }
-            if access.write {
-                match written.iter_mut().find(|(known, _)| *known == substate) {
-                    Some((_, second)) => *second |= access.others,
-                    None => written.push((substate, access.others)),
-                }
+            Group::Population(_) => {}
+        }
+        if found.written {
+            match written.iter_mut().find(|(known, _)| *known == substate) {
+                Some((_, second)) => *second |= found.elsewhere,
+                None => written.push((substate, found.elsewhere)),
             }
         }
     }
@@ -233,32 +232,27 @@ fn prepare<'a>(
     written: &[(SubstateId, bool)],
 ) -> Prepared<'a> {
     let process = &model.processes()[index];
+    let plan = model.plan().process(index);
+    let accesses = process.access.iter().zip(&plan.accesses);
     let substates =
-        process.access.iter().map(|access| shared(model, layout, groups, process, access, written)).collect();
-    let population = match process.kind {
-        ProcessKind::Cells => process.companion,
-        ProcessKind::Items | ProcessKind::Migration => Some(process.subject),
-    };
-    let population = population.and_then(|group| model.group_number((group.type_id)()));
+        accesses.map(|(access, &substate)| shared(layout, groups, access, substate, written)).collect();
+    let population = plan.population;
     Prepared { process, index, kernel: process.kernel(precision), substates, population }
 }
 
 fn shared(
-    model: &Model,
     layout: &Layout,
     groups: &mut [Group],
-    process: &Process,
     access: &Access,
+    substate: SubstateId,
     written: &[(SubstateId, bool)],
 ) -> Shared {
-    let substate = model.substate(process, access);
     let (current, next, stored, of, continued) = match &mut groups[substate.group] {
         Group::Cells(planes) => {
             let plane = &mut planes[substate.field];
             let continued = access.write && plane.read_elsewhere;
             let stride = layout.cells();
-            let of =
-                MemoryOf::Cells { read_stride: stride, write_stride: stride, around: access.others };
+            let of = MemoryOf::Cells { read_stride: stride, write_stride: stride, around: access.others };
             (&mut plane.current, plane.next.as_mut(), plane.stored, of, continued)
         }
         Group::Population(population) => {

@@ -1,9 +1,9 @@
 //! Which substates a body reads and writes, and where.
 
 use crate::ast::{
-    Block, Expression, Function, FunctionKind, Place, PlaceRoot, Projection, Reach, Role, Statement,
+    ArgumentNumber, Block, Expression, Function, Place, PlaceRoot, Projection, Reach, Role, Statement,
 };
-use syn::{Ident, Type};
+use syn::Ident;
 
 /// How a body uses one substate.
 pub(crate) struct Access {
@@ -17,10 +17,23 @@ pub(crate) struct Access {
 /// Whose substate.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum GroupOf {
-    Subject,
-    Companion,
+    /// Of the struct with this number.
+    Argument(ArgumentNumber),
     /// The substate marked `#[position]` of the subject, as a search reads it.
     Position,
+}
+
+impl GroupOf {
+    /// Of the cell or item that the process runs for.
+    pub(crate) const SUBJECT: Self = Self::Argument(ArgumentNumber::SUBJECT);
+
+    /// The number of the struct.
+    pub(crate) fn argument(self) -> ArgumentNumber {
+        match self {
+            Self::Argument(number) => number,
+            Self::Position => ArgumentNumber::SUBJECT,
+        }
+    }
 }
 
 /// Everything that a body uses.
@@ -33,8 +46,7 @@ pub(crate) struct Uses {
 impl Uses {
     pub(crate) fn of(function: &Function) -> Self {
         let mut uses = Self { accesses: Vec::new(), neighbours: false };
-        let over_cells = function.kind == FunctionKind::Cells;
-        uses.block(&function.body, over_cells);
+        uses.block(&function.body);
         uses
     }
 
@@ -53,152 +65,144 @@ impl Uses {
         &mut self.accesses[index]
     }
 
-    fn block(&mut self, block: &Block, over_cells: bool) {
+    fn block(&mut self, block: &Block) {
         for statement in &block.statements {
-            self.statement(statement, over_cells);
+            self.statement(statement);
         }
         if let Some(value) = &block.value {
-            self.expression(value, over_cells);
+            self.expression(value);
         }
     }
 
-    fn statement(&mut self, statement: &Statement, over_cells: bool) {
+    fn statement(&mut self, statement: &Statement) {
         match statement {
-            Statement::Let { value, .. } | Statement::Expression(value) => self.expression(value, over_cells),
+            Statement::Let { value, .. } | Statement::Expression(value) => self.expression(value),
             Statement::LetNeighbour { index, .. } => {
                 self.neighbours = true;
-                self.expression(index, over_cells);
+                self.expression(index);
             }
             Statement::Assign { place, operator, value, .. } => {
-                self.expression(value, over_cells);
-                self.place(place, operator.is_some(), over_cells);
+                self.expression(value);
+                self.place(place, operator.is_some());
             }
             Statement::While { condition, body } => {
-                self.expression(condition, over_cells);
-                self.block(body, over_cells);
+                self.expression(condition);
+                self.block(body);
             }
-            Statement::Loop { body } | Statement::ForItems { body, .. } => self.block(body, over_cells),
+            Statement::Loop { body } | Statement::ForItems { body, .. } => self.block(body),
             Statement::ForRange { from, to, body, .. } => {
-                self.expression(from, over_cells);
-                self.expression(to, over_cells);
-                self.block(body, over_cells);
+                self.expression(from);
+                self.expression(to);
+                self.block(body);
             }
             Statement::ForOthers { variable, reach, radius, body } => {
                 self.neighbours |= *reach != Reach::Cell;
                 if let Some(radius) = radius {
-                    self.expression(radius, over_cells);
+                    self.expression(radius);
                     let position = Ident::new("position", variable.span());
                     let access = self.entry(&position, GroupOf::Position);
                     access.centre = true;
                     access.others = true;
                 }
-                self.block(body, over_cells);
+                self.block(body);
             }
             Statement::Break(_) | Statement::Continue(_) => {}
             Statement::Return(value, _) => {
                 if let Some(value) = value {
-                    self.expression(value, over_cells);
+                    self.expression(value);
                 }
             }
             Statement::Fault { code, value } => {
-                self.expression(code, over_cells);
-                self.expression(value, over_cells);
+                self.expression(code);
+                self.expression(value);
             }
         }
     }
 
-    fn place(&mut self, place: &Place, compound: bool, over_cells: bool) {
+    fn place(&mut self, place: &Place, compound: bool) {
         if let PlaceRoot::Own(field) = &place.root {
             let partial = !place.path.is_empty();
-            let access = self.entry(field, GroupOf::Subject);
+            let access = self.entry(field, GroupOf::SUBJECT);
             access.write = true;
             access.centre |= compound || partial;
         }
         for projection in &place.path {
             if let Projection::Element(index) = projection {
-                self.expression(index, over_cells);
+                self.expression(index);
             }
         }
     }
 
-    fn expression(&mut self, expression: &Expression, over_cells: bool) {
+    fn expression(&mut self, expression: &Expression) {
         match expression {
-            Expression::Own(field) => self.entry(field, GroupOf::Subject).centre = true,
-            Expression::CellOfItem(field) => self.entry(field, GroupOf::Companion).centre = true,
-            Expression::NamedNeighbour { field, .. } => self.entry(field, GroupOf::Subject).others = true,
-            Expression::Neighbour { index, field } => {
-                self.neighbours = true;
-                self.entry(field, GroupOf::Subject).others = true;
-                self.expression(index, over_cells);
+            Expression::Own(field) => self.entry(field, GroupOf::SUBJECT).centre = true,
+            Expression::OfCell { argument, field } => {
+                self.entry(field, GroupOf::Argument(*argument)).centre = true;
             }
-            Expression::Other { field, .. } => {
-                // In a process over cells the other items are those of the cell.
-                let group = if over_cells { GroupOf::Companion } else { GroupOf::Subject };
-                self.entry(field, group).others = true;
+            Expression::NamedNeighbour { argument, field, .. }
+            | Expression::Other { argument, field, .. } => {
+                self.entry(field, GroupOf::Argument(*argument)).others = true;
+            }
+            Expression::Neighbour { argument, index, field } => {
+                self.neighbours = true;
+                self.entry(field, GroupOf::Argument(*argument)).others = true;
+                self.expression(index);
             }
             Expression::Builtin(builtin, arguments, _) => {
                 self.neighbours |= *builtin == crate::ast::Builtin::Neighbours;
-                arguments.iter().for_each(|argument| self.expression(argument, over_cells));
+                arguments.iter().for_each(|argument| self.expression(argument));
             }
             Expression::Unary(_, value) | Expression::Cast(value, _) | Expression::Repeat(value, _) => {
-                self.expression(value, over_cells);
+                self.expression(value);
             }
             Expression::Component(value, _) | Expression::Splat(_, value) => {
-                self.expression(value, over_cells);
+                self.expression(value);
             }
             Expression::Binary(_, left, right) | Expression::Element(left, right) => {
-                self.expression(left, over_cells);
-                self.expression(right, over_cells);
+                self.expression(left);
+                self.expression(right);
             }
             Expression::Call { arguments, .. }
             | Expression::Array(arguments, _)
             | Expression::Vector(_, arguments) => {
-                arguments.iter().for_each(|argument| self.expression(argument, over_cells));
+                arguments.iter().for_each(|argument| self.expression(argument));
             }
             Expression::Method { receiver, arguments, .. } => {
-                self.expression(receiver, over_cells);
-                arguments.iter().for_each(|argument| self.expression(argument, over_cells));
+                self.expression(receiver);
+                arguments.iter().for_each(|argument| self.expression(argument));
             }
             Expression::If { condition, then, otherwise, .. } => {
-                self.expression(condition, over_cells);
-                self.block(then, over_cells);
+                self.expression(condition);
+                self.block(then);
                 if let Some(otherwise) = otherwise {
-                    self.block(otherwise, over_cells);
+                    self.block(otherwise);
                 }
             }
             Expression::Match { value, arms, .. } => {
-                self.expression(value, over_cells);
+                self.expression(value);
                 for arm in arms {
                     if let Some(guard) = &arm.guard {
-                        self.expression(guard, over_cells);
+                        self.expression(guard);
                     }
-                    self.block(&arm.body, over_cells);
+                    self.block(&arm.body);
                 }
             }
-            Expression::Block(block) => self.block(block, over_cells),
+            Expression::Block(block) => self.block(block),
             Expression::Bool(_)
             | Expression::Integer(_)
             | Expression::Float(_)
             | Expression::Local(_)
             | Expression::Constant(_)
             | Expression::OtherLabel(_)
-            | Expression::Parameter(_)
+            | Expression::Parameter { .. }
             | Expression::Parameters(_)
             | Expression::Space(_) => {}
         }
     }
 }
 
-/// The struct of the subject and of the companion, where there is one.
-pub(crate) fn groups(function: &Function) -> (Option<&Type>, Option<&Type>) {
-    let mut subject = None;
-    let mut companion = None;
-    for (position, argument) in function.arguments.iter().enumerate() {
-        match &argument.role {
-            Role::Cell(type_) | Role::Slot(type_) if position == 0 => subject = Some(type_),
-            Role::Cell(type_) | Role::Slot(type_) | Role::Slots(type_) => companion = Some(type_),
-            _ => {}
-        }
-    }
-    (subject, companion)
+/// The structs of substates that a process takes, by their numbers.
+pub(crate) fn structs(function: &Function) -> impl Iterator<Item = &Role> {
+    let roles = function.arguments.iter().map(|argument| &argument.role);
+    roles.filter(|role| matches!(role, Role::Cell(_) | Role::Slot(_) | Role::Slots(_)))
 }

@@ -57,6 +57,15 @@ pub(crate) struct Argument {
     pub(crate) role: Role,
 }
 
+/// The number of a struct of substates among those that a process takes; 0 is that of the cell or item that it runs for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct ArgumentNumber(pub(crate) usize);
+
+impl ArgumentNumber {
+    /// That of the cell or item that the process runs for.
+    pub(crate) const SUBJECT: Self = Self(0);
+}
+
 /// The structs are written so that they are unknown to the compiler where the check of the function finds an error; the
 /// plain types stand in [`Mentions`].
 pub(crate) enum Role {
@@ -123,23 +132,34 @@ pub(crate) enum Expression {
     Local(Ident),
     Constant(Path),
     Own(Ident),
-    CellOfItem(Ident),
+    /// A substate that another struct of the cell has: of the cell that the process runs for, or that its item stands in.
+    OfCell {
+        argument: ArgumentNumber,
+        field: Ident,
+    },
     Neighbour {
+        argument: ArgumentNumber,
         index: Box<Expression>,
         field: Ident,
     },
     NamedNeighbour {
+        argument: ArgumentNumber,
         name: Ident,
         field: Ident,
     },
     Other {
+        argument: ArgumentNumber,
         name: Ident,
         field: Ident,
     },
     OtherLabel(Ident),
-    Parameter(Ident),
-    /// The parameters argument as a whole, passed to a helper.
-    Parameters(Span),
+    Parameter {
+        /// The name of the argument.
+        argument: Ident,
+        field: Ident,
+    },
+    /// An argument of parameters as a whole, passed to a helper.
+    Parameters(Ident),
     /// The space argument as a whole, passed to a helper.
     Space(Span),
     Builtin(Builtin, Vec<Expression>, Span),

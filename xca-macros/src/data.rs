@@ -4,8 +4,8 @@
 mod words;
 
 use crate::ast::{
-    Argument, Arm, Block, Expression, Function, FunctionKind, Pattern, Place, PlaceRoot, Projection, Reach,
-    Role, Statement,
+    Argument, ArgumentNumber, Arm, Block, Expression, Function, FunctionKind, Pattern, Place, PlaceRoot,
+    Projection, Reach, Role, Statement,
 };
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote, quote_spanned};
@@ -184,32 +184,35 @@ fn expression(value: &Expression) -> Result<TokenStream> {
             let field = text(field);
             quote!(Own(#field))
         }
-        Expression::CellOfItem(field) => {
+        Expression::OfCell { argument: ArgumentNumber(argument), field } => {
             let field = text(field);
-            quote!(CellOfItem(#field))
+            quote!(OfCell { argument: #argument, field: #field })
         }
-        Expression::Neighbour { index, field } => {
+        Expression::Neighbour { argument: ArgumentNumber(argument), index, field } => {
             let index = boxed(index)?;
             let field = text(field);
-            quote!(Neighbour { index: #index, field: #field })
+            quote!(Neighbour { argument: #argument, index: #index, field: #field })
         }
-        Expression::NamedNeighbour { name, field } => {
+        Expression::NamedNeighbour { argument: ArgumentNumber(argument), name, field } => {
             let (name, field) = (text(name), text(field));
-            quote!(NamedNeighbour { name: #name, field: #field })
+            quote!(NamedNeighbour { argument: #argument, name: #name, field: #field })
         }
-        Expression::Other { name, field } => {
+        Expression::Other { argument: ArgumentNumber(argument), name, field } => {
             let (name, field) = (text(name), text(field));
-            quote!(Other { name: #name, field: #field })
+            quote!(Other { argument: #argument, name: #name, field: #field })
         }
         Expression::OtherLabel(name) => {
             let name = text(name);
             quote!(OtherLabel(#name))
         }
-        Expression::Parameter(field) => {
-            let field = text(field);
-            quote!(Parameter(#field))
+        Expression::Parameter { argument, field } => {
+            let (argument, field) = (text(argument), text(field));
+            quote!(Parameter { argument: #argument, field: #field })
         }
-        Expression::Parameters(_) => quote!(Parameters),
+        Expression::Parameters(argument) => {
+            let argument = text(argument);
+            quote!(Parameters(#argument))
+        }
         Expression::Space(_) => quote!(Space),
         Expression::Builtin(which, arguments, _) => {
             let which = builtin(*which);

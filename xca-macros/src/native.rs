@@ -6,7 +6,7 @@ mod expressions;
 mod helper;
 mod kernels;
 
-use crate::access::{GroupOf, Uses, groups};
+use crate::access::{GroupOf, Uses, structs};
 use crate::ast::{Function, FunctionKind, Role};
 use crate::fields::{POSITION, name_number};
 use proc_macro2::{Ident, Span, TokenStream};
@@ -72,11 +72,7 @@ fn lints(attributes: &[Attribute]) -> Vec<Attribute> {
 
 /// `<S as HasSubstate<…>>` for a substate.
 fn substate(group: GroupOf, field: &Ident, function: &Function) -> TokenStream {
-    let (subject, companion) = groups(function);
-    let type_ = match group {
-        GroupOf::Companion => companion,
-        GroupOf::Subject | GroupOf::Position => subject,
-    };
+    let type_ = structs(function).nth(group.argument().0).map(struct_of);
     let key = match group {
         GroupOf::Position => name_number(POSITION),
         _ => name_number(&field.unraw().to_string()),
@@ -149,38 +145,32 @@ fn description(function: &Function, uses: &Uses, data: &TokenStream) -> TokenStr
         FunctionKind::Items => quote!(Items),
         FunctionKind::Migration | FunctionKind::Helper => quote!(Migration),
     };
-    let (subject, companion) = groups(function);
-    let group = |type_: &Type| {
+    let substates = structs(function).map(|role| {
+        let (type_, holds) = (struct_of(role), if matches!(role, Role::Cell(_)) { "Cells" } else { "Items" });
+        let holds = Ident::new(holds, Span::call_site());
         quote! {
-            ::xca_core::kernel::Group {
+            ::xca_core::Argument {
                 type_id: ::core::any::TypeId::of::<#type_>,
                 schema: <#type_ as ::xca_core::Substates>::SCHEMA,
+                holds: ::xca_core::Holds::#holds,
             }
         }
-    };
-    let subject = subject.map(group);
-    let companion = match companion.map(group) {
-        Some(group) => quote!(::core::option::Option::Some(#group)),
-        None => quote!(::core::option::Option::None),
-    };
-    let parameters = match parameters_type(function) {
-        Some(type_) => {
-            quote! {
-                ::core::option::Option::Some(::xca_core::kernel::Group {
-                    type_id: ::core::any::TypeId::of::<#type_>,
-                    schema: <#type_ as ::xca_core::Parameters>::SCHEMA,
-                })
+    });
+    let parameters = parameters(function).map(|(_, type_)| {
+        quote! {
+            ::xca_core::ParametersArgument {
+                type_id: ::core::any::TypeId::of::<#type_>,
+                schema: <#type_ as ::xca_core::Parameters>::SCHEMA,
             }
         }
-        None => quote!(::core::option::Option::None),
-    };
+    });
     let accesses = uses.accesses.iter().map(|access| {
         let substate = substate(access.group, &access.field, function);
-        let of = if access.group == GroupOf::Companion { quote!(Companion) } else { quote!(Subject) };
+        let argument = access.group.argument().0;
         let (centre, others, write) = (access.centre, access.others, access.write);
         quote! {
             ::xca_core::kernel::Access {
-                of: ::xca_core::kernel::Of::#of,
+                argument: #argument,
                 field: #substate::INDEX,
                 centre: #centre,
                 others: #others,
@@ -196,9 +186,9 @@ fn description(function: &Function, uses: &Uses, data: &TokenStream) -> TokenStr
             name: #name,
             module: ::core::module_path!(),
             kind: ::xca_core::ProcessKind::#kind,
-            subject: #subject,
-            companion: #companion,
-            parameters: #parameters,
+            every: 1,
+            substates: &[#(#substates),*],
+            parameters: &[#(#parameters),*],
             local_interaction: #neighbours,
             access: __XCA_ACCESS,
             body: || #data,
@@ -208,9 +198,18 @@ fn description(function: &Function, uses: &Uses, data: &TokenStream) -> TokenStr
     }
 }
 
-fn parameters_type(function: &Function) -> Option<&Type> {
-    function.arguments.iter().find_map(|argument| match &argument.role {
-        Role::Parameters(type_) => Some(type_),
+/// The type of a struct of substates.
+fn struct_of(role: &Role) -> Option<&Type> {
+    match role {
+        Role::Cell(type_) | Role::Slot(type_) | Role::Slots(type_) => Some(type_),
+        Role::Parameters(_) | Role::Space | Role::Value(_) => None,
+    }
+}
+
+/// The structs of parameters, with the names of their arguments.
+fn parameters(function: &Function) -> impl Iterator<Item = (&Ident, &Type)> {
+    function.arguments.iter().filter_map(|argument| match &argument.role {
+        Role::Parameters(type_) => Some((&argument.name, type_)),
         _ => None,
     })
 }

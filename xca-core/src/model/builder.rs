@@ -2,10 +2,12 @@
 
 use super::{Group, GroupKind, Model, ModelError};
 use crate::geometry::{Boundary, Geometry};
-use crate::kernel::{NOWHERE, Of};
+use crate::kernel::NOWHERE;
 use crate::neighbourhood::{Neighbourhood, Parity};
-use crate::parameters::{AnyParameters, Parameters};
-use crate::process::{ElementaryProcess, Process, ProcessKind};
+use crate::parameter_set::ParameterSet;
+use crate::parameters::Parameters;
+use crate::plan::Plan;
+use crate::process::{Holds, Process, Processes};
 use crate::state::State;
 use crate::steering::{Schedule, Steering, SteeringError};
 use crate::substates::Substates;
@@ -23,7 +25,7 @@ pub struct ModelBuilder {
     neighbourhood: Neighbourhood,
     groups: Vec<Group>,
     processes: Vec<Process>,
-    parameters: Box<dyn AnyParameters>,
+    parameters: ParameterSet,
     steering: Vec<Steering>,
     fault_texts: Vec<(u32, String)>,
     mistake: Option<ModelError>,
@@ -41,7 +43,7 @@ impl ModelBuilder {
             neighbourhood: Neighbourhood::von_neumann(0),
             groups: Vec::new(),
             processes: Vec::new(),
-            parameters: Box::new(()),
+            parameters: ParameterSet::default(),
             steering: Vec::new(),
             fault_texts: Vec::new(),
             mistake: None,
@@ -118,15 +120,39 @@ impl ModelBuilder {
         self
     }
 
-    /// The parameters, with their values at the start.
+    /// Adds a struct of parameters, with their values at the start. A model may have several; one of the same type replaces the earlier.
     pub fn parameters<P: Parameters>(mut self, parameters: P) -> Self {
-        self.parameters = Box::new(parameters);
+        self.parameters.add(parameters);
         self
     }
 
-    /// Adds an elementary process or a migration. They run in the order in which they are added.
-    pub fn process<P: ElementaryProcess>(mut self, _process: P) -> Self {
-        self.processes.push(P::process());
+    /// Adds an elementary process or a migration, or several of them in parentheses. They run in the order in which they are added.
+    pub fn process<P: Processes>(mut self, _processes: P) -> Self {
+        P::add_to(&mut self.processes);
+        self
+    }
+
+    /// Adds processes that run in every so many steps only: with 10 in the 10th, the 20th and so on.
+    pub fn process_every<P: Processes>(mut self, interval: u64, _processes: P) -> Self {
+        if interval == 0 {
+            self.mistake.get_or_insert(ModelError::ZeroInterval);
+        }
+        let first = self.processes.len();
+        P::add_to(&mut self.processes);
+        for process in &mut self.processes[first..] {
+            process.every = interval;
+        }
+        self
+    }
+
+    /// Adds processes that run so many times in each step, one after the other: `repeat(4, (red, black))` is red, black, four times.
+    pub fn repeat<P: Processes>(mut self, times: u32, _processes: P) -> Self {
+        if times == 0 {
+            self.mistake.get_or_insert(ModelError::ZeroRepeats);
+        }
+        for _ in 0..times {
+            P::add_to(&mut self.processes);
+        }
         self
     }
 
@@ -194,10 +220,11 @@ impl ModelBuilder {
             check_group(group, &geometry)?;
         }
         for process in &self.processes {
-            check_process(process, &self.groups, &*self.parameters)?;
+            check_process(process, &self.groups, &self.parameters)?;
         }
         Ok(Model {
             name: self.name,
+            plan: Plan::new(&self.processes, &self.groups),
             geometry,
             groups: self.groups,
             processes: self.processes,
@@ -264,51 +291,43 @@ fn check_group(group: &Group, geometry: &Geometry) -> Result<(), ModelError> {
     Ok(())
 }
 
-fn check_process(
-    process: &Process,
-    groups: &[Group],
-    parameters: &dyn AnyParameters,
-) -> Result<(), ModelError> {
+fn check_process(process: &Process, groups: &[Group], parameters: &ParameterSet) -> Result<(), ModelError> {
     let name = process.name;
-    let subject_over_items = process.kind != ProcessKind::Cells;
-    let involved = [
-        Some((process.subject, subject_over_items)),
-        process.companion.map(|group| (group, !subject_over_items)),
-    ];
-    for (wanted, over_items) in involved.into_iter().flatten() {
-        let substates = wanted.schema.name;
-        let type_id = (wanted.type_id)();
+    for (number, argument) in process.substates.iter().enumerate() {
+        let substates = argument.schema.name;
+        let type_id = (argument.type_id)();
         let Some(group) = groups.iter().find(|group| group.type_id == type_id) else {
             return Err(ModelError::UnknownSubstates { process: name, substates });
         };
-        match (&group.kind, over_items) {
-            (GroupKind::Population { .. }, false) => {
+        match (&group.kind, argument.holds) {
+            (GroupKind::Population { .. }, Holds::Cells) => {
                 return Err(ModelError::CellsOfPopulation { process: name, substates });
             }
-            (GroupKind::Cells { .. }, true) => {
+            (GroupKind::Cells { .. }, Holds::Items) => {
                 return Err(ModelError::ItemsOfCells { process: name, substates });
             }
             _ => {}
         }
+        if process.substates[..number].iter().any(|earlier| (earlier.type_id)() == type_id) {
+            return Err(ModelError::ArgumentTwice { process: name, substates });
+        }
     }
-    if let Some(wanted) = process.parameters
-        && (wanted.type_id)() != parameters.parameters_type()
-    {
-        return Err(ModelError::Parameters {
-            process: name,
-            wanted: wanted.schema.name,
-            given: parameters.schema().name,
-        });
+    for wanted in process.parameters {
+        if parameters.struct_of_type((wanted.type_id)()).is_none() {
+            let given: Vec<&str> = parameters.schemas().map(|schema| schema.name).collect();
+            let given = if given.is_empty() { "none".to_owned() } else { given.join(", ") };
+            return Err(ModelError::Parameters { process: name, wanted: wanted.schema.name, given });
+        }
     }
     // A substate stands in two accesses only where one of them is the position for a search.
     for (number, access) in process.access.iter().enumerate() {
         let twice = process.access[..number]
             .iter()
-            .find(|other| other.of == Of::Subject && access.of == other.of && other.field == access.field);
+            .find(|other| other.argument == access.argument && other.field == access.field);
         if let Some(other) = twice
             && (other.write || access.write)
         {
-            let substate = process.subject.schema.fields[access.field].name;
+            let substate = process.subject().schema.fields[access.field].name;
             return Err(ModelError::SearchOfWritten { process: name, substate });
         }
     }

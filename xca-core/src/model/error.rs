@@ -54,9 +54,14 @@ pub enum ModelError {
     )]
     ItemsOfCells { process: &'static str, substates: &'static str },
     #[error(
-        "the process `{process}` takes the parameters `{wanted}`, but the model has `{given}`; call `.parameters({wanted} {{ … }})`"
+        "the process `{process}` takes the parameters `{wanted}`, which the model does not have (it has: {given}); call \
+         `.parameters({wanted} {{ … }})`"
     )]
-    Parameters { process: &'static str, wanted: &'static str, given: &'static str },
+    Parameters { process: &'static str, wanted: &'static str, given: String },
+    #[error(
+        "the process `{process}` takes `{substates}` twice; one argument is enough to read and to write it"
+    )]
+    ArgumentTwice { process: &'static str, substates: &'static str },
     #[error(
         "the process `{process}` writes `{substate}` and searches by it: what is near would depend on the order of items; search in one process, move in the next"
     )]
@@ -69,6 +74,8 @@ pub enum ModelError {
     ReflectedPopulation { substates: &'static str, axis: char },
     #[error("`{substates}` is not among the substates of the model; add it before")]
     NotAdded { substates: &'static str },
-    #[error("a schedule of every 0 steps never comes; give at least 1")]
+    #[error("the interval must be at least 1 step")]
     ZeroInterval,
+    #[error("a process must run at least once in a step; leave it out instead of repeating it 0 times")]
+    ZeroRepeats,
 }

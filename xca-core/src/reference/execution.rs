@@ -12,6 +12,9 @@ impl Execution for ReferenceExecution {
     fn run(&mut self, processes: Range<usize>, context: &StepContext<'_>) -> Result<(), Fault> {
         for index in processes {
             let process = self.model.processes()[index];
+            if !process.is_due(context.step) {
+                continue;
+            }
             let answers = self.pass(&process, context)?;
             if process.kind == ProcessKind::Migration {
                 self.migrate(&process, &answers)?;

@@ -49,8 +49,7 @@ impl ReferenceExecution {
         for cell in 0..geometry.cells() {
             let indices = geometry.indices(cell);
             let around: Vec<Option<usize>> = neighbourhood(&geometry, indices).collect();
-            let entries: Vec<Entry> =
-                passes.iter_mut().map(|pass| self.entry(pass, cell, &around)).collect();
+            let entries: Vec<Entry> = passes.iter_mut().map(|pass| self.entry(pass, cell, &around)).collect();
             let ranges: Option<(Vec<u32>, Vec<u32>)> =
                 population.map(|group| self.groups[group].ranges(&around));
             let own = population.map_or((0, 0), |group| self.groups[group].range(cell));
@@ -88,15 +87,13 @@ impl ReferenceExecution {
 
     /// The group of the items that a process runs for or sums up.
     pub(super) fn population_of(&self, process: &Process) -> Option<usize> {
-        let group = match process.kind {
-            ProcessKind::Cells => process.companion?,
-            ProcessKind::Items | ProcessKind::Migration => process.subject,
-        };
-        self.model.group_number((group.type_id)())
+        self.model.group_number((process.population()?.type_id)())
     }
 
     fn prepare(&self, process: &Process, access: &Access) -> Pass {
-        let substate = self.model.substate(process, access);
+        let argument = process.substates[access.argument];
+        let group = self.model.group_number((argument.type_id)()).unwrap_or_default();
+        let substate = SubstateId { group, field: access.field };
         let group = &self.groups[substate.group];
         let stored = group.types[substate.field];
         let of_cells = !group.is_population();

@@ -72,12 +72,11 @@ impl Simulation {
                 execution.population(group).map(|items| GroupSnapshot::Population(items, left))
             }
         };
-        let parameter =
-            |field| self.parameters.value_of(field).components().iter().map(|number| number.to_bits()).collect();
+        let bits = |value: ParameterValue| value.components().iter().map(|number| number.to_bits()).collect();
         Ok(Snapshot {
             step: self.step,
             groups: self.model.groups().iter().enumerate().map(of_group).collect::<Result<_, _>>()?,
-            parameters: (0..self.parameters.schema().fields.len()).map(parameter).collect(),
+            parameters: self.parameters.values().map(bits).collect(),
             stop: self.stop.clone(),
             broken: self.broken,
         })
@@ -152,11 +151,11 @@ impl Simulation {
                 }
             }
         }
-        for (field, bits) in snapshot.parameters.iter().enumerate() {
-            let value_type = self.parameters.schema().fields[field].value_type;
+        let fields: Vec<&Field> = self.parameters.fields().collect();
+        for (number, (bits, field)) in snapshot.parameters.iter().zip(fields).enumerate() {
             let components = bits.iter().map(|number| f64::from_bits(*number)).collect();
-            if let Some(value) = ParameterValue::from_components(value_type, components) {
-                self.parameters.set_value_of(field, &value);
+            if let Some(value) = ParameterValue::from_components(field.value_type, components) {
+                self.parameters.set_value(number, &value);
             }
         }
         self.step = snapshot.step;
@@ -201,14 +200,17 @@ impl Snapshot {
             reason.map(|reason| format!("`{name}`: {reason}"))
         });
         of_groups.or_else(|| {
-            let fields = model.parameters().schema().fields;
-            let are_values = |(bits, field): (&Vec<u64>, &Field)| {
+            let fields: Vec<&Field> = model.parameters().fields().collect();
+            let are_values = |(bits, field): (&Vec<u64>, &&Field)| {
                 let numbers = bits.iter().map(|number| f64::from_bits(*number)).collect();
                 ParameterValue::from_components(field.value_type, numbers).is_some()
             };
-            let same = self.parameters.len() == fields.len()
-                && self.parameters.iter().zip(fields).all(are_values);
-            (!same).then(|| format!("its parameters are not those of {}", model.parameters().schema().name))
+            let same =
+                self.parameters.len() == fields.len() && self.parameters.iter().zip(&fields).all(are_values);
+            (!same).then(|| {
+                let names: Vec<&str> = model.parameters().schemas().map(|schema| schema.name).collect();
+                format!("its parameters are not those of {}", names.join(" and "))
+            })
         })
     }
 }

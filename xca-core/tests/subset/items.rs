@@ -214,7 +214,7 @@ fn migrations_move_items() {
 fn what_a_process_uses_is_known() {
     let uses = |process: xca_core::Process| {
         let fields = process.access.iter().map(|access| {
-            let group = process.group(access.of).schema;
+            let group = process.substates[access.argument].schema;
             (group.fields[access.field].name, access.centre, access.others, access.write)
         });
         fields.collect::<Vec<_>>()

@@ -2,6 +2,7 @@
 
 mod cells;
 mod common;
+mod composition;
 mod constants;
 mod control;
 mod faults;

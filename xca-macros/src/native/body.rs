@@ -17,9 +17,8 @@ pub(super) fn own_name(field: &Ident) -> Ident {
 /// The argument from which a substate is read.
 pub(super) fn read_name(group: GroupOf, field: &Ident) -> Ident {
     let prefix = match group {
-        GroupOf::Subject => "read",
-        GroupOf::Companion => "companion",
-        GroupOf::Position => "search",
+        GroupOf::Argument(number) => format!("read_{}", number.0),
+        GroupOf::Position => "search".to_owned(),
     };
     hidden(&format!("{prefix}_{}", field.unraw()), field.span())
 }

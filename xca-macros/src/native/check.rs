@@ -39,6 +39,7 @@ pub(super) fn check(function: &Function, original: &syn::ItemFn) -> TokenStream 
     });
     let copy = copy(function, original);
     quote! {
+        #[allow(clippy::type_complexity)]
         const #name: bool = {
             let _ = || {
                 #(#types)*

@@ -3,7 +3,7 @@
 use super::body::{Writer, own_name, read_name};
 use super::{checked_value, hidden, native_type};
 use crate::access::GroupOf;
-use crate::ast::{Arm, Builtin, Expression, FunctionKind, Pattern};
+use crate::ast::{ArgumentNumber, Arm, Builtin, Expression, FunctionKind, Pattern};
 use crate::fields::with_real;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
@@ -27,36 +27,29 @@ impl Writer<'_> {
                 let own = own_name(field);
                 quote!(#own)
             }
-            Expression::CellOfItem(field) => {
-                let (read, column) = (read_name(GroupOf::Companion, field), self.name("column"));
+            Expression::OfCell { argument, field } => {
+                let (read, column) = (self.read_of(*argument, field), self.name("column"));
                 quote!(#read.here(#column))
             }
-            Expression::Neighbour { index, field } => {
-                let (read, column) = (read_name(GroupOf::Subject, field), self.name("column"));
+            Expression::Neighbour { argument, index, field } => {
+                let (read, column) = (self.read_of(*argument, field), self.name("column"));
                 let offset = self.offset(index);
                 quote!(#read.at(#column, #offset))
             }
-            Expression::NamedNeighbour { name, field } => {
-                let (read, column) = (read_name(GroupOf::Subject, field), self.name("column"));
+            Expression::NamedNeighbour { argument, name, field } => {
+                let (read, column) = (self.read_of(*argument, field), self.name("column"));
                 quote!(#read.at(#column, #name))
             }
-            Expression::Other { name, field } => {
-                let group = self.group_of_others();
-                let (read, type_) = (read_name(group, field), self.type_of(group, field));
+            Expression::Other { argument, name, field } => {
+                let (read, type_) = (self.read_of(*argument, field), self.type_of(*argument, field));
                 quote!(::xca_core::kernel::load::<#type_>(#read[#name]))
             }
             Expression::OtherLabel(name) => {
                 let row = self.name("row");
                 quote!(#row.label(#name))
             }
-            Expression::Parameter(field) => {
-                let parameters = hidden("parameters", field.span());
-                quote!(#parameters.#field)
-            }
-            Expression::Parameters(span) => {
-                let parameters = hidden("parameters", *span);
-                quote!(#parameters)
-            }
+            Expression::Parameter { argument, field } => quote!(#argument.#field),
+            Expression::Parameters(argument) => quote!(#argument),
             Expression::Space(span) => {
                 let space = hidden("space", *span);
                 quote!(#space)
@@ -127,48 +120,44 @@ impl Writer<'_> {
         }
     }
 
-    /// Whose items other items are: in a process over cells those of the cell.
-    fn group_of_others(&self) -> GroupOf {
-        if self.function.kind == FunctionKind::Cells { GroupOf::Companion } else { GroupOf::Subject }
+    /// What a substate of a struct is read from.
+    fn read_of(&self, argument: ArgumentNumber, field: &Ident) -> Ident {
+        read_name(GroupOf::Argument(argument), field)
     }
 
-    fn type_of(&self, group: GroupOf, field: &Ident) -> TokenStream {
-        native_type(group, field, self.function, &self.real)
+    fn type_of(&self, argument: ArgumentNumber, field: &Ident) -> TokenStream {
+        native_type(GroupOf::Argument(argument), field, self.function, &self.real)
+    }
+
+    /// An element of the value in the cell itself.
+    fn element_here(&mut self, argument: ArgumentNumber, field: &Ident, index: &Expression) -> TokenStream {
+        let (read, column) = (self.read_of(argument, field), self.name("column"));
+        let index = self.expression(index);
+        quote!(#read.element_here(#column, #index))
     }
 
     /// An element of an array: of one that stands in memory, without loading the others.
     fn element(&mut self, array: &Expression, index: &Expression) -> TokenStream {
         let column = self.name("column");
         match array {
-            Expression::Own(field) => {
-                let read = read_name(GroupOf::Subject, field);
-                let own = self.access(GroupOf::Subject, field).map(|access| (access.write, access.others));
-                let index = self.expression(index);
-                match (own, self.function.kind) {
-                    (Some((false, true)), FunctionKind::Cells) => quote!(#read.element_here(#column, #index)),
-                    (Some((false, false)), FunctionKind::Cells) => quote!(#read.element(#column, #index)),
-                    _ => {
-                        let own = own_name(field);
-                        quote!(#own[#index])
-                    }
-                }
+            Expression::Own(field)
+                if self.function.kind == FunctionKind::Cells
+                    && self.access(GroupOf::SUBJECT, field).is_some_and(|access| !access.write) =>
+            {
+                self.element_here(ArgumentNumber::SUBJECT, field, index)
             }
-            Expression::CellOfItem(field) => {
-                let (read, index) = (read_name(GroupOf::Companion, field), self.expression(index));
-                quote!(#read.element(#column, #index))
-            }
-            Expression::Neighbour { index: neighbour, field } => {
-                let read = read_name(GroupOf::Subject, field);
+            Expression::OfCell { argument, field } => self.element_here(*argument, field, index),
+            Expression::Neighbour { argument, index: neighbour, field } => {
+                let read = self.read_of(*argument, field);
                 let (offset, index) = (self.offset(neighbour), self.expression(index));
                 quote!(#read.element(#column, #offset, #index))
             }
-            Expression::NamedNeighbour { name, field } => {
-                let (read, index) = (read_name(GroupOf::Subject, field), self.expression(index));
+            Expression::NamedNeighbour { argument, name, field } => {
+                let (read, index) = (self.read_of(*argument, field), self.expression(index));
                 quote!(#read.element(#column, #name, #index))
             }
-            Expression::Other { name, field } => {
-                let group = self.group_of_others();
-                let (read, type_) = (read_name(group, field), self.type_of(group, field));
+            Expression::Other { argument, name, field } => {
+                let (read, type_) = (self.read_of(*argument, field), self.type_of(*argument, field));
                 let index = self.expression(index);
                 quote!(::xca_core::kernel::load_element::<#type_>(&#read[#name], #index))
             }

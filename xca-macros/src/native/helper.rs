@@ -53,9 +53,8 @@ fn native(function: &Function, real: &TokenStream) -> TokenStream {
         let name = &argument.name;
         match &argument.role {
             Role::Parameters(type_) => {
-                let parameters = hidden("parameters", name.span());
                 let type_ = native_parameters(type_, real);
-                quote!(#parameters: &#type_)
+                quote!(#name: &#type_)
             }
             Role::Value(type_) => {
                 let type_ = checked(&with_real(type_, real));

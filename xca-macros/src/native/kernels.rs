@@ -4,9 +4,9 @@
 //! what is read, without which it would not vectorise.
 
 use super::body::{Writer, own_name, read_name, write_name};
-use super::{checked_value, hidden, native_parameters, native_type, parameters_type};
-use crate::access::{Access, GroupOf, Uses};
-use crate::ast::{Function, FunctionKind};
+use super::{checked_value, hidden, native_parameters, native_type, parameters};
+use crate::access::{Access, GroupOf, Uses, structs};
+use crate::ast::{Function, FunctionKind, Role};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
@@ -23,7 +23,7 @@ pub(super) fn row(function: &Function, uses: &Uses, real: &TokenStream) -> Token
     let mut values = Vec::new();
     for (number, access) in uses.accesses.iter().enumerate() {
         let type_ = native_type(access.group, &access.field, function, real);
-        let cells = over_cells != (access.group == GroupOf::Companion);
+        let cells = matches!(structs(function).nth(access.group.argument().0), Some(Role::Cell(_)));
         let memory = quote!(<#type_ as ::xca_core::kernel::KernelValue>::Memory);
         if reads(access) {
             let read = read_name(access.group, &access.field);
@@ -48,12 +48,13 @@ pub(super) fn row(function: &Function, uses: &Uses, real: &TokenStream) -> Token
         }
     }
     let mut take_parameters = TokenStream::new();
-    if let Some(type_) = parameters_type(function) {
-        let parameters = hidden("parameters", span);
+    for (name, type_) in parameters(function) {
         let native = native_parameters(type_, real);
-        declarations.push(quote!(#parameters: &#native));
-        values.push(quote!(#parameters));
-        take_parameters = quote!(let ::core::option::Option::Some(#parameters) = #row.parameters::<#native>() else { return; };);
+        declarations.push(quote!(#name: &#native));
+        values.push(quote!(#name));
+        take_parameters.extend(
+            quote!(let ::core::option::Option::Some(#name) = #row.parameters::<#native>() else { return; };),
+        );
     }
     let unrolled = over_cells && uses.neighbours;
     let size = hidden("SIZE", span);
@@ -106,7 +107,7 @@ fn cells(function: &Function, uses: &Uses, real: &TokenStream, size: &Ident) -> 
     let mut shorten = TokenStream::new();
     let mut load = TokenStream::new();
     let mut store = TokenStream::new();
-    for access in uses.accesses.iter().filter(|access| access.group == GroupOf::Subject) {
+    for access in uses.accesses.iter().filter(|access| access.group == GroupOf::SUBJECT) {
         let own = own_name(&access.field);
         let type_ = native_type(access.group, &access.field, function, real);
         let read = read_name(access.group, &access.field);
@@ -145,13 +146,13 @@ fn cells(function: &Function, uses: &Uses, real: &TokenStream, size: &Ident) -> 
 
 fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
     let span = function.name.span();
-    let [row, x, column, item, place, first, destinations, answer] =
-        ["row", "x", "column", "item", "place", "first", "destinations", "answer"]
+    let [row, x, column, item, place, first, offsets, destinations, answer] =
+        ["row", "x", "column", "item", "place", "first", "offsets", "destinations", "answer"]
             .map(|name| hidden(name, span));
     let space = space(real, span);
     let mut load = TokenStream::new();
     let mut store = TokenStream::new();
-    for access in uses.accesses.iter().filter(|access| access.group == GroupOf::Subject) {
+    for access in uses.accesses.iter().filter(|access| access.group == GroupOf::SUBJECT) {
         let own = own_name(&access.field);
         let type_ = native_type(access.group, &access.field, function, real);
         let read = read_name(access.group, &access.field);
@@ -168,6 +169,8 @@ fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
     let mut writer = Writer::new(function, Some(uses), real.clone());
     let body = writer.block(&function.body);
     let lists = writer.lists();
+    // An item may look at the neighbours of the cell that it stands in.
+    let neighbourhood = uses.neighbours.then(|| quote!(let #offsets = #row.offsets::<0>();));
     let (take, run) = if function.kind == FunctionKind::Migration {
         (
             quote!(let #destinations = #row.destinations();),
@@ -178,6 +181,7 @@ fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
     };
     quote! {
         #space
+        #neighbourhood
         #lists
         #take
         let #first = #row.first_item();

@@ -47,7 +47,7 @@ impl Scope {
         }
         if let Expr::MethodCall(inner) = strip(&call.receiver)
             && inner.method == "neighbour"
-            && self.is_subject(&inner.receiver)
+            && self.cell_argument(&inner.receiver).is_some()
         {
             return Err(no_method_of(
                 "a neighbour has its substates, `cell.neighbour(n).substate`",
@@ -57,17 +57,21 @@ impl Scope {
         match self.named(&call.receiver) {
             Some(Binding::Subject) => return self.subject_method(call),
             Some(Binding::Space) => return self.space_method(call),
-            Some(Binding::Other) => return self.other_method(call),
-            Some(Binding::Neighbour) => {
+            Some(Binding::Other(_)) => return self.other_method(call),
+            Some(Binding::Neighbour(_)) => {
                 return Err(no_method_of("a neighbour has its substates, as fields", &call.method));
             }
-            Some(Binding::CellOfItem) => {
-                return Err(no_method_of("the cell of an item has its substates, as fields", &call.method));
+            Some(Binding::Cell(_)) => {
+                return Err(no_method_of(
+                    "this argument has its substates, as fields, and neighbour(n); ask the cell or item that the process \
+                     runs for, its first argument",
+                    &call.method,
+                ));
             }
             Some(Binding::Parameters) => {
                 return Err(no_method_of("parameters are read as fields, `p.name`", &call.method));
             }
-            Some(Binding::Slots) => {
+            Some(Binding::Slots(_)) => {
                 return Err(Error::new_spanned(
                     &call.method,
                     "go through the items, and count what you need: `for item in slots { … }`",
@@ -260,10 +264,10 @@ impl Scope {
             other
                 if let Some(
                     Binding::Subject
-                    | Binding::CellOfItem
-                    | Binding::Slots
-                    | Binding::Neighbour
-                    | Binding::Other,
+                    | Binding::Cell(_)
+                    | Binding::Slots(_)
+                    | Binding::Neighbour(_)
+                    | Binding::Other(_),
                 ) = self.named(other) =>
             {
                 Err(Error::new_spanned(

@@ -5,7 +5,7 @@ use super::matches::is_constant;
 use super::refusals::{is_component, no_component, refused};
 use super::scope::{Binding, Scope};
 use super::statements::Item;
-use crate::ast::{Block, Builtin, Expression, FunctionKind};
+use crate::ast::{ArgumentNumber, Block, Builtin, Expression, FunctionKind};
 use syn::spanned::Spanned;
 use syn::{BinOp, Error, Expr, ExprMethodCall, Ident, Lit, Member, Path, Result, UnOp};
 
@@ -121,9 +121,9 @@ impl Scope {
         if let Some(name) = path.path.get_ident() {
             match self.binding(name) {
                 Some(Binding::Value | Binding::Argument) => return Ok(Expression::Local(name.clone())),
-                Some(Binding::Parameters) => return Ok(Expression::Parameters(name.span())),
+                Some(Binding::Parameters) => return Ok(Expression::Parameters(name.clone())),
                 Some(Binding::Space) => return Ok(Expression::Space(name.span())),
-                Some(Binding::Slots) => {
+                Some(Binding::Slots(_)) => {
                     return Err(Error::new_spanned(
                         name,
                         format!("go through the items: `for item in {name} {{ … item.substate … }}`"),
@@ -194,13 +194,17 @@ impl Scope {
         {
             match self.binding(name) {
                 Some(Binding::Subject) => return Ok(Expression::Own(member)),
-                Some(Binding::CellOfItem) => return Ok(Expression::CellOfItem(member)),
-                Some(Binding::Parameters) => return Ok(Expression::Parameter(member)),
-                Some(Binding::Neighbour) => {
-                    return Ok(Expression::NamedNeighbour { name: name.clone(), field: member });
+                Some(Binding::Cell(argument)) => return Ok(Expression::OfCell { argument, field: member }),
+                Some(Binding::Parameters) => {
+                    return Ok(Expression::Parameter { argument: name.clone(), field: member });
                 }
-                Some(Binding::Other) => return Ok(Expression::Other { name: name.clone(), field: member }),
-                Some(Binding::Slots) => {
+                Some(Binding::Neighbour(argument)) => {
+                    return Ok(Expression::NamedNeighbour { argument, name: name.clone(), field: member });
+                }
+                Some(Binding::Other(argument)) => {
+                    return Ok(Expression::Other { argument, name: name.clone(), field: member });
+                }
+                Some(Binding::Slots(_)) => {
                     return Err(Error::new_spanned(
                         field,
                         format!("go through the items: `for item in {name} {{ … item.{member} … }}`"),
@@ -214,10 +218,10 @@ impl Scope {
         }
         if let Expr::MethodCall(call) = strip(&field.base)
             && call.method == "neighbour"
-            && self.is_subject(&call.receiver)
+            && let Some(argument) = self.cell_argument(&call.receiver)
         {
-            let index = Box::new(self.neighbour_index(call)?);
-            return Ok(Expression::Neighbour { index, field: member });
+            let index = Box::new(self.neighbour_index(argument, call)?);
+            return Ok(Expression::Neighbour { argument, index, field: member });
         }
         let value = self.expression(&field.base)?;
         if let (Expression::Constant(path), false) = (&value, is_component(&member)) {
@@ -235,8 +239,21 @@ impl Scope {
         Ok(Expression::Component(Box::new(value), member))
     }
 
-    pub(super) fn neighbour_index(&mut self, call: &ExprMethodCall) -> Result<Expression> {
-        if self.kind != FunctionKind::Cells {
+    /// The number of the struct of the cell, or of the item, that the name stands for.
+    pub(super) fn cell_argument(&self, expression: &Expr) -> Option<ArgumentNumber> {
+        match self.named(expression)? {
+            Binding::Subject => Some(ArgumentNumber::SUBJECT),
+            Binding::Cell(argument) => Some(argument),
+            _ => None,
+        }
+    }
+
+    pub(super) fn neighbour_index(
+        &mut self,
+        argument: ArgumentNumber,
+        call: &ExprMethodCall,
+    ) -> Result<Expression> {
+        if self.kind != FunctionKind::Cells && argument == ArgumentNumber::SUBJECT {
             return Err(Error::new_spanned(
                 &call.method,
                 "an item has no neighbours; it reaches the items of the neighbouring cells by \

@@ -3,7 +3,7 @@
 use super::expressions::strip;
 use super::refusals::refuse_label;
 use super::scope::{Binding, Scope};
-use crate::ast::{Block, FunctionKind, Reach, Statement};
+use crate::ast::{ArgumentNumber, Block, FunctionKind, Reach, Statement};
 use syn::spanned::Spanned;
 use syn::{Error, Expr, ExprForLoop, ExprMethodCall, Ident, Pat, RangeLimits, Result};
 
@@ -23,17 +23,15 @@ impl Scope {
             }
             Expr::MethodCall(call) if self.is_subject(&call.receiver) => {
                 let (reach, radius) = self.search(call)?;
-                let body = self.loop_body(&variable, Binding::Other, &for_.body)?;
+                let body = self.loop_body(&variable, Binding::Other(ArgumentNumber::SUBJECT), &for_.body)?;
                 Ok(Statement::ForOthers { variable, reach, radius, body })
             }
             Expr::MethodCall(call) => Err(Error::new_spanned(&call.method, method_of_range(call))),
-            Expr::Path(path)
-                if path.path.get_ident().is_some_and(|name| self.binding(name) == Some(Binding::Slots)) =>
-            {
-                let body = self.loop_body(&variable, Binding::Other, &for_.body)?;
+            slots @ Expr::Path(_) if let Some(Binding::Slots(argument)) = self.named(slots) => {
+                let body = self.loop_body(&variable, Binding::Other(argument), &for_.body)?;
                 Ok(Statement::ForItems { variable, body })
             }
-            Expr::Reference(reference) if self.named(&reference.expr) == Some(Binding::Slots) => {
+            Expr::Reference(reference) if matches!(self.named(&reference.expr), Some(Binding::Slots(_))) => {
                 Err(Error::new_spanned(reference, "it is a reference already: leave out the `&`"))
             }
             other => Err(Error::new_spanned(

@@ -3,7 +3,7 @@
 use super::expressions::{both, strip};
 use super::refusals::{cannot_write, is_component, no_component};
 use super::scope::{Binding, Scope};
-use crate::ast::{FunctionKind, Place, PlaceRoot, Projection, Statement};
+use crate::ast::{ArgumentNumber, FunctionKind, Place, PlaceRoot, Projection, Statement};
 use proc_macro2::Span;
 use syn::spanned::Spanned;
 use syn::{BinOp, Error, Expr, Ident, Member, Result};
@@ -47,7 +47,8 @@ impl Scope {
                     if let Expr::MethodCall(call) = strip(&field.base)
                         && call.method == "neighbour"
                     {
-                        return Err(Error::new_spanned(left, cannot_write(Binding::Neighbour, self.kind)));
+                        let neighbour = Binding::Neighbour(ArgumentNumber::SUBJECT);
+                        return Err(Error::new_spanned(left, cannot_write(neighbour, self.kind)));
                     }
                     if !is_component(member) {
                         return Err(no_component(member));

@@ -68,20 +68,23 @@ pub(super) fn macro_call(call: &syn::Macro) -> Error {
 
 pub(super) fn cannot_write(binding: Binding, kind: FunctionKind) -> &'static str {
     match binding {
-        Binding::Neighbour => {
+        Binding::Neighbour(_) => {
             "a process writes only its own cell, not a neighbour; let each cell compute what it receives, from what it reads of its \
              neighbours"
         }
-        Binding::Other if kind == FunctionKind::Cells => {
+        Binding::Other(_) if kind == FunctionKind::Cells => {
             "a process over cells cannot write the items; a process over items can: `fn name(me: &mut Slot<…>, cell: &Cell<…>)`"
         }
-        Binding::Other => {
+        Binding::Other(_) => {
             "a process writes only its own item, not another; let each item compute the effect on itself"
         }
-        Binding::CellOfItem => {
+        Binding::Cell(_) if kind == FunctionKind::Cells => {
+            "a process writes one struct of the cell, its first argument; write the others in processes of their own"
+        }
+        Binding::Cell(_) => {
             "a process over items cannot write the cell; a process over cells can, and reads the items through `slots: &Slots<…>`"
         }
-        Binding::Slots => {
+        Binding::Slots(_) => {
             "a process over cells cannot write the items; a process over items can: `fn name(me: &mut Slot<…>, cell: &Cell<…>)`"
         }
         Binding::Parameters => {

@@ -1,7 +1,7 @@
 //! Which name stands for what, while a body is read.
 
 use super::similar::similar;
-use crate::ast::{Argument, Call, FunctionKind, Mentions, Role};
+use crate::ast::{Argument, ArgumentNumber, Call, FunctionKind, Mentions, Role};
 use quote::{format_ident, quote};
 use std::collections::HashMap;
 use syn::ext::IdentExt;
@@ -17,16 +17,16 @@ pub(super) enum Binding {
     Argument,
     /// The cell or item that the process runs for.
     Subject,
-    /// The cell of the item.
-    CellOfItem,
+    /// Another struct of the cell, or of the cell that the item stands in.
+    Cell(ArgumentNumber),
     /// The items of the cell.
-    Slots,
+    Slots(ArgumentNumber),
     Parameters,
     Space,
     /// A neighbour bound by `let`.
-    Neighbour,
+    Neighbour(ArgumentNumber),
     /// Another item, the variable of a `for`.
-    Other,
+    Other(ArgumentNumber),
 }
 
 /// Functions that Rust has everywhere.
@@ -50,11 +50,15 @@ pub(super) struct Scope {
 
 impl Scope {
     pub(super) fn new(kind: FunctionKind, function: Ident, arguments: &[Argument]) -> Self {
-        let names = arguments.iter().enumerate().map(|(position, argument)| {
+        let mut substates = (0..).map(ArgumentNumber);
+        let mut next = || substates.next().unwrap_or(ArgumentNumber::SUBJECT);
+        let names = arguments.iter().map(|argument| {
             let binding = match argument.role {
-                Role::Cell(_) | Role::Slot(_) if position == 0 => Binding::Subject,
-                Role::Cell(_) | Role::Slot(_) => Binding::CellOfItem,
-                Role::Slots(_) => Binding::Slots,
+                Role::Cell(_) | Role::Slot(_) => match next() {
+                    ArgumentNumber::SUBJECT => Binding::Subject,
+                    number => Binding::Cell(number),
+                },
+                Role::Slots(_) => Binding::Slots(next()),
                 Role::Parameters(_) => Binding::Parameters,
                 Role::Space => Binding::Space,
                 Role::Value(_) => Binding::Argument,

@@ -120,10 +120,10 @@ fn check_roles(kind: FunctionKind, arguments: &[Argument]) -> Result<()> {
     for (position, Argument { name, role }) in arguments.iter().enumerate() {
         let over_items = matches!(kind, FunctionKind::Items | FunctionKind::Migration);
         let (word, fits) = match role {
-            Role::Cell(_) => ("cell", if position == 0 { !over_items } else { over_items }),
+            Role::Cell(_) => ("cell", position > 0 || !over_items),
             Role::Slot(_) => ("item", position == 0),
             Role::Slots(_) => ("set of items", kind == FunctionKind::Cells),
-            Role::Parameters(_) => ("struct of parameters", true),
+            Role::Parameters(_) => ("parameters", true),
             Role::Space => ("space", true),
             Role::Value(_) => continue,
         };
@@ -131,14 +131,17 @@ fn check_roles(kind: FunctionKind, arguments: &[Argument]) -> Result<()> {
         if kind == FunctionKind::Helper && !is_helpers {
             return Err(Error::new_spanned(name, HELPER_TAKES));
         }
-        if seen.contains(&word) {
+        // Of cells and parameters there can be several structs.
+        let several = matches!(role, Role::Cell(_) | Role::Parameters(_));
+        if !several && seen.contains(&word) {
             return Err(Error::new_spanned(name, format!("there can be one {word} only")));
+        }
+        if let Some(twin) = arguments[..position].iter().find(|earlier| same_struct(&earlier.role, role)) {
+            let twin = &twin.name;
+            return Err(Error::new_spanned(name, format!("`{twin}` is this struct already; use that")));
         }
         if !fits {
             let message = match role {
-                Role::Cell(_) => {
-                    "a process over cells has one cell; others are its neighbours, `cell.neighbour(n)`"
-                }
                 Role::Slots(_) => {
                     "a process over items takes its cell, `&Cell<…>`; other items are found by `me.others_in_cell()` and its kin"
                 }
@@ -151,6 +154,16 @@ fn check_roles(kind: FunctionKind, arguments: &[Argument]) -> Result<()> {
         seen.push(word);
     }
     Ok(())
+}
+
+fn same_struct(one: &Role, other: &Role) -> bool {
+    let type_ = |role: &Role| match role {
+        Role::Cell(type_) | Role::Slot(type_) | Role::Slots(type_) | Role::Parameters(type_) => {
+            Some(quote::quote!(#type_).to_string())
+        }
+        Role::Space | Role::Value(_) => None,
+    };
+    type_(one).is_some_and(|one| type_(other) == Some(one))
 }
 
 fn argument(input: &FnArg, position: usize, wanted: Wanted) -> Result<Argument> {

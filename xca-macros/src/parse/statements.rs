@@ -2,7 +2,7 @@
 
 use super::refusals::{macro_call, refuse_attributes, refuse_label};
 use super::scope::{Binding, Scope};
-use crate::ast::{Block, Expression, FunctionKind, Statement};
+use crate::ast::{ArgumentNumber, Block, Expression, FunctionKind, Statement};
 use proc_macro2::Span;
 use syn::spanned::Spanned;
 use syn::{Error, Expr, Pat, Result, Stmt};
@@ -80,11 +80,14 @@ impl Scope {
             },
         };
         // Bound even after an error, so that one mistake does not make others of its uses.
-        let is_neighbour = matches!(value, Ok(Initial::Neighbour(_)));
-        self.bind(&name, if is_neighbour { Binding::Neighbour } else { Binding::Value });
+        let binding = match value {
+            Ok(Initial::Neighbour(argument, _)) => Binding::Neighbour(argument),
+            _ => Binding::Value,
+        };
+        self.bind(&name, binding);
         attributes?;
         Ok(match value? {
-            Initial::Neighbour(index) => Statement::LetNeighbour { name, index },
+            Initial::Neighbour(_, index) => Statement::LetNeighbour { name, index },
             Initial::Value(value) => {
                 Statement::Let { name, mutable: pattern.mutability.is_some(), type_, value }
             }
@@ -94,9 +97,9 @@ impl Scope {
     fn initial_value(&mut self, value: &Expr) -> Result<Initial> {
         if let Expr::MethodCall(call) = super::expressions::strip(value)
             && call.method == "neighbour"
-            && self.is_subject(&call.receiver)
+            && let Some(argument) = self.cell_argument(&call.receiver)
         {
-            return self.neighbour_index(call).map(Initial::Neighbour);
+            return Ok(Initial::Neighbour(argument, self.neighbour_index(argument, call)?));
         }
         self.expression(value).map(Initial::Value)
     }
@@ -171,8 +174,8 @@ impl Scope {
 
 /// What a variable starts with.
 enum Initial {
-    /// A neighbour with this index.
-    Neighbour(Expression),
+    /// A neighbour with this index, as this struct of the cell sees it.
+    Neighbour(ArgumentNumber, Expression),
     Value(Expression),
 }
 

@@ -1,0 +1,134 @@
+//! How kernels reach the substates of a row's cells and of their neighbours.
+//!
+//! What a kernel reads is had from a [`super::Row`] only. It is asked for by the tokens [`Column`] and [`Offset`], which come from the row too:
+//! so a kernel needs no unsafe code, and cannot reach memory that is not its own.
+
+use super::values::{KernelElement, KernelValue};
+use std::fmt;
+use std::marker::PhantomData;
+use std::ops::Range;
+
+/// The number of a cell in its row: below the row's length.
+#[derive(Debug, Clone, Copy)]
+pub struct Column<'r> {
+    number: usize,
+    row: PhantomData<&'r ()>,
+}
+
+impl Column<'_> {
+    /// The number.
+    #[inline(always)]
+    pub fn number(self) -> usize {
+        self.number
+    }
+}
+
+/// The cells of a row.
+#[derive(Debug, Clone)]
+pub struct Columns<'r> {
+    pub(super) numbers: Range<usize>,
+    pub(super) row: PhantomData<&'r ()>,
+}
+
+impl<'r> Iterator for Columns<'r> {
+    type Item = Column<'r>;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<Column<'r>> {
+        Some(Column { number: self.numbers.next()?, row: self.row })
+    }
+}
+
+/// The distance from a cell to one of its neighbourhood.
+#[derive(Debug, Clone, Copy)]
+pub struct Offset<'r> {
+    pub(super) distance: isize,
+    pub(super) row: PhantomData<&'r ()>,
+}
+
+/// A substate of a row's cells and of their neighbours.
+#[derive(Clone, Copy)]
+pub struct AroundRead<'r, T: KernelValue> {
+    pub(super) first: *const <T::Element as KernelElement>::Memory,
+    pub(super) stride: usize,
+    pub(super) row: PhantomData<&'r ()>,
+}
+
+impl<T: KernelValue> fmt::Debug for AroundRead<'_, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("AroundRead").field("first", &self.first).field("stride", &self.stride).finish()
+    }
+}
+
+impl<'r, T: KernelValue> AroundRead<'r, T> {
+    #[inline(always)]
+    fn read(&self, cell: Column<'r>, offset: Offset<'r>, element: usize) -> T::Element {
+        assert!(element < T::LENGTH, "an element beyond the value");
+        let place = cell.number as isize + offset.distance + (element * self.stride) as isize;
+        // SAFETY: `Row::new`: each plane can be read at every cell of the row and, if these can be had, at all offsets of the neighbourhood
+        // from there. The column and the offset are of this row, and there are `LENGTH` planes.
+        #[allow(unsafe_code)]
+        <T::Element as KernelElement>::from_memory(unsafe { *self.first.offset(place) })
+    }
+
+    /// The value of a cell of the neighbourhood.
+    #[inline(always)]
+    pub fn at(&self, cell: Column<'r>, offset: Offset<'r>) -> T {
+        T::from_elements(|element| self.read(cell, offset, element))
+    }
+
+    /// The value of the cell itself.
+    #[inline(always)]
+    pub fn here(&self, cell: Column<'r>) -> T {
+        self.at(cell, Offset { distance: 0, row: PhantomData })
+    }
+}
+
+impl<'r, T: KernelElement, const N: usize> AroundRead<'r, [T; N]> {
+    /// An element of the value of a cell of the neighbourhood.
+    #[inline(always)]
+    pub fn element(&self, cell: Column<'r>, offset: Offset<'r>, element: usize) -> T {
+        check_element(element, N);
+        self.read(cell, offset, element)
+    }
+
+    /// An element of the value of the cell itself.
+    #[inline(always)]
+    pub fn element_here(&self, cell: Column<'r>, element: usize) -> T {
+        self.element(cell, Offset { distance: 0, row: PhantomData }, element)
+    }
+}
+
+/// A substate of a row's cells.
+#[derive(Clone, Copy)]
+pub struct CentreRead<'r, T: KernelValue> {
+    pub(super) around: AroundRead<'r, T>,
+}
+
+impl<T: KernelValue> fmt::Debug for CentreRead<'_, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("CentreRead").field(&self.around).finish()
+    }
+}
+
+impl<'r, T: KernelValue> CentreRead<'r, T> {
+    /// The value of a cell.
+    #[inline(always)]
+    pub fn here(&self, cell: Column<'r>) -> T {
+        self.around.here(cell)
+    }
+}
+
+impl<'r, T: KernelElement, const N: usize> CentreRead<'r, [T; N]> {
+    /// An element of the value of a cell.
+    #[inline(always)]
+    pub fn element_here(&self, cell: Column<'r>, element: usize) -> T {
+        self.around.element_here(cell, element)
+    }
+}
+
+/// The message is that of arrays, as the element may belong to one or not.
+#[inline(always)]
+fn check_element(element: usize, length: usize) {
+    assert!(element < length, "index out of bounds: the len is {length} but the index is {element}");
+}

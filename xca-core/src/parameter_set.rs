@@ -1,0 +1,167 @@
+//! The parameters of a model: a struct, or several.
+
+use crate::parameters::{AnyParameters, ParameterError, ParameterValue, Parameters};
+use crate::schema::{Field, Schema};
+use crate::value::Precision;
+use std::any::{Any, TypeId};
+use std::sync::Arc;
+
+/// All parameters of a model, numbered through all structs in their order.
+///
+/// A parameter is named by its field (`rate`), or by struct and field (`Flow.rate`) where several structs have one of that name.
+#[derive(Debug, Clone, Default)]
+pub struct ParameterSet {
+    structs: Vec<Box<dyn AnyParameters>>,
+}
+
+/// Where a parameter stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Place {
+    struct_: usize,
+    field: usize,
+}
+
+impl ParameterSet {
+    /// Adds a struct, or replaces the one of the same type.
+    pub(crate) fn add<P: Parameters>(&mut self, parameters: P) {
+        let known = self.structs.iter_mut().find(|known| known.parameters_type() == TypeId::of::<P>());
+        match known {
+            Some(known) => *known = Box::new(parameters),
+            None => self.structs.push(Box::new(parameters)),
+        }
+    }
+
+    /// The structs, in the order in which the model was told of them.
+    pub fn structs(&self) -> impl Iterator<Item = &dyn AnyParameters> {
+        self.structs.iter().map(|parameters| &**parameters)
+    }
+
+    /// The struct of this type.
+    pub fn struct_of_type(&self, type_id: TypeId) -> Option<&dyn AnyParameters> {
+        self.structs().find(|parameters| parameters.parameters_type() == type_id)
+    }
+
+    /// The values of the struct `P`.
+    pub fn get<P: Parameters>(&self) -> Option<&P> {
+        self.structs().find_map(|parameters| parameters.as_any().downcast_ref())
+    }
+
+    /// Replaces the values of the struct `P`; whether there is one.
+    pub(crate) fn replace<P: Parameters>(&mut self, parameters: P) -> bool {
+        let is_known = self.get::<P>().is_some();
+        if is_known {
+            self.add(parameters);
+        }
+        is_known
+    }
+
+    /// The schemas of the structs.
+    pub fn schemas(&self) -> impl Iterator<Item = &'static Schema> {
+        self.structs().map(AnyParameters::schema)
+    }
+
+    /// All fields, in the order of their numbers.
+    pub fn fields(&self) -> impl Iterator<Item = &'static Field> {
+        self.schemas().flat_map(|schema| schema.fields)
+    }
+
+    /// The names of all parameters: of struct and field where the field's is not enough.
+    pub fn names(&self) -> Vec<String> {
+        let all: Vec<(&Schema, &Field)> = self
+            .schemas()
+            .flat_map(|schema| schema.fields.iter().map(move |field| (schema, field)))
+            .collect();
+        let is_shared = |name: &str| all.iter().filter(|(_, field)| field.name == name).count() > 1;
+        let name = |(schema, field): &(&Schema, &Field)| {
+            if is_shared(field.name) {
+                format!("{}.{}", schema.name, field.name)
+            } else {
+                field.name.to_owned()
+            }
+        };
+        all.iter().map(name).collect()
+    }
+
+    /// How many parameters there are.
+    pub fn count(&self) -> usize {
+        self.fields().count()
+    }
+
+    fn place(&self, number: usize) -> Option<Place> {
+        let mut rest = number;
+        for (struct_, schema) in self.schemas().enumerate() {
+            if rest < schema.fields.len() {
+                return Some(Place { struct_, field: rest });
+            }
+            rest -= schema.fields.len();
+        }
+        None
+    }
+
+    /// The value of the parameter with this number.
+    pub fn value(&self, number: usize) -> Option<ParameterValue> {
+        let Place { struct_, field } = self.place(number)?;
+        Some(self.structs[struct_].value_of(field))
+    }
+
+    /// The values of all parameters, in the order of their numbers.
+    pub fn values(&self) -> impl Iterator<Item = ParameterValue> {
+        (0..self.count()).filter_map(|number| self.value(number))
+    }
+
+    /// Sets the parameter with this number; the value is of its type.
+    pub(crate) fn set_value(&mut self, number: usize, value: &ParameterValue) {
+        if let Some(Place { struct_, field }) = self.place(number) {
+            self.structs[struct_].set_value_of(field, value);
+        }
+    }
+
+    /// Where the parameter with this name stands.
+    fn find_place(&self, name: &str) -> Result<Place, ParameterError> {
+        let whole = |schema: &Schema, field: &Field| format!("{}.{}", schema.name, field.name);
+        let mut found: Vec<(Place, String)> = Vec::new();
+        for (struct_, schema) in self.schemas().enumerate() {
+            for (number, field) in schema.fields.iter().enumerate() {
+                if field.name == name || whole(schema, field) == name {
+                    found.push((Place { struct_, field: number }, whole(schema, field)));
+                }
+            }
+        }
+        match &found[..] {
+            [(place, _)] => Ok(*place),
+            [] => Err(ParameterError::Unknown {
+                name: name.to_owned(),
+                of: self.schemas().map(|schema| schema.name).collect::<Vec<_>>().join(" and "),
+                known: self.names().join(", "),
+            }),
+            several => {
+                let known: Vec<&str> = several.iter().map(|(_, whole)| whole.as_str()).collect();
+                Err(ParameterError::Ambiguous { name: name.to_owned(), known: known.join(", ") })
+            }
+        }
+    }
+
+    /// The value of the parameter with this name.
+    ///
+    /// # Errors
+    /// [`ParameterError::Unknown`] where no parameter has the name, [`ParameterError::Ambiguous`] where several have.
+    pub fn value_by_name(&self, name: &str) -> Result<ParameterValue, ParameterError> {
+        let Place { struct_, field } = self.find_place(name)?;
+        Ok(self.structs[struct_].value_of(field))
+    }
+
+    /// Sets the parameter with this name from text.
+    ///
+    /// # Errors
+    /// As [`Self::value_by_name`], and where the text is no value of the parameter's type.
+    pub(crate) fn set_by_name(&mut self, name: &str, text: &str) -> Result<(), ParameterError> {
+        let Place { struct_, field } = self.find_place(name)?;
+        let field = &self.structs[struct_].schema().fields[field];
+        self.structs[struct_].set_by_name(field.name, text)
+    }
+
+    /// What kernels of this precision see of each struct.
+    pub(crate) fn kernel_views(&self, precision: Precision) -> Vec<Arc<dyn Any + Send + Sync>> {
+        self.structs().map(|parameters| parameters.kernel_view(precision)).collect()
+    }
+}
