@@ -1,7 +1,7 @@
 //! Which substates a body reads and writes, and where.
 
 use crate::ast::{
-    Block, Expression, Function, FunctionKind, Place, PlaceRoot, Projection, Reach, Role, Statement,
+    Block, Builtin, Expression, Function, FunctionKind, Place, PlaceRoot, Projection, Reach, Role, Statement,
 };
 use syn::{Ident, Type};
 
@@ -28,11 +28,15 @@ pub(crate) struct Uses {
     pub(crate) accesses: Vec<Access>,
     /// Whether cells of the neighbourhood, or their items, are looked at.
     pub(crate) neighbours: bool,
+    /// Whether it is asked where neighbours lie: their displacements, opposites, whether they exist.
+    pub(crate) directions: bool,
+    /// Whether opposites are asked for.
+    pub(crate) opposites: bool,
 }
 
 impl Uses {
     pub(crate) fn of(function: &Function) -> Self {
-        let mut uses = Self { accesses: Vec::new(), neighbours: false };
+        let mut uses = Self { accesses: Vec::new(), neighbours: false, directions: false, opposites: false };
         let over_cells = function.kind == FunctionKind::Cells;
         uses.block(&function.body, over_cells);
         uses
@@ -137,7 +141,10 @@ impl Uses {
                 self.entry(field, group).others = true;
             }
             Expression::Builtin(builtin, arguments, _) => {
-                self.neighbours |= *builtin == crate::ast::Builtin::Neighbours;
+                self.opposites |= *builtin == Builtin::Opposite;
+                self.directions |=
+                    matches!(builtin, Builtin::Opposite | Builtin::Displacement | Builtin::Exists);
+                self.neighbours |= self.directions || *builtin == Builtin::NeighbourCount;
                 arguments.iter().for_each(|argument| self.expression(argument, over_cells));
             }
             Expression::Unary(_, value) | Expression::Cast(value, _) | Expression::Repeat(value, _) => {

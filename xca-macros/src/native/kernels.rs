@@ -118,11 +118,16 @@ fn cells(function: &Function, uses: &Uses, real: &TokenStream, size: &Ident) -> 
             load.extend(quote!(let #own = #read.at(#x, 0);));
         }
     }
+    let directions = uses.directions.then(|| {
+        let directions = hidden("directions", span);
+        quote!(let #directions = #row.directions::<#size>();)
+    });
     let mut writer = Writer::new(function, real.clone());
     let body = writer.block(&function.body);
     quote! {
         #space
         let #offsets = #row.offsets::<#size>();
+        #directions
         let #length = #row.length();
         #shorten
         let mut #place = #row.place();
