@@ -25,7 +25,7 @@ fn all_processes_are_valid_shaders() -> TestResult {
                 let options = Options {
                     precision,
                     neighbourhood_size: Some(27),
-                    toroidal: [walls == Walls::PerSlot; 3],
+                    boundaries: [if walls == Walls::PerSlot { Boundary::Toroidal } else { Boundary::Flat }; 3],
                     ..Options::default()
                 };
                 let shader = shader(&(process.body)(), &options)?;

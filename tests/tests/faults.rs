@@ -47,7 +47,7 @@ fn complain_too(cell: &mut Cell<Spot>, p: &Plan, space: &Space) {
 #[elementary_process]
 fn stare(cell: &mut Cell<Spot>, p: &Plan, space: &Space) {
     if space.step() == p.step && cell.index().x > 0 {
-        cell.value = cell.neighbour(cell.neighbours() + 3).value;
+        cell.value = cell.neighbour(cell.neighbour_count() + 3).value;
     }
 }
 

@@ -36,7 +36,7 @@ struct Conduction {
 #[elementary_process]
 fn diffuse(cell: &mut Cell<Heat>, p: &Conduction) {
     let mut flux = 0.0;
-    for n in 1..cell.neighbours() {
+    for n in 1..cell.neighbour_count() {
         flux += cell.neighbour(n).temperature - cell.temperature;
     }
     cell.temperature += p.alpha * flux;

@@ -30,7 +30,7 @@ const TOO_OLD: u32 = 4;
 #[elementary_process]
 fn seep(cell: &mut Cell<Soil>, p: &Weather) {
     let mut water = 0.0;
-    for n in 1..cell.neighbours() {
+    for n in 1..cell.neighbour_count() {
         water += cell.neighbour(n).water - cell.water;
     }
     cell.water += 0.1 * water + p.rain * cell.random(0);

@@ -1,7 +1,7 @@
 //! What an engine is to a simulation.
 
 use crate::geometry::Geometry;
-use crate::kernel::{BEYOND_NEIGHBOURHOOD, RowFault, StoppedAt};
+use crate::kernel::{BEYOND_NEIGHBOURHOOD, RowFault, StoppedAt, WRONG_RADIUS};
 use crate::model::Model;
 use crate::parameter_set::ParameterSet;
 use crate::process::Process;
@@ -254,6 +254,32 @@ pub enum Fault {
         /// The size of the neighbourhood.
         size: usize,
     },
+    /// A search has a radius beyond what the neighbourhood covers.
+    SearchTooFar {
+        /// The process.
+        process: &'static str,
+        /// The indices of the cell.
+        cell: [usize; 3],
+        /// The item.
+        label: Option<u32>,
+        /// The radius, in metres.
+        radius: f64,
+        /// The largest radius that the neighbourhood covers, in metres.
+        covered: f64,
+        /// The neighbourhood.
+        neighbourhood: String,
+    },
+    /// A search has a negative or NaN radius.
+    InvalidRadius {
+        /// The process.
+        process: &'static str,
+        /// The indices of the cell.
+        cell: [usize; 3],
+        /// The item.
+        label: Option<u32>,
+        /// The radius, in metres.
+        radius: f64,
+    },
     /// More items in a cell than it has slots.
     CellFull {
         /// The migration that moves them there; nothing where they are set from outside.
@@ -327,6 +353,22 @@ impl fmt::Display for Fault {
                     size.saturating_sub(1)
                 )
             }
+            Self::SearchTooFar { process, cell, label, radius, covered, neighbourhood } => {
+                write!(
+                    f,
+                    "`{process}` searches within {radius} m around item {} in cell {cell:?}, but the \
+                     neighbourhood ({neighbourhood}) covers {covered} m; use a wider neighbourhood (Moore covers \
+                     its radius times the cell side) or larger cells",
+                    label.unwrap_or_default()
+                )
+            }
+            Self::InvalidRadius { process, cell, label, radius } => {
+                write!(
+                    f,
+                    "`{process}` searches within {radius} m around item {} in cell {cell:?}; a radius is at least 0",
+                    label.unwrap_or_default()
+                )
+            }
             Self::CellFull { process, cell, items, slots } => {
                 if let Some(process) = process {
                     write!(f, "`{process}` moves too many items into one cell: ")?;
@@ -381,6 +423,17 @@ impl Fault {
                 cell,
                 index: fault.value as u32,
                 size,
+            };
+        }
+        if fault.code == WRONG_RADIUS {
+            let (process, label, radius) = (process.name, fault.label, fault.value);
+            let invalid = radius.is_nan() || radius < 0.0;
+            return if invalid {
+                Self::InvalidRadius { process, cell, label, radius }
+            } else {
+                let covered = geometry.covered_radius(Precision::F64);
+                let neighbourhood = geometry.neighbourhood().to_string();
+                Self::SearchTooFar { process, cell, label, radius, covered, neighbourhood }
             };
         }
         Self::Reported {

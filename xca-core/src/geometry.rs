@@ -1,10 +1,13 @@
 //! The cellular space: extents, boundaries, and which cell lies where.
 
 use crate::neighbourhood::Neighbourhood;
+use crate::value::Precision;
 use std::fmt;
 
+mod cover;
+
 /// What lies beyond the faces of the space along one axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Boundary {
     /// Cells that hold a fixed value, the model's outside state.
@@ -33,6 +36,8 @@ pub struct Geometry {
     side: f64,
     boundaries: [Boundary; 3],
     neighbourhood: Neighbourhood,
+    /// The radius that the neighbourhood covers, in sides of a cell.
+    covered: f64,
 }
 
 impl Geometry {
@@ -42,7 +47,9 @@ impl Geometry {
         boundaries: [Boundary; 3],
         neighbourhood: Neighbourhood,
     ) -> Self {
-        Self { extents, side, boundaries, neighbourhood }
+        let mut geometry = Self { extents, side, boundaries, neighbourhood, covered: 0.0 };
+        geometry.covered = cover::covered(&geometry);
+        geometry
     }
 
     /// The number of cells along x, y, z.
@@ -63,6 +70,22 @@ impl Geometry {
     /// Which cells a cell sees.
     pub fn neighbourhood(&self) -> &Neighbourhood {
         &self.neighbourhood
+    }
+
+    /// The largest radius of a search for other items, in metres, as a run of this precision computes it. A
+    /// search with a larger one is a fault.
+    ///
+    /// It is the distance from a cell to the nearest cell of the space that is not in its neighbourhood, cells
+    /// being boxes: within it, an item that is inside its cell finds all others that are inside theirs. A Moore
+    /// neighbourhood of radius `r` covers `r` sides of a cell; von Neumann and hexagonal neighbourhoods of
+    /// radius 1 cover 0, as they lack cells that touch at an edge or a corner. It is infinite where the
+    /// neighbourhood holds the whole space.
+    #[inline]
+    pub fn covered_radius(&self, precision: Precision) -> f64 {
+        match precision {
+            Precision::F32 => f64::from(self.covered as f32 * self.side as f32),
+            Precision::F64 => self.covered * self.side,
+        }
     }
 
     /// The number of cells.

@@ -398,8 +398,14 @@ pub enum Constant {
 /// What an engine provides to a process.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Builtin {
-    /// `cell.neighbours()`: the number of cells in the neighbourhood with the central one, `u32`.
-    Neighbours,
+    /// `cell.neighbour_count()`: the number of cells in the neighbourhood with the central one, `usize`.
+    NeighbourCount,
+    /// `cell.opposite(n)`: the index of the neighbour in the opposite direction, `usize`.
+    Opposite,
+    /// `cell.displacement(n)`: from the cell to a neighbour, `Vector3<i32>`.
+    Displacement,
+    /// `cell.exists(n)`: whether a neighbour is a cell of the space, `bool`.
+    Exists,
     /// `cell.index()`: the cell's indices x, y, z, `Vector3<i32>`.
     Index,
     /// `me.label()`: the item's label, `u32`.

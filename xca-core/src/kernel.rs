@@ -8,6 +8,7 @@
 //! nothing: what it asks for is compared with the row's entries, once a row.
 #![allow(unsafe_code)]
 
+use crate::geometry::Geometry;
 use crate::random::{self, Owner};
 use crate::value::Float;
 use crate::vector::Vector3;
@@ -20,6 +21,7 @@ use std::sync::Arc;
 mod cells;
 mod constants;
 mod entries;
+mod neighbours;
 mod search;
 mod space;
 mod values;
@@ -28,6 +30,7 @@ mod wide;
 pub use cells::{AroundRead, CentreRead, Column, Columns, Offset};
 pub use constants::{KernelConstant, Ordered, constant};
 pub use entries::{Entry, Memory, MemoryOf};
+pub use neighbours::Directions;
 pub use search::{CellFilter, Found, Scratch, reach};
 pub use space::NativeSpace;
 pub use values::{
@@ -42,6 +45,8 @@ pub const OUTSIDE: u32 = u32::MAX - 1;
 pub const NOWHERE: u32 = u32::MAX - 2;
 /// The code of the fault that a neighbour index beyond the neighbourhood is.
 pub const BEYOND_NEIGHBOURHOOD: u32 = u32::MAX;
+/// The code of the fault that a search is whose radius is too large, negative or NaN.
+pub const WRONG_RADIUS: u32 = u32::MAX - 1;
 
 /// A kernel: runs a process over one row.
 pub type RowKernel = fn(&Row<'_>);
@@ -64,6 +69,8 @@ pub struct Access {
 /// What is the same in all rows of a step.
 #[derive(Debug, Clone, Copy)]
 pub struct Frame<'a> {
+    /// The shape of the space.
+    pub geometry: &'a Geometry,
     /// The number of cells along x, y, z.
     pub extents: [u32; 3],
     /// The side of a cell in metres.
@@ -310,7 +317,9 @@ impl<'a> Row<'a> {
 
     /// Records that a neighbour index lies beyond the neighbourhood.
     #[cold]
-    pub fn beyond_neighbourhood(&self, x: usize, index: u32) {
+    pub fn beyond_neighbourhood(&self, x: usize, index: usize) {
+        // Indices have 32 bits on other engines, and in the message.
+        let index = u32::try_from(index).unwrap_or(u32::MAX);
         self.report(x, None, BEYOND_NEIGHBOURHOOD, f64::from(index));
     }
 
@@ -330,27 +339,27 @@ impl<'a> Row<'a> {
 
     /// Random bits of a cell of the row.
     #[inline]
-    pub fn random_bits(&self, x: usize, draw: u32) -> u32 {
-        random::draw_words(self.frame.seed, self.frame.step, Owner::Cell(self.cell(x)), draw)[0]
+    pub fn random_bits(&self, x: usize, draw: usize) -> u32 {
+        random::draw_words(self.frame.seed, self.frame.step, Owner::Cell(self.cell(x)), draw as u32)[0]
     }
 
     /// A random number of a cell of the row.
     #[inline]
-    pub fn random<R: Float>(&self, x: usize, draw: u32) -> R {
-        let words = random::draw_words(self.frame.seed, self.frame.step, Owner::Cell(self.cell(x)), draw);
+    pub fn random<R: Float>(&self, x: usize, draw: usize) -> R {
+        let words = random::draw_words(self.frame.seed, self.frame.step, Owner::Cell(self.cell(x)), draw as u32);
         R::uniform([words[0], words[1]])
     }
 
     /// Random bits of an item.
     #[inline]
-    pub fn item_random_bits(&self, item: usize, draw: u32) -> u32 {
-        random::draw_words(self.frame.seed, self.frame.step, Owner::Item(self.label(item)), draw)[0]
+    pub fn item_random_bits(&self, item: usize, draw: usize) -> u32 {
+        random::draw_words(self.frame.seed, self.frame.step, Owner::Item(self.label(item)), draw as u32)[0]
     }
 
     /// A random number of an item.
     #[inline]
-    pub fn item_random<R: Float>(&self, item: usize, draw: u32) -> R {
-        let words = random::draw_words(self.frame.seed, self.frame.step, Owner::Item(self.label(item)), draw);
+    pub fn item_random<R: Float>(&self, item: usize, draw: usize) -> R {
+        let words = random::draw_words(self.frame.seed, self.frame.step, Owner::Item(self.label(item)), draw as u32);
         R::uniform([words[0], words[1]])
     }
 }
@@ -365,17 +374,17 @@ pub struct Offsets<'a, const K: usize> {
 impl<const K: usize> Offsets<'_, K> {
     /// The number of cells.
     #[inline(always)]
-    pub fn count(&self) -> u32 {
-        if K > 0 { K as u32 } else { self.any.len() as u32 }
+    pub fn count(&self) -> usize {
+        if K > 0 { K } else { self.any.len() }
     }
 
     /// The offset of the neighbour with this index. Beyond the neighbourhood it is a fault, and the cell itself is read.
     #[inline(always)]
-    pub fn at<'r>(&self, index: u32, row: &'r Row<'_>, x: usize) -> Offset<'r> {
+    pub fn at<'r>(&self, index: usize, row: &'r Row<'_>, x: usize) -> Offset<'r> {
         let offset = if K > 0 {
-            self.fixed.get(index as usize).copied()
+            self.fixed.get(index).copied()
         } else {
-            self.any.get(index as usize).copied()
+            self.any.get(index).copied()
         };
         let distance = offset.unwrap_or_else(|| {
             row.beyond_neighbourhood(x, index);

@@ -31,7 +31,7 @@
 //! fn burn(cell: &mut Cell<Forest>, p: &Fire) {
 //!     match cell.tree {
 //!         GREEN => {
-//!             for n in 1..cell.neighbours() {
+//!             for n in 1..cell.neighbour_count() {
 //!                 if cell.neighbour(n).tree == BURNING && cell.random(n) < p.spread {
 //!                     cell.tree = BURNING;
 //!                 }
@@ -73,7 +73,7 @@
 //! | share code between processes | [`helper`] |
 //! | compute `exp`, `sin` and their kin | [`math`] |
 //! | have items that move from cell to cell | [`ModelBuilder::population`], [`migration`] |
-//! | put a model together | [`ModelBuilder`], [`Neighbourhood`], [`Boundary`] |
+//! | put a model together | [`ModelBuilder`], [`Neighbourhood`], [`directions`], [`Boundary`] |
 //! | look at a state and change it | [`State`] |
 //! | run | [`Simulation`], [`Reference`], and the crate `xca-cpu` |
 //!
@@ -87,6 +87,7 @@ extern crate self as xca_core;
 
 #[doc(hidden)]
 pub mod checks;
+pub mod directions;
 pub mod engine;
 #[doc(hidden)]
 pub mod field_type;
@@ -144,6 +145,6 @@ pub mod prelude {
         Boundary, Cell, Destination, Engine, Hexagons, Item, Model, ModelError, Neighbourhood, Other,
         Outcome, ParameterError, Parameters, Precision, Real, Reference, RunError, RunOptions, Schedule,
         Simulation, Slot, Slots, Space, State, States, SteeringError, Substate, Substates, Vector2, Vector3,
-        Vector4, elementary_process, helper, migration,
+        Vector4, directions, elementary_process, helper, migration,
     };
 }

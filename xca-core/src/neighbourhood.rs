@@ -1,5 +1,6 @@
 //! Neighbourhoods: which cells a cell sees.
 
+use std::collections::HashMap;
 use std::fmt;
 
 /// The cells that a process sees, as displacements from the central cell, which has index 0.
@@ -13,6 +14,8 @@ pub struct Neighbourhood {
     /// For cells in even and in odd rows (or columns): the same list except in hexagonal grids.
     displacements: [Vec<[i32; 3]>; 2],
     parity: Parity,
+    /// For each index that of the opposite direction, the same for all cells.
+    opposites: Vec<Option<usize>>,
 }
 
 /// What the displacements depend on.
@@ -88,16 +91,12 @@ impl Neighbourhood {
         };
         let turn = |list: Vec<[i32; 3]>| list.into_iter().map(|[x, y, z]| [y, x, z]).collect();
         match hexagons {
-            Hexagons::CornerUp => Self {
-                name: "hexagonal, corner up".to_owned(),
-                displacements: [rows(0), rows(1)],
-                parity: Parity::Row,
-            },
-            Hexagons::SideUp => Self {
-                name: "hexagonal, side up".to_owned(),
-                displacements: [turn(rows(0)), turn(rows(1))],
-                parity: Parity::Column,
-            },
+            Hexagons::CornerUp => {
+                Self::new("hexagonal, corner up".to_owned(), [rows(0), rows(1)], Parity::Row)
+            }
+            Hexagons::SideUp => {
+                Self::new("hexagonal, side up".to_owned(), [turn(rows(0)), turn(rows(1))], Parity::Column)
+            }
         }
     }
 
@@ -115,7 +114,7 @@ impl Neighbourhood {
             }
         }
         let name = format!("custom, {} cells", displacements.len());
-        Ok(Self { name, displacements: [displacements.clone(), displacements], parity: Parity::None })
+        Ok(Self::new(name, [displacements.clone(), displacements], Parity::None))
     }
 
     fn ball(name: String, radius: u8, layers: u8, inside: impl Fn([i32; 3]) -> bool) -> Self {
@@ -130,7 +129,12 @@ impl Neighbourhood {
                 }
             }
         }
-        Self { name, displacements: [displacements.clone(), displacements], parity: Parity::None }
+        Self::new(name, [displacements.clone(), displacements], Parity::None)
+    }
+
+    fn new(name: String, displacements: [Vec<[i32; 3]>; 2], parity: Parity) -> Self {
+        let opposites = opposites(&displacements, parity);
+        Self { name, displacements, parity, opposites }
     }
 
     /// The number of cells, with the central one.
@@ -148,6 +152,38 @@ impl Neighbourhood {
         &self.displacements[odd]
     }
 
+    /// The index of the neighbour at a displacement from the cell with these indices; `None` where the
+    /// neighbourhood does not hold it. Only in hexagonal grids does the cell matter.
+    ///
+    /// ```
+    /// use xca_core::prelude::*;
+    ///
+    /// let eight = Neighbourhood::moore_2d(1);
+    /// assert_eq!(eight.index_of([4, 7, 0], [1, 1, 0]), Some(directions::moore_2d::NORTH_EAST));
+    /// assert_eq!(eight.index_of([4, 7, 0], [2, 0, 0]), None);
+    /// ```
+    pub fn index_of(&self, cell: [usize; 3], displacement: [i32; 3]) -> Option<usize> {
+        self.displacements(cell).iter().position(|known| *known == displacement)
+    }
+
+    /// The index of the neighbour in the opposite direction: seen from neighbour `index`, the cell itself has
+    /// this index. 0 for 0. `None` where a custom neighbourhood lacks the opposite displacement, and for an
+    /// index beyond the neighbourhood.
+    pub fn opposite(&self, index: usize) -> Option<usize> {
+        self.opposites.get(index).copied().flatten()
+    }
+
+    /// [`Self::opposite`] for each index.
+    pub(crate) fn opposites(&self) -> &[Option<usize>] {
+        &self.opposites
+    }
+
+    /// The first displacement whose opposite is missing.
+    pub(crate) fn without_opposite(&self) -> Option<[i32; 3]> {
+        let first = self.opposites.iter().position(Option::is_none)?;
+        self.displacements[0].get(first).copied()
+    }
+
     /// What the displacements depend on.
     pub fn parity(&self) -> Parity {
         self.parity
@@ -163,6 +199,25 @@ impl Neighbourhood {
         }
         reach
     }
+}
+
+/// For each index that under which the neighbour sees the cell: its displacement, turned round, is in the list
+/// of the neighbour's row or column.
+fn opposites(displacements: &[Vec<[i32; 3]>; 2], parity: Parity) -> Vec<Option<usize>> {
+    let indices = displacements.each_ref().map(|list| {
+        list.iter().enumerate().map(|(index, at)| (*at, index)).collect::<HashMap<_, _>>()
+    });
+    let back = |[x, y, z]: &[i32; 3]| {
+        let list = match parity {
+            Parity::None => 0,
+            Parity::Row => y & 1,
+            Parity::Column => x & 1,
+        };
+        // A displacement that no number can turn round has no opposite.
+        let turned = [x.checked_neg()?, y.checked_neg()?, z.checked_neg()?];
+        indices[list as usize].get(&turned).copied()
+    };
+    displacements[0].iter().map(back).collect()
 }
 
 impl fmt::Debug for Neighbourhood {

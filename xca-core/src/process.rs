@@ -54,6 +54,8 @@ pub struct Process {
     pub parameters: &'static [ParametersArgument],
     /// Whether it looks at neighbours.
     pub local_interaction: bool,
+    /// Whether it asks for the opposite of a neighbour.
+    pub uses_opposite: bool,
     /// How it uses each substate; a substate may stand in two accesses, one of which is the position for a search.
     pub access: &'static [Access],
     /// Its body as data.

@@ -24,7 +24,7 @@ use crate::value::{HostScalar, HostValue, StoredScalar};
 ///     cell.tissue = match cell.tissue {
 ///         Tissue::Resting => {
 ///             let mut next = Tissue::Resting;
-///             for n in 1..cell.neighbours() {
+///             for n in 1..cell.neighbour_count() {
 ///                 if cell.neighbour(n).tissue == Tissue::Excited {
 ///                     next = Tissue::Excited;
 ///                 }

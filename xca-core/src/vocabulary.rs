@@ -21,14 +21,35 @@ pub struct Cell<S> {
 }
 
 impl<S: 'static> Cell<S> {
-    /// The number of cells in the neighbourhood, with the central one: neighbours are `1..cell.neighbours()`.
-    pub fn neighbours(&self) -> u32 {
+    /// The number of cells in the neighbourhood, with the central one: neighbours are
+    /// `1..cell.neighbour_count()`.
+    pub fn neighbour_count(&self) -> usize {
         match self.never {}
     }
 
     /// A cell of the neighbourhood as it was before this process; index 0 is the central cell. An index beyond the
     /// neighbourhood is a fault that stops the run.
-    pub fn neighbour(&self, _index: u32) -> &'static S {
+    pub fn neighbour(&self, _index: usize) -> &'static S {
+        match self.never {}
+    }
+
+    /// The index of the neighbour in the opposite direction, 0 for 0: seen from neighbour `index`, this cell has
+    /// the index `cell.opposite(index)`. A custom neighbourhood must hold the opposite of each displacement, or
+    /// `build` refuses the process. An index beyond the neighbourhood is a fault, as in [`Self::neighbour`].
+    pub fn opposite(&self, _index: usize) -> usize {
+        match self.never {}
+    }
+
+    /// The displacement from this cell to a neighbour, in cells along x, y, z. With hexagons it depends on the row
+    /// or column of the cell. An index beyond the neighbourhood is a fault, as in [`Self::neighbour`].
+    pub fn displacement(&self, _index: usize) -> Vector3<i32> {
+        match self.never {}
+    }
+
+    /// Whether a neighbour is a cell of the space: `false` beyond a flat face, where [`Self::neighbour`] shows the
+    /// outside values. Beyond toroidal and reflecting faces there is always a cell. An index beyond the
+    /// neighbourhood is a fault, as in [`Self::neighbour`].
+    pub fn exists(&self, _index: usize) -> bool {
         match self.never {}
     }
 
@@ -41,13 +62,13 @@ impl<S: 'static> Cell<S> {
     ///
     /// The process is not part of it: two processes that ask for the same draw in one step get the same number, and so does one that asks
     /// twice. Where numbers have to be independent, give each its own `draw` in the whole model.
-    pub fn random(&self, _draw: u32) -> Real {
+    pub fn random(&self, _draw: usize) -> Real {
         match self.never {}
     }
 
     /// 32 random bits: a function of seed, step, cell and `draw`, the same on every engine. Equal draws give equal bits, as with
     /// [`Self::random`], whose number is made of the same ones.
-    pub fn random_bits(&self, _draw: u32) -> u32 {
+    pub fn random_bits(&self, _draw: usize) -> u32 {
         match self.never {}
     }
 
@@ -93,13 +114,13 @@ impl<S: 'static> Slot<S> {
     ///
     /// The process is not part of it: two processes that ask for the same draw in one step get the same number, and so does one that asks
     /// twice. Where numbers have to be independent, give each its own `draw` in the whole model.
-    pub fn random(&self, _draw: u32) -> Real {
+    pub fn random(&self, _draw: usize) -> Real {
         match self.never {}
     }
 
     /// 32 random bits: a function of seed, step, label and `draw`, the same on every engine. Equal draws give equal bits, as with
     /// [`Self::random`], whose number is made of the same ones.
-    pub fn random_bits(&self, _draw: u32) -> u32 {
+    pub fn random_bits(&self, _draw: usize) -> u32 {
         match self.never {}
     }
 
@@ -124,7 +145,8 @@ impl<S: 'static> Slot<S> {
         match self.never {}
     }
 
-    /// Of [`Self::others_in_cell`] those whose position is nearer than the radius; on a toroidal axis by the shorter way.
+    /// Of [`Self::others_in_cell`] those whose position is nearer than the radius; on a toroidal axis by the
+    /// shorter way. A NaN or negative radius is a fault.
     pub fn others_in_cell_within(&self, _radius: Real) -> Others<S>
     where
         S: HasPosition,
@@ -132,7 +154,8 @@ impl<S: 'static> Slot<S> {
         match self.never {}
     }
 
-    /// Of [`Self::others_in_neighbours`] those whose position is nearer than the radius.
+    /// Of [`Self::others_in_neighbours`] those whose position is nearer than the radius. Radii are limited as in
+    /// [`Self::others_within`].
     pub fn others_in_neighbours_within(&self, _radius: Real) -> Others<S>
     where
         S: HasPosition,
@@ -141,6 +164,10 @@ impl<S: 'static> Slot<S> {
     }
 
     /// Of [`Self::others`] those whose position is nearer than the radius.
+    ///
+    /// A radius beyond what the neighbourhood covers is a fault that stops the run:
+    /// [`Geometry::covered_radius`](crate::Geometry::covered_radius) says how far that is, for a Moore
+    /// neighbourhood its radius times the side of a cell. A NaN or negative radius is a fault too.
     pub fn others_within(&self, _radius: Real) -> Others<S>
     where
         S: HasPosition,

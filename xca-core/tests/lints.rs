@@ -63,7 +63,7 @@ fn push(p: &Material, separation: Vector3<Real>, space: &Space) -> Vector3<Real>
 #[elementary_process]
 fn erode(cell: &mut Cell<Ground>, grains: &Slots<Grain>, p: &Material) {
     let mut flux = 0.0;
-    for n in 1..cell.neighbours() {
+    for n in 1..cell.neighbour_count() {
         let other = cell.neighbour(n);
         flux += other.height - cell.height;
     }

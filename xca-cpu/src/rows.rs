@@ -118,6 +118,7 @@ pub(crate) fn run(
     let offsets = layout.offsets(geometry);
     let filter = filter(model, layout, precision, groups, &prepared);
     let frames: [Frame<'_>; 2] = std::array::from_fn(|odd| Frame {
+        geometry,
         extents: geometry.extents().map(|extent| extent as u32),
         side: geometry.side(),
         toroidal: geometry.boundaries().map(|boundary| boundary == Boundary::Toroidal),

@@ -10,7 +10,7 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 use xca_core::engine::SubstateId;
 use xca_core::kernel::Of;
-use xca_core::{AnyParameters, Boundary, Model, Parity, Precision, Process, ProcessKind};
+use xca_core::{AnyParameters, Model, Parity, Precision, Process, ProcessKind};
 use xca_wgsl::{BindingAccess, Content, Dispatch, Layout, Options, Shader, State};
 
 /// How processes are compiled.
@@ -35,6 +35,7 @@ pub(crate) struct Program {
     /// The description of the space for each part.
     spaces: Option<(Layout, Vec<Buffer>)>,
     offsets: Option<Buffer>,
+    directions: Option<Buffer>,
     /// Bound pipelines by the buffers that they are bound to.
     bound: HashMap<Vec<(u64, u64)>, Bindings>,
 }
@@ -74,7 +75,7 @@ pub(crate) fn shader_of(
         neighbourhood_size: u32::try_from(geometry.neighbourhood().size()).ok(),
         neighbour_offsets,
         workgroup_size: [x, y, (manner.workgroup / (x * y)).min(64)],
-        toroidal: geometry.boundaries().map(|boundary| boundary == Boundary::Toroidal),
+        boundaries: geometry.boundaries(),
         parity: geometry.neighbourhood().parity(),
         opaque_zero: manner.strict,
     };
@@ -117,7 +118,7 @@ impl Program {
             strict: manner.strict,
         };
         let pipeline = device.pipeline(&code)?;
-        let (mut parameters, mut spaces, mut offsets) = (None, None, None);
+        let (mut parameters, mut spaces, mut offsets, mut directions) = (None, None, None, None);
         for binding in &shader.bindings {
             match &binding.content {
                 Content::Parameters(layout) => {
@@ -135,10 +136,16 @@ impl Program {
                     device.upload(&buffer, 0, bytemuck::cast_slice(&numbers))?;
                     offsets = Some(buffer);
                 }
+                Content::NeighbourDirections => {
+                    let numbers = space.directions();
+                    let buffer = device.buffer("directions", size_of_val(&*numbers) as u64)?;
+                    device.upload(&buffer, 0, bytemuck::cast_slice(&numbers))?;
+                    directions = Some(buffer);
+                }
                 _ => {}
             }
         }
-        Ok(Self { process, shader, pipeline, parameters, spaces, offsets, bound: HashMap::new() })
+        Ok(Self { process, shader, pipeline, parameters, spaces, offsets, directions, bound: HashMap::new() })
     }
 
     /// The substates whose results go to a second buffer.
@@ -259,6 +266,7 @@ impl Program {
                 }
                 Content::Parameters(_) => self.parameters.as_ref().map(|(_, buffer)| buffer.into()),
                 Content::NeighbourOffsets => self.offsets.as_ref().map(Binding::from),
+                Content::NeighbourDirections => self.directions.as_ref().map(Binding::from),
                 Content::Moment(_) => Some(groups.journal(population)),
                 Content::Faults(_) => Some(groups.faults().into()),
                 Content::Substate { of, field, state, .. } => {

@@ -148,6 +148,20 @@ impl Space {
             .collect()
     }
 
+    /// The displacements of the neighbours, each with the index of its opposite, for cells in even and in odd rows or columns. Where there
+    /// is no opposite no process asks for it.
+    pub(crate) fn directions(&self) -> Vec<[i32; 4]> {
+        let neighbourhood = self.geometry.neighbourhood();
+        let of = |cell| neighbourhood.displacements(cell).iter().enumerate();
+        of([0, 0, 0])
+            .chain(of([1, 1, 0]))
+            .map(|(index, [x, y, z])| {
+                let opposite = neighbourhood.opposite(index).unwrap_or(0);
+                [*x, *y, *z, opposite as i32]
+            })
+            .collect()
+    }
+
     /// The cells of the halo: each with the cell that it shows, or with nothing beyond a flat face.
     pub(crate) fn halo(&self) -> Vec<(usize, Option<usize>)> {
         let extents = self.geometry.extents();

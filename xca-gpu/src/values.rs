@@ -41,6 +41,7 @@ pub(crate) fn space(layout: &Layout, space: &Space, part: &Part, seed: u64, prec
         "base" => words(&[part.base as u32]),
         "seed" => words(&[seed as u32, (seed >> 32) as u32]),
         "side" => real(geometry.side(), precision),
+        "covered" => real(geometry.covered_radius(precision), precision),
         // The zero that drivers cannot see; and whatever else there may be, is one.
         _ => Vec::new(),
     })

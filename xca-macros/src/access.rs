@@ -1,7 +1,8 @@
 //! Which substates a body reads and writes, and where.
 
 use crate::ast::{
-    ArgumentNumber, Block, Expression, Function, Place, PlaceRoot, Projection, Reach, Role, Statement,
+    ArgumentNumber, Block, Builtin, Expression, Function, Place, PlaceRoot, Projection, Reach, Role,
+    Statement,
 };
 use syn::Ident;
 
@@ -41,11 +42,15 @@ pub(crate) struct Uses {
     pub(crate) accesses: Vec<Access>,
     /// Whether cells of the neighbourhood, or their items, are looked at.
     pub(crate) neighbours: bool,
+    /// Whether it is asked where neighbours lie: their displacements, opposites, whether they exist.
+    pub(crate) directions: bool,
+    /// Whether opposites are asked for.
+    pub(crate) opposites: bool,
 }
 
 impl Uses {
     pub(crate) fn of(function: &Function) -> Self {
-        let mut uses = Self { accesses: Vec::new(), neighbours: false };
+        let mut uses = Self { accesses: Vec::new(), neighbours: false, directions: false, opposites: false };
         uses.block(&function.body);
         uses
     }
@@ -149,7 +154,10 @@ impl Uses {
                 self.expression(index);
             }
             Expression::Builtin(builtin, arguments, _) => {
-                self.neighbours |= *builtin == crate::ast::Builtin::Neighbours;
+                self.opposites |= *builtin == Builtin::Opposite;
+                self.directions |=
+                    matches!(builtin, Builtin::Opposite | Builtin::Displacement | Builtin::Exists);
+                self.neighbours |= self.directions || *builtin == Builtin::NeighbourCount;
                 arguments.iter().for_each(|argument| self.expression(argument));
             }
             Expression::Unary(_, value) | Expression::Cast(value, _) | Expression::Repeat(value, _) => {

@@ -217,7 +217,10 @@ pub(crate) enum Pattern {
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Builtin {
-    Neighbours,
+    NeighbourCount,
+    Opposite,
+    Displacement,
+    Exists,
     Index,
     Label,
     Random,

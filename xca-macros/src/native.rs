@@ -178,7 +178,7 @@ fn description(function: &Function, uses: &Uses, data: &TokenStream) -> TokenStr
             }
         }
     });
-    let neighbours = uses.neighbours;
+    let (neighbours, opposites) = (uses.neighbours, uses.opposites);
     let [row_f32, row_f64] = [quote!(f32), quote!(f64)].map(|real| kernels::row(function, uses, &real));
     quote! {
         const __XCA_ACCESS: &[::xca_core::kernel::Access] = &[#(#accesses),*];
@@ -190,6 +190,7 @@ fn description(function: &Function, uses: &Uses, data: &TokenStream) -> TokenStr
             substates: &[#(#substates),*],
             parameters: &[#(#parameters),*],
             local_interaction: #neighbours,
+            uses_opposite: #opposites,
             access: __XCA_ACCESS,
             body: || #data,
             row_f32: #row_f32,

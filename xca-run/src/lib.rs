@@ -13,7 +13,7 @@
 //! #[elementary_process]
 //! fn evolve(cell: &mut Cell<Life>) {
 //!     let mut count = 0;
-//!     for n in 1..cell.neighbours() {
+//!     for n in 1..cell.neighbour_count() {
 //!         count += cell.neighbour(n).alive;
 //!     }
 //!     cell.alive = if count == 3 || (count == 2 && cell.alive == 1) { 1 } else { 0 };

@@ -24,7 +24,7 @@ pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 ///
 /// #[elementary_process]
 /// fn spread(cell: &mut Cell<Fire>) {
-///     for n in 1..cell.neighbours() {
+///     for n in 1..cell.neighbour_count() {
 ///         cell.burning = cell.burning.max(cell.neighbour(n).burning);
 ///     }
 /// }

@@ -32,6 +32,8 @@ pub(crate) struct Uses {
     pub(crate) substates: Vec<Use>,
     pub(crate) parameters: bool,
     pub(crate) neighbourhood: bool,
+    /// The displacements of the neighbours and their opposites.
+    pub(crate) directions: bool,
     /// The ranges of items in cells.
     pub(crate) ranges: bool,
     pub(crate) labels: bool,
@@ -98,6 +100,8 @@ impl Uses {
                 self.neighbourhood |= *reach != Reach::Cell;
                 if radius.is_some() {
                     self.searches = true;
+                    // The radius may be too large.
+                    self.faults = true;
                     let name = position(roles.subject)?;
                     self.entry(Of::Subject, roles.subject, name)?.others = true;
                 }
@@ -142,6 +146,11 @@ impl Uses {
                 }
             }
             Expression::Builtin(Builtin::Index, _) => self.index = true,
+            Expression::Builtin(Builtin::Opposite | Builtin::Displacement, _) => self.directions = true,
+            Expression::Builtin(Builtin::Exists, _) => {
+                self.directions = true;
+                self.index = true;
+            }
             _ => {}
         }
         Ok(())

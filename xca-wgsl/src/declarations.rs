@@ -105,6 +105,10 @@ impl Writer<'_> {
         if self.mentions("neighbour_offsets") {
             self.buffer("neighbour_offsets", "array<i32>", BindingAccess::Read, Content::NeighbourOffsets);
         }
+        if self.mentions("neighbour_directions") {
+            let (name, type_) = ("neighbour_directions", "array<vec4<i32>>");
+            self.buffer(name, type_, BindingAccess::Read, Content::NeighbourDirections);
+        }
     }
 
     fn parameters(&mut self, roles: &Roles<'_>, uses: &Uses, glossary: &Glossary, names: &mut Names) {

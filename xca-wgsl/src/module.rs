@@ -35,7 +35,8 @@ pub(crate) fn write(program: &Program, options: &Options) -> Result<Shader, Erro
     }
     let kind = program.process().kind;
     uses.faults |= routines.checked_neighbours;
-    uses.index |= uses.faults || (uses.neighbourhood && options.parity != Parity::None);
+    let tables = uses.neighbourhood || uses.directions;
+    uses.index |= uses.faults || (tables && options.parity != Parity::None);
     let over_cells = kind == FunctionKind::Cells;
     let entry = Entry { kind, uses: &uses, glossary: &glossary, options };
     let mut body = Vec::new();
@@ -110,14 +111,20 @@ fn provided(
     if uses.neighbourhood {
         texts.push(space::neighbour_at(options.parity, &glossary.neighbours));
     }
+    if uses.directions {
+        texts.push(space::neighbour_direction(options.parity, &glossary.neighbours));
+    }
+    if routines.neighbour_exists {
+        texts.push(space::neighbour_exists(options.boundaries));
+    }
     if routines.checked_neighbours {
-        texts.push(space::checked_neighbour_at(&glossary.neighbours));
+        texts.push(space::valid_neighbour(&glossary.neighbours));
     }
     if routines.nearest_image {
-        texts.push(space::nearest_image(options.toroidal, options.precision));
+        texts.push(space::nearest_image(options.boundaries, options.precision));
     }
     if routines.wrapped {
-        texts.push(space::wrapped(options.toroidal));
+        texts.push(space::wrapped(options.boundaries));
     }
     if routines.cell_containing {
         texts.push(space::cell_containing());

@@ -32,7 +32,7 @@ bitcast arrayLength atomicLoad atomicStore atomicMin workgroupBarrier
 const OWN: &str = "
 Real Destination Space Moment Fault Faults main space moment neighbour_offsets item_starts item_ends item_labels
 item_cells destinations faults here here_index this_item reported_fault first_fault storage_index cell_index linear_index
-neighbour_at checked_neighbour_at report_fault has_fault multiply_high philox random_words random_bits random_real
+neighbour_at valid_neighbour neighbour_direction neighbour_directions neighbour_exists report_fault has_fault multiply_high philox random_words random_bits random_real
 cell_containing nearest_image shorter_way wrapped wrapped_along
 
 ";

@@ -15,6 +15,8 @@ pub(crate) struct Routines {
     pub(crate) wrapped: bool,
     /// The index of a neighbour may lie beyond the neighbourhood.
     pub(crate) checked_neighbours: bool,
+    /// It is asked whether a neighbour exists.
+    pub(crate) neighbour_exists: bool,
     pub(crate) cell_containing: bool,
 }
 

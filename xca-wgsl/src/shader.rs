@@ -5,7 +5,7 @@ use crate::layout::Layout;
 use crate::module;
 use crate::program::Program;
 use xca_core::kernel::Of;
-use xca_core::{Parity, Precision, ValueType, ir};
+use xca_core::{Boundary, Parity, Precision, ValueType, ir};
 
 /// What a shader is written for.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -21,8 +21,9 @@ pub struct Options {
     pub neighbour_offsets: Option<Vec<i32>>,
     /// The size of a workgroup along x, y and z; of a process over items the product.
     pub workgroup_size: [u32; 3],
-    /// Which axes are toroidal: searches for near items go the shorter way round them.
-    pub toroidal: [bool; 3],
+    /// What lies beyond the faces: round toroidal axes searches for near items go the shorter way, beyond flat faces no neighbour
+    /// exists.
+    pub boundaries: [Boundary; 3],
     /// Whether cells in odd rows or columns have another neighbourhood than those in even ones.
     pub parity: Parity,
     /// Whether float zeros are read from memory. Some drivers take `x + 0.0` for `x` and `x * 0.0` for `0.0` in spite of all
@@ -37,7 +38,7 @@ impl Default for Options {
             neighbourhood_size: None,
             neighbour_offsets: None,
             workgroup_size: [64, 1, 1],
-            toroidal: [false; 3],
+            boundaries: [Boundary::Flat; 3],
             parity: Parity::None,
             opaque_zero: false,
         }
@@ -98,7 +99,7 @@ pub enum BindingAccess {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Content {
     /// What is known of the space: `extents`, the number of cells of the neighbourhood, `halo`, `row`, `layer`, `seed` (low word, high
-    /// word); where they are used, `side` and `zero`, which is 0. A process over cells can be run for a part of them: the `first`
+    /// word); where they are used, `side`, `covered`, the largest radius of a search, and `zero`, which is 0. A process over cells can be run for a part of them: the `first`
     /// cell, by its indices, the `count` of cells along each axis, and the number `base` of the stored cell with which the bound buffers
     /// begin. For all cells these are 0, the extents, and 0.
     Space(Layout),
@@ -109,6 +110,9 @@ pub enum Content {
     /// `i32` for each cell of the neighbourhood: the difference of its number from that of the central cell. Where rows or columns
     /// differ ([`Options::parity`]), first those of even, then those of odd ones.
     NeighbourOffsets,
+    /// Four `i32` for each cell of the neighbourhood: the displacement along x, y, z and the index of the opposite neighbour. Where rows
+    /// or columns differ, as with [`Self::NeighbourOffsets`].
+    NeighbourDirections,
     /// A substate of all cells, or of all items: a value for each, lane beside lane without padding, a `u8` as a `u32`.
     Substate {
         /// Of the process's subject or of its companion.

@@ -1,7 +1,7 @@
 //! Where things are: cells, neighbours, positions.
 
 use xca_core::kernel::{BEYOND_NEIGHBOURHOOD, NOWHERE, OUTSIDE};
-use xca_core::{Parity, Precision};
+use xca_core::{Boundary, Parity, Precision};
 
 /// The number of a cell among the stored ones, from its indices.
 pub(crate) const STORAGE_INDEX: &str = "fn storage_index(index: vec3<u32>) -> u32 {
@@ -25,13 +25,18 @@ pub(crate) const LINEAR_INDEX: &str = "fn linear_index(index: vec3<i32>) -> u32 
 }
 ";
 
-/// The number of a neighbour among the stored cells.
-pub(crate) fn neighbour_at(parity: Parity, neighbours: &str) -> String {
-    let odd = match parity {
+/// What leads from an index to its place in a table that has a second part for odd rows or columns.
+fn odd_part(parity: Parity, neighbours: &str) -> String {
+    match parity {
         Parity::None => String::new(),
         Parity::Row => format!(" + (u32(here_index.y) & 1u) * {neighbours}"),
         Parity::Column => format!(" + (u32(here_index.x) & 1u) * {neighbours}"),
-    };
+    }
+}
+
+/// The number of a neighbour among the stored cells.
+pub(crate) fn neighbour_at(parity: Parity, neighbours: &str) -> String {
+    let odd = odd_part(parity, neighbours);
     format!(
         "fn neighbour_at(index: u32) -> u32 {{
     return u32(i32(here) + neighbour_offsets[index{odd}]);
@@ -40,27 +45,57 @@ pub(crate) fn neighbour_at(parity: Parity, neighbours: &str) -> String {
     )
 }
 
-/// The same where the index may be too large: a fault, and the cell itself is read.
-pub(crate) fn checked_neighbour_at(neighbours: &str) -> String {
+/// An index that may be too large: that is a fault, and the cell itself takes the place of the neighbour.
+pub(crate) fn valid_neighbour(neighbours: &str) -> String {
     format!(
-        "fn checked_neighbour_at(index: u32) -> u32 {{
+        "fn valid_neighbour(index: u32) -> u32 {{
     if index >= {neighbours} {{
         report_fault({BEYOND_NEIGHBOURHOOD:#x}u, Real(index));
-        return here;
+        return 0u;
     }}
-    return neighbour_at(index);
+    return index;
+}}
+"
+    )
+}
+
+/// The displacement to a neighbour and, in the last lane, the index of its opposite.
+pub(crate) fn neighbour_direction(parity: Parity, neighbours: &str) -> String {
+    let odd = odd_part(parity, neighbours);
+    format!(
+        "fn neighbour_direction(index: u32) -> vec4<i32> {{
+    return neighbour_directions[index{odd}];
+}}
+"
+    )
+}
+
+/// Whether a neighbour is a cell of the space.
+pub(crate) fn neighbour_exists(boundaries: [Boundary; 3]) -> String {
+    // A negative index is a large one.
+    let inside: Vec<String> = ["x", "y", "z"]
+        .into_iter()
+        .zip(boundaries)
+        .filter(|(_, boundary)| *boundary == Boundary::Flat)
+        .map(|(lane, _)| format!("u32(there.{lane}) < u32(space.extents.{lane})"))
+        .collect();
+    let result = if inside.is_empty() { "true".to_owned() } else { inside.join(" && ") };
+    format!(
+        "fn neighbour_exists(index: u32) -> bool {{
+    let there: vec3<i32> = here_index + neighbour_direction(index).xyz;
+    return {result};
 }}
 "
     )
 }
 
 /// The separation by the shorter way round each toroidal axis.
-pub(crate) fn nearest_image(toroidal: [bool; 3], precision: Precision) -> String {
+pub(crate) fn nearest_image(boundaries: [Boundary; 3], precision: Precision) -> String {
     let half = match precision {
         Precision::F32 => "0.5f",
         Precision::F64 => "0.5lf",
     };
-    let lanes = along_toroidal(toroidal, "separation", "shorter_way");
+    let lanes = along_toroidal(boundaries, "separation", "shorter_way");
     format!(
         "fn shorter_way(separation: Real, extent: i32) -> Real {{
     let period: Real = Real(extent) * space.side;
@@ -81,21 +116,21 @@ fn nearest_image(separation: vec3<Real>) -> vec3<Real> {{
 }
 
 /// A vector in whose lanes of toroidal axes a function is applied, together with the extent.
-fn along_toroidal(toroidal: [bool; 3], vector: &str, function: &str) -> String {
-    let lane = |(lane, toroidal): (&str, bool)| {
-        if toroidal {
+fn along_toroidal(boundaries: [Boundary; 3], vector: &str, function: &str) -> String {
+    let lane = |(lane, boundary): (&str, Boundary)| {
+        if boundary == Boundary::Toroidal {
             format!("{function}({vector}.{lane}, space.extents.{lane})")
         } else {
             format!("{vector}.{lane}")
         }
     };
-    let lanes: Vec<String> = ["x", "y", "z"].into_iter().zip(toroidal).map(lane).collect();
+    let lanes: Vec<String> = ["x", "y", "z"].into_iter().zip(boundaries).map(lane).collect();
     format!("vec3<Real>({})", lanes.join(", "))
 }
 
 /// The position inside the space, as far as axes are toroidal.
-pub(crate) fn wrapped(toroidal: [bool; 3]) -> String {
-    let lanes = along_toroidal(toroidal, "position", "wrapped_along");
+pub(crate) fn wrapped(boundaries: [Boundary; 3]) -> String {
+    let lanes = along_toroidal(boundaries, "position", "wrapped_along");
     format!(
         "fn wrapped_along(value: Real, extent: i32) -> Real {{
     let zero: Real = Real();

@@ -14,7 +14,7 @@ struct Parity {
 #[elementary_process]
 fn add_up(cell: &mut Cell<Parity>) {
     let mut sum = 0;
-    for n in 0..cell.neighbours() {
+    for n in 0..cell.neighbour_count() {
         sum += cell.neighbour(n).odd;
     }
     cell.odd = sum % 2;

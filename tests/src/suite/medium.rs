@@ -54,7 +54,7 @@ pub fn bounded(value: Real, size: Real) -> Real {
 #[elementary_process]
 pub fn breed(cell: &mut Cell<Medium>) {
     let mut count = 0;
-    for n in 1..cell.neighbours() {
+    for n in 1..cell.neighbour_count() {
         count += (cell.neighbour(n).life & 1) as u32;
     }
     cell.life = match count {
@@ -70,7 +70,7 @@ pub fn breed(cell: &mut Cell<Medium>) {
 pub fn relax(cell: &mut Cell<Medium>, p: &Tuning) {
     let mut sum = 0.0;
     let mut weights = 0.0;
-    for n in 0..cell.neighbours() {
+    for n in 0..cell.neighbour_count() {
         let weight = 1.0 / (n as Real + 3.0);
         sum += weight * cell.neighbour(n).level;
         weights += weight;
@@ -82,7 +82,7 @@ pub fn relax(cell: &mut Cell<Medium>, p: &Tuning) {
 #[elementary_process]
 pub fn trade(cell: &mut Cell<Medium>) {
     let mut given = 0;
-    for n in 1..cell.neighbours() {
+    for n in 1..cell.neighbour_count() {
         let other = cell.neighbour(n);
         given = given ^ other.charge.wrapping_mul(n as i32 + 5);
         cell.pair.x = cell.pair.x.wrapping_add(other.pair.y);
@@ -105,7 +105,7 @@ pub fn shake(cell: &mut Cell<Medium>, p: &Tuning, space: &Space) {
 /// Reads one substate elsewhere and writes others in place, without a look at their old values.
 #[elementary_process]
 pub fn slope(cell: &mut Cell<Medium>) {
-    let last = cell.neighbours() - 1;
+    let last = cell.neighbour_count() - 1;
     let first = cell.neighbour(0).level;
     let difference = cell.neighbour(last).level - first;
     cell.heat = difference as f32;
@@ -116,7 +116,7 @@ pub fn slope(cell: &mut Cell<Medium>) {
 #[elementary_process]
 pub fn swirl(cell: &mut Cell<Medium>, p: &Tuning) {
     let mut turned = Vector3::splat(0.0);
-    for n in 1..cell.neighbours() {
+    for n in 1..cell.neighbour_count() {
         let other = cell.neighbour(n);
         turned += other.flow.cross(p.drift) * 0.25 + other.flow * (other.level * 0.001);
         if other.life > 100 {
@@ -147,7 +147,7 @@ pub fn settle_down(cell: &mut Cell<Medium>) {
 /// Four lanes, read elsewhere and written lane by lane.
 #[elementary_process]
 pub fn blend(cell: &mut Cell<Medium>) {
-    for n in 1..cell.neighbours() {
+    for n in 1..cell.neighbour_count() {
         let other = cell.neighbour(n);
         if other.blend.y > cell.blend.z {
             cell.blend.z = other.blend.x * 0.5 + 0.25;
@@ -171,7 +171,7 @@ pub fn tire(cell: &mut Cell<Medium>, p: &Tuning) {
 /// Looks at one neighbour that its own state names, perhaps beyond the neighbourhood.
 #[elementary_process]
 pub fn peek(cell: &mut Cell<Medium>, p: &Tuning) {
-    let n = mix(cell.bits, p.salt) % (cell.neighbours() + p.greed);
+    let n = mix(cell.bits, p.salt) % (cell.neighbour_count() + p.greed);
     cell.pair.x = cell.neighbour(n).charge;
     cell.energy = cell.neighbour(n).energy * 0.5;
 }

@@ -91,15 +91,15 @@ pub fn first(cell: &mut Cell<Site>, p: &Lattice, space: &Space) {
     if !same_place(here, cell.place) {
         cell.fault(WRONG_INDEX, here.x as Real);
     }
-    if cell.neighbours() != p.neighbours {
-        cell.fault(WRONG_SIZE, cell.neighbours() as Real);
+    if cell.neighbour_count() != p.neighbours {
+        cell.fault(WRONG_SIZE, cell.neighbour_count() as Real);
     }
     if cell.stamp != mark(here, step, 0) || cell.single != single_of(mark(here, step.wrapping_sub(1), 1)) {
         cell.fault(WRONG_SELF, cell.single as Real);
     }
     // Written first: neighbours must show the old state all the same, and the cell itself the new one.
     cell.stamp = mark(here, step, 1);
-    for n in 0..cell.neighbours() {
+    for n in 0..cell.neighbour_count() {
         let there = neighbour_place(p, here, space.extents(), n);
         let other = cell.neighbour(n);
         if !same_place(other.place, there) {
@@ -141,7 +141,7 @@ pub fn second(cell: &mut Cell<Site>, space: &Space) {
 pub fn third(cell: &mut Cell<Site>, p: &Lattice, space: &Space) {
     let here = cell.index();
     let step = space.step();
-    for n in 0..cell.neighbours() {
+    for n in 0..cell.neighbour_count() {
         let there = neighbour_place(p, here, space.extents(), n);
         let other = cell.neighbour(n);
         let now = mark(there, step, 2);
@@ -169,7 +169,7 @@ pub fn third(cell: &mut Cell<Site>, p: &Lattice, space: &Space) {
 pub fn fourth(cell: &mut Cell<Site>, p: &Lattice, space: &Space) {
     let here = cell.index();
     let step = space.step();
-    for n in 0..cell.neighbours() {
+    for n in 0..cell.neighbour_count() {
         let there = neighbour_place(p, here, space.extents(), n);
         let now = mark(there, step, 3);
         if cell.neighbour(n).tag != (now & 255) as u8 || cell.neighbour(n).count != now as i32 {

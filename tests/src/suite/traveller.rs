@@ -188,7 +188,7 @@ pub fn take_stock(cell: &mut Cell<Ground>, slots: &Slots<Traveller>, p: &Lattice
     if cell.content != content_of(p, here, extents, step) {
         cell.fault(WRONG_CONTENT, -1.0);
     }
-    for n in 0..cell.neighbours() {
+    for n in 0..cell.neighbour_count() {
         let there = neighbour_place(p, here, extents, n);
         let wanted = if there.x < 0 || step == 0 { 0 } else { content_of(p, there, extents, step - 1) };
         if cell.neighbour(n).content != wanted {

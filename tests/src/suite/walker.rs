@@ -105,7 +105,7 @@ pub fn crowd(cell: &mut Cell<Medium>, slots: &Slots<Walker>) {
         count += 1;
         cell.flow += item.velocity * 0.01;
     }
-    for n in 1..cell.neighbours() {
+    for n in 1..cell.neighbour_count() {
         count += cell.neighbour(n).pair.x & 3;
     }
     cell.pair.x = count;

@@ -4,7 +4,7 @@
 //! neighbour index, then label. An engine may therefore leave out cells that are too far away ([`CellFilter`]).
 
 use super::wide::{self, Wide};
-use super::{Column, Row};
+use super::{Column, Row, WRONG_RADIUS};
 use crate::geometry::{Boundary, Geometry};
 use crate::neighbourhood::Parity;
 use crate::value::{Float, Precision};
@@ -175,6 +175,9 @@ impl<'a> Row<'a> {
         found: &mut Vec<u32>,
     ) {
         found.clear();
+        if !self.allows::<R, REACH>(cell.number(), item, radius) {
+            return;
+        }
         let touched = match self.frame.filter {
             Some(filter) if REACH != reach::CELL => {
                 let [first, y, z] = self.origin;
@@ -203,6 +206,18 @@ impl<'a> Row<'a> {
                 keep(range, item, positions, found, |other| length_squared(position - other) < reach);
             });
         }
+    }
+
+    /// Whether a search can have this radius: not where it is negative or NaN, or reaches further than the
+    /// neighbourhood covers, which is a fault. It does not depend on where items are.
+    #[inline(always)]
+    fn allows<R: Float, const REACH: u8>(&self, x: usize, item: usize, radius: R) -> bool {
+        let covered = R::from_f64(self.frame.geometry.covered_radius(R::PRECISION));
+        let allowed = radius >= R::from_f64(0.0) && (REACH == reach::CELL || radius <= covered);
+        if !allowed {
+            self.report(x, Some(self.label(item)), WRONG_RADIUS, radius);
+        }
+        allowed
     }
 
     /// Hands over the ranges of items in the reached cells (of those touched, where that is known) in order of the neighbour index, joined

@@ -221,6 +221,7 @@ impl ModelBuilder {
         }
         for process in &self.processes {
             check_process(process, &self.groups, &self.parameters)?;
+            check_opposites(process, geometry.neighbourhood())?;
         }
         Ok(Model {
             name: self.name,
@@ -332,6 +333,18 @@ fn check_process(process: &Process, groups: &[Group], parameters: &ParameterSet)
         }
     }
     Ok(())
+}
+
+fn check_opposites(process: &Process, neighbourhood: &Neighbourhood) -> Result<(), ModelError> {
+    match neighbourhood.without_opposite() {
+        Some(displacement) if process.uses_opposite => Err(ModelError::NoOpposite {
+            process: process.name,
+            neighbourhood: neighbourhood.to_string(),
+            displacement,
+            missing: displacement.map(i32::wrapping_neg),
+        }),
+        _ => Ok(()),
+    }
 }
 
 impl fmt::Debug for ModelBuilder {

@@ -66,6 +66,10 @@ pub enum ModelError {
         "the process `{process}` writes `{substate}` and searches by it: what is near would depend on the order of items; search in one process, move in the next"
     )]
     SearchOfWritten { process: &'static str, substate: &'static str },
+    #[error(
+        "the process `{process}` uses `opposite`, but the neighbourhood ({neighbourhood}) lacks the displacement {missing:?}, the opposite of {displacement:?}; add it to the list"
+    )]
+    NoOpposite { process: &'static str, neighbourhood: String, displacement: [i32; 3], missing: [i32; 3] },
     #[error("a population has no slots; `{substates}` needs at least 1 in a cell")]
     NoSlots { substates: &'static str },
     #[error(

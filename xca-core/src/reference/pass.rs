@@ -35,6 +35,7 @@ impl ReferenceExecution {
         let size = geometry.neighbourhood().size();
         let offsets: Vec<isize> = (0..size as isize).collect();
         let frame = Frame {
+            geometry: &geometry,
             extents: geometry.extents().map(|extent| extent as u32),
             side: geometry.side(),
             toroidal: geometry.boundaries().map(|boundary| boundary == Boundary::Toroidal),

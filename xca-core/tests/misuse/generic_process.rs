@@ -9,7 +9,7 @@ struct Heat {
 
 #[elementary_process]
 fn first<S: Substates>(cell: &mut Cell<S>) {
-    let _n = cell.neighbours();
+    let _n = cell.neighbour_count();
 }
 
 #[helper]

@@ -10,7 +10,7 @@ struct Heat {
 #[elementary_process]
 fn process(cell: &mut Cell<Heat>) {
     let flux = 0.0;
-    for n in 1..cell.neighbours() {
+    for n in 1..cell.neighbour_count() {
         flux += cell.neighbour(n).temperature;
     }
     cell.temperature = flux;

@@ -37,11 +37,11 @@ fn see(cell: &mut Cell<State>) {
     let left = cell.neighbour(1);
     let itself = cell.neighbour(0);
     let mut sum = 0;
-    for n in 1..cell.neighbours() {
+    for n in 1..cell.neighbour_count() {
         let other = cell.neighbour(n);
         sum += other.value + cell.neighbour(n).value;
     }
-    cell.seen = sum + left.value * 10_000 + itself.value * 1_000_000 + cell.neighbours() as i32;
+    cell.seen = sum + left.value * 10_000 + itself.value * 1_000_000 + cell.neighbour_count() as i32;
     cell.seen -= cell.value - cell.neighbour(0).value * 2;
 }
 

@@ -41,7 +41,7 @@ fn soak(
     growth: &Growth,
 ) {
     let mut around = 0.0;
-    for n in 1..cell.neighbours() {
+    for n in 1..cell.neighbour_count() {
         let sky = weather.neighbour(n);
         around += sky.rain * sky.wind[1] as Real + plants.neighbour(n).cover + cell.neighbour(n).height;
     }

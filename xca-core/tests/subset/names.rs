@@ -74,7 +74,7 @@ fn names(me: &mut Cell<Names>, space: &Material, parameters: &Space) {
     me.never += r#match(2);
     me.substates = me.index().x + me.index;
     me.length = space.__real;
-    me.label += me.neighbours() as i32 + me.neighbour(0).x;
+    me.label += me.neighbour_count() as i32 + me.neighbour(0).x;
     me.Self_ += me.neighbour(0).r#type;
 }
 

@@ -106,7 +106,7 @@ struct Lane {
 fn exchange(cell: &mut Cell<Lane>) {
     let mut total = 0.0;
     let mut wet = 0;
-    for n in 1..cell.neighbours() {
+    for n in 1..cell.neighbour_count() {
         let other = cell.neighbour(n);
         for k in 0..2 {
             total += (k as Real + 1.0) * other.flows[k];

@@ -160,7 +160,10 @@ pub(super) fn lane(name: &Ident) -> Result<u8> {
 
 pub(super) fn builtin(builtin: Builtin) -> TokenStream {
     match builtin {
-        Builtin::Neighbours => quote!(Neighbours),
+        Builtin::NeighbourCount => quote!(NeighbourCount),
+        Builtin::Opposite => quote!(Opposite),
+        Builtin::Displacement => quote!(Displacement),
+        Builtin::Exists => quote!(Exists),
         Builtin::Index => quote!(Index),
         Builtin::Label => quote!(Label),
         Builtin::Random => quote!(Random),

@@ -192,12 +192,15 @@ impl Writer<'_> {
 
     fn builtin(&mut self, builtin: Builtin, arguments: &[Expression], span: Span) -> TokenStream {
         let arguments = self.expressions(arguments);
-        let [row, x, item, offsets, space] =
-            ["row", "x", "item", "offsets", "space"].map(|name| self.name(name));
+        let [row, x, item, offsets, directions, space] =
+            ["row", "x", "item", "offsets", "directions", "space"].map(|name| self.name(name));
         let cells = self.function.kind == FunctionKind::Cells;
         let real = &self.real;
         match builtin {
-            Builtin::Neighbours => quote!(#offsets.count()),
+            Builtin::NeighbourCount => quote!(#offsets.count()),
+            Builtin::Opposite => quote_spanned!(span=> #directions.opposite(#(#arguments,)* #row, #x)),
+            Builtin::Displacement => quote_spanned!(span=> #directions.displacement(#(#arguments,)* #row, #x)),
+            Builtin::Exists => quote_spanned!(span=> #directions.exists(#(#arguments,)* #row, #x)),
             Builtin::Index => quote!(#row.index(#x)),
             Builtin::Label => quote!(#row.label(#item)),
             Builtin::Random if cells => quote_spanned!(span=> #row.random::<#real>(#x, #(#arguments),*)),

@@ -125,11 +125,16 @@ fn cells(function: &Function, uses: &Uses, real: &TokenStream, size: &Ident) -> 
             load.extend(quote!(let #own = #read.here(#column);));
         }
     }
+    let directions = uses.directions.then(|| {
+        let directions = hidden("directions", span);
+        quote!(let #directions = #row.directions::<#size>();)
+    });
     let mut writer = Writer::new(function, Some(uses), real.clone());
     let body = writer.block(&function.body);
     quote! {
         #space
         let #offsets = #row.offsets::<#size>();
+        #directions
         let #length = #row.length();
         #shorten
         let mut #place = #row.place();

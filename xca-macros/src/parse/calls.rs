@@ -33,8 +33,8 @@ const OF_ITEM: &str = "an item has its substates (`me.substate`), label(), index
                        the searches others_…()";
 
 /// What a cell can do.
-const OF_CELL: &str = "a cell has its substates (`cell.substate`), neighbours(), neighbour(n), index(), random(draw), random_bits(draw) and \
-                       fault(code, value)";
+const OF_CELL: &str = "a cell has its substates (`cell.substate`), neighbour_count(), neighbour(n), opposite(n), \
+                       displacement(n), exists(n), index(), random(draw), random_bits(draw) and fault(code, value)";
 
 /// What can be asked of the space.
 pub(super) const SPACE_METHODS: &str = "the space has side(), extents(), step(), nearest_image(separation), wrapped(position) and, for a \
@@ -101,7 +101,10 @@ impl Scope {
         let cells = self.over_cells();
         let method = call.method.to_string();
         let (builtin, count) = match method.as_str() {
-            "neighbours" if cells => (Builtin::Neighbours, 0),
+            "neighbour_count" if cells => (Builtin::NeighbourCount, 0),
+            "opposite" if cells => (Builtin::Opposite, 1),
+            "displacement" if cells => (Builtin::Displacement, 1),
+            "exists" if cells => (Builtin::Exists, 1),
             "index" => (Builtin::Index, 0),
             "label" if !cells => (Builtin::Label, 0),
             "random" => (Builtin::Random, 1),
@@ -113,7 +116,14 @@ impl Scope {
                      `let other = cell.neighbour(n);`",
                 ));
             }
-            "neighbour" | "neighbours" => {
+            "neighbours" if cells => {
+                return Err(Error::new_spanned(
+                    &call.method,
+                    "the number of cells in the neighbourhood is `cell.neighbour_count()`; a neighbour is \
+                     `cell.neighbour(n)`",
+                ));
+            }
+            "neighbour" | "neighbours" | "neighbour_count" | "opposite" | "displacement" | "exists" => {
                 return Err(Error::new_spanned(
                     &call.method,
                     "an item has no neighbours; it reaches the items of the neighbouring cells by \
@@ -183,6 +193,10 @@ impl Scope {
                         "`{}` takes the number of the draw: 0 for the first in this process, 1 for the second, …",
                         call.method
                     ),
+                ),
+                Builtin::Opposite | Builtin::Displacement | Builtin::Exists => Error::new_spanned(
+                    &call.method,
+                    format!("give the number of the neighbour: `cell.{}(n)`", call.method),
                 ),
                 _ => wrong_count(&call.method, count),
             });

@@ -51,10 +51,10 @@ impl Scope {
             "others_within" => (Reach::All, true),
             "others_in_cell_within" => (Reach::Cell, true),
             "others_in_neighbours_within" => (Reach::Neighbours, true),
-            "neighbours" if self.over_cells() => {
+            "neighbours" | "neighbour_count" if self.over_cells() => {
                 return Err(Error::new_spanned(
                     &call.method,
-                    "neighbours have numbers: `for n in 1..cell.neighbours() { … cell.neighbour(n).substate … }`",
+                    "neighbours have numbers: `for n in 1..cell.neighbour_count() { … cell.neighbour(n).substate … }`",
                 ));
             }
             _ if self.over_cells() => {

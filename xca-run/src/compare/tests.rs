@@ -28,7 +28,7 @@ struct Grain {
 #[elementary_process]
 fn diffuse(cell: &mut Cell<Heat>) {
     let mut flux = 0.0;
-    for n in 1..cell.neighbours() {
+    for n in 1..cell.neighbour_count() {
         flux += cell.neighbour(n).temperature - cell.temperature;
     }
     cell.temperature += 0.1 * flux;

@@ -138,7 +138,11 @@ impl<'a> Inference<'a> {
 
     fn builtin(&mut self, builtin: Builtin, arguments: &'a [Expression]) -> Result<Variable, Problem> {
         let argument_type = match builtin {
-            Builtin::Random | Builtin::RandomBits => Some(Type::U32),
+            Builtin::Random
+            | Builtin::RandomBits
+            | Builtin::Opposite
+            | Builtin::Displacement
+            | Builtin::Exists => Some(Type::U32),
             Builtin::NearestImage | Builtin::Wrapped | Builtin::CellContaining => {
                 Some(Type::Vector(ScalarType::Real, 3))
             }
@@ -152,8 +156,13 @@ impl<'a> Inference<'a> {
             }
         }
         let result = match builtin {
-            Builtin::Neighbours | Builtin::Label | Builtin::RandomBits | Builtin::Step => Type::U32,
-            Builtin::Index | Builtin::Extents => Type::Vector(ScalarType::I32, 3),
+            Builtin::NeighbourCount
+            | Builtin::Opposite
+            | Builtin::Label
+            | Builtin::RandomBits
+            | Builtin::Step => Type::U32,
+            Builtin::Exists => Type::Bool,
+            Builtin::Index | Builtin::Extents | Builtin::Displacement => Type::Vector(ScalarType::I32, 3),
             Builtin::Random | Builtin::Side => Type::Scalar(ScalarType::Real),
             Builtin::NearestImage | Builtin::Wrapped => Type::Vector(ScalarType::Real, 3),
             Builtin::CellContaining | Builtin::Stay | Builtin::Outside => Type::Destination,

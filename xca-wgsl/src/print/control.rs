@@ -207,7 +207,7 @@ impl Writer<'_, '_> {
         body: &Block,
     ) -> Option<std::ops::Range<usize>> {
         let offsets = self.shared.options.neighbour_offsets.as_ref()?;
-        let over_neighbours = !inclusive && matches!(to, Expression::Builtin(Builtin::Neighbours, _));
+        let over_neighbours = !inclusive && matches!(to, Expression::Builtin(Builtin::NeighbourCount, _));
         let Expression::Literal(Literal::Integer(first, _)) = from else { return None };
         let first = usize::try_from(*first).ok()?;
         (over_neighbours

@@ -226,10 +226,16 @@ impl Writer<'_, '_> {
     }
 
     fn builtin(&mut self, builtin: Builtin, arguments: &[Expression]) -> Result<Text, Problem> {
+        if let (Builtin::Opposite | Builtin::Displacement | Builtin::Exists, [index]) = (builtin, arguments) {
+            return self.direction(builtin, index);
+        }
         let values: Vec<&Expression> = arguments.iter().collect();
         let arguments = list(&self.operands(&values)?);
         Ok(Text::primary(match builtin {
-            Builtin::Neighbours => self.shared.glossary.neighbours.clone(),
+            Builtin::NeighbourCount => self.shared.glossary.neighbours.clone(),
+            Builtin::Opposite | Builtin::Displacement | Builtin::Exists => {
+                return Err(Problem::unsupported("a neighbour", "the number of arguments is wrong"));
+            }
             Builtin::Index => "here_index".to_owned(),
             Builtin::Label => "item_labels[this_item]".to_owned(),
             Builtin::Random => format!("random_real({arguments})"),
@@ -298,7 +304,7 @@ pub(super) fn is_simple(value: &Expression) -> bool {
         | Expression::CellOfItem(_)
         | Expression::Parameter(_)
         | Expression::Builtin(
-            Builtin::Neighbours | Builtin::Side | Builtin::Extents | Builtin::Stay | Builtin::Outside,
+            Builtin::NeighbourCount | Builtin::Side | Builtin::Extents | Builtin::Stay | Builtin::Outside,
             _,
         ) => true,
         Expression::Unary(_, operand) | Expression::Component(operand, _) => is_simple(operand),

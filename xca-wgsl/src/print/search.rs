@@ -5,7 +5,8 @@ use crate::access;
 use crate::error::Problem;
 use crate::visit;
 use xca_core::ir::{Block, Expression, Reach, Statement};
-use xca_core::kernel::Of;
+use xca_core::Boundary;
+use xca_core::kernel::{Of, WRONG_RADIUS};
 
 impl Writer<'_, '_> {
     pub(super) fn for_items(&mut self, statement: &Statement, body: &Block) -> Result<(), Problem> {
@@ -30,7 +31,7 @@ impl Writer<'_, '_> {
     ) -> Result<(), Problem> {
         let Statement::ForOthers { variable, .. } = statement else { return Ok(()) };
         // What stands before the loop stays visible after it: only the variable of the loop has a scope of its own.
-        let near = radius.map(|radius| self.near(radius)).transpose()?;
+        let near = radius.map(|radius| self.near(reach, radius)).transpose()?;
         if reach == Reach::Cell {
             return self.items_of("here", statement, variable, near.as_ref(), None, body);
         }
@@ -62,18 +63,23 @@ impl Writer<'_, '_> {
     }
 
     /// What a search measures with: the position before the process, and the square of the radius.
-    fn near(&mut self, radius: &Expression) -> Result<Near, Problem> {
+    fn near(&mut self, reach: Reach, radius: &Expression) -> Result<Near, Problem> {
         let field = access::position(self.roles.subject)?;
         let text = self.expression(radius)?;
         let radius = self.shared.names.local("radius");
         self.line(&format!("let {radius}: Real = {};", text.plain()));
+        // Written so that NaN is refused too.
+        let covered = if reach == Reach::Cell { "" } else { &format!(" && {radius} <= space.covered") };
+        self.line(&format!("if !({radius} >= Real(){covered}) {{"));
+        self.line(&format!("    report_fault({WRONG_RADIUS:#x}u, {radius});"));
+        self.line("}");
         let limit = self.shared.names.local("limit");
         self.line(&format!("let {limit}: Real = {radius} * {radius};"));
         let position = self.element_of(Of::Subject, field, "this_item")?;
         let centre = self.shared.names.local("centre");
         self.line(&format!("let {centre}: vec3<Real> = {};", position.plain()));
         let dot = self.shared.routines.need_dot(&crate::types::Type::Vector(xca_core::ScalarType::Real, 3));
-        let toroidal = self.shared.options.toroidal.contains(&true);
+        let toroidal = self.shared.options.boundaries.contains(&Boundary::Toroidal);
         self.shared.routines.nearest_image |= toroidal;
         Ok(Near { field, centre, limit, dot, toroidal })
     }

@@ -7,7 +7,7 @@ use crate::error::Problem;
 use crate::types::Type;
 use crate::visit;
 use xca_core::ScalarType;
-use xca_core::ir::{BinaryOperator, Block, Builtin, Expression, Place, PlaceRoot, Projection, Statement};
+use xca_core::ir::{BinaryOperator, Block, Builtin, Constant, Expression, Literal, Place, PlaceRoot, Projection, Statement};
 
 impl Writer<'_, '_> {
     /// Writes the statements of a block, and its value to where it belongs.
@@ -213,21 +213,38 @@ impl Writer<'_, '_> {
                 }
             });
         }
+        let text = self.neighbour_index(index)?;
+        Ok(Text::primary(format!("neighbour_at({})", text.plain())))
+    }
+
+    /// The index of a neighbour, checked where it may lie beyond the neighbourhood.
+    pub(super) fn neighbour_index(&mut self, index: &Expression) -> Result<Text, Problem> {
         let known = match index {
             Expression::Local(_) => self.neighbours.contains(&self.analysis.local(index)?),
-            Expression::Literal(xca_core::ir::Literal::Integer(number, _)) => {
-                self.shared.options.neighbourhood_size.is_some_and(|size| *number < u64::from(size))
-            }
-            _ => false,
+            _ => fixed_number(index).zip(self.shared.options.neighbourhood_size).is_some_and(
+                |(number, size)| u32::try_from(number).is_ok_and(|number| number < size),
+            ),
         };
         let text = self.expression(index)?;
-        let routine = if known {
-            "neighbour_at"
-        } else {
-            self.shared.routines.checked_neighbours = true;
-            "checked_neighbour_at"
-        };
-        Ok(Text::primary(format!("{routine}({})", text.plain())))
+        if known {
+            return Ok(text);
+        }
+        self.shared.routines.checked_neighbours = true;
+        Ok(Text::primary(format!("valid_neighbour({})", text.plain())))
+    }
+
+    /// What is asked about where a neighbour lies.
+    pub(super) fn direction(&mut self, builtin: Builtin, index: &Expression) -> Result<Text, Problem> {
+        let index = self.neighbour_index(index)?;
+        let index = index.plain();
+        Ok(Text::primary(match builtin {
+            Builtin::Opposite => format!("u32(neighbour_direction({index}).w)"),
+            Builtin::Exists => {
+                self.shared.routines.neighbour_exists = true;
+                format!("neighbour_exists({index})")
+            }
+            _ => format!("neighbour_direction({index}).xyz"),
+        }))
     }
 
     /// How far the neighbour with this index is away, where that is known when the text is written.
@@ -235,8 +252,7 @@ impl Writer<'_, '_> {
         let Some(offsets) = &self.shared.options.neighbour_offsets else { return Ok(None) };
         let number = match index {
             Expression::Local(_) => self.counted.get(&self.analysis.local(index)?).copied(),
-            Expression::Literal(xca_core::ir::Literal::Integer(number, _)) => usize::try_from(*number).ok(),
-            _ => None,
+            _ => fixed_number(index),
         };
         Ok(number.and_then(|number| offsets.get(number)).copied())
     }
@@ -267,10 +283,19 @@ impl Writer<'_, '_> {
         to: &Expression,
         inclusive: bool,
     ) -> Result<(), Problem> {
-        if !inclusive && matches!(to, Expression::Builtin(Builtin::Neighbours, _)) {
+        if !inclusive && matches!(to, Expression::Builtin(Builtin::NeighbourCount, _)) {
             self.neighbours.insert(self.analysis.bound(statement)?);
         }
         Ok(())
+    }
+}
+
+/// The number that a literal or a constant is.
+fn fixed_number(index: &Expression) -> Option<usize> {
+    match index {
+        Expression::Literal(Literal::Integer(number, _)) => usize::try_from(*number).ok(),
+        Expression::Constant { value: Constant::U32(number), .. } => usize::try_from(*number).ok(),
+        _ => None,
     }
 }
 

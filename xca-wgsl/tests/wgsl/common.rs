@@ -1,6 +1,6 @@
 //! Writes processes as WGSL and has naga read and check them.
 
-use xca_core::{ElementaryProcess, Precision};
+use xca_core::{Boundary, ElementaryProcess, Precision};
 use xca_wgsl::{Error, Options, Shader, shader};
 
 /// Writes the process for one precision; naga must accept it.
@@ -24,12 +24,12 @@ pub(crate) fn written_with<P: ElementaryProcess>(options: &Options) -> Shader {
 pub(crate) fn accepted<P: ElementaryProcess>() {
     for precision in [Precision::F32, Precision::F64] {
         for neighbourhood_size in [None, Some(7)] {
-            for toroidal in [[false; 3], [true, false, true]] {
+            for boundaries in [[Boundary::Flat; 3], [Boundary::Toroidal, Boundary::Flat, Boundary::Reflecting]] {
                 for opaque_zero in [false, true] {
                     let options = Options {
                         precision,
                         neighbourhood_size,
-                        toroidal,
+                        boundaries,
                         opaque_zero,
                         ..Options::default()
                     };

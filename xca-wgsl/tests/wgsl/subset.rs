@@ -466,7 +466,7 @@ fn neighbours(cell: &mut Cell<State>) {
     let left = cell.neighbour(1);
     let any = cell.neighbour(cell.unsigned);
     cell.real = left.real + any.velocity.x + cell.neighbour(cell.byte as u32).real;
-    if cell.neighbours() > 3 {
+    if cell.neighbour_count() > 3 {
         cell.signed += cell.neighbour(3).signed;
     }
     if cell.real > 100.0 {

@@ -17,7 +17,7 @@ struct Conduction {
 #[elementary_process]
 fn diffuse(cell: &mut Cell<Heat>, p: &Conduction) {
     let mut flux = 0.0;
-    for n in 1..cell.neighbours() {
+    for n in 1..cell.neighbour_count() {
         flux += cell.neighbour(n).temperature - cell.temperature;
     }
     cell.temperature = cell.temperature + p.alpha * flux;
@@ -111,7 +111,7 @@ struct Life {
 #[elementary_process]
 fn live(cell: &mut Cell<Life>) {
     let mut sum = 0;
-    for n in 1..cell.neighbours() {
+    for n in 1..cell.neighbour_count() {
         sum += cell.neighbour(n).alive;
     }
     cell.alive = match sum {

@@ -25,7 +25,7 @@ pub struct Excitation {
 #[elementary_process]
 fn excite(cell: &mut Cell<Medium>, p: &Excitation) {
     let mut excited: u32 = 0;
-    for n in 1..cell.neighbours() {
+    for n in 1..cell.neighbour_count() {
         if cell.neighbour(n).phase == 1 {
             excited += 1;
         }
