@@ -6,6 +6,7 @@ mod access;
 mod ast;
 mod data;
 mod fields;
+mod library;
 mod native;
 mod parse;
 mod states;
@@ -35,21 +36,26 @@ pub fn helper(attribute: TokenStream, item: TokenStream) -> TokenStream {
 #[proc_macro_derive(Substates, attributes(position))]
 pub fn substates(item: TokenStream) -> TokenStream {
     let item = syn::parse_macro_input!(item as syn::DeriveInput);
-    fields::substates(&item).unwrap_or_else(|error| error.to_compile_error()).into()
+    finished(fields::substates(&item))
 }
 
 /// Makes an enum without fields a type of substates and parameters; the trait of the same name says how.
 #[proc_macro_derive(States)]
 pub fn states(item: TokenStream) -> TokenStream {
     let item = syn::parse_macro_input!(item as syn::DeriveInput);
-    states::states(&item).unwrap_or_else(|error| error.to_compile_error()).into()
+    finished(states::states(&item))
 }
 
 /// Makes a struct the parameters of a model; the trait of the same name says how.
 #[proc_macro_derive(Parameters)]
 pub fn parameters(item: TokenStream) -> TokenStream {
     let item = syn::parse_macro_input!(item as syn::DeriveInput);
-    fields::parameters(&item).unwrap_or_else(|error| error.to_compile_error()).into()
+    finished(fields::parameters(&item))
+}
+
+/// What a derive has written, or its message.
+fn finished(code: syn::Result<proc_macro2::TokenStream>) -> TokenStream {
+    library::named(code.unwrap_or_else(|error| error.to_compile_error())).into()
 }
 
 fn expand(attribute: TokenStream, item: TokenStream, wanted: Wanted) -> TokenStream {
@@ -69,7 +75,7 @@ fn expand(attribute: TokenStream, item: TokenStream, wanted: Wanted) -> TokenStr
             ),
         ))
     };
-    expanded.unwrap_or_else(|error| fallback(&error, &function, wanted)).into()
+    library::named(expanded.unwrap_or_else(|error| fallback(&error, &function, wanted))).into()
 }
 
 /// After an error: the messages, and enough of the item that its uses elsewhere make no errors of their own.

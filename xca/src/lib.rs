@@ -1,0 +1,74 @@
+//! Extended Cellular Automata: write a model once, run it with the same bits on every engine.
+//!
+//! This crate is all that a model depends on. It gathers the others:
+//!
+//! | feature | gives | on by default |
+//! |---|---|---|
+//! | | [`prelude`], models, the serial reference engine | |
+//! | `cpu` | `xca::Cpu`, the engine for all cores | yes |
+//! | `gpu` | `xca::gpu`, the engine for graphics adapters | |
+//! | `run` | `xca::run`, the command line of a model's program; its words join the prelude | |
+//!
+//! # A model in a library
+//! ```
+//! use xca::prelude::*;
+//!
+//! #[derive(Substates, Clone, Copy)]
+//! struct Heat {
+//!     temperature: Real,
+//! }
+//!
+//! #[elementary_process]
+//! fn conduct(cell: &mut Cell<Heat>) {
+//!     let mut sum = 0.0;
+//!     for n in 1..cell.neighbour_count() {
+//!         sum += cell.neighbour(n).temperature - cell.temperature;
+//!     }
+//!     cell.temperature += 0.2 * sum;
+//! }
+//!
+//! let model = Model::builder("heat")
+//!     .extents([32, 32, 1])
+//!     .neighbourhood(Neighbourhood::von_neumann_2d(1))
+//!     .boundary(Boundary::Toroidal)
+//!     .substates::<Heat>()
+//!     .process(conduct)
+//!     .fill(|[x, ..]| Heat { temperature: if x < 16 { 1.0 } else { 0.0 } })
+//!     .build()?;
+//! let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
+//! simulation.run(1000)?;
+//! let mean = simulation.state().sum(Heat::TEMPERATURE)? / 1024.0;
+//! assert!((mean - 0.5).abs() < 1e-12);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # A program
+//! With `cargo add xca --features run` the same model becomes a program with a command line, pictures and checkpoints:
+//! see `xca::run::main_of`.
+
+// The macros name this crate by its outer name, also in its own tests and documentation.
+extern crate self as xca;
+
+#[doc(hidden)]
+pub use xca_core as __core;
+
+#[doc(no_inline)]
+pub use xca_core::*;
+#[cfg(feature = "cpu")]
+#[doc(no_inline)]
+pub use xca_cpu::{Cpu, CpuError};
+#[cfg(feature = "gpu")]
+#[doc(no_inline)]
+pub use xca_gpu as gpu;
+#[cfg(feature = "run")]
+#[doc(no_inline)]
+pub use xca_run as run;
+
+/// What a model's source needs.
+pub mod prelude {
+    #[doc(no_inline)]
+    pub use xca_core::prelude::*;
+    #[cfg(feature = "run")]
+    #[doc(no_inline)]
+    pub use xca_run::prelude::*;
+}
