@@ -70,10 +70,10 @@ fn settle(me: &Slot<Ember>, space: &Space) -> Destination {
 ///
 /// # Errors
 /// None: the model is right.
-pub fn model() -> Result<Model, ModelError> {
-    Model::builder("forest")
+pub fn model() -> Result<Model, Box<dyn std::error::Error>> {
+    let model = Model::builder("forest")
         .extents([8, 1, 1])
-        .neighbourhood(Neighbourhood::moore_2d(0))
+        .neighbourhood(Neighbourhood::custom(vec![[0, 0, 0], [-1, 0, 0], [1, 0, 0]])?)
         .substates::<Forest>()
         .population::<Ember>(1)
         .items_may_leave::<Ember>()
@@ -84,7 +84,8 @@ pub fn model() -> Result<Model, ModelError> {
             let ember = Ember { position: Vector3::new(0.5, 0.5, 0.5) };
             Ok(state.set_items(vec![Item { label: 0, cell: [0; 3], state: ember }])?)
         })
-        .build()
+        .build()?;
+    Ok(model)
 }
 
 #[cfg(test)]
