@@ -92,6 +92,7 @@ pub mod engine;
 #[doc(hidden)]
 pub mod field_type;
 mod geometry;
+mod interval;
 pub mod ir;
 mod ir_constant;
 pub mod kernel;
@@ -118,6 +119,7 @@ mod vocabulary;
 
 pub use engine::{Engine, EngineFailure, Fault, StartError};
 pub use geometry::{Boundary, Geometry};
+pub use interval::{End, Interval};
 pub use model::{InitialError, Model, ModelBuilder, ModelError};
 pub use neighbourhood::{Hexagons, Neighbourhood, NeighbourhoodError, Parity};
 pub use parameter_set::ParameterSet;

@@ -164,8 +164,8 @@ impl Model {
     /// Sets a parameter of the model by name, before it is run.
     ///
     /// # Errors
-    /// Where no parameter has the name, or the text is no value of its type.
+    /// Where no parameter has the name or several have, it is computed, or the text is no value of its type or its range.
     pub fn set_parameter(&mut self, name: &str, text: &str) -> Result<(), crate::ParameterError> {
-        self.parameters.set_by_name(name, text)
+        self.parameters.change(Precision::F64, |parameters| parameters.set_by_name(name, text))
     }
 }

@@ -4,15 +4,20 @@ use crate::parameters::{AnyParameters, ParameterError, ParameterValue, Parameter
 use crate::schema::{Field, Schema};
 use crate::value::Precision;
 use std::any::{Any, TypeId};
+use std::fmt;
 use std::sync::Arc;
 
 /// All parameters of a model, numbered through all structs in their order.
 ///
 /// A parameter is named by its field (`rate`), or by struct and field (`Flow.rate`) where several structs have one of that name.
-#[derive(Debug, Clone, Default)]
+#[derive(Clone, Default)]
 pub struct ParameterSet {
     structs: Vec<Box<dyn AnyParameters>>,
+    computations: Vec<Arc<Computation>>,
 }
+
+/// Computes parameters from others.
+type Computation = dyn Fn(&mut ParameterSet) + Send + Sync;
 
 /// Where a parameter stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,6 +36,43 @@ impl ParameterSet {
         }
     }
 
+    /// Adds a computation of some parameters of the struct `P` from others of it.
+    pub(crate) fn compute<P: Parameters>(&mut self, computation: impl Fn(&mut P) + Send + Sync + 'static) {
+        self.computations.push(Arc::new(move |set: &mut ParameterSet| {
+            if let Some(mut parameters) = set.get::<P>().cloned() {
+                computation(&mut parameters);
+                set.add(parameters);
+            }
+        }));
+    }
+
+    /// Changes parameters, computes those that follow, and checks that all are in their ranges, as a run of this precision has them.
+    ///
+    /// # Errors
+    /// Of the change, or where a parameter is out of its range. The parameters are then what they were.
+    pub(crate) fn change(
+        &mut self,
+        precision: Precision,
+        change: impl FnOnce(&mut Self) -> Result<(), ParameterError>,
+    ) -> Result<(), ParameterError> {
+        let mut changed = self.clone();
+        change(&mut changed)?;
+        for computation in &self.computations {
+            computation(&mut changed);
+        }
+        changed.check(precision)?;
+        *self = changed;
+        Ok(())
+    }
+
+    /// Checks that all parameters are in their ranges, as a run of this precision has them.
+    ///
+    /// # Errors
+    /// The first that is not.
+    pub(crate) fn check(&self, precision: Precision) -> Result<(), ParameterError> {
+        self.fields().zip(self.values()).try_for_each(|(field, value)| value.check(field, precision))
+    }
+
     /// The structs, in the order in which the model was told of them.
     pub fn structs(&self) -> impl Iterator<Item = &dyn AnyParameters> {
         self.structs.iter().map(|parameters| &**parameters)
@@ -44,15 +86,6 @@ impl ParameterSet {
     /// The values of the struct `P`.
     pub fn get<P: Parameters>(&self) -> Option<&P> {
         self.structs().find_map(|parameters| parameters.as_any().downcast_ref())
-    }
-
-    /// Replaces the values of the struct `P`; whether there is one.
-    pub(crate) fn replace<P: Parameters>(&mut self, parameters: P) -> bool {
-        let is_known = self.get::<P>().is_some();
-        if is_known {
-            self.add(parameters);
-        }
-        is_known
     }
 
     /// The schemas of the structs.
@@ -163,5 +196,11 @@ impl ParameterSet {
     /// What kernels of this precision see of each struct.
     pub(crate) fn kernel_views(&self, precision: Precision) -> Vec<Arc<dyn Any + Send + Sync>> {
         self.structs().map(|parameters| parameters.kernel_view(precision)).collect()
+    }
+}
+
+impl fmt::Debug for ParameterSet {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(&self.structs).finish()
     }
 }

@@ -1,7 +1,8 @@
 //! Parameters: values that are the same in all cells, and that steering may change between steps.
 
-use crate::schema::Schema;
-use crate::value::{Float, HostScalar, HostValue, Precision, ValueType};
+use crate::interval::Interval;
+use crate::schema::{Field, Schema};
+use crate::value::{Float, HostScalar, HostValue, Precision, ScalarType, ValueType};
 use std::any::{Any, TypeId};
 use std::fmt;
 use std::sync::Arc;
@@ -28,6 +29,34 @@ use std::sync::Arc;
 /// let error = parameters.set("beta", "1").unwrap_err();
 /// assert_eq!(error.to_string(), "no parameter is called `beta`; Conduction has alpha, wind");
 /// # Ok::<(), ParameterError>(())
+/// ```
+///
+/// A field can say more of itself. The range holds for each component, wherever a value comes from, in the precision of the run;
+/// NaN is never a value of a parameter.
+///
+/// ```
+/// use xca_core::prelude::*;
+///
+/// #[derive(Parameters, Clone, Debug)]
+/// struct Flow {
+///     #[parameter(unit = "m/s", range = 0.0..)]
+///     lid_speed: Real,
+///     /// Viscosity of the fluid.
+///     #[parameter(unit = "m2/s", positive)]
+///     viscosity: Real,
+///     #[parameter(range = 0.0..=1.0)]
+///     shares: [Real; 2],
+///     /// Follows from the others: see `ModelBuilder::compute_parameters`.
+///     #[parameter(computed)]
+///     relaxation: Real,
+/// }
+///
+/// let mut flow = Flow { lid_speed: 0.1, viscosity: 0.01, shares: [0.5; 2], relaxation: 1.0 };
+/// let error = flow.set("viscosity", "0").unwrap_err();
+/// assert_eq!(error.to_string(), "the parameter `viscosity` is 0, but must be above 0 (m2/s)");
+/// let error = flow.set("relaxation", "1.5").unwrap_err();
+/// assert_eq!(error.to_string(), "the parameter `relaxation` is computed from others; set those");
+/// assert_eq!(Flow::SCHEMA.fields[1].documentation, "Viscosity of the fluid.");
 /// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no struct of parameters",
@@ -62,18 +91,24 @@ pub trait Parameters: Clone + fmt::Debug + Send + Sync + 'static {
     /// components, separated by commas.
     ///
     /// # Errors
-    /// Where no parameter has the name, or the text is no value of its type.
+    /// Where no parameter has the name, it is computed, or the text is no value of its type or its range.
     fn set(&mut self, name: &str, text: &str) -> Result<(), ParameterError> {
-        let (index, value_type) = find(Self::SCHEMA, name)?;
-        let value = ParameterValue::parse(name, value_type, text)?;
+        let (index, field) = find(Self::SCHEMA, name)?;
+        if field.computed {
+            return Err(ParameterError::Computed { name: field.name });
+        }
+        let value = ParameterValue::parse(name, field.value_type, text)?;
+        value.check(field, Precision::F64)?;
         self.set_value(index, &value);
         Ok(())
     }
 }
 
-fn find(schema: &'static Schema, name: &str) -> Result<(usize, ValueType), ParameterError> {
-    schema.field(name).map(|(index, field)| (index, field.value_type)).ok_or_else(|| {
-        ParameterError::Unknown { name: name.to_owned(), of: schema.name.to_owned(), known: schema.names() }
+fn find(schema: &'static Schema, name: &str) -> Result<(usize, &'static Field), ParameterError> {
+    schema.field(name).ok_or_else(|| ParameterError::Unknown {
+        name: name.to_owned(),
+        of: schema.name.to_owned(),
+        known: schema.names(),
     })
 }
 
@@ -114,6 +149,27 @@ impl ParameterValue {
     /// The components: one of a scalar, the lanes of a vector, those of all elements of an array.
     pub fn components(&self) -> &[f64] {
         &self.components
+    }
+
+    /// Checks that the value, as a run of this precision has it, lies in the range of its field.
+    pub(crate) fn check(&self, field: &'static Field, precision: Precision) -> Result<(), ParameterError> {
+        let is_real = matches!(self.value_type.scalar, ScalarType::Real);
+        let precision = if is_real { precision } else { Precision::F64 };
+        let range = field.range.rounded(precision);
+        let outside = |&&number: &&f64| {
+            let rounded = precision.rounded(number);
+            !range.contains(rounded) || (number.is_finite() && !rounded.is_finite())
+        };
+        match self.components.iter().find(outside) {
+            None => Ok(()),
+            Some(&number) => Err(ParameterError::OutOfRange {
+                name: field.name,
+                number,
+                precision,
+                range: field.range,
+                unit: field.unit.map(|unit| format!(" ({unit})")).unwrap_or_default(),
+            }),
+        }
     }
 
     fn parse(name: &str, value_type: ValueType, text: &str) -> Result<Self, ParameterError> {
@@ -161,6 +217,26 @@ pub enum ParameterError {
         /// What it may mean.
         known: String,
     },
+    /// A parameter that follows from others.
+    #[error("the parameter `{name}` is computed from others; set those")]
+    Computed {
+        /// Its name.
+        name: &'static str,
+    },
+    /// A number that the parameter cannot be.
+    #[error("the parameter `{name}` is {number}{}, but must be {range}{unit}", in_precision(*number, *precision))]
+    OutOfRange {
+        /// Its name.
+        name: &'static str,
+        /// The number.
+        number: f64,
+        /// The precision of the run, in which the number may be another one.
+        precision: Precision,
+        /// Which numbers it can be.
+        range: Interval,
+        /// Its unit in parentheses, if it has one.
+        unit: String,
+    },
     /// The text is no value of the parameter's type.
     #[error("`{text}` is no value for the parameter `{name}`, which is {}", value_type.described())]
     Invalid {
@@ -171,6 +247,11 @@ pub enum ParameterError {
         /// The type that it must have.
         value_type: ValueType,
     },
+}
+
+fn in_precision(number: f64, precision: Precision) -> String {
+    let rounded = precision.rounded(number);
+    if rounded == number || number.is_nan() { String::new() } else { format!(" ({rounded} in {precision})") }
 }
 
 /// Parameters whose type is not known: what a model keeps and an engine reads.

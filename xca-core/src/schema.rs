@@ -1,9 +1,10 @@
 //! What the fields of a substate or parameter struct are called and hold.
 
+use crate::interval::Interval;
 use crate::value::ValueType;
 
 /// The fields of a struct that derives `Substates` or `Parameters`.
-#[derive(Debug, PartialEq, Eq)]
+#[derive(Debug, PartialEq)]
 pub struct Schema {
     /// The name of the struct.
     pub name: &'static str,
@@ -14,12 +15,20 @@ pub struct Schema {
 }
 
 /// A field: one substate or one parameter.
-#[derive(Debug, PartialEq, Eq)]
+#[derive(Debug, PartialEq)]
 pub struct Field {
     /// Its name.
     pub name: &'static str,
     /// What it holds.
     pub value_type: ValueType,
+    /// Its documentation in the source, its lines joined.
+    pub documentation: &'static str,
+    /// Its unit, as in `m/s`.
+    pub unit: Option<&'static str>,
+    /// Which numbers a parameter can be, in each component.
+    pub range: Interval,
+    /// Whether a parameter is computed from others, so that it cannot be set by itself.
+    pub computed: bool,
 }
 
 impl Schema {

@@ -7,6 +7,7 @@ pub use snapshot::{GroupSnapshot, Snapshot, SnapshotError};
 use crate::engine::{Engine, EngineFailure, Execution, Fault, Interruption, StartError, StepContext};
 use crate::model::Model;
 use crate::parameter_set::ParameterSet;
+use crate::parameters::ParameterError;
 use crate::state::State;
 use crate::steering::{Schedule, SteeringError};
 use crate::value::Precision;
@@ -39,6 +40,9 @@ pub enum RunError {
     /// The engine cannot run the model.
     #[error(transparent)]
     Start(#[from] StartError),
+    /// A parameter that is out of its range in the precision of the run.
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
     /// The engine cannot reach its state any more.
     #[error(transparent)]
     Engine(#[from] EngineFailure),
@@ -107,7 +111,8 @@ impl Simulation {
     }
 
     /// A model on an engine, before anything is in it.
-    fn empty(model: &Model, engine: &dyn Engine, options: RunOptions) -> Result<Self, StartError> {
+    fn empty(model: &Model, engine: &dyn Engine, options: RunOptions) -> Result<Self, RunError> {
+        model.parameters().check(options.precision)?;
         Ok(Self {
             model: model.clone(),
             execution: engine.start(model, options.precision)?,

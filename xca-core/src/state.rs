@@ -409,9 +409,16 @@ impl State<'_> {
     /// Replaces the parameters of the struct `P`, from the next step on.
     ///
     /// # Errors
-    /// Where the model has none of this type.
+    /// Where the model has none of this type, or one is out of its range.
     pub fn set_parameters<P: Parameters>(&mut self, parameters: P) -> Result<(), StateError> {
-        if self.parameters.replace(parameters) { Ok(()) } else { Err(self.no_parameters::<P>()) }
+        if self.parameters.get::<P>().is_none() {
+            return Err(self.no_parameters::<P>());
+        }
+        let replace = |set: &mut ParameterSet| {
+            set.add(parameters);
+            Ok(())
+        };
+        Ok(self.parameters.change(self.precision, replace)?)
     }
 
     fn no_parameters<P: Parameters>(&self) -> StateError {
@@ -431,9 +438,9 @@ impl State<'_> {
     /// Sets a parameter by name, from the next step on.
     ///
     /// # Errors
-    /// Where no parameter has the name or several have, or the text is no value of its type.
+    /// Where no parameter has the name or several have, it is computed, or the text is no value of its type or its range.
     pub fn set_parameter(&mut self, name: &str, text: &str) -> Result<(), StateError> {
-        Ok(self.parameters.set_by_name(name, text)?)
+        Ok(self.parameters.change(self.precision, |parameters| parameters.set_by_name(name, text))?)
     }
 }
 

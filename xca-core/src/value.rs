@@ -251,6 +251,16 @@ impl fmt::Display for ValueType {
     }
 }
 
+impl Precision {
+    /// The number that a number becomes.
+    pub fn rounded(self, number: f64) -> f64 {
+        match self {
+            Self::F32 => f64::from(number as f32),
+            Self::F64 => number,
+        }
+    }
+}
+
 impl fmt::Display for Precision {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {

@@ -1,30 +1,31 @@
-//! `derive(Substates)` and `derive(Parameters)`.
+//! `derive(Substates)` and `derive(Parameters)`: the fields of a struct.
+
+mod attributes;
+mod parameters;
+mod substates;
+mod words;
 
 use crate::native::checked;
-use proc_macro2::{Literal, Span, TokenStream};
-use quote::{format_ident, quote, quote_spanned};
+use attributes::{About, Wanted};
+pub(crate) use parameters::parameters;
+use proc_macro2::{Literal, TokenStream};
+use quote::{quote, quote_spanned};
+pub(crate) use substates::substates;
 use syn::ext::IdentExt;
 use syn::spanned::Spanned;
-use syn::{
-    Data, DeriveInput, Error, Fields, GenericArgument, Ident, PathArguments, Result, Type, Visibility,
-};
+use syn::{Data, DeriveInput, Error, Fields, Ident, Result, Type, Visibility};
+use words::{check_type, is_position, marked};
+pub(crate) use words::{is_value_type, may_be_states, meant, with_real};
 
+/// A field of a struct that is derived from.
 struct Field {
     name: Ident,
     visibility: Visibility,
     type_: Type,
     position: bool,
     documentation: Vec<syn::Attribute>,
+    about: About,
 }
-
-/// The scalars that a field can hold.
-const SCALARS: [&str; 7] = ["bool", "u8", "i32", "u32", "f32", "f64", "Real"];
-
-/// Types that are no enum of states, whatever the user may think.
-const OTHER_TYPES: [&str; 16] = [
-    "usize", "isize", "i8", "i16", "i64", "i128", "u16", "u64", "u128", "char", "str", "String", "Vec",
-    "Option", "Box", "HashMap",
-];
 
 /// The number by which the macros find a field of a struct that they cannot see: FNV-1a of its name.
 pub(crate) fn name_number(name: &str) -> Literal {
@@ -34,22 +35,10 @@ pub(crate) fn name_number(name: &str) -> Literal {
     Literal::u64_suffixed(hash)
 }
 
-/// Whether the word is a type of values, not a struct of the user.
-pub(crate) fn is_value_type(word: &str) -> bool {
-    SCALARS.contains(&word) || OTHER_TYPES.contains(&word) || VECTORS.contains(&word)
-}
-
-/// Whether the word may be the name of an enum of states.
-pub(crate) fn may_be_states(word: &str) -> bool {
-    !is_value_type(word)
-}
-
-const VECTORS: [&str; 3] = ["Vector2", "Vector3", "Vector4"];
-
 /// The name under which the position is found.
 pub(crate) const POSITION: &str = "#position";
 
-fn fields(item: &DeriveInput) -> Result<Vec<Field>> {
+fn fields(item: &DeriveInput, wanted: Wanted) -> Result<Vec<Field>> {
     if !item.generics.params.is_empty() {
         return Err(Error::new_spanned(
             &item.generics,
@@ -90,6 +79,7 @@ fn fields(item: &DeriveInput) -> Result<Vec<Field>> {
             type_: field.ty.clone(),
             position,
             documentation,
+            about: About::of(field, wanted)?,
         });
     }
     if fields.is_empty() {
@@ -101,55 +91,6 @@ fn fields(item: &DeriveInput) -> Result<Vec<Field>> {
 /// The name in capitals, without `r#`.
 fn handle(name: &Ident) -> String {
     name.unraw().to_string().to_uppercase()
-}
-
-/// Whether the words of a type are those of a substate or parameter. What they mean is proved by the code that the derive writes.
-fn check_type(type_: &Type) -> Result<()> {
-    if let Type::Array(array) = type_ {
-        if let Type::Array(inner) = &*array.elem {
-            return Err(Error::new_spanned(
-                inner,
-                "an array has one index; multiply the lengths: `[Real; 3 * 4]`",
-            ));
-        }
-        return check_type(&array.elem);
-    }
-    let unsupported = || {
-        Error::new_spanned(
-            type_,
-            "a substate or parameter is a bool, u8, i32, u32, f32, f64, Real, a Vector2, Vector3, Vector4 of a number, an enum \
-             that derives `States`, or an array of these",
-        )
-    };
-    let Type::Path(path) = type_ else { return Err(unsupported()) };
-    let segment = path.path.segments.last().ok_or_else(unsupported)?;
-    let word = segment.ident.to_string();
-    match &segment.arguments {
-        PathArguments::None if SCALARS.contains(&&*word) || may_be_states(&word) => Ok(()),
-        PathArguments::AngleBracketed(arguments) if VECTORS.contains(&&*word) => {
-            match arguments.args.first() {
-                Some(GenericArgument::Type(Type::Path(lane)))
-                    if lane.path.get_ident().is_some_and(|lane| {
-                        lane != "bool" && SCALARS.iter().any(|scalar| lane == scalar)
-                    }) =>
-                {
-                    Ok(())
-                }
-                _ => Err(unsupported()),
-            }
-        }
-        _ => Err(unsupported()),
-    }
-}
-
-fn is_position(type_: &Type) -> bool {
-    let text = quote!(#type_).to_string().replace(' ', "");
-    text.ends_with("Vector3<Real>")
-}
-
-/// The type with the word `Real` marked, by which `xca_core::field_type` knows all about it.
-fn marked(type_: &Type) -> TokenStream {
-    with_real(type_, &quote!(::xca_core::field_type::RealWord))
 }
 
 /// A constant that has a value only where the types of all fields are what their words say: all else goes through it, so that one
@@ -184,7 +125,11 @@ fn schema(item: &DeriveInput, fields: &[Field]) -> TokenStream {
     let struct_name = item.ident.to_string();
     let descriptions = fields.iter().map(|field| {
         let (name, field_type) = (field.name.unraw().to_string(), field_type(field));
-        quote!(::xca_core::Field { name: #name, value_type: #field_type::TYPE })
+        let documentation = attributes::documentation(&field.documentation);
+        let about = field.about.tokens();
+        quote! {
+            ::xca_core::Field { name: #name, value_type: #field_type::TYPE, documentation: #documentation, #about }
+        }
     });
     let position = match fields.iter().position(|field| field.position) {
         Some(index) => quote!(::core::option::Option::Some(#index)),
@@ -200,194 +145,4 @@ fn schema(item: &DeriveInput, fields: &[Field]) -> TokenStream {
             position: #position,
         };
     }
-}
-
-/// A type of the user with `Real` replaced by another type.
-pub(crate) fn with_real(type_: &Type, real: &TokenStream) -> TokenStream {
-    let mut type_ = type_.clone();
-    syn::visit_mut::visit_type_mut(&mut ReplaceReal(real), &mut type_);
-    ReplaceReal(real).replace(&mut type_);
-    quote!(#type_)
-}
-
-/// The type that the words of a type mean, whatever they are aliases of.
-pub(crate) fn meant(type_: &Type) -> TokenStream {
-    match type_ {
-        Type::Array(array) => {
-            let (element, length) = (meant(&array.elem), &array.len);
-            quote!([#element; #length])
-        }
-        Type::Group(group) => meant(&group.elem),
-        Type::Paren(paren) => meant(&paren.elem),
-        Type::Path(path) => {
-            let Some(last) = path.path.segments.last() else { return quote!(#type_) };
-            let word = &last.ident;
-            match &last.arguments {
-                PathArguments::None if word == "Real" => quote!(f64),
-                PathArguments::None if word == "usize" || SCALARS.iter().any(|scalar| word == scalar) => {
-                    quote!(::core::primitive::#word)
-                }
-                PathArguments::AngleBracketed(arguments) if VECTORS.iter().any(|vector| word == vector) => {
-                    let lanes = arguments.args.iter().map(|argument| match argument {
-                        GenericArgument::Type(lane) => meant(lane),
-                        other => quote!(#other),
-                    });
-                    quote!(::xca_core::#word<#(#lanes),*>)
-                }
-                _ => quote!(#type_),
-            }
-        }
-        _ => quote!(#type_),
-    }
-}
-
-struct ReplaceReal<'a>(&'a TokenStream);
-
-impl ReplaceReal<'_> {
-    fn replace(&self, type_: &mut Type) {
-        if let Type::Path(path) = type_
-            && path.path.segments.last().is_some_and(|last| last.ident == "Real")
-        {
-            *type_ = Type::Verbatim(self.0.clone());
-        }
-    }
-}
-
-impl syn::visit_mut::VisitMut for ReplaceReal<'_> {
-    fn visit_type_mut(&mut self, type_: &mut Type) {
-        syn::visit_mut::visit_type_mut(self, type_);
-        self.replace(type_);
-    }
-}
-
-pub(crate) fn substates(item: &DeriveInput) -> Result<TokenStream> {
-    let fields = fields(item)?;
-    let name = &item.ident;
-    let schema = schema(item, &fields);
-    let mut named = TokenStream::new();
-    let mut handles = TokenStream::new();
-    for (index, field) in fields.iter().enumerate() {
-        let field_type = field_type(field);
-        let mut names = vec![field.name.unraw().to_string()];
-        if field.position {
-            names.push(POSITION.to_owned());
-        }
-        for key in names {
-            let number = name_number(&key);
-            named.extend(quote! {
-                #[automatically_derived]
-                impl ::xca_core::HasSubstate<#number> for #name {
-                    type Native<R: ::xca_core::Float> = #field_type::Native<R>;
-                    const INDEX: usize = #index;
-                }
-            });
-        }
-        let handle = format_ident!("{}", handle(&field.name), span = field.name.span());
-        let (visibility, documentation) = (&field.visibility, &field.documentation);
-        let type_ = checked(&field.type_);
-        let about = format!("The name of the substate `{}` for the host.", field.name.unraw());
-        let about =
-            if documentation.is_empty() { quote!(#[doc = #about]) } else { quote!(#(#documentation)*) };
-        handles.extend(quote! {
-            #about
-            #[allow(dead_code)]
-            #visibility const #handle: ::xca_core::Substate<#name, #type_> = ::xca_core::Substate::from_index(#index);
-        });
-    }
-    let position = fields
-        .iter()
-        .any(|field| field.position)
-        .then(|| quote!(#[automatically_derived] impl ::xca_core::checks::HasPosition for #name {}));
-    let indices: Vec<usize> = (0..fields.len()).collect();
-    let names: Vec<&Ident> = fields.iter().map(|field| &field.name).collect();
-    let values = fields.iter().map(value);
-    let types = fields.iter().map(|field| checked(&field.type_));
-    Ok(quote! {
-        const _: () = {
-            #schema
-
-            impl #name {
-                #handles
-            }
-
-            #named
-            #position
-
-            #[automatically_derived]
-            #[diagnostic::do_not_recommend]
-            impl ::xca_core::Substates for #name {
-                const SCHEMA: &'static ::xca_core::Schema = __XCA_SCHEMA;
-
-                fn encode(&self, field: usize, precision: ::xca_core::Precision, out: &mut [u8]) {
-                    let stored = __XCA_SCHEMA.fields[field].value_type.stored(precision);
-                    match field {
-                        #(#indices => ::xca_core::HostValue::encode(&#values, stored, out),)*
-                        _ => {}
-                    }
-                }
-
-                fn decode<'a>(precision: ::xca_core::Precision, mut field: impl FnMut(usize) -> &'a [u8]) -> Self {
-                    let stored = |index: usize| __XCA_SCHEMA.fields[index].value_type.stored(precision);
-                    Self { #(#names: <#types as ::xca_core::HostValue>::decode(stored(#indices), field(#indices)),)* }
-                }
-            }
-        };
-    })
-}
-
-pub(crate) fn parameters(item: &DeriveInput) -> Result<TokenStream> {
-    let fields = fields(item)?;
-    if let Some(field) = fields.iter().find(|field| field.position) {
-        return Err(Error::new_spanned(&field.name, "only a substate of items can be the position"));
-    }
-    let name = &item.ident;
-    let schema = schema(item, &fields);
-    let native_name = format_ident!("{}InKernel", name, span = Span::call_site());
-    let names: Vec<&Ident> = fields.iter().map(|field| &field.name).collect();
-    let field_types: Vec<TokenStream> = fields.iter().map(field_type).collect();
-    let types = fields.iter().map(|field| checked(&field.type_));
-    let values = fields.iter().map(value);
-    let indices: Vec<usize> = (0..fields.len()).collect();
-    Ok(quote! {
-        const _: () = {
-            #schema
-
-            #[doc(hidden)]
-            #[derive(Clone, Copy)]
-            #[allow(dead_code, missing_debug_implementations)]
-            pub struct #native_name<R: ::xca_core::Float> {
-                #(pub #names: #field_types::Native<R>,)*
-                __xca_real: ::core::marker::PhantomData<R>,
-            }
-
-            #[automatically_derived]
-            #[diagnostic::do_not_recommend]
-            impl ::xca_core::Parameters for #name {
-                const SCHEMA: &'static ::xca_core::Schema = __XCA_SCHEMA;
-                type Native<R: ::xca_core::Float> = #native_name<R>;
-
-                fn native<R: ::xca_core::Float>(&self) -> #native_name<R> {
-                    #native_name {
-                        #(#names: #field_types::native::<R>(self.#names),)*
-                        __xca_real: ::core::marker::PhantomData,
-                    }
-                }
-
-                fn value(&self, field: usize) -> ::xca_core::ParameterValue {
-                    let value_type = __XCA_SCHEMA.fields[field].value_type;
-                    match field {
-                        #(#indices => ::xca_core::ParameterValue::new(value_type, #values),)*
-                        _ => ::xca_core::ParameterValue::new(value_type, 0.0),
-                    }
-                }
-
-                fn set_value(&mut self, field: usize, value: &::xca_core::ParameterValue) {
-                    match field {
-                        #(#indices => self.#names = value.to::<#types>(),)*
-                        _ => {}
-                    }
-                }
-            }
-        };
-    })
 }

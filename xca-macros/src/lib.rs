@@ -33,7 +33,7 @@ pub fn helper(attribute: TokenStream, item: TokenStream) -> TokenStream {
 }
 
 /// Makes a struct the substates of a cell or of an item; the trait of the same name says how.
-#[proc_macro_derive(Substates, attributes(position))]
+#[proc_macro_derive(Substates, attributes(position, substate, parameter))]
 pub fn substates(item: TokenStream) -> TokenStream {
     let item = syn::parse_macro_input!(item as syn::DeriveInput);
     finished(fields::substates(&item))
@@ -47,7 +47,7 @@ pub fn states(item: TokenStream) -> TokenStream {
 }
 
 /// Makes a struct the parameters of a model; the trait of the same name says how.
-#[proc_macro_derive(Parameters)]
+#[proc_macro_derive(Parameters, attributes(parameter, substate))]
 pub fn parameters(item: TokenStream) -> TokenStream {
     let item = syn::parse_macro_input!(item as syn::DeriveInput);
     finished(fields::parameters(&item))

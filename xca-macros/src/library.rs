@@ -70,9 +70,9 @@ mod tests {
 
     #[test]
     fn only_the_library_is_renamed() {
-        let code = quote!(impl ::xca_core::States for A { fn f() { (::xca_core::kernel::STAY, xca_core, a::b) } });
-        let expected =
-            quote!(impl ::lib::__core::States for A { fn f() { (::lib::__core::kernel::STAY, xca_core, a::b) } });
+        let code =
+            quote!(impl ::xca_core::States for A { fn f() { (::xca_core::kernel::STAY, xca_core, a::b) } });
+        let expected = quote!(impl ::lib::__core::States for A { fn f() { (::lib::__core::kernel::STAY, xca_core, a::b) } });
         assert_eq!(renamed(code, &["lib", "__core"]).to_string(), expected.to_string());
     }
 }

@@ -11,6 +11,7 @@ use crate::process::{Holds, Process, Processes};
 use crate::state::State;
 use crate::steering::{Schedule, Steering, SteeringError};
 use crate::substates::Substates;
+use crate::value::Precision;
 use std::any::TypeId;
 use std::fmt;
 use std::sync::Arc;
@@ -126,6 +127,16 @@ impl ModelBuilder {
         self
     }
 
+    /// Computes parameters of the struct `P` from others of it, whenever one of them is set, wherever from. Mark them in the struct as
+    /// `#[parameter(computed)]`: then they cannot be set by themselves.
+    pub fn compute_parameters<P: Parameters>(
+        mut self,
+        computation: impl Fn(&mut P) + Send + Sync + 'static,
+    ) -> Self {
+        self.parameters.compute(computation);
+        self
+    }
+
     /// Adds an elementary process or a migration, or several of them in parentheses. They run in the order in which they are added.
     pub fn process<P: Processes>(mut self, _processes: P) -> Self {
         P::add_to(&mut self.processes);
@@ -223,13 +234,15 @@ impl ModelBuilder {
             check_process(process, &self.groups, &self.parameters)?;
             check_opposites(process, geometry.neighbourhood())?;
         }
+        let mut parameters = self.parameters;
+        parameters.change(Precision::F64, |_| Ok(()))?;
         Ok(Model {
             name: self.name,
             plan: Plan::new(&self.processes, &self.groups),
             geometry,
             groups: self.groups,
             processes: self.processes,
-            parameters: self.parameters,
+            parameters,
             steering: self.steering,
             fault_texts: self.fault_texts,
         })

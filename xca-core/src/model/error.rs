@@ -1,6 +1,7 @@
 //! What can be wrong with a model.
 
 use crate::geometry::Boundary;
+use crate::parameters::ParameterError;
 
 /// A model that cannot be built; the message says what to change.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -58,6 +59,8 @@ pub enum ModelError {
          `.parameters({wanted} {{ … }})`"
     )]
     Parameters { process: &'static str, wanted: &'static str, given: String },
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
     #[error(
         "the process `{process}` takes `{substates}` twice; one argument is enough to read and to write it"
     )]

@@ -200,16 +200,18 @@ impl Snapshot {
             reason.map(|reason| format!("`{name}`: {reason}"))
         });
         of_groups.or_else(|| {
-            let fields: Vec<&Field> = model.parameters().fields().collect();
-            let are_values = |(bits, field): (&Vec<u64>, &&Field)| {
+            let fields: Vec<&'static Field> = model.parameters().fields().collect();
+            let names: Vec<&str> = model.parameters().schemas().map(|schema| schema.name).collect();
+            let others = || Some(format!("its parameters are not those of {}", names.join(" and ")));
+            if self.parameters.len() != fields.len() {
+                return others();
+            }
+            self.parameters.iter().zip(fields).find_map(|(bits, field)| {
                 let numbers = bits.iter().map(|number| f64::from_bits(*number)).collect();
-                ParameterValue::from_components(field.value_type, numbers).is_some()
-            };
-            let same =
-                self.parameters.len() == fields.len() && self.parameters.iter().zip(&fields).all(are_values);
-            (!same).then(|| {
-                let names: Vec<&str> = model.parameters().schemas().map(|schema| schema.name).collect();
-                format!("its parameters are not those of {}", names.join(" and "))
+                match ParameterValue::from_components(field.value_type, numbers) {
+                    None => others(),
+                    Some(value) => value.check(field, options.precision).err().map(|error| error.to_string()),
+                }
             })
         })
     }

@@ -11,5 +11,6 @@ mod helpers;
 mod integers;
 mod items;
 mod names;
+mod ranges;
 mod values;
 mod vectors;
