@@ -384,7 +384,8 @@ impl<'a> Row<'a> {
     /// A random number of a cell of the row.
     #[inline]
     pub fn random<R: Float>(&self, x: usize, draw: usize) -> R {
-        let words = random::draw_words(self.frame.seed, self.frame.step, Owner::Cell(self.cell(x)), draw as u32);
+        let words =
+            random::draw_words(self.frame.seed, self.frame.step, Owner::Cell(self.cell(x)), draw as u32);
         R::uniform([words[0], words[1]])
     }
 
@@ -397,7 +398,8 @@ impl<'a> Row<'a> {
     /// A random number of an item.
     #[inline]
     pub fn item_random<R: Float>(&self, item: usize, draw: usize) -> R {
-        let words = random::draw_words(self.frame.seed, self.frame.step, Owner::Item(self.label(item)), draw as u32);
+        let words =
+            random::draw_words(self.frame.seed, self.frame.step, Owner::Item(self.label(item)), draw as u32);
         R::uniform([words[0], words[1]])
     }
 }
@@ -419,11 +421,7 @@ impl<const K: usize> Offsets<'_, K> {
     /// The offset of the neighbour with this index. Beyond the neighbourhood it is a fault, and the cell itself is read.
     #[inline(always)]
     pub fn at(&self, index: usize, row: &Row<'_>, x: usize) -> isize {
-        let offset = if K > 0 {
-            self.fixed.get(index).copied()
-        } else {
-            self.any.get(index).copied()
-        };
+        let offset = if K > 0 { self.fixed.get(index).copied() } else { self.any.get(index).copied() };
         offset.unwrap_or_else(|| {
             row.beyond_neighbourhood(x, index);
             0

@@ -204,9 +204,9 @@ impl Neighbourhood {
 /// For each index that under which the neighbour sees the cell: its displacement, turned round, is in the list
 /// of the neighbour's row or column.
 fn opposites(displacements: &[Vec<[i32; 3]>; 2], parity: Parity) -> Vec<Option<usize>> {
-    let indices = displacements.each_ref().map(|list| {
-        list.iter().enumerate().map(|(index, at)| (*at, index)).collect::<HashMap<_, _>>()
-    });
+    let indices = displacements
+        .each_ref()
+        .map(|list| list.iter().enumerate().map(|(index, at)| (*at, index)).collect::<HashMap<_, _>>());
     let back = |[x, y, z]: &[i32; 3]| {
         let list = match parity {
             Parity::None => 0,

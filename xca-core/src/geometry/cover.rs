@@ -41,9 +41,8 @@ fn covered_from(geometry: &Geometry, cell: [usize; 3]) -> f64 {
         if (shell - 1) * (shell - 1) >= least {
             break;
         }
-        let within = |along: &std::ops::RangeInclusive<i64>| {
-            (*along.start()).max(-shell)..=(*along.end()).min(shell)
-        };
+        let within =
+            |along: &std::ops::RangeInclusive<i64>| (*along.start()).max(-shell)..=(*along.end()).min(shell);
         for z in within(&along_z) {
             for y in within(&along_y) {
                 for x in within(&along_x) {

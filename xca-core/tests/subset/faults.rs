@@ -40,7 +40,7 @@ fn the_first_fault_ends_the_run() {
 
 #[elementary_process]
 fn beyond(cell: &mut Cell<State>) {
-    cell.heat = cell.neighbour(cell.n).heat;
+    cell.heat = cell.neighbour(cell.n as usize).heat;
 }
 
 #[test]

@@ -164,7 +164,9 @@ impl Writer<'_> {
         match builtin {
             Builtin::NeighbourCount => quote!(#offsets.count()),
             Builtin::Opposite => quote_spanned!(span=> #directions.opposite(#(#arguments,)* #row, #x)),
-            Builtin::Displacement => quote_spanned!(span=> #directions.displacement(#(#arguments,)* #row, #x)),
+            Builtin::Displacement => {
+                quote_spanned!(span=> #directions.displacement(#(#arguments,)* #row, #x))
+            }
             Builtin::Exists => quote_spanned!(span=> #directions.exists(#(#arguments,)* #row, #x)),
             Builtin::Index => quote!(#row.index(#x)),
             Builtin::Label => quote!(#row.label(#item)),
