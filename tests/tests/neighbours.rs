@@ -57,11 +57,12 @@ fn collect(cell: &mut Cell<Place>) {
     for n in FIRST..=LAST {
         if cell.exists(n) {
             let back = cell.opposite(n);
-            seen = 10 * seen + match n {
-                directions::von_neumann_2d::SOUTH => 1,
-                directions::von_neumann_2d::WEST => 2,
-                _ => (back + 1) as u32,
-            };
+            seen = 10 * seen
+                + match n {
+                    directions::von_neumann_2d::SOUTH => 1,
+                    directions::von_neumann_2d::WEST => 2,
+                    _ => (back + 1) as u32,
+                };
         }
     }
     cell.seen = seen;
@@ -202,7 +203,8 @@ fn one_number_counts_everything() -> Result<(), Box<dyn Error>> {
     for precision in PRECISIONS {
         assert_same_runs(&model, &engines::all()?, RunOptions { precision, seed: 7 }, 3)?;
     }
-    let mut simulation = Simulation::new(&model, &Reference, RunOptions { seed: 7, ..RunOptions::default() })?;
+    let mut simulation =
+        Simulation::new(&model, &Reference, RunOptions { seed: 7, ..RunOptions::default() })?;
     simulation.step()?;
     // Of the first cell: itself to the south and west, cell 2 to the east, cell 11 to the north.
     let uniform = |draw: u32| {
