@@ -2,6 +2,8 @@
 //!
 //! No suite names an engine. A new engine joins all of them by standing in [`engines::all`].
 
+pub mod around;
+pub mod cover;
 pub mod engines;
 pub mod lattice;
 pub mod medium;

@@ -14,7 +14,7 @@ fn spaces(shape: Shape) -> &'static [[usize; 3]] {
     match shape {
         Shape::Alone => &[[1, 1, 1], [5, 1, 3]],
         Shape::VonNeumann => &[[3, 3, 3], [1, 4, 5], [9, 2, 1], [4, 3, 6], [2, 11, 10]],
-        Shape::Moore => &[[3, 3, 3], [1, 1, 1], [5, 1, 4], [7, 4, 3]],
+        Shape::Moore | Shape::Paired => &[[3, 3, 3], [1, 1, 1], [5, 1, 4], [7, 4, 3]],
         Shape::VonNeumann2D => &[[1, 5, 1], [6, 4, 1], [3, 5, 2]],
         Shape::Moore2D => &[[5, 1, 1], [6, 4, 1], [3, 3, 2]],
         Shape::WideVonNeumann => &[[5, 5, 5], [2, 6, 3]],

@@ -10,7 +10,7 @@ use xca_tests::suite::traveller::{self, SIDE, Traveller};
 /// A neighbourhood, a space, and how the items of two classes move in a step, in quarters of a cell: always within the neighbourhood.
 type Journey = (Shape, [usize; 3], [i32; 3], [i32; 3]);
 
-const JOURNEYS: [Journey; 8] = [
+const JOURNEYS: [Journey; 10] = [
     (Shape::VonNeumann, [5, 4, 3], [1, 0, 0], [0, -1, 0]),
     (Shape::VonNeumann, [1, 9, 7], [0, 4, 0], [0, 0, -3]),
     (Shape::Moore, [4, 3, 5], [1, 1, 1], [-1, 0, 1]),
@@ -19,7 +19,27 @@ const JOURNEYS: [Journey; 8] = [
     (Shape::HexagonsCornerUp, [5, 4, 1], [1, 0, 0], [-4, 0, 0]),
     (Shape::HexagonsSideUp, [4, 11, 1], [0, 4, 0], [0, -1, 0]),
     (Shape::Skewed, [6, 3, 5], [8, -4, 0], [-4, 0, 4]),
+    (Shape::Paired, [5, 4, 3], [2, -1, 3], [0, 4, -1]),
+    (Shape::WideMoore, [6, 5, 5], [7, 0, -1], [-1, 8, 3]),
 ];
+
+/// The largest radius for the items of these spaces, in quarters of a cell. Crosses and hexagons lack cells that
+/// touch at a corner.
+fn covered(shape: Shape) -> i32 {
+    match shape {
+        Shape::Moore | Shape::Moore2D | Shape::Paired => 4,
+        Shape::WideMoore => 8,
+        _ => 0,
+    }
+}
+
+/// As far as the neighbourhood covers; further than a cell where that is nothing.
+fn long_sight(shape: Shape) -> i32 {
+    match covered(shape) {
+        0 => 5,
+        quarters => quarters,
+    }
+}
 
 fn journey(
     (shape, extents, [x, y, z], [back_x, back_y, back_z]): Journey,
@@ -35,6 +55,7 @@ fn journey(
         quarters,
         density,
         radius: 0.25 * SIDE * f64::from(quarters),
+        covered: u32::from(quarters <= covered(shape)),
         ..Lattice::new(shape, boundaries)
     };
     traveller::model(shape, extents, boundaries, p)
@@ -47,7 +68,7 @@ fn every_item_sees_what_it_must() -> Result<(), Box<dyn Error>> {
     for (number, from) in JOURNEYS.into_iter().enumerate() {
         for combination in 0..8 {
             // Many items and short sight, few items and long sight.
-            for (quarters, density) in [(3, 12), (5, 2)] {
+            for (quarters, density) in [(3, 12), (long_sight(from.0), 2)] {
                 let Ok(model) = journey(from, combination, quarters, density) else {
                     // The one space that is thinner than a torus needs.
                     assert!(number == 1 && combination % 2 == 1);

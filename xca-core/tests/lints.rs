@@ -73,7 +73,7 @@ fn erode(cell: &mut Cell<Ground>, grains: &Slots<Grain>, p: &Material) {
         _ => {}
     }
     for grain in grains {
-        cell.height += grain.centre.z * cell.random(p.rule);
+        cell.height += grain.centre.z * cell.random(p.rule as usize);
     }
     cell.slope += Vector2::splat(square(flux));
     if !(cell.height < 1000.0) {

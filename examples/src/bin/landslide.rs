@@ -36,7 +36,7 @@ fn flow(cell: &mut Cell<Slope>, p: &Debris) {
     let mut takes_part = [true; 5];
     heights[0] = cell.altitude + p.adherence;
     for n in 1..5 {
-        heights[n as usize] = cell.neighbour(n).altitude + cell.neighbour(n).thickness;
+        heights[n] = cell.neighbour(n).altitude + cell.neighbour(n).thickness;
     }
     let mut level = 0.0;
     let mut is_settled = false;
@@ -67,13 +67,24 @@ fn flow(cell: &mut Cell<Slope>, p: &Debris) {
     cell.outflow = Vector4::new(outflow[1], outflow[2], outflow[3], outflow[4]);
 }
 
+/// What leaves for one of the neighbours.
+#[helper]
+fn towards(outflow: Vector4<Real>, neighbour: usize) -> Real {
+    match neighbour {
+        directions::von_neumann_2d::SOUTH => outflow.x,
+        directions::von_neumann_2d::WEST => outflow.y,
+        directions::von_neumann_2d::EAST => outflow.z,
+        _ => outflow.w,
+    }
+}
+
 #[elementary_process]
 fn settle(cell: &mut Cell<Slope>) {
     let gone = cell.outflow.x + cell.outflow.y + cell.outflow.z + cell.outflow.w;
-    let come = cell.neighbour(1).outflow.w
-        + cell.neighbour(2).outflow.z
-        + cell.neighbour(3).outflow.y
-        + cell.neighbour(4).outflow.x;
+    let mut come = 0.0;
+    for n in 1..cell.neighbour_count() {
+        come += towards(cell.neighbour(n).outflow, cell.opposite(n));
+    }
     cell.thickness += come - gone;
 }
 

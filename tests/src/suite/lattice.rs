@@ -22,6 +22,7 @@ pub enum Shape {
     HexagonsCornerUp,
     HexagonsSideUp,
     Skewed,
+    Paired,
 }
 
 const VON_NEUMANN: u32 = Shape::VonNeumann as u32;
@@ -33,10 +34,11 @@ const WIDE_MOORE: u32 = Shape::WideMoore as u32;
 const HEXAGONS_CORNER_UP: u32 = Shape::HexagonsCornerUp as u32;
 const HEXAGONS_SIDE_UP: u32 = Shape::HexagonsSideUp as u32;
 const SKEWED: u32 = Shape::Skewed as u32;
+const PAIRED: u32 = Shape::Paired as u32;
 
 impl Shape {
     /// All of them.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Alone,
         Self::VonNeumann,
         Self::Moore,
@@ -47,6 +49,7 @@ impl Shape {
         Self::HexagonsCornerUp,
         Self::HexagonsSideUp,
         Self::Skewed,
+        Self::Paired,
     ];
 
     /// The neighbourhood as a model is given it.
@@ -65,6 +68,14 @@ impl Shape {
                 let displacements = vec![[0, 0, 0], [2, -1, 0], [-1, 0, 1], [0, 1, -2], [1, 1, 1]];
                 Neighbourhood::custom(displacements).unwrap_or_else(|_| Neighbourhood::von_neumann(0))
             }
+            Self::Paired => {
+                // Those of the cube, each followed by its opposite.
+                let mut displacements = vec![[0, 0, 0]];
+                for [x, y, z] in &Neighbourhood::moore(1).displacements([0; 3])[1..14] {
+                    displacements.extend([[*x, *y, *z], [-x, -y, -z]]);
+                }
+                Neighbourhood::custom(displacements).unwrap_or_else(|_| Neighbourhood::von_neumann(0))
+            }
         }
     }
 
@@ -73,7 +84,7 @@ impl Shape {
         match self {
             Self::Alone => 1,
             Self::VonNeumann | Self::HexagonsCornerUp | Self::HexagonsSideUp => 7,
-            Self::Moore => 27,
+            Self::Moore | Self::Paired => 27,
             Self::VonNeumann2D | Self::Skewed => 5,
             Self::Moore2D => 9,
             Self::WideVonNeumann => 25,
@@ -85,7 +96,7 @@ impl Shape {
     pub fn reach(self) -> [usize; 3] {
         match self {
             Self::Alone => [0, 0, 0],
-            Self::VonNeumann | Self::Moore => [1, 1, 1],
+            Self::VonNeumann | Self::Moore | Self::Paired => [1, 1, 1],
             Self::VonNeumann2D | Self::Moore2D | Self::HexagonsCornerUp | Self::HexagonsSideUp => [1, 1, 0],
             Self::WideVonNeumann | Self::WideMoore => [2, 2, 2],
             Self::Skewed => [2, 1, 2],
@@ -100,6 +111,8 @@ pub struct Lattice {
     pub shape: u32,
     /// The size of the neighbourhood.
     pub neighbours: u32,
+    /// Whether all that is nearer than the radius is in the neighbourhood: 1, else 0.
+    pub covered: u32,
     /// The boundary along each axis: 0 flat, 1 toroidal, 2 reflecting.
     pub boundaries: Vector3<i32>,
     /// How items of the second class move in a step, in quarters of a cell.
@@ -125,6 +138,7 @@ impl Lattice {
         Self {
             shape: shape as u32,
             neighbours: shape.size(),
+            covered: 0,
             boundaries: Vector3::new(x, y, z),
             forward: Vector3::splat(0),
             backward: Vector3::splat(0),
@@ -153,7 +167,7 @@ pub fn linear(place: Vector3<i32>, extents: Vector3<i32>) -> i32 {
 /// The place with this number in a block of cells `width` by `width`, x fastest, seen from its middle. The middle is left out: numbers
 /// start with 1.
 #[helper]
-fn in_block(n: u32, width: i32, layers: i32) -> Vector3<i32> {
+fn in_block(n: usize, width: i32, layers: i32) -> Vector3<i32> {
     let half = (width * width * layers - 1) / 2;
     let mut m = n as i32 - 1;
     if m >= half {
@@ -164,7 +178,7 @@ fn in_block(n: u32, width: i32, layers: i32) -> Vector3<i32> {
 
 /// The place with this number, from 0, in a cross of five.
 #[helper]
-fn in_cross(n: u32, z: i32) -> Vector3<i32> {
+fn in_cross(n: usize, z: i32) -> Vector3<i32> {
     match n {
         0 => Vector3::new(0, -1, z),
         1 => Vector3::new(-1, 0, z),
@@ -176,7 +190,7 @@ fn in_cross(n: u32, z: i32) -> Vector3<i32> {
 
 /// The `n`th cell at most two steps away along the axes.
 #[helper]
-fn in_wide_von_neumann(n: u32) -> Vector3<i32> {
+fn in_wide_von_neumann(n: usize) -> Vector3<i32> {
     match n {
         1 => Vector3::new(0, 0, -2),
         2..=6 => in_cross(n - 2, -1),
@@ -195,7 +209,7 @@ fn in_wide_von_neumann(n: u32) -> Vector3<i32> {
 
 /// The two neighbours in a row beside a hexagon's own: those at `shift - 1` and `shift`.
 #[helper]
-fn in_hexagons(n: u32, shift: i32) -> Vector3<i32> {
+fn in_hexagons(n: usize, shift: i32) -> Vector3<i32> {
     match n {
         1 => Vector3::new(shift - 1, -1, 0),
         2 => Vector3::new(shift, -1, 0),
@@ -208,7 +222,7 @@ fn in_hexagons(n: u32, shift: i32) -> Vector3<i32> {
 
 /// The displacement of the neighbour with this number, from the cell `here`.
 #[helper]
-pub fn displacement(shape: u32, n: u32, here: Vector3<i32>) -> Vector3<i32> {
+pub fn displacement(shape: u32, n: usize, here: Vector3<i32>) -> Vector3<i32> {
     if n == 0 {
         return Vector3::new(0, 0, 0);
     }
@@ -243,8 +257,28 @@ pub fn displacement(shape: u32, n: u32, here: Vector3<i32>) -> Vector3<i32> {
             3 => Vector3::new(0, 1, -2),
             _ => Vector3::new(1, 1, 1),
         },
+        PAIRED => {
+            let one = in_block((n + 1) / 2, 3, 3);
+            if n % 2 == 1 { one } else { -one }
+        }
         _ => Vector3::new(NOWHERE, NOWHERE, NOWHERE),
     }
+}
+
+/// The neighbour in the opposite direction: the one whose displacement leads back from where this one leads.
+#[helper]
+pub fn opposite(p: &Lattice, n: usize, here: Vector3<i32>) -> usize {
+    let way = displacement(p.shape, n, here);
+    // Two further is a row and a column of the same kind, and not negative.
+    let there = here + way + Vector3::splat(2);
+    let mut found = 0;
+    for m in 0..p.neighbours as usize {
+        let back = displacement(p.shape, m, there);
+        if back.x == -way.x && back.y == -way.y && back.z == -way.z {
+            found = m;
+        }
+    }
+    found
 }
 
 /// Where an index beyond the faces leads along one axis; -1 where it leads outside.
@@ -274,7 +308,7 @@ pub fn fold(index: i32, extent: i32, boundary: i32) -> i32 {
 
 /// The place of a neighbour, by its displacement and the boundary rules.
 #[helper]
-pub fn neighbour_place(p: &Lattice, here: Vector3<i32>, extents: Vector3<i32>, n: u32) -> Vector3<i32> {
+pub fn neighbour_place(p: &Lattice, here: Vector3<i32>, extents: Vector3<i32>, n: usize) -> Vector3<i32> {
     let there = here + displacement(p.shape, n, here);
     let x = fold(there.x, extents.x, p.boundaries.x);
     let y = fold(there.y, extents.y, p.boundaries.y);

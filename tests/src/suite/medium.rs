@@ -38,7 +38,7 @@ pub struct Tuning {
     pub salt: u32,
     /// One draw in so many is a fault; 0 for never.
     pub rarity: u32,
-    /// How far beyond the neighbourhood a cell looks at most.
+    /// How far beyond the neighbourhood a cell looks at most. Where it is 0, searches stay within what is covered.
     pub greed: u32,
     /// 1 for each toroidal axis, else 0.
     pub torus: Vector3<i32>,
@@ -95,7 +95,7 @@ pub fn trade(cell: &mut Cell<Medium>) {
 #[elementary_process]
 pub fn shake(cell: &mut Cell<Medium>, p: &Tuning, space: &Space) {
     let here = cell.index();
-    cell.bits = mix(cell.bits ^ p.salt, cell.random_bits(space.step() + 1));
+    cell.bits = mix(cell.bits ^ p.salt, cell.random_bits(space.step() as usize + 1));
     cell.level = bounded(cell.level + p.rate * (cell.random(0) - 0.5), 100.0);
     if (here.x + here.y * 2 + here.z * 3) % 4 == 1 {
         cell.heat = cell.random(7) as f32;
@@ -161,7 +161,7 @@ pub fn blend(cell: &mut Cell<Medium>) {
 #[elementary_process]
 pub fn tire(cell: &mut Cell<Medium>, p: &Tuning) {
     cell.bits = cell.bits.wrapping_add(1);
-    if p.rarity > 0 && cell.random_bits(p.salt) % p.rarity == 0 {
+    if p.rarity > 0 && cell.random_bits(p.salt as usize) % p.rarity == 0 {
         cell.fault(TIRED, cell.level);
         return;
     }
@@ -171,7 +171,7 @@ pub fn tire(cell: &mut Cell<Medium>, p: &Tuning) {
 /// Looks at one neighbour that its own state names, perhaps beyond the neighbourhood.
 #[elementary_process]
 pub fn peek(cell: &mut Cell<Medium>, p: &Tuning) {
-    let n = mix(cell.bits, p.salt) % (cell.neighbour_count() + p.greed);
+    let n = mix(cell.bits, p.salt) as usize % (cell.neighbour_count() + p.greed as usize);
     cell.pair.x = cell.neighbour(n).charge;
     cell.energy = cell.neighbour(n).energy * 0.5;
 }

@@ -202,7 +202,7 @@ pub fn follow_neighbours(
     time: u32,
 ) -> u32 {
     let mut result = list;
-    for n in 1..p.neighbours {
+    for n in 1..p.neighbours as usize {
         result = follow_cell(p, result, me, neighbour_place(p, here, extents, n), extents, step, time);
     }
     result

@@ -1,5 +1,6 @@
 //! Models put together from what chance says.
 
+use super::cover::covered;
 use super::lattice::mix;
 use super::medium::{self, Medium, Tuning};
 use super::reduced;
@@ -135,6 +136,11 @@ impl Recipe {
         }
         let [x, y, z] = fitted.boundaries.map(|boundary| i32::from(boundary == Boundary::Toroidal));
         fitted.tuning.torus = Vector3::new(x, y, z);
+        // A search beyond what is covered is a fault, which only the greedy are to meet.
+        if self.tuning.greed == 0 {
+            let covered = covered(&fitted.neighbourhood, fitted.extents, fitted.boundaries);
+            fitted.tuning.radius = fitted.tuning.radius.min(covered * fitted.side);
+        }
         fitted
     }
 }

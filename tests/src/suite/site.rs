@@ -5,6 +5,7 @@
 //! something is not as it must be: a wrong neighbour, a stale halo, a substate that changed though no one wrote it, or one
 //! that another process wrote too early. No physics is needed to test an engine.
 
+use super::around;
 use super::lattice::{Lattice, NOWHERE, Shape, mix, neighbour_place};
 use xca_core::prelude::*;
 
@@ -20,6 +21,12 @@ pub const WRONG_PLACE: u32 = 4;
 pub const WRONG_NEIGHBOUR: u32 = 5;
 /// The fault of a cell that is told another step.
 pub const WRONG_STEP: u32 = 6;
+/// The fault of a cell that is told another displacement of a neighbour; the value is the neighbour's number.
+pub const WRONG_DISPLACEMENT: u32 = 7;
+/// The fault of a cell that is told wrongly whether a neighbour exists; the value is the neighbour's number.
+pub const WRONG_EXISTENCE: u32 = 8;
+/// The fault of a cell that is told another opposite of a neighbour; the value is the neighbour's number.
+pub const WRONG_OPPOSITE: u32 = 9;
 
 /// The state of a cell: one substate of each kind.
 #[derive(Substates, Clone, Copy, Debug, PartialEq)]
@@ -91,7 +98,7 @@ pub fn first(cell: &mut Cell<Site>, p: &Lattice, space: &Space) {
     if !same_place(here, cell.place) {
         cell.fault(WRONG_INDEX, here.x as Real);
     }
-    if cell.neighbour_count() != p.neighbours {
+    if cell.neighbour_count() != p.neighbours as usize {
         cell.fault(WRONG_SIZE, cell.neighbour_count() as Real);
     }
     if cell.stamp != mark(here, step, 0) || cell.single != single_of(mark(here, step.wrapping_sub(1), 1)) {
@@ -221,7 +228,7 @@ fn at_start(place: [i32; 3]) -> Site {
 /// # Errors
 /// Where the neighbourhood and the boundaries do not fit the extents.
 pub fn model(shape: Shape, extents: [usize; 3], boundaries: [Boundary; 3]) -> Result<Model, ModelError> {
-    Model::builder(format!("sites, {shape:?}, {extents:?}, {boundaries:?}"))
+    let builder = Model::builder(format!("sites, {shape:?}, {extents:?}, {boundaries:?}"))
         .extents(extents)
         .neighbourhood(shape.neighbourhood())
         .boundaries(boundaries)
@@ -232,6 +239,8 @@ pub fn model(shape: Shape, extents: [usize; 3], boundaries: [Boundary; 3]) -> Re
         .process(third)
         .process(fourth)
         .process(fifth)
-        .fill(|cell| at_start(cell.map(|index| index as i32)))
-        .build()
+        .process(around::look_around);
+    // There is no opposite in a list without symmetry.
+    let builder = if shape == Shape::Skewed { builder } else { builder.process(around::turn_round) };
+    builder.fill(|cell| at_start(cell.map(|index| index as i32))).build()
 }

@@ -117,7 +117,9 @@ pub fn look_around(me: &mut Slot<Traveller>, p: &Lattice, space: &Space) {
         in_cell = follow(in_cell, other.label());
     }
     let mut found = 0;
-    for other in me.others_within(p.radius) {
+    // Where the neighbourhood covers nothing, only a radius of nothing is allowed beyond the own cell.
+    let far = if p.covered == 1 { p.radius } else { 0.0 };
+    for other in me.others_within(far) {
         found = follow(found, other.label());
         if other.stamp != mark(other.label(), step, 1) {
             me.fault(WRONG_STATE, other.label() as Real);
@@ -128,17 +130,20 @@ pub fn look_around(me: &mut Slot<Traveller>, p: &Lattice, space: &Space) {
         }
     }
     let mut in_neighbours = 0;
-    for other in me.others_in_neighbours_within(p.radius) {
+    for other in me.others_in_neighbours_within(far) {
         in_neighbours = follow(in_neighbours, other.label());
     }
     let wanted = follow_cell(p, 0, label, here, extents, step, step);
     if in_cell != wanted {
         me.fault(WRONG_OTHERS, 4.0);
     }
-    if found != follow_neighbours(p, wanted, label, here, extents, step, step) {
+    if p.covered == 0 && (found != 0 || in_neighbours != 0) {
+        me.fault(WRONG_OTHERS, 8.0);
+    }
+    if p.covered == 1 && found != follow_neighbours(p, wanted, label, here, extents, step, step) {
         me.fault(WRONG_OTHERS, 5.0);
     }
-    if in_neighbours != follow_neighbours(p, 0, label, here, extents, step, step) {
+    if p.covered == 1 && in_neighbours != follow_neighbours(p, 0, label, here, extents, step, step) {
         me.fault(WRONG_OTHERS, 6.0);
     }
     me.weight = (mark(label, step, 2) & 0xFFFF) as f64;
@@ -152,14 +157,15 @@ pub fn look_ahead(me: &mut Slot<Traveller>, p: &Lattice, space: &Space) {
     let extents = space.extents();
     let label = me.label();
     let mut found = 0;
-    for other in me.others_within(p.radius) {
+    let far = if p.covered == 1 { p.radius } else { 0.0 };
+    for other in me.others_within(far) {
         found = follow(found, other.label());
         if other.weight != (mark(other.label(), step, 2) & 0xFFFF) as f64 {
             me.fault(WRONG_STATE, other.label() as Real);
         }
     }
     let wanted = follow_cell(p, 0, label, here, extents, step, step + 1);
-    if found != follow_neighbours(p, wanted, label, here, extents, step, step + 1) {
+    if p.covered == 1 && found != follow_neighbours(p, wanted, label, here, extents, step, step + 1) {
         me.fault(WRONG_OTHERS, 7.0);
     }
     me.stamp = mark(label, step + 1, 0);

@@ -151,7 +151,7 @@ pub fn wander(me: &Slot<Walker>, p: &Tuning, space: &Space) -> Destination {
     if me.kind == 2 {
         return Destination::Stay;
     }
-    if me.random_bits(p.salt) % 16 == 0 {
+    if me.random_bits(p.salt as usize) % 16 == 0 {
         return Destination::Outside;
     }
     space.cell_containing(me.position)
@@ -161,7 +161,7 @@ pub fn wander(me: &Slot<Walker>, p: &Tuning, space: &Space) -> Destination {
 #[elementary_process]
 pub fn stumble(me: &mut Slot<Walker>, p: &Tuning) {
     me.seen = me.seen ^ me.random_bits(1);
-    if p.rarity > 0 && me.random_bits(p.salt) % p.rarity == 0 {
+    if p.rarity > 0 && me.random_bits(p.salt as usize) % p.rarity == 0 {
         me.fault(STUMBLED, me.mass);
     }
 }

@@ -1,4 +1,4 @@
-// A neighbour is taken with a number that is no u32.
+// A neighbour is taken with a number that is no usize.
 use xca_core::prelude::*;
 
 #[derive(Substates, Clone, Copy)]

@@ -4,8 +4,8 @@ use super::Writer;
 use crate::access;
 use crate::error::Problem;
 use crate::visit;
-use xca_core::ir::{Block, Expression, Reach, Statement};
 use xca_core::Boundary;
+use xca_core::ir::{Block, Expression, Reach, Statement};
 use xca_core::kernel::{Of, WRONG_RADIUS};
 
 impl Writer<'_, '_> {

@@ -7,7 +7,9 @@ use crate::error::Problem;
 use crate::types::Type;
 use crate::visit;
 use xca_core::ScalarType;
-use xca_core::ir::{BinaryOperator, Block, Builtin, Constant, Expression, Literal, Place, PlaceRoot, Projection, Statement};
+use xca_core::ir::{
+    BinaryOperator, Block, Builtin, Constant, Expression, Literal, Place, PlaceRoot, Projection, Statement,
+};
 
 impl Writer<'_, '_> {
     /// Writes the statements of a block, and its value to where it belongs.
@@ -221,9 +223,9 @@ impl Writer<'_, '_> {
     pub(super) fn neighbour_index(&mut self, index: &Expression) -> Result<Text, Problem> {
         let known = match index {
             Expression::Local(_) => self.neighbours.contains(&self.analysis.local(index)?),
-            _ => fixed_number(index).zip(self.shared.options.neighbourhood_size).is_some_and(
-                |(number, size)| u32::try_from(number).is_ok_and(|number| number < size),
-            ),
+            _ => fixed_number(index)
+                .zip(self.shared.options.neighbourhood_size)
+                .is_some_and(|(number, size)| u32::try_from(number).is_ok_and(|number| number < size)),
         };
         let text = self.expression(index)?;
         if known {

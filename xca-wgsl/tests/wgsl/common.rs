@@ -24,7 +24,9 @@ pub(crate) fn written_with<P: ElementaryProcess>(options: &Options) -> Shader {
 pub(crate) fn accepted<P: ElementaryProcess>() {
     for precision in [Precision::F32, Precision::F64] {
         for neighbourhood_size in [None, Some(7)] {
-            for boundaries in [[Boundary::Flat; 3], [Boundary::Toroidal, Boundary::Flat, Boundary::Reflecting]] {
+            for boundaries in
+                [[Boundary::Flat; 3], [Boundary::Toroidal, Boundary::Flat, Boundary::Reflecting]]
+            {
                 for opaque_zero in [false, true] {
                     let options = Options {
                         precision,

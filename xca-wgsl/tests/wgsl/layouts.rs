@@ -23,7 +23,7 @@ struct Mixed {
 
 #[elementary_process]
 fn everything(cell: &mut Cell<State>, p: &Mixed, space: &Space) {
-    cell.value = p.direction.x * p.r#loop * cell.random(space.step()) + space.side();
+    cell.value = p.direction.x * p.r#loop * cell.random(space.step() as usize) + space.side();
     if p.end == 3 {
         cell.fault(1, cell.value);
     }

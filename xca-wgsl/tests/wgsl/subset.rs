@@ -464,8 +464,8 @@ fn helpers_come_along() {
 #[elementary_process]
 fn neighbours(cell: &mut Cell<State>) {
     let left = cell.neighbour(1);
-    let any = cell.neighbour(cell.unsigned);
-    cell.real = left.real + any.velocity.x + cell.neighbour(cell.byte as u32).real;
+    let any = cell.neighbour(cell.unsigned as usize);
+    cell.real = left.real + any.velocity.x + cell.neighbour(cell.byte as usize).real;
     if cell.neighbour_count() > 3 {
         cell.signed += cell.neighbour(3).signed;
     }
@@ -519,7 +519,7 @@ fn the_right_hand_side_comes_first() {
 #[elementary_process]
 fn chance(cell: &mut Cell<State>) {
     if cell.random(0) < 0.25 {
-        cell.unsigned = cell.random_bits(cell.unsigned + 1);
+        cell.unsigned = cell.random_bits(cell.unsigned as usize + 1);
     }
 }
 
