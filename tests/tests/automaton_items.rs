@@ -35,7 +35,7 @@ fn journey(
         quarters,
         density,
         radius: 0.25 * SIDE * f64::from(quarters),
-        ..Lattice::new(shape, boundaries)
+        ..Lattice::new(shape, boundaries.into())
     };
     traveller::model(shape, extents, boundaries, p)
 }

@@ -73,7 +73,7 @@
 //! | share code between processes | [`helper`] |
 //! | compute `exp`, `sin` and their kin | [`math`] |
 //! | have items that move from cell to cell | [`ModelBuilder::population`], [`migration`] |
-//! | put a model together | [`ModelBuilder`], [`Neighbourhood`], [`Boundary`] |
+//! | put a model together | [`ModelBuilder`], [`Neighbourhood`], [`Boundary`], [`Face`] |
 //! | look at a state and change it | [`State`] |
 //! | run | [`Simulation`], [`Reference`], and the crate `xca-cpu` |
 //!
@@ -111,7 +111,7 @@ mod vector;
 mod vocabulary;
 
 pub use engine::{Engine, EngineFailure, Fault, StartError};
-pub use geometry::{Boundary, Geometry};
+pub use geometry::{Boundary, Face, Faces, Geometry, Reached};
 pub use model::{InitialError, Model, ModelBuilder, ModelError};
 pub use neighbourhood::{Hexagons, Neighbourhood, NeighbourhoodError, Parity};
 pub use parameters::{AnyParameters, FromLane, ParameterError, ParameterValue, Parameters};
@@ -134,9 +134,9 @@ pub use xca_macros::{Parameters, Substates, elementary_process, helper, migratio
 /// What a model's source needs.
 pub mod prelude {
     pub use crate::{
-        Boundary, Cell, Destination, Engine, Hexagons, Item, Model, ModelError, Neighbourhood, Other,
-        Outcome, ParameterError, Parameters, Precision, Real, Reference, RunError, RunOptions, Schedule,
-        Simulation, Slot, Slots, Space, State, SteeringError, Substate, Substates, Vector2, Vector3, Vector4,
-        elementary_process, helper, migration,
+        Boundary, Cell, Destination, Engine, Face, Faces, Hexagons, Item, Model, ModelError, Neighbourhood,
+        Other, Outcome, ParameterError, Parameters, Precision, Real, Reference, RunError, RunOptions,
+        Schedule, Simulation, Slot, Slots, Space, State, SteeringError, Substate, Substates, Vector2,
+        Vector3, Vector4, elementary_process, helper, migration,
     };
 }

@@ -1,8 +1,8 @@
 //! Substates of cells: a plane each, with a halo.
 
 use crate::layout::Layout;
-use xca_core::StoredType;
 use xca_core::storage::Buffer;
+use xca_core::{Faces, StoredType};
 
 /// One substate of cells.
 pub(crate) struct Plane {
@@ -30,7 +30,7 @@ impl Plane {
     pub(crate) fn new(
         stored: StoredType,
         layout: &Layout,
-        outside: &[u8],
+        outside: &Faces<Vec<u8>>,
         doubled: bool,
         read_elsewhere: bool,
     ) -> Self {

@@ -96,17 +96,16 @@ pub(crate) fn least_memory(model: &Model, layout: &Layout, precision: Precision)
 fn state(model: &Model, number: usize, group: &Definition, layout: &Layout, precision: Precision) -> Group {
     let types = group.stored(precision);
     match group.kind() {
-        GroupKind::Cells { outside } => Group::Cells(
+        GroupKind::Cells { .. } => Group::Cells(
             types
                 .into_iter()
                 .enumerate()
                 .map(|(field, stored)| {
-                    let mut bytes = vec![0; stored.size()];
-                    outside(field, precision, &mut bytes);
+                    let outside = group.outside(field, precision).unwrap_or_default();
                     let substate = SubstateId { group: number, field };
                     let (doubled, elsewhere) =
                         (is_doubled(model, substate), is_read_elsewhere(model, substate));
-                    Plane::new(stored, layout, &bytes, doubled, elsewhere)
+                    Plane::new(stored, layout, &outside, doubled, elsewhere)
                 })
                 .collect(),
         ),

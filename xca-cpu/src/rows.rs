@@ -17,7 +17,7 @@ use xca_core::engine::{Fault, StepContext, SubstateId};
 use xca_core::kernel::{
     Access, CellFilter, Entry, Frame, Of, Row, RowFault, RowItems, RowKernel, STAY, Scratch, StoppedAt,
 };
-use xca_core::{Boundary, Model, Parity, Precision, Process, ProcessKind};
+use xca_core::{Model, Parity, Precision, Process, ProcessKind};
 
 /// The substates of one struct.
 pub(crate) enum Group {
@@ -99,7 +99,7 @@ pub(crate) fn run(
     let frames: [Frame<'_>; 2] = std::array::from_fn(|odd| Frame {
         extents: geometry.extents().map(|extent| extent as u32),
         side: geometry.side(),
-        toroidal: geometry.boundaries().map(|boundary| boundary == Boundary::Toroidal),
+        toroidal: geometry.toroidal(),
         step: context.step,
         seed: context.seed,
         parameters: context.parameters,

@@ -1,8 +1,8 @@
 //! The values of a substate in the device's memory.
 
 use crate::device::{Binding, Buffer, Device, DeviceError};
-use crate::space::{Part, Space};
-use xca_core::{StoredScalar, StoredType};
+use crate::space::{HaloCell, Part, Shown, Space};
+use xca_core::{Faces, StoredScalar, StoredType};
 
 /// A substate of all cells or of all items: a value for each, lane beside lane, a `u8` in the four bytes of a `u32`.
 #[derive(Debug)]
@@ -73,23 +73,25 @@ impl Plane {
         &self,
         device: &Device,
         space: &Space,
-        halo: &[(usize, Option<usize>)],
-        outside: &[u8],
+        halo: &[HaloCell],
+        outside: &Faces<Vec<u8>>,
         values: &[u8],
     ) -> Result<(), DeviceError> {
         let size = self.size();
         let values = widened(self.stored, values);
-        let outside = widened(self.stored, outside);
+        let outside = outside.map(|bytes| widened(self.stored, bytes).into_owned());
         let mut stored = vec![0; space.stored() * size];
         let row = space.geometry().extents()[0] * size;
         for (number, values) in values.chunks_exact(row).enumerate() {
             let start = space.row_start(number) * size;
             stored[start..start + row].copy_from_slice(values);
         }
-        for &(cell, source) in halo {
-            match source {
-                Some(source) => stored.copy_within(source * size..(source + 1) * size, cell * size),
-                None => stored[cell * size..(cell + 1) * size].copy_from_slice(&outside),
+        for HaloCell { number, shows } in halo {
+            match shows {
+                Shown::Cell(source) => stored.copy_within(source * size..(source + 1) * size, number * size),
+                Shown::Outside(face) => {
+                    stored[number * size..(number + 1) * size].copy_from_slice(&outside[*face]);
+                }
             }
         }
         self.buffers.iter().try_for_each(|buffer| device.upload(buffer, 0, &stored))

@@ -10,7 +10,7 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 use xca_core::engine::SubstateId;
 use xca_core::kernel::Of;
-use xca_core::{AnyParameters, Boundary, Model, Parity, Precision, Process, ProcessKind};
+use xca_core::{AnyParameters, Model, Parity, Precision, Process, ProcessKind};
 use xca_wgsl::{BindingAccess, Content, Dispatch, Layout, Options, Shader, State};
 
 /// How processes are compiled.
@@ -74,7 +74,7 @@ pub(crate) fn shader_of(
         neighbourhood_size: u32::try_from(geometry.neighbourhood().size()).ok(),
         neighbour_offsets,
         workgroup_size: [x, y, (manner.workgroup / (x * y)).min(64)],
-        toroidal: geometry.boundaries().map(|boundary| boundary == Boundary::Toroidal),
+        toroidal: geometry.toroidal(),
         parity: geometry.neighbourhood().parity(),
         opaque_zero: manner.strict,
     };

@@ -3,9 +3,8 @@
 //! The kernels run on rows; here a row is a single cell, whose neighbourhood has been gathered into a list.
 #![allow(unsafe_code)]
 
-use super::{GroupState, ReferenceExecution, neighbourhood};
+use super::{GroupState, Neighbour, ReferenceExecution, neighbourhood};
 use crate::engine::{Fault, StepContext, SubstateId};
-use crate::geometry::Boundary;
 use crate::kernel::{Access, Entry, Frame, Row, RowItems, Scratch};
 use crate::process::{Process, ProcessKind};
 use crate::storage::Buffer;
@@ -36,7 +35,7 @@ impl ReferenceExecution {
         let frame = Frame {
             extents: geometry.extents().map(|extent| extent as u32),
             side: geometry.side(),
-            toroidal: geometry.boundaries().map(|boundary| boundary == Boundary::Toroidal),
+            toroidal: geometry.toroidal(),
             step: context.step,
             seed: context.seed,
             parameters: context.parameters,
@@ -47,7 +46,7 @@ impl ReferenceExecution {
         let scratch = Scratch::default();
         for cell in 0..geometry.cells() {
             let indices = geometry.indices(cell);
-            let around: Vec<Option<usize>> = neighbourhood(&geometry, indices).collect();
+            let around: Vec<Neighbour> = neighbourhood(&geometry, indices).collect();
             let entries: Vec<Entry> =
                 passes.iter_mut().map(|pass| self.entry(pass, process, cell, &around)).collect();
             let ranges: Option<(Vec<u32>, Vec<u32>)> =
@@ -105,7 +104,7 @@ impl ReferenceExecution {
         Pass { substate, access: *access, size, gathered, next }
     }
 
-    fn entry(&mut self, pass: &mut Pass, _process: &Process, cell: usize, around: &[Option<usize>]) -> Entry {
+    fn entry(&mut self, pass: &mut Pass, _process: &Process, cell: usize, around: &[Neighbour]) -> Entry {
         let group = &mut self.groups[pass.substate.group];
         let (field, size) = (pass.substate.field, pass.size);
         let place = cell * group.slots;
@@ -118,8 +117,8 @@ impl ReferenceExecution {
         let read = if let Some(gathered) = &mut pass.gathered {
             for (at, value) in around.iter().zip(gathered.bytes_mut().chunks_exact_mut(size)) {
                 value.copy_from_slice(match at {
-                    Some(cell) => group.value(field, *cell),
-                    None => &group.outside[field],
+                    Neighbour::Cell(cell) => group.value(field, *cell),
+                    Neighbour::Outside(face) => &group.outside[field][*face],
                 });
             }
             gathered.as_ptr()
@@ -145,10 +144,13 @@ impl GroupState {
         (cell * self.slots, cell * self.slots + self.counts[cell] as usize)
     }
 
-    fn ranges(&self, around: &[Option<usize>]) -> (Vec<u32>, Vec<u32>) {
+    fn ranges(&self, around: &[Neighbour]) -> (Vec<u32>, Vec<u32>) {
         around
             .iter()
-            .map(|cell| cell.map_or((0, 0), |cell| self.range(cell)))
+            .map(|at| match at {
+                Neighbour::Cell(cell) => self.range(*cell),
+                Neighbour::Outside(_) => (0, 0),
+            })
             .map(|(start, end)| (start as u32, end as u32))
             .unzip()
     }
