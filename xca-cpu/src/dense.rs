@@ -91,14 +91,24 @@ impl Plane {
         self.touch();
     }
 
-    pub(crate) fn cell(&self, layout: &Layout, cell: usize) -> &[u8] {
-        let (first, size) = (layout.padded(cell), self.stored.size());
-        &self.current.bytes()[first * size..(first + 1) * size]
+    /// The values of the cells with these linear indices.
+    pub(crate) fn read_cells(&self, layout: &Layout, cells: &[usize]) -> Vec<u8> {
+        let size = self.stored.size();
+        let mut values = Vec::with_capacity(cells.len() * size);
+        for cell in cells {
+            let first = layout.padded(*cell) * size;
+            values.extend_from_slice(&self.current.bytes()[first..first + size]);
+        }
+        values
     }
 
-    pub(crate) fn write_cell(&mut self, layout: &Layout, cell: usize, value: &[u8]) {
-        let (first, size) = (layout.padded(cell), self.stored.size());
-        self.current.bytes_mut()[first * size..(first + 1) * size].copy_from_slice(value);
+    pub(crate) fn write_cells(&mut self, layout: &Layout, cells: &[usize], values: &[u8]) {
+        let size = self.stored.size();
+        let current = self.current.bytes_mut();
+        for (cell, value) in cells.iter().zip(values.chunks_exact(size)) {
+            let first = layout.padded(*cell) * size;
+            current[first..first + size].copy_from_slice(value);
+        }
         self.touch();
     }
 

@@ -115,7 +115,7 @@ impl GpuExecution {
                 if !is_zero && !self.halo.cells().is_empty() {
                     let zeros = vec![0; stored.size() * cells];
                     let plane = self.groups.plane(substate);
-                    plane.write_cells(&self.device, &self.space, self.halo.cells(), &outside, &zeros)?;
+                    plane.write_space(&self.device, &self.space, self.halo.cells(), &outside, &zeros)?;
                 }
             }
         }
@@ -369,7 +369,7 @@ fn long(low: u32, high: u32) -> u64 {
 
 /// What the host hears of an error of the device.
 pub(crate) fn failure(error: &DeviceError) -> EngineFailure {
-    EngineFailure { engine: "gpu".to_owned(), reason: error.to_string() }
+    EngineFailure::Broken { engine: "gpu".to_owned(), reason: error.to_string() }
 }
 
 /// The bytes that a model takes at least: every substate of cells once.

@@ -2,6 +2,7 @@
 
 use crate::device::{Binding, Buffer, Device, DeviceError};
 use crate::space::{HaloCell, Part, Shown, Space};
+use std::ops::Range;
 use xca_core::{Faces, StoredScalar, StoredType};
 
 /// A substate of all cells or of all items: a value for each, lane beside lane, a `u8` in the four bytes of a `u32`.
@@ -69,7 +70,7 @@ impl Plane {
     }
 
     /// Writes the values of all cells, and those of the halo into every buffer.
-    pub(crate) fn write_cells(
+    pub(crate) fn write_space(
         &self,
         device: &Device,
         space: &Space,
@@ -98,7 +99,7 @@ impl Plane {
     }
 
     /// The values of all cells.
-    pub(crate) fn read_cells(&self, device: &Device, space: &Space) -> Result<Vec<u8>, DeviceError> {
+    pub(crate) fn read_space(&self, device: &Device, space: &Space) -> Result<Vec<u8>, DeviceError> {
         let size = self.size();
         let row = space.geometry().extents()[0] * size;
         let mut values = Vec::with_capacity(space.rows() * row);
@@ -110,15 +111,26 @@ impl Plane {
         Ok(narrowed(self.stored, values))
     }
 
-    /// The value of one cell, by its stored number.
-    pub(crate) fn read_cell(&self, device: &Device, number: usize) -> Result<Vec<u8>, DeviceError> {
-        let start = (number * self.size()) as u64;
-        Ok(narrowed(self.stored, device.download(self.now(), start..start + self.size() as u64)?))
+    /// The values of the cells with these stored numbers.
+    pub(crate) fn read_cells(&self, device: &Device, numbers: &[usize]) -> Result<Vec<u8>, DeviceError> {
+        Ok(narrowed(self.stored, device.collect(self.now(), &self.runs(numbers))?))
     }
 
-    /// Writes the value of one cell, by its stored number.
-    pub(crate) fn write_cell(&self, device: &Device, number: usize, value: &[u8]) -> Result<(), DeviceError> {
-        device.upload(self.now(), (number * self.size()) as u64, &widened(self.stored, value))
+    /// Writes the values of the cells with these stored numbers, in their order.
+    pub(crate) fn write_cells(
+        &self,
+        device: &Device,
+        numbers: &[usize],
+        values: &[u8],
+    ) -> Result<(), DeviceError> {
+        device.scatter(self.now(), &self.runs(numbers), &widened(self.stored, values))
+    }
+
+    /// The bytes of cells that follow each other, as ranges in the order of the cells.
+    fn runs(&self, numbers: &[usize]) -> Vec<Range<u64>> {
+        let size = self.size() as u64;
+        let in_one = numbers.chunk_by(|number, next| number + 1 == *next);
+        in_one.map(|run| run[0] as u64 * size..(run[0] + run.len()) as u64 * size).collect()
     }
 }
 

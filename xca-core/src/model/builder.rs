@@ -170,7 +170,7 @@ impl ModelBuilder {
         schedule: Schedule,
         operation: impl Fn(&mut State<'_>) -> Result<(), SteeringError> + Send + Sync + 'static,
     ) -> Self {
-        if schedule == Schedule::Every(0) {
+        if matches!(schedule, Schedule::Every(0) | Schedule::EveryFrom { interval: 0, .. }) {
             self.mistake.get_or_insert(ModelError::ZeroInterval);
         }
         self.steering.push(Steering::new(schedule, operation));
