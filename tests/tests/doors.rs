@@ -3,6 +3,7 @@
 use std::error::Error;
 use xca_core::engine::{EngineFailure, Execution, InputError, Population, StepContext, SubstateId};
 use xca_core::prelude::*;
+use xca_core::reduction::Reduction;
 use xca_core::{AnyParameters, Fault};
 use xca_tests::suite::engines;
 
@@ -106,6 +107,8 @@ fn cells_and_substates_that_are_not_there() -> Result<(), Box<dyn Error>> {
     refused("`Soil` has 2 substates, no number 2", |execution| Ok(execution.write(substate, &[0; 12])?))?;
     let substate = SubstateId { group: 2, field: 0 };
     let message = "the model has 2 structs of substates, no number 2";
+    refused(message, |execution| Ok(execution.read(substate).map(|_| ())?))?;
+    refused(message, |execution| Ok(execution.reduce(substate, &Reduction::Sum).map(|_| ())?))?;
     refused(message, |execution| Ok(execution.write_cells(substate, &[0], &[0])?))?;
     refused(message, |execution| execution.set_population(2, &worms()))
 }

@@ -264,6 +264,8 @@ fn processes() {
         "search in one process, move in the next"
     );
     refused!(soil().steer(Schedule::Every(0), |_| Ok(())), ZeroInterval, "at least 1");
+    let never = Schedule::EveryFrom { first: 3, interval: 0 };
+    refused!(soil().steer(never, |_| Ok(())), ZeroInterval, "at least 1");
     assert!(soil().parameters(Weather { rain: 1.0 }).process(soak).build().is_ok());
 }
 
@@ -282,6 +284,21 @@ struct Lead {
     j: Vector4<f64>,
     k: Vector4<f64>,
     l: Vector4<f64>,
+}
+
+/// Lengths that are numbers in `f64` alone.
+#[test]
+fn lengths_beyond_a_precision() -> Result<(), Box<dyn Error>> {
+    for side in [1e-60, 1e38] {
+        let model = soil().extents([40, 1, 1]).cell_side(side).build()?;
+        for engine in engines::all()? {
+            let start = |precision| Simulation::new(&model, &*engine, RunOptions { precision, seed: 0 });
+            assert!(start(Precision::F64).is_ok());
+            let error = start(Precision::F32).expect_err("no length").to_string();
+            assert!(error.contains("overflows or vanishes in f32; run in f64"), "{error}");
+        }
+    }
+    Ok(())
 }
 
 /// A space that no machine holds is refused before any memory is asked for.

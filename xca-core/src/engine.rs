@@ -2,7 +2,9 @@
 
 pub(crate) mod input;
 
-pub use input::{InputError, check_cells, check_population, check_values, check_values_of_cells};
+pub use input::{
+    InputError, check_cells, check_population, check_substate, check_values, check_values_of_cells,
+};
 
 use crate::geometry::Geometry;
 use crate::kernel::{BEYOND_NEIGHBOURHOOD, RowFault, StoppedAt};
@@ -173,7 +175,7 @@ pub trait Execution: Send {
     /// All values of a substate.
     ///
     /// # Errors
-    /// Where the engine cannot reach its state any more; so with all that follows.
+    /// Where [`check_substate`] refuses it, or the engine cannot reach its state any more; so with all that follows.
     fn read(&self, substate: SubstateId) -> Result<Vec<u8>, EngineFailure>;
 
     /// Replaces all values of a substate; as many bytes as [`Self::read`] gives.

@@ -11,7 +11,8 @@ use std::ops::Range;
 use std::sync::Arc;
 use xca_core::engine::{
     EngineFailure, Execution, Fault, Interruption, Population as Items, StartError, StepContext, SubstateId,
-    Workers, check_cells, check_population, check_values, check_values_of_cells, step_by_step,
+    Workers, check_cells, check_population, check_substate, check_values, check_values_of_cells,
+    step_by_step,
 };
 use xca_core::model::{Group as Definition, GroupKind};
 use xca_core::reduction::{ITEMS_IN_BLOCK, Reduced, Reduction, reduce_values};
@@ -130,6 +131,7 @@ impl Execution for CpuExecution {
     }
 
     fn read(&self, substate: SubstateId) -> Result<Vec<u8>, EngineFailure> {
+        check_substate(&self.model, substate)?;
         Ok(match &self.groups[substate.group] {
             Group::Cells(planes) => planes[substate.field].read(&self.layout),
             Group::Population(population) => population.items.fields[substate.field].bytes().to_vec(),
@@ -215,6 +217,7 @@ impl Execution for CpuExecution {
     }
 
     fn reduce(&self, substate: SubstateId, reduction: &Reduction) -> Result<Vec<Reduced>, EngineFailure> {
+        check_substate(&self.model, substate)?;
         let stored = self.model.stored(substate, self.precision);
         let parts: Vec<Vec<Reduced>> = self.pool.install(|| match &self.groups[substate.group] {
             Group::Cells(planes) => (0..self.layout.rows())

@@ -8,7 +8,7 @@ use crate::service::{OCCUPANCY, Services};
 use std::ops::Range;
 use xca_core::engine::{
     EngineFailure, Execution, Fault, Interruption, Population as Items, StepContext, SubstateId, check_cells,
-    check_population, check_values, check_values_of_cells,
+    check_population, check_substate, check_values, check_values_of_cells,
 };
 use xca_core::reduction::{ITEMS_IN_BLOCK, Reduced, Reduction, reduce_values};
 
@@ -22,6 +22,7 @@ impl Execution for GpuExecution {
     }
 
     fn read(&self, substate: SubstateId) -> Result<Vec<u8>, EngineFailure> {
+        check_substate(&self.model, substate)?;
         let plane = self.groups.plane(substate);
         match self.groups.group(substate.group) {
             Group::Cells(_) => plane.read_space(&self.device, &self.space),
@@ -87,6 +88,7 @@ impl Execution for GpuExecution {
     }
 
     fn reduce(&self, substate: SubstateId, reduction: &Reduction) -> Result<Vec<Reduced>, EngineFailure> {
+        check_substate(&self.model, substate)?;
         let stored = self.model.stored(substate, self.manner.precision);
         let rows = if reduction::is_possible(&self.device, reduction, stored) {
             self.reduce_here(substate, reduction).map_err(|error| failure(&error))?

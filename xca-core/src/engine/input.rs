@@ -71,6 +71,14 @@ impl From<InputError> for Fault {
     }
 }
 
+/// Checks that the model has a substate.
+///
+/// # Errors
+/// Where it does not.
+pub fn check_substate(model: &Model, substate: SubstateId) -> Result<(), InputError> {
+    checked_group(model, substate).map(|_| ())
+}
+
 /// Checks the values that are to replace all values of a substate. `items` is how many items the group has, if it is a population.
 ///
 /// # Errors

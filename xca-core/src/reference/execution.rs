@@ -3,7 +3,7 @@
 use super::{GroupState, ReferenceExecution};
 use crate::engine::{
     EngineFailure, Execution, Fault, Interruption, Population, StepContext, SubstateId, check_cells,
-    check_population, check_values, check_values_of_cells, step_by_step,
+    check_population, check_substate, check_values, check_values_of_cells, step_by_step,
 };
 use crate::process::ProcessKind;
 use crate::reduction::{ITEMS_IN_BLOCK, Reduced, Reduction, reduce_values};
@@ -27,6 +27,7 @@ impl Execution for ReferenceExecution {
     }
 
     fn read(&self, substate: SubstateId) -> Result<Vec<u8>, EngineFailure> {
+        check_substate(&self.model, substate)?;
         Ok(self.groups[substate.group].values(substate.field))
     }
 
@@ -102,6 +103,7 @@ impl Execution for ReferenceExecution {
     }
 
     fn reduce(&self, substate: SubstateId, reduction: &Reduction) -> Result<Vec<Reduced>, EngineFailure> {
+        check_substate(&self.model, substate)?;
         let group = &self.groups[substate.group];
         let stored = group.types[substate.field];
         let block = if group.is_population() { ITEMS_IN_BLOCK } else { self.model.geometry().extents()[0] };
