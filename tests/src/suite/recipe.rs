@@ -88,7 +88,7 @@ impl Recipe {
             .fill(move |[x, y, z]| medium_of(mix(mix(mix(salt, x as u32), y as u32), z as u32)));
         // Some flat faces have values of their own.
         for (face, number) in Face::ALL.into_iter().zip(0..) {
-            if recipe.boundaries[face] == Boundary::Flat && mix(salt, number) % 2 == 0 {
+            if recipe.boundaries[face] == Boundary::Flat && mix(salt, number).is_multiple_of(2) {
                 builder = builder.outside(face, medium_of(mix(salt, 18 + number)));
             }
         }
