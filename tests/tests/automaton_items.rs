@@ -56,7 +56,7 @@ fn journey(
         density,
         radius: 0.25 * SIDE * f64::from(quarters),
         covered: u32::from(quarters <= covered(shape)),
-        ..Lattice::new(shape, boundaries)
+        ..Lattice::new(shape, boundaries.into())
     };
     traveller::model(shape, extents, boundaries, p)
 }

@@ -14,7 +14,7 @@ fn everything() -> Recipe {
     Recipe {
         extents: [11, 12, 14],
         neighbourhood: Neighbourhood::moore(1),
-        boundaries: [Boundary::Toroidal, Boundary::Flat, Boundary::Toroidal],
+        boundaries: [Boundary::Toroidal, Boundary::Flat, Boundary::Toroidal].into(),
         side: 0.3,
         processes: vec![0, 1, 3, 10, 4, 12, 5, 2, 14, 6, 17, 9, 11, 7, 13, 15, 16],
         slots: 40,
@@ -232,7 +232,7 @@ fn near_by_a_rounding() -> Result<(), Box<dyn Error>> {
     for side in [1.0, 0.3, 2.5e-3] {
         for boundary in [Boundary::Flat, Boundary::Toroidal] {
             let tuning = Tuning { radius: side, ..everything().tuning };
-            let (boundaries, processes) = ([boundary; 3], vec![10, 13]);
+            let (boundaries, processes) = (Faces::all(boundary), vec![10, 13]);
             let recipe =
                 Recipe { boundaries, side, processes, tuning, crowding: 20, aligned: true, ..everything() };
             let model = recipe.build()?;

@@ -152,6 +152,42 @@ fn neighbourhoods() {
 }
 
 #[test]
+fn faces() {
+    use ModelError::{HalfTorus, Length, NotAdded, OutsideOfItems, OutsideUnseen, ReflectedHexagons};
+    refused!(
+        soil().face(Face::West, Boundary::Toroidal),
+        HalfTorus { toroidal: Face::West, other: Face::East, boundary: Boundary::Flat },
+        "the west face is toroidal and the east face is flat",
+        "make both toroidal, or neither"
+    );
+    refused!(
+        soil().boundary(Boundary::Toroidal).face(Face::Bottom, Boundary::Reflecting),
+        HalfTorus { toroidal: Face::Top, other: Face::Bottom, boundary: Boundary::Reflecting },
+        "the top face is toroidal and the bottom face is reflecting"
+    );
+    assert!(soil().boundary(Boundary::Reflecting).face(Face::East, Boundary::Flat).build().is_ok());
+    let torus = soil().face(Face::North, Boundary::Toroidal).face(Face::South, Boundary::Toroidal);
+    assert!(torus.build().is_ok());
+    let unseen = soil().face(Face::North, Boundary::Reflecting).outside(Face::North, Soil { water: 1.0 });
+    refused!(
+        unseen,
+        OutsideUnseen { substates: "Soil", face: Face::North, boundary: Boundary::Reflecting },
+        "`Soil` has outside values for the north face, which is reflecting",
+        "make the face flat"
+    );
+    let worm = Worm { position: Vector3::splat(0.0) };
+    refused!(soil().outside(Face::North, worm), NotAdded { substates: "Worm" }, "add it before");
+    let worms = soil().population::<Worm>(2).outside(Face::North, worm);
+    refused!(worms, OutsideOfItems { substates: "Worm" }, "`Worm` is a population");
+    let hexagons = soil()
+        .extents([4, 4, 1])
+        .neighbourhood(Neighbourhood::hexagonal(Hexagons::CornerUp))
+        .face(Face::South, Boundary::Reflecting);
+    refused!(hexagons, ReflectedHexagons { axis: 'y' }, "along y");
+    refused!(soil().extents([9, 1, 1]).cell_side(1e308), Length { .. }, "give a smaller cell side");
+}
+
+#[test]
 fn substates() {
     use ModelError::{NoSlots, NoSubstates, NotAdded, ReflectedPopulation, SubstatesTwice};
     refused!(
@@ -169,11 +205,13 @@ fn substates() {
         soil().population::<Worm>(2).boundaries([Boundary::Flat, Boundary::Toroidal, Boundary::Reflecting]);
     refused!(
         mirror,
-        ReflectedPopulation { substates: "Worm", axis: 'z' },
+        ReflectedPopulation { substates: "Worm", face: Face::Bottom },
         "`Worm`",
-        "along z",
+        "at the bottom face",
         "use a flat or toroidal one"
     );
+    let mirror = soil().population::<Worm>(2).face(Face::North, Boundary::Reflecting);
+    refused!(mirror, ReflectedPopulation { face: Face::North, .. }, "at the north face");
 }
 
 #[test]
@@ -226,6 +264,8 @@ fn processes() {
         "search in one process, move in the next"
     );
     refused!(soil().steer(Schedule::Every(0), |_| Ok(())), ZeroInterval, "at least 1");
+    let never = Schedule::EveryFrom { first: 3, interval: 0 };
+    refused!(soil().steer(never, |_| Ok(())), ZeroInterval, "at least 1");
     assert!(soil().parameters(Weather { rain: 1.0 }).process(soak).build().is_ok());
 }
 
@@ -244,6 +284,21 @@ struct Lead {
     j: Vector4<f64>,
     k: Vector4<f64>,
     l: Vector4<f64>,
+}
+
+/// Lengths that are numbers in `f64` alone.
+#[test]
+fn lengths_beyond_a_precision() -> Result<(), Box<dyn Error>> {
+    for side in [1e-60, 1e38] {
+        let model = soil().extents([40, 1, 1]).cell_side(side).build()?;
+        for engine in engines::all()? {
+            let start = |precision| Simulation::new(&model, &*engine, RunOptions { precision, seed: 0 });
+            assert!(start(Precision::F64).is_ok());
+            let error = start(Precision::F32).expect_err("no length").to_string();
+            assert!(error.contains("overflows or vanishes in f32; run in f64"), "{error}");
+        }
+    }
+    Ok(())
 }
 
 /// A space that no machine holds is refused before any memory is asked for.

@@ -94,8 +94,9 @@ fn an_automaton_in_parts_finds_what_it_must() -> TestResult {
     {
         let engines: [Box<dyn Engine>; 2] = [Box::new(Reference), Box::new(short_sighted(reach)?)];
         for boundaries in [
-            [Boundary::Toroidal, Boundary::Flat, Boundary::Toroidal],
-            [Boundary::Flat, Boundary::Reflecting, Boundary::Reflecting],
+            Faces::from([Boundary::Toroidal, Boundary::Flat, Boundary::Toroidal]),
+            Faces::from([Boundary::Flat, Boundary::Reflecting, Boundary::Reflecting]),
+            Faces { north: Boundary::Reflecting, bottom: Boundary::Reflecting, ..Faces::default() },
         ] {
             let model = site::model(shape, extents, boundaries)?;
             assert_same_runs(&model, &engines, RunOptions::default(), 3)?;

@@ -44,13 +44,24 @@ fn tunings() -> impl Strategy<Value = Tuning> {
     )
 }
 
-fn spaces() -> impl Strategy<Value = ([usize; 3], [Boundary; 3], f64)> {
+fn spaces() -> impl Strategy<Value = ([usize; 3], Faces<Boundary>, f64)> {
     // With one thread it takes more than 32 rows for two to be worked on together.
     let extents = prop_oneof![5 => [1_usize..7, 1..6, 1..5], 1 => [1_usize..5, 5..9, 6..12]];
     let boundary =
         || proptest::sample::select(vec![Boundary::Flat, Boundary::Toroidal, Boundary::Reflecting]);
+    let axes = [boundary(), boundary(), boundary()].prop_map(Faces::from);
+    let bounded = || proptest::sample::select(vec![Boundary::Flat, Boundary::Reflecting]);
+    let faces = [bounded(), bounded(), bounded(), bounded(), bounded(), bounded()];
+    let faces = faces.prop_map(|[west, east, south, north, bottom, top]| Faces {
+        west,
+        east,
+        south,
+        north,
+        bottom,
+        top,
+    });
     // An engine may take short cuts where no axis leads back.
-    let boundaries = prop_oneof![1 => Just([Boundary::Flat; 3]), 2 => [boundary(), boundary(), boundary()]];
+    let boundaries = prop_oneof![1 => Just(Faces::all(Boundary::Flat)), 2 => axes, 1 => faces];
     (extents, boundaries, proptest::sample::select(vec![1.0, 0.3, 2.5e-3]))
 }
 

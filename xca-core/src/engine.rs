@@ -1,5 +1,11 @@
 //! What an engine is to a simulation.
 
+pub(crate) mod input;
+
+pub use input::{
+    InputError, check_cells, check_population, check_substate, check_values, check_values_of_cells,
+};
+
 use crate::geometry::Geometry;
 use crate::kernel::{BEYOND_NEIGHBOURHOOD, RowFault, StoppedAt, WRONG_RADIUS};
 use crate::model::Model;
@@ -59,6 +65,18 @@ pub enum StartError {
         /// How many there can be.
         limit: u128,
     },
+    /// A space whose lengths are no positive numbers of the run's precision.
+    #[error(
+        "a cell side of {side} m with {extents:?} cells overflows or vanishes in {precision}; run in f64"
+    )]
+    Length {
+        /// The side of a cell in metres.
+        side: f64,
+        /// The number of cells along x, y, z.
+        extents: [usize; 3],
+        /// The precision of the run.
+        precision: Precision,
+    },
     /// Anything else, such as threads that could not be started.
     #[error("the {engine} engine cannot start: {reason}")]
     Other {
@@ -99,14 +117,21 @@ pub struct StepContext<'a> {
     pub values: &'a ParameterSet,
 }
 
-/// An engine that cannot go on with a state: its device was lost, or has no memory left.
+/// Why an engine does not do what it is asked to do with a state.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("the {engine} engine failed: {reason}")]
-pub struct EngineFailure {
-    /// The engine.
-    pub engine: String,
-    /// Why.
-    pub reason: String,
+#[non_exhaustive]
+pub enum EngineFailure {
+    /// It cannot go on: its device was lost, or has no memory left.
+    #[error("the {engine} engine failed: {reason}")]
+    Broken {
+        /// The engine.
+        engine: String,
+        /// Why.
+        reason: String,
+    },
+    /// What it is given does not fit the model. The state is what it was.
+    #[error(transparent)]
+    Input(#[from] InputError),
 }
 
 /// A fault in one of several steps.
@@ -150,26 +175,32 @@ pub trait Execution: Send {
     /// All values of a substate.
     ///
     /// # Errors
-    /// Where the engine cannot reach its state any more; so with all that follows.
+    /// Where [`check_substate`] refuses it, or the engine cannot reach its state any more; so with all that follows.
     fn read(&self, substate: SubstateId) -> Result<Vec<u8>, EngineFailure>;
 
     /// Replaces all values of a substate; as many bytes as [`Self::read`] gives.
     ///
     /// # Errors
-    /// As [`Self::read`].
+    /// Where [`check_values`] refuses them, and as [`Self::read`].
     fn write(&mut self, substate: SubstateId, values: &[u8]) -> Result<(), EngineFailure>;
 
-    /// The value of a substate in one cell.
+    /// The values of a substate in these cells, given by their linear indices in any order, one value after the other.
     ///
     /// # Errors
-    /// As [`Self::read`].
-    fn read_cell(&self, substate: SubstateId, cell: usize) -> Result<Vec<u8>, EngineFailure>;
+    /// Where [`check_cells`] refuses them, and as [`Self::read`].
+    fn read_cells(&self, substate: SubstateId, cells: &[usize]) -> Result<Vec<u8>, EngineFailure>;
 
-    /// Replaces the value of a substate in one cell.
+    /// Replaces the values of a substate in these cells, given by their linear indices in any order. Of a cell that is given twice the last
+    /// value stays.
     ///
     /// # Errors
-    /// As [`Self::read`].
-    fn write_cell(&mut self, substate: SubstateId, cell: usize, value: &[u8]) -> Result<(), EngineFailure>;
+    /// Where [`check_values_of_cells`] refuses them, and as [`Self::read`]. Nothing is written then.
+    fn write_cells(
+        &mut self,
+        substate: SubstateId,
+        cells: &[usize],
+        values: &[u8],
+    ) -> Result<(), EngineFailure>;
 
     /// All items of a population.
     ///
@@ -180,10 +211,10 @@ pub trait Execution: Send {
     /// Replaces all items of a population.
     ///
     /// # Errors
-    /// [`Fault::CellFull`] where a cell has more items than slots, and as [`Self::read`].
+    /// Where [`check_population`] refuses them, [`Fault::CellFull`] among it, and as [`Self::read`].
     fn set_population(&mut self, group: usize, population: &Population) -> Result<(), Fault>;
 
-    /// How many items a population has.
+    /// How many items a population has; 0 of substates of cells.
     fn items(&self, group: usize) -> usize;
 
     /// How many items have left the space.

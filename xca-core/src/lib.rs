@@ -73,7 +73,7 @@
 //! | share code between processes | [`helper`] |
 //! | compute `exp`, `sin` and their kin | [`math`] |
 //! | have items that move from cell to cell | [`ModelBuilder::population`], [`migration`] |
-//! | put a model together | [`ModelBuilder`], [`Neighbourhood`], [`directions`], [`Boundary`] |
+//! | put a model together | [`ModelBuilder`], [`Neighbourhood`], [`directions`], [`Boundary`], [`Face`] |
 //! | look at a state and change it | [`State`] |
 //! | run | [`Simulation`], [`Reference`], and the crate `xca-cpu` |
 //!
@@ -118,7 +118,7 @@ mod vector;
 mod vocabulary;
 
 pub use engine::{Engine, EngineFailure, Fault, StartError};
-pub use geometry::{Boundary, Geometry};
+pub use geometry::{Boundary, Face, Faces, Geometry, Reached};
 pub use interval::{End, Interval};
 pub use model::{InitialError, Model, ModelBuilder, ModelError};
 pub use neighbourhood::{Hexagons, Neighbourhood, NeighbourhoodError, Parity};
@@ -144,9 +144,9 @@ pub use xca_macros::{Parameters, States, Substates, elementary_process, helper, 
 /// What a model's source needs.
 pub mod prelude {
     pub use crate::{
-        Boundary, Cell, Destination, Engine, Hexagons, Item, Model, ModelError, Neighbourhood, Other,
-        Outcome, ParameterError, Parameters, Precision, Real, Reference, RunError, RunOptions, Schedule,
-        Simulation, Slot, Slots, Space, State, States, SteeringError, Substate, Substates, Vector2, Vector3,
-        Vector4, directions, elementary_process, helper, migration,
+        Boundary, Cell, Destination, Engine, Face, Faces, Hexagons, Item, Model, ModelError, Neighbourhood,
+        Other, Outcome, ParameterError, Parameters, Precision, Real, Reference, RunError, RunOptions,
+        Schedule, Simulation, Slot, Slots, Space, State, States, SteeringError, Substate, Substates, Vector2,
+        Vector3, Vector4, directions, elementary_process, helper, migration,
     };
 }

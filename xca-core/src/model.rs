@@ -9,7 +9,7 @@ pub use error::ModelError;
 pub use initial::InitialError;
 
 use crate::engine::SubstateId;
-use crate::geometry::Geometry;
+use crate::geometry::{Faces, Geometry};
 use crate::parameter_set::ParameterSet;
 use crate::plan::Plan;
 use crate::process::Process;
@@ -50,8 +50,8 @@ pub type WriteOutside = dyn Fn(usize, Precision, &mut [u8]) + Send + Sync;
 pub enum GroupKind {
     /// The cells.
     Cells {
-        /// Writes the outside value of a field, for flat boundaries.
-        outside: Arc<WriteOutside>,
+        /// Writes the outside value of a field, for each flat face.
+        outside: Faces<Arc<WriteOutside>>,
     },
     /// The items of a population.
     Population {
@@ -92,6 +92,17 @@ impl Group {
     /// The machine types of the fields.
     pub fn stored(&self, precision: Precision) -> Vec<StoredType> {
         self.schema.fields.iter().map(|field| field.value_type.stored(precision)).collect()
+    }
+
+    /// The stored bytes of a field of cells beyond each face, if the face is flat; nothing of a population.
+    pub fn outside(&self, field: usize, precision: Precision) -> Option<Faces<Vec<u8>>> {
+        let GroupKind::Cells { outside } = &self.kind else { return None };
+        let size = self.schema.fields[field].value_type.stored(precision).size();
+        Some(outside.map(|write| {
+            let mut bytes = vec![0; size];
+            write(field, precision, &mut bytes);
+            bytes
+        }))
     }
 }
 

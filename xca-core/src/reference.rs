@@ -9,7 +9,7 @@ mod migration;
 mod pass;
 
 use crate::engine::{Engine, Execution, StartError};
-use crate::geometry::Geometry;
+use crate::geometry::{Face, Faces, Geometry, Reached};
 use crate::model::{GroupKind, Model};
 use crate::storage::Buffer;
 use crate::value::{Precision, StoredType};
@@ -60,13 +60,8 @@ fn group_state(
 ) -> Result<GroupState, StartError> {
     let types = group.stored(precision);
     let (slots, outside) = match group.kind() {
-        GroupKind::Cells { outside } => {
-            let values = types.iter().enumerate().map(|(field, stored)| {
-                let mut bytes = vec![0; stored.size()];
-                outside(field, precision, &mut bytes);
-                bytes
-            });
-            (1, values.collect())
+        GroupKind::Cells { .. } => {
+            (1, (0..types.len()).filter_map(|field| group.outside(field, precision)).collect())
         }
         GroupKind::Population { slots, .. } => (*slots, Vec::new()),
     };
@@ -120,8 +115,8 @@ struct GroupState {
     slots: usize,
     /// For each field all places, cell after cell.
     planes: Vec<Buffer>,
-    /// For cells, the value of each field beyond a flat boundary.
-    outside: Vec<Vec<u8>>,
+    /// For cells, the values of each field beyond flat faces.
+    outside: Vec<Faces<Vec<u8>>>,
     /// For populations, the occupied slots of each cell: the first ones, by label.
     counts: Vec<u32>,
     /// For populations, the label in each slot.
@@ -151,10 +146,20 @@ impl GroupState {
     }
 }
 
-/// The cells of a cell's neighbourhood, by the boundary rules; nothing stands for the outside.
-fn neighbourhood(geometry: &Geometry, cell: [usize; 3]) -> impl Iterator<Item = Option<usize>> + '_ {
+/// What a cell sees in the place of a neighbour.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Neighbour {
+    /// The cell with this linear index.
+    Cell(usize),
+    /// What lies beyond a flat face.
+    Outside(Face),
+}
+
+/// The neighbourhood of a cell, by the boundary rules.
+fn neighbourhood(geometry: &Geometry, cell: [usize; 3]) -> impl Iterator<Item = Neighbour> + '_ {
     let displacements = geometry.neighbourhood().displacements(cell);
-    displacements
-        .iter()
-        .map(move |displacement| geometry.at(cell, *displacement).map(|at| geometry.linear(at)))
+    displacements.iter().map(move |displacement| match geometry.reach(cell, *displacement) {
+        Reached::Cell(at) => Neighbour::Cell(geometry.linear(at)),
+        Reached::Outside(face) => Neighbour::Outside(face),
+    })
 }

@@ -5,6 +5,7 @@ mod snapshot;
 pub use snapshot::{GroupSnapshot, Snapshot, SnapshotError};
 
 use crate::engine::{Engine, EngineFailure, Execution, Fault, Interruption, StartError, StepContext};
+use crate::geometry::Geometry;
 use crate::model::Model;
 use crate::parameter_set::ParameterSet;
 use crate::parameters::ParameterError;
@@ -113,6 +114,7 @@ impl Simulation {
     /// A model on an engine, before anything is in it.
     fn empty(model: &Model, engine: &dyn Engine, options: RunOptions) -> Result<Self, RunError> {
         model.parameters().check(options.precision)?;
+        check_lengths(model.geometry(), options.precision)?;
         Ok(Self {
             model: model.clone(),
             execution: engine.start(model, options.precision)?,
@@ -275,6 +277,17 @@ impl Simulation {
             result.map(|()| 0).map_err(|fault| Interruption { done: 0, fault })
         })
     }
+}
+
+/// Whether the cell side and the lengths of the space are positive numbers of the precision.
+fn check_lengths(geometry: &Geometry, precision: Precision) -> Result<(), StartError> {
+    let (side, extents) = (geometry.side(), geometry.extents());
+    let longest = extents.into_iter().max().unwrap_or(0) as f64 * side;
+    let fits = match precision {
+        Precision::F32 => side as f32 > 0.0 && (longest as f32).is_finite(),
+        Precision::F64 => true,
+    };
+    if fits { Ok(()) } else { Err(StartError::Length { side, extents, precision }) }
 }
 
 impl fmt::Debug for Simulation {

@@ -1,5 +1,7 @@
 //! The state of a run as steering and the host see it.
 
+mod cells;
+
 use crate::engine::{EngineFailure, Execution, Fault, Population, SubstateId};
 use crate::geometry::Geometry;
 use crate::model::Model;
@@ -167,40 +169,6 @@ impl State<'_> {
             self.execution.write(SubstateId { group, field }, bytes)?;
         }
         Ok(())
-    }
-
-    /// The value of a substate in one cell.
-    ///
-    /// # Errors
-    /// Where the model does not have the substate, or the space the cell.
-    pub fn get<S: Substates, V: HostValue>(
-        &self,
-        substate: Substate<S, V>,
-        cell: [usize; 3],
-    ) -> Result<V, StateError> {
-        self.cells_of::<S>()?;
-        let id = self.id(substate)?;
-        let bytes = self.execution.read_cell(id, self.cell(cell)?)?;
-        Ok(V::decode(self.model.stored(id, self.precision), &bytes))
-    }
-
-    /// Sets the value of a substate in one cell.
-    ///
-    /// # Errors
-    /// Where the model does not have the substate, or the space the cell.
-    pub fn set<S: Substates, V: HostValue>(
-        &mut self,
-        substate: Substate<S, V>,
-        cell: [usize; 3],
-        value: V,
-    ) -> Result<(), StateError> {
-        self.cells_of::<S>()?;
-        let id = self.id(substate)?;
-        let stored = self.model.stored(id, self.precision);
-        let mut bytes = vec![0; stored.size()];
-        value.encode(stored, &mut bytes);
-        let cell = self.cell(cell)?;
-        Ok(self.execution.write_cell(id, cell, &bytes)?)
     }
 
     /// All values of a substate: of cells by linear index (x fastest), of items cell after cell and by label.

@@ -3,8 +3,8 @@
 use crate::layout::Layout;
 use std::borrow::Cow;
 use std::ops::Range;
-use xca_core::StoredType;
 use xca_core::storage::Buffer;
+use xca_core::{Faces, StoredType};
 
 /// One substate of cells: as many planes, one after the other, as a value has elements.
 pub(crate) struct Dense {
@@ -32,15 +32,16 @@ impl Dense {
     pub(crate) fn new(
         stored: StoredType,
         layout: &Layout,
-        outside: &[u8],
+        outside: &Faces<Vec<u8>>,
         doubled: bool,
         read_elsewhere: bool,
     ) -> Self {
         let mut current = Buffer::zeroed(layout.cells() * stored.size());
         let element = stored.element_size();
         let planes = current.bytes_mut().chunks_exact_mut(layout.cells() * element);
-        for (plane, outside) in planes.zip(outside.chunks_exact(element)) {
-            layout.fill_halo(plane, element, Some(outside), false);
+        for (number, plane) in planes.enumerate() {
+            let outside = outside.map(|value| value[number * element..(number + 1) * element].to_vec());
+            layout.fill_halo(plane, element, Some(&outside), false);
         }
         let next = doubled.then(|| current.clone());
         Self { stored, current, next, read_elsewhere, halo: Halo::Whole }
@@ -131,13 +132,15 @@ impl Dense {
         })
     }
 
-    pub(crate) fn cell(&self, layout: &Layout, cell: usize) -> Vec<u8> {
-        self.places(layout, cell).flat_map(|place| &self.current.bytes()[place]).copied().collect()
+    /// The values of the cells with these linear indices.
+    pub(crate) fn read_cells(&self, layout: &Layout, cells: &[usize]) -> Vec<u8> {
+        let places = cells.iter().flat_map(|cell| self.places(layout, *cell));
+        places.flat_map(|place| &self.current.bytes()[place]).copied().collect()
     }
 
-    pub(crate) fn write_cell(&mut self, layout: &Layout, cell: usize, value: &[u8]) {
-        for (place, element) in self.places(layout, cell).zip(value.chunks_exact(self.stored.element_size()))
-        {
+    pub(crate) fn write_cells(&mut self, layout: &Layout, cells: &[usize], values: &[u8]) {
+        let places: Vec<Range<usize>> = cells.iter().flat_map(|cell| self.places(layout, *cell)).collect();
+        for (place, element) in places.into_iter().zip(values.chunks_exact(self.stored.element_size())) {
             self.current.bytes_mut()[place].copy_from_slice(element);
         }
         self.touch();

@@ -11,7 +11,8 @@ use std::ops::Range;
 use std::sync::Arc;
 use xca_core::engine::{
     EngineFailure, Execution, Fault, Interruption, Population as Items, StartError, StepContext, SubstateId,
-    Workers, step_by_step,
+    Workers, check_cells, check_population, check_substate, check_values, check_values_of_cells,
+    step_by_step,
 };
 use xca_core::model::{Group as Definition, GroupKind};
 use xca_core::reduction::{ITEMS_IN_BLOCK, Reduced, Reduction, reduce_values};
@@ -90,17 +91,16 @@ pub(crate) fn least_memory(model: &Model, layout: &Layout, precision: Precision)
 fn state(model: &Model, number: usize, group: &Definition, layout: &Layout, precision: Precision) -> Group {
     let types = group.stored(precision);
     match group.kind() {
-        GroupKind::Cells { outside } => Group::Cells(
+        GroupKind::Cells { .. } => Group::Cells(
             types
                 .into_iter()
                 .enumerate()
                 .map(|(field, stored)| {
-                    let mut bytes = vec![0; stored.size()];
-                    outside(field, precision, &mut bytes);
+                    let outside = group.outside(field, precision).unwrap_or_default();
                     let substate = SubstateId { group: number, field };
                     let plan = model.plan();
                     let (doubled, elsewhere) = (plan.is_doubled(substate), plan.is_read_elsewhere(substate));
-                    Dense::new(stored, layout, &bytes, doubled, elsewhere)
+                    Dense::new(stored, layout, &outside, doubled, elsewhere)
                 })
                 .collect(),
         ),
@@ -127,6 +127,7 @@ impl Execution for CpuExecution {
     }
 
     fn read(&self, substate: SubstateId) -> Result<Vec<u8>, EngineFailure> {
+        check_substate(&self.model, substate)?;
         Ok(match &self.groups[substate.group] {
             Group::Cells(planes) => planes[substate.field].read(&self.layout),
             Group::Population(population) => population.items.fields[substate.field].bytes().to_vec(),
@@ -134,6 +135,7 @@ impl Execution for CpuExecution {
     }
 
     fn write(&mut self, substate: SubstateId, values: &[u8]) -> Result<(), EngineFailure> {
+        check_values(&self.model, self.precision, substate, self.items(substate.group), values)?;
         match &mut self.groups[substate.group] {
             Group::Cells(planes) => planes[substate.field].write(&self.layout, values),
             Group::Population(population) => {
@@ -143,16 +145,23 @@ impl Execution for CpuExecution {
         Ok(())
     }
 
-    fn read_cell(&self, substate: SubstateId, cell: usize) -> Result<Vec<u8>, EngineFailure> {
+    fn read_cells(&self, substate: SubstateId, cells: &[usize]) -> Result<Vec<u8>, EngineFailure> {
+        check_cells(&self.model, substate, cells)?;
         Ok(match &self.groups[substate.group] {
-            Group::Cells(planes) => planes[substate.field].cell(&self.layout, cell),
+            Group::Cells(planes) => planes[substate.field].read_cells(&self.layout, cells),
             Group::Population(_) => Vec::new(),
         })
     }
 
-    fn write_cell(&mut self, substate: SubstateId, cell: usize, value: &[u8]) -> Result<(), EngineFailure> {
+    fn write_cells(
+        &mut self,
+        substate: SubstateId,
+        cells: &[usize],
+        values: &[u8],
+    ) -> Result<(), EngineFailure> {
+        check_values_of_cells(&self.model, self.precision, substate, cells, values)?;
         if let Group::Cells(planes) = &mut self.groups[substate.group] {
-            planes[substate.field].write_cell(&self.layout, cell, value);
+            planes[substate.field].write_cells(&self.layout, cells, values);
         }
         Ok(())
     }
@@ -171,24 +180,17 @@ impl Execution for CpuExecution {
     }
 
     fn set_population(&mut self, group: usize, items: &Items) -> Result<(), Fault> {
+        check_population(&self.model, self.precision, group, items)?;
         if let Group::Population(population) = &mut self.groups[group] {
-            if let Some(cell) = items.counts.iter().position(|count| *count as usize > population.slots) {
-                return Err(Fault::CellFull {
-                    process: None,
-                    cell: self.model.geometry().indices(cell),
-                    items: items.counts[cell] as usize,
-                    slots: population.slots,
-                });
-            }
             self.pool.install(|| population.set(&self.layout, items));
         }
         Ok(())
     }
 
     fn items(&self, group: usize) -> usize {
-        match &self.groups[group] {
-            Group::Cells(_) => 0,
-            Group::Population(population) => population.count(),
+        match self.groups.get(group) {
+            Some(Group::Population(population)) => population.count(),
+            _ => 0,
         }
     }
 
@@ -211,6 +213,7 @@ impl Execution for CpuExecution {
     }
 
     fn reduce(&self, substate: SubstateId, reduction: &Reduction) -> Result<Vec<Reduced>, EngineFailure> {
+        check_substate(&self.model, substate)?;
         let stored = self.model.stored(substate, self.precision);
         let parts: Vec<Vec<Reduced>> = self.pool.install(|| match &self.groups[substate.group] {
             Group::Cells(planes) => (0..self.layout.rows())

@@ -1,7 +1,7 @@
 //! Where cells lie in memory: rows along x, with a halo around the space.
 
 use rayon::prelude::*;
-use xca_core::{Boundary, Geometry, Parity};
+use xca_core::{Boundary, Face, Faces, Geometry, Parity};
 
 /// The bytes that are worth a thread's start when a halo is filled.
 const BYTES_WORTH_A_START: usize = 1 << 15;
@@ -12,7 +12,15 @@ pub(crate) struct Layout {
     extents: [usize; 3],
     reach: [usize; 3],
     padded: [usize; 3],
-    boundaries: [Boundary; 3],
+    boundaries: Faces<Boundary>,
+}
+
+/// What a halo cell shows along an axis.
+enum Source {
+    /// The cell with this padded index.
+    Cell(usize),
+    /// What lies beyond a flat face.
+    Outside(Face),
 }
 
 impl Layout {
@@ -88,7 +96,9 @@ impl Layout {
 
     /// Whether what lies in the halo follows what lies in the space: along x, where it continues each row, and along y or z.
     pub(crate) fn halo_follows(&self) -> [bool; 2] {
-        let [x, y, z] = [0, 1, 2].map(|axis| self.reach[axis] > 0 && self.boundaries[axis] != Boundary::Flat);
+        let follows = |face| self.boundaries[face] != Boundary::Flat;
+        let [x, y, z] =
+            [0, 1, 2].map(|axis| self.reach[axis] > 0 && Face::ALONG[axis].into_iter().any(follows));
         [x, y || z]
     }
 
@@ -96,16 +106,20 @@ impl Layout {
     /// from the row's first cell.
     pub(crate) fn continuation(&self) -> Vec<(isize, isize)> {
         let counted = |index: usize| index as isize - self.reach[0] as isize;
-        self.along(0).filter_map(|(target, source)| Some((counted(target), counted(source?)))).collect()
+        let follows = |(target, source)| match source {
+            Source::Cell(source) => Some((counted(target), counted(source))),
+            Source::Outside(_) => None,
+        };
+        self.along(0).filter_map(follows).collect()
     }
 
-    /// Fills the halo of a plane with so many values a cell: by the boundary rule, and beyond flat faces with the outside value, where
-    /// one is given. Along x it does so unless the rows are `continued` already.
+    /// Fills the halo of a plane with so many values a cell: by the boundary rules, and beyond flat faces with their outside values,
+    /// where these are given. Beyond several flat faces that of the last axis stands, as it is filled last. Along x it does so unless the rows are `continued` already.
     pub(crate) fn fill_halo<T: Copy + Send + Sync>(
         &self,
         plane: &mut [T],
         values: usize,
-        outside: Option<&[T]>,
+        outside: Option<&Faces<Vec<T>>>,
         continued: bool,
     ) {
         let line = self.padded[0] * values;
@@ -128,30 +142,45 @@ impl Layout {
         let layers = below.par_chunks_mut(layer).chain(above.par_chunks_mut(layer));
         let places: Vec<_> = self.along(2).collect();
         layers.zip(places).with_min_len(worth(layer)).for_each(|(target, (_, source))| match source {
-            Some(source) => target.copy_from_slice(&space[(source - self.reach[2]) * layer..][..layer]),
-            None => fill_outside(target, outside),
+            Source::Cell(source) => {
+                target.copy_from_slice(&space[(source - self.reach[2]) * layer..][..layer]);
+            }
+            Source::Outside(face) => fill_outside(target, outside.map(|outside| &*outside[face])),
         });
     }
 
     /// Fills the halo along an axis, within parts that are one padded line of pieces of this length.
-    fn fill_along<T: Copy>(&self, axis: usize, line: &mut [T], piece: usize, outside: Option<&[T]>) {
+    fn fill_along<T: Copy>(
+        &self,
+        axis: usize,
+        line: &mut [T],
+        piece: usize,
+        outside: Option<&Faces<Vec<T>>>,
+    ) {
         for (target, source) in self.along(axis) {
             match source {
-                Some(source) => line.copy_within(source * piece..(source + 1) * piece, target * piece),
-                None => fill_outside(&mut line[target * piece..(target + 1) * piece], outside),
+                Source::Cell(source) => {
+                    line.copy_within(source * piece..(source + 1) * piece, target * piece);
+                }
+                Source::Outside(face) => {
+                    let outside = outside.map(|outside| &*outside[face]);
+                    fill_outside(&mut line[target * piece..(target + 1) * piece], outside);
+                }
             }
         }
     }
 
-    /// The padded indices of the halo along an axis, each with that of its source.
-    fn along(&self, axis: usize) -> impl Iterator<Item = (usize, Option<usize>)> {
-        let (reach, extent, boundary) = (self.reach[axis], self.extents[axis], self.boundaries[axis]);
+    /// The padded indices of the halo along an axis, each with what it shows.
+    fn along(&self, axis: usize) -> impl Iterator<Item = (usize, Source)> {
+        let (reach, extent) = (self.reach[axis], self.extents[axis]);
         (0..reach).chain(reach + extent..2 * reach + extent).map(move |target| {
-            let source = match boundary {
-                Boundary::Flat => None,
-                Boundary::Toroidal => Some(if target < reach { target + extent } else { target - extent }),
-                Boundary::Reflecting if target < reach => Some(2 * reach - 1 - target),
-                Boundary::Reflecting => Some(2 * (reach + extent) - 1 - target),
+            let is_low = target < reach;
+            let face = Face::ALONG[axis][usize::from(!is_low)];
+            let source = match self.boundaries[face] {
+                Boundary::Flat => Source::Outside(face),
+                Boundary::Toroidal => Source::Cell(if is_low { target + extent } else { target - extent }),
+                Boundary::Reflecting if is_low => Source::Cell(2 * reach - 1 - target),
+                Boundary::Reflecting => Source::Cell(2 * (reach + extent) - 1 - target),
             };
             (target, source)
         })

@@ -1,9 +1,9 @@
 //! Populations: items stored one after the other, cell after cell and by label.
 
 use crate::layout::Layout;
-use xca_core::StoredType;
 use xca_core::engine::Population as Items;
 use xca_core::storage::Buffer;
+use xca_core::{Faces, StoredType};
 
 /// The items of one population.
 pub(crate) struct Population {
@@ -101,8 +101,9 @@ impl Population {
     /// Lets the halo cells stand for the cells that they repeat.
     pub(crate) fn fill_halo(&mut self, layout: &Layout) {
         if layout.halo_follows().contains(&true) {
-            layout.fill_halo(&mut self.starts, 1, Some(&[0]), false);
-            layout.fill_halo(&mut self.ends, 1, Some(&[0]), false);
+            let none = Faces::all(vec![0]);
+            layout.fill_halo(&mut self.starts, 1, Some(&none), false);
+            layout.fill_halo(&mut self.ends, 1, Some(&none), false);
         }
     }
 

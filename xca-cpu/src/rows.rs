@@ -18,7 +18,7 @@ use xca_core::kernel::{
     Access, CellFilter, Entry, Frame, Memory, MemoryOf, Row, RowFault, RowItems, RowKernel, STAY, Scratch,
     StoppedAt,
 };
-use xca_core::{Boundary, Model, Parity, Precision, Process, ProcessKind};
+use xca_core::{Model, Parity, Precision, Process, ProcessKind};
 
 /// The substates of one struct.
 pub(crate) enum Group {
@@ -121,7 +121,7 @@ pub(crate) fn run(
         geometry,
         extents: geometry.extents().map(|extent| extent as u32),
         side: geometry.side(),
-        toroidal: geometry.boundaries().map(|boundary| boundary == Boundary::Toroidal),
+        toroidal: geometry.toroidal(),
         step: context.step,
         seed: context.seed,
         parameters: context.parameters,

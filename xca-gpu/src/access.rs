@@ -7,7 +7,8 @@ use crate::reduction::{self, Rows};
 use crate::service::{OCCUPANCY, Services};
 use std::ops::Range;
 use xca_core::engine::{
-    EngineFailure, Execution, Fault, Interruption, Population as Items, StepContext, SubstateId,
+    EngineFailure, Execution, Fault, Interruption, Population as Items, StepContext, SubstateId, check_cells,
+    check_population, check_substate, check_values, check_values_of_cells,
 };
 use xca_core::reduction::{ITEMS_IN_BLOCK, Reduced, Reduction, reduce_values};
 
@@ -21,33 +22,43 @@ impl Execution for GpuExecution {
     }
 
     fn read(&self, substate: SubstateId) -> Result<Vec<u8>, EngineFailure> {
+        check_substate(&self.model, substate)?;
         let plane = self.groups.plane(substate);
         match self.groups.group(substate.group) {
-            Group::Cells(_) => plane.read_cells(&self.device, &self.space),
+            Group::Cells(_) => plane.read_space(&self.device, &self.space),
             Group::Population(population) => plane.read_items(&self.device, population.items),
         }
         .map_err(|error| failure(&error))
     }
 
     fn write(&mut self, substate: SubstateId, values: &[u8]) -> Result<(), EngineFailure> {
+        let items = self.items(substate.group);
+        check_values(&self.model, self.manner.precision, substate, items, values)?;
         let plane = self.groups.plane(substate);
         match self.groups.group(substate.group) {
             Group::Cells(_) => {
                 let outside = self.outside(substate);
-                plane.write_cells(&self.device, &self.space, self.halo.cells(), &outside, values)
+                plane.write_space(&self.device, &self.space, self.halo.cells(), &outside, values)
             }
             Group::Population(_) => plane.write_items(&self.device, values),
         }
         .map_err(|error| failure(&error))
     }
 
-    fn read_cell(&self, substate: SubstateId, cell: usize) -> Result<Vec<u8>, EngineFailure> {
-        let number = self.space.number(self.space.geometry().indices(cell));
-        self.groups.plane(substate).read_cell(&self.device, number).map_err(|error| failure(&error))
+    fn read_cells(&self, substate: SubstateId, cells: &[usize]) -> Result<Vec<u8>, EngineFailure> {
+        check_cells(&self.model, substate, cells)?;
+        let plane = self.groups.plane(substate);
+        plane.read_cells(&self.device, &self.numbers(cells)).map_err(|error| failure(&error))
     }
 
-    fn write_cell(&mut self, substate: SubstateId, cell: usize, value: &[u8]) -> Result<(), EngineFailure> {
-        self.set_cell(substate, cell, value).map_err(|error| failure(&error))
+    fn write_cells(
+        &mut self,
+        substate: SubstateId,
+        cells: &[usize],
+        values: &[u8],
+    ) -> Result<(), EngineFailure> {
+        check_values_of_cells(&self.model, self.manner.precision, substate, cells, values)?;
+        self.set_cells(substate, cells, values).map_err(|error| failure(&error))
     }
 
     fn population(&self, group: usize) -> Result<Items, EngineFailure> {
@@ -56,17 +67,8 @@ impl Execution for GpuExecution {
     }
 
     fn set_population(&mut self, group: usize, items: &Items) -> Result<(), Fault> {
+        check_population(&self.model, self.manner.precision, group, items)?;
         let Some(population) = self.groups.population_mut(group) else { return Ok(()) };
-        let slots = population.slots;
-        if let Some(cell) = items.counts.iter().position(|count| *count as usize > slots) {
-            let cell_of = self.space.geometry().indices(cell);
-            return Err(Fault::CellFull {
-                process: None,
-                cell: cell_of,
-                items: items.counts[cell] as usize,
-                slots,
-            });
-        }
         population
             .set(&self.device, &self.space, self.halo.cells(), items)
             .and_then(|()| self.items_changed(group))
@@ -86,6 +88,7 @@ impl Execution for GpuExecution {
     }
 
     fn reduce(&self, substate: SubstateId, reduction: &Reduction) -> Result<Vec<Reduced>, EngineFailure> {
+        check_substate(&self.model, substate)?;
         let stored = self.model.stored(substate, self.manner.precision);
         let rows = if reduction::is_possible(&self.device, reduction, stored) {
             self.reduce_here(substate, reduction).map_err(|error| failure(&error))?
@@ -114,10 +117,15 @@ impl Execution for GpuExecution {
 }
 
 impl GpuExecution {
-    fn set_cell(&mut self, substate: SubstateId, cell: usize, value: &[u8]) -> Result<(), DeviceError> {
-        let number = self.space.number(self.space.geometry().indices(cell));
+    /// The stored numbers of cells.
+    fn numbers(&self, cells: &[usize]) -> Vec<usize> {
+        cells.iter().map(|cell| self.space.number(self.space.geometry().indices(*cell))).collect()
+    }
+
+    fn set_cells(&mut self, substate: SubstateId, cells: &[usize], values: &[u8]) -> Result<(), DeviceError> {
+        let numbers = self.numbers(cells);
         let plane = self.groups.plane(substate);
-        plane.write_cell(&self.device, number, value)?;
+        plane.write_cells(&self.device, &numbers, values)?;
         let mut recorder = self.device.recorder();
         self.halo.fill(&self.device, &mut recorder, &mut self.services, plane)?;
         self.device.submit(recorder)

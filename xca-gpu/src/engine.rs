@@ -225,7 +225,7 @@ mod tests {
         gpu.device.lose();
         let error = simulation.snapshot().unwrap_err();
         assert!(
-            matches!(&error, RunError::Engine(EngineFailure { engine, .. }) if engine == "gpu"),
+            matches!(&error, RunError::Engine(EngineFailure::Broken { engine, .. }) if engine == "gpu"),
             "{error:?}"
         );
         assert!(error.to_string().contains("the device was lost"), "{error}");

@@ -18,7 +18,7 @@ use std::sync::Arc;
 use std::time::Instant;
 use xca_core::engine::{EngineFailure, Fault, Interruption, StepContext, SubstateId};
 use xca_core::model::GroupKind;
-use xca_core::{Model, ParameterValue, ProcessKind, StoredScalar};
+use xca_core::{Face, Faces, Model, ParameterValue, ProcessKind, StoredScalar};
 use xca_wgsl::{Content, Dispatch};
 
 /// A model with its state on a device.
@@ -105,21 +105,17 @@ impl GpuExecution {
 
     /// Writes what stands beyond flat faces.
     fn write_outside(&self) -> Result<(), DeviceError> {
+        let cells = self.space.geometry().cells();
         for (number, group) in self.model.groups().iter().enumerate() {
-            let GroupKind::Cells { .. } = group.kind() else { continue };
             for (field, stored) in group.stored(self.manner.precision).iter().enumerate() {
                 let substate = SubstateId { group: number, field };
-                let outside = self.outside(substate);
+                let Some(outside) = group.outside(field, self.manner.precision) else { continue };
                 // The device's memory is full of zeros already.
-                if outside.iter().any(|byte| *byte != 0) && !self.halo.cells().is_empty() {
-                    let zeros = vec![0; stored.size() * self.space.geometry().cells()];
-                    self.groups.plane(substate).write_cells(
-                        &self.device,
-                        &self.space,
-                        self.halo.cells(),
-                        &outside,
-                        &zeros,
-                    )?;
+                let is_zero = Face::ALL.iter().all(|face| outside[*face].iter().all(|byte| *byte == 0));
+                if !is_zero && !self.halo.cells().is_empty() {
+                    let zeros = vec![0; stored.size() * cells];
+                    let plane = self.groups.plane(substate);
+                    plane.write_space(&self.device, &self.space, self.halo.cells(), &outside, &zeros)?;
                 }
             }
         }
@@ -127,13 +123,9 @@ impl GpuExecution {
     }
 
     /// The stored bytes of a substate of cells beyond flat faces.
-    pub(crate) fn outside(&self, substate: SubstateId) -> Vec<u8> {
+    pub(crate) fn outside(&self, substate: SubstateId) -> Faces<Vec<u8>> {
         let group = &self.model.groups()[substate.group];
-        let mut bytes = vec![0; self.model.stored(substate, self.manner.precision).size()];
-        if let GroupKind::Cells { outside } = group.kind() {
-            outside(substate.field, self.manner.precision, &mut bytes);
-        }
-        bytes
+        group.outside(substate.field, self.manner.precision).unwrap_or_default()
     }
 
     /// Tells the device what it does not know yet.
@@ -377,7 +369,7 @@ fn long(low: u32, high: u32) -> u64 {
 
 /// What the host hears of an error of the device.
 pub(crate) fn failure(error: &DeviceError) -> EngineFailure {
-    EngineFailure { engine: "gpu".to_owned(), reason: error.to_string() }
+    EngineFailure::Broken { engine: "gpu".to_owned(), reason: error.to_string() }
 }
 
 /// The bytes that a model takes at least: every substate of cells once.

@@ -3,13 +3,12 @@
 use crate::device::{Binding, Buffer, Device, DeviceError, Recorder};
 use crate::plane::Plane;
 use crate::service::{FERRY, MIRROR, Services};
-use crate::space::{Part, Space};
+use crate::space::{HaloCell, Part, Shown, Space};
 
 /// The halo of a space on the device.
 #[derive(Debug)]
 pub(crate) struct Halo {
-    /// Each halo cell with the cell that it shows, or with nothing beyond a flat face.
-    cells: Vec<(usize, Option<usize>)>,
+    cells: Vec<HaloCell>,
     way: Way,
 }
 
@@ -37,8 +36,11 @@ impl Halo {
     /// For planes whose values have at most so many bytes.
     pub(crate) fn new(device: &Device, space: &Space, largest: usize) -> Result<Self, DeviceError> {
         let cells = space.halo();
-        let pairs: Vec<(usize, usize)> =
-            cells.iter().filter_map(|(cell, source)| source.map(|source| (*cell, source))).collect();
+        let pair = |cell: &HaloCell| match cell.shows {
+            Shown::Cell(source) => Some((cell.number, source)),
+            Shown::Outside(_) => None,
+        };
+        let pairs: Vec<(usize, usize)> = cells.iter().filter_map(pair).collect();
         let way = if pairs.is_empty() || !space.halo_follows() {
             Way::Never
         } else if space.parts().len() == 1 {
@@ -53,8 +55,8 @@ impl Halo {
         Ok(Self { cells, way })
     }
 
-    /// Each halo cell with the cell that it shows.
-    pub(crate) fn cells(&self) -> &[(usize, Option<usize>)] {
+    /// All cells of the halo.
+    pub(crate) fn cells(&self) -> &[HaloCell] {
         &self.cells
     }
 

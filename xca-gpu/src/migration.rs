@@ -9,7 +9,7 @@ use crate::halo::Halo;
 use crate::population::Population;
 use crate::service::{AIM, BLOCK, DEPART, GATHER, PLACE, SORT, SPREAD_BLOCKS, SUM_BLOCKS, Services};
 use crate::space::Space;
-use xca_core::{Boundary, Parity};
+use xca_core::Parity;
 
 /// The buffers of the migrations of a population.
 #[derive(Debug)]
@@ -194,11 +194,7 @@ pub(crate) fn description(space: &Space, population: &Population) -> [u32; 16] {
     let geometry = space.geometry();
     let [width, height, depth] = geometry.extents().map(|extent| extent as u32);
     let [x, y, z] = space.reach().map(|reach| reach as u32);
-    let [along_x, along_y, along_z] = geometry.boundaries().map(|boundary| match boundary {
-        Boundary::Flat => 0,
-        Boundary::Toroidal => 1,
-        Boundary::Reflecting => 2,
-    });
+    let [along_x, along_y, along_z] = geometry.toroidal().map(u32::from);
     let parity = match geometry.neighbourhood().parity() {
         Parity::None => 0,
         Parity::Row => 1,

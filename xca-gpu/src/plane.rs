@@ -1,8 +1,9 @@
 //! The values of a substate in the device's memory.
 
 use crate::device::{Binding, Buffer, Device, DeviceError};
-use crate::space::{Part, Space};
-use xca_core::{StoredScalar, StoredType};
+use crate::space::{HaloCell, Part, Shown, Space};
+use std::ops::Range;
+use xca_core::{Faces, StoredScalar, StoredType};
 
 /// A substate of all cells or of all items: a value for each, lane beside lane, a `u8` in the four bytes of a `u32`.
 #[derive(Debug)]
@@ -69,34 +70,36 @@ impl Plane {
     }
 
     /// Writes the values of all cells, and those of the halo into every buffer.
-    pub(crate) fn write_cells(
+    pub(crate) fn write_space(
         &self,
         device: &Device,
         space: &Space,
-        halo: &[(usize, Option<usize>)],
-        outside: &[u8],
+        halo: &[HaloCell],
+        outside: &Faces<Vec<u8>>,
         values: &[u8],
     ) -> Result<(), DeviceError> {
         let size = self.size();
         let values = widened(self.stored, values);
-        let outside = widened(self.stored, outside);
+        let outside = outside.map(|bytes| widened(self.stored, bytes).into_owned());
         let mut stored = vec![0; space.stored() * size];
         let row = space.geometry().extents()[0] * size;
         for (number, values) in values.chunks_exact(row).enumerate() {
             let start = space.row_start(number) * size;
             stored[start..start + row].copy_from_slice(values);
         }
-        for &(cell, source) in halo {
-            match source {
-                Some(source) => stored.copy_within(source * size..(source + 1) * size, cell * size),
-                None => stored[cell * size..(cell + 1) * size].copy_from_slice(&outside),
+        for HaloCell { number, shows } in halo {
+            match shows {
+                Shown::Cell(source) => stored.copy_within(source * size..(source + 1) * size, number * size),
+                Shown::Outside(face) => {
+                    stored[number * size..(number + 1) * size].copy_from_slice(&outside[*face]);
+                }
             }
         }
         self.buffers.iter().try_for_each(|buffer| device.upload(buffer, 0, &stored))
     }
 
     /// The values of all cells.
-    pub(crate) fn read_cells(&self, device: &Device, space: &Space) -> Result<Vec<u8>, DeviceError> {
+    pub(crate) fn read_space(&self, device: &Device, space: &Space) -> Result<Vec<u8>, DeviceError> {
         let size = self.size();
         let row = space.geometry().extents()[0] * size;
         let mut values = Vec::with_capacity(space.rows() * row);
@@ -108,15 +111,26 @@ impl Plane {
         Ok(narrowed(self.stored, values))
     }
 
-    /// The value of one cell, by its stored number.
-    pub(crate) fn read_cell(&self, device: &Device, number: usize) -> Result<Vec<u8>, DeviceError> {
-        let start = (number * self.size()) as u64;
-        Ok(narrowed(self.stored, device.download(self.now(), start..start + self.size() as u64)?))
+    /// The values of the cells with these stored numbers.
+    pub(crate) fn read_cells(&self, device: &Device, numbers: &[usize]) -> Result<Vec<u8>, DeviceError> {
+        Ok(narrowed(self.stored, device.collect(self.now(), &self.runs(numbers))?))
     }
 
-    /// Writes the value of one cell, by its stored number.
-    pub(crate) fn write_cell(&self, device: &Device, number: usize, value: &[u8]) -> Result<(), DeviceError> {
-        device.upload(self.now(), (number * self.size()) as u64, &widened(self.stored, value))
+    /// Writes the values of the cells with these stored numbers, in their order.
+    pub(crate) fn write_cells(
+        &self,
+        device: &Device,
+        numbers: &[usize],
+        values: &[u8],
+    ) -> Result<(), DeviceError> {
+        device.scatter(self.now(), &self.runs(numbers), &widened(self.stored, values))
+    }
+
+    /// The bytes of cells that follow each other, as ranges in the order of the cells.
+    fn runs(&self, numbers: &[usize]) -> Vec<Range<u64>> {
+        let size = self.size() as u64;
+        let in_one = numbers.chunk_by(|number, next| number + 1 == *next);
+        in_one.map(|run| run[0] as u64 * size..(run[0] + run.len()) as u64 * size).collect()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::device::{Binding, Buffer, Device, DeviceError};
 use crate::plane::Plane;
-use crate::space::{Part, Space};
+use crate::space::{HaloCell, Part, Shown, Space};
 use xca_core::engine::Population as Items;
 use xca_core::{Field, StoredType};
 use xca_wgsl::Content;
@@ -84,7 +84,7 @@ impl Population {
         &mut self,
         device: &Device,
         space: &Space,
-        halo: &[(usize, Option<usize>)],
+        halo: &[HaloCell],
         items: &Items,
     ) -> Result<(), DeviceError> {
         self.make_room(device, items.labels.len())?;
@@ -97,8 +97,11 @@ impl Population {
             cells.extend((0..count).map(|_| number as u32));
             first += count;
         }
-        for &(cell, source) in halo {
-            (starts[cell], ends[cell]) = source.map_or((0, 0), |source| (starts[source], ends[source]));
+        for HaloCell { number, shows } in halo {
+            (starts[*number], ends[*number]) = match shows {
+                Shown::Cell(source) => (starts[*source], ends[*source]),
+                Shown::Outside(_) => (0, 0),
+            };
         }
         device.upload(&self.starts, 0, bytemuck::cast_slice(&starts))?;
         device.upload(&self.ends, 0, bytemuck::cast_slice(&ends))?;

@@ -1,6 +1,6 @@
 //! Where cells lie in the device's memory: rows along x with a halo around the space, cut into parts that a process can reach at once.
 
-use xca_core::{Boundary, Geometry};
+use xca_core::{Boundary, Face, Geometry, Reached};
 
 /// Where the stored cells of a part begin is a multiple of this, so that each substate of theirs begins where a binding may.
 const ALIGNMENT: usize = 64;
@@ -27,6 +27,23 @@ pub(crate) struct Part {
     pub(crate) base: usize,
     /// How many these are.
     pub(crate) stored: usize,
+}
+
+/// A cell of the halo.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct HaloCell {
+    /// Its stored number.
+    pub(crate) number: usize,
+    pub(crate) shows: Shown,
+}
+
+/// What a cell of the halo shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Shown {
+    /// The cell of the space with this stored number.
+    Cell(usize),
+    /// What lies beyond a flat face.
+    Outside(Face),
 }
 
 /// A space that cannot be cut so that its parts can be reached.
@@ -162,8 +179,8 @@ impl Space {
             .collect()
     }
 
-    /// The cells of the halo: each with the cell that it shows, or with nothing beyond a flat face.
-    pub(crate) fn halo(&self) -> Vec<(usize, Option<usize>)> {
+    /// The cells of the halo.
+    pub(crate) fn halo(&self) -> Vec<HaloCell> {
         let extents = self.geometry.extents();
         let range = |axis: usize| -(self.reach[axis] as i64)..(extents[axis] + self.reach[axis]) as i64;
         let [width, height, depth] = extents.map(|extent| extent as i64);
@@ -173,7 +190,7 @@ impl Space {
                 let of_space = (0..height).contains(&y) && (0..depth).contains(&z);
                 let inner = if of_space { 0..width } else { 0..0 };
                 for x in (range(0).start..inner.start).chain(inner.end..range(0).end) {
-                    halo.push((self.halo_number([x, y, z]), self.shown([x, y, z])));
+                    halo.push(HaloCell { number: self.halo_number([x, y, z]), shows: self.shown([x, y, z]) });
                 }
             }
         }
@@ -185,20 +202,23 @@ impl Space {
         (x + y * self.row as i64 + z * self.layer as i64) as usize
     }
 
-    /// The cell that stands at these indices by the boundary rules.
-    fn shown(&self, at: [i64; 3]) -> Option<usize> {
+    /// What stands at these indices by the boundary rules.
+    fn shown(&self, at: [i64; 3]) -> Shown {
         let extents = self.geometry.extents();
         // From the nearest cell of the space the rest of the way is a displacement.
         let nearest: [usize; 3] =
             std::array::from_fn(|axis| at[axis].clamp(0, extents[axis] as i64 - 1) as usize);
         let displacement = std::array::from_fn(|axis| (at[axis] - nearest[axis] as i64) as i32);
-        self.geometry.at(nearest, displacement).map(|cell| self.number(cell))
+        match self.geometry.reach(nearest, displacement) {
+            Reached::Cell(cell) => Shown::Cell(self.number(cell)),
+            Reached::Outside(face) => Shown::Outside(face),
+        }
     }
 
     /// Whether what lies in the halo follows what lies in the space.
     pub(crate) fn halo_follows(&self) -> bool {
         let boundaries = self.geometry.boundaries();
-        (0..3).any(|axis| self.reach[axis] > 0 && boundaries[axis] != Boundary::Flat)
+        Face::ALL.iter().any(|face| self.reach[face.axis()] > 0 && boundaries[*face] != Boundary::Flat)
     }
 }
 

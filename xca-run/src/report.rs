@@ -11,7 +11,7 @@ use std::io::{self, Write as _};
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 use xca_core::model::GroupKind;
-use xca_core::{AnyParameters, Boundary, Model, Precision, ScalarType};
+use xca_core::{AnyParameters, Boundary, Faces, Model, Precision, ScalarType};
 
 /// The report of a run.
 #[derive(Debug, Clone, Serialize)]
@@ -154,7 +154,7 @@ pub(crate) struct ModelReport {
     name: String,
     cells: [usize; 3],
     cell_side: f64,
-    boundaries: [Boundary; 3],
+    boundaries: Faces<Boundary>,
     neighbourhood: String,
     groups: Vec<GroupReport>,
     processes: Vec<&'static str>,

@@ -34,6 +34,7 @@ fn a_program_lists_its_parts() {
     let place = Workplace::new();
     let text = told(&place, HEAT, "list --size 12 --set alpha=0.15");
     assert!(text.starts_with("heat: 12 x 12 x 12 cells of side 0.00769"), "{text}");
+    assert!(text.contains("; boundaries: flat; von Neumann"), "{text}");
     assert_eq!(row(&text, "Heat.temperature"), ["Real", "cells"]);
     assert_eq!(row(&text, "alpha"), ["Real", "0.15"]);
     assert_eq!(row(&text, "diffuse"), ["cell", "temperature", "temperature", "temperature"]);

@@ -5,7 +5,7 @@
 
 use xca_core::prelude::*;
 
-/// What stands in each lane of the place of a cell that is none.
+/// What stands in the first lane of the place of a cell that is none; in the others stands the number of the face that it lies beyond.
 pub const NOWHERE: i32 = -7;
 
 /// The neighbourhoods that the automata know, by the number of [`Lattice::shape`].
@@ -113,8 +113,10 @@ pub struct Lattice {
     pub neighbours: u32,
     /// Whether all that is nearer than the radius is in the neighbourhood: 1, else 0.
     pub covered: u32,
-    /// The boundary along each axis: 0 flat, 1 toroidal, 2 reflecting.
-    pub boundaries: Vector3<i32>,
+    /// The boundary of the first face across each axis: 0 flat, 1 toroidal, 2 reflecting.
+    pub low: Vector3<i32>,
+    /// Likewise of the second face.
+    pub high: Vector3<i32>,
     /// How items of the second class move in a step, in quarters of a cell.
     pub forward: Vector3<i32>,
     /// How items of the third class move in a step, in quarters of a cell.
@@ -129,17 +131,20 @@ pub struct Lattice {
 
 impl Lattice {
     /// For a neighbourhood and boundaries; nothing moves and nothing is searched.
-    pub fn new(shape: Shape, boundaries: [Boundary; 3]) -> Self {
-        let [x, y, z] = boundaries.map(|boundary| match boundary {
+    pub fn new(shape: Shape, boundaries: Faces<Boundary>) -> Self {
+        let number = |boundary| match boundary {
             Boundary::Flat => 0,
             Boundary::Toroidal => 1,
             Boundary::Reflecting => 2,
-        });
+        };
+        let Faces { west, east, south, north, bottom, top } = boundaries;
+        let place = |x, y, z| Vector3::new(number(x), number(y), number(z));
         Self {
             shape: shape as u32,
             neighbours: shape.size(),
             covered: 0,
-            boundaries: Vector3::new(x, y, z),
+            low: place(west, south, bottom),
+            high: place(east, north, top),
             forward: Vector3::splat(0),
             backward: Vector3::splat(0),
             quarters: 0,
@@ -281,40 +286,47 @@ pub fn opposite(p: &Lattice, n: usize, here: Vector3<i32>) -> usize {
     found
 }
 
-/// Where an index beyond the faces leads along one axis; -1 where it leads outside.
+/// Where an index beyond the faces leads along one axis; -1 where it leads outside, before the first face, and -2 behind the second.
 #[helper]
-pub fn fold(index: i32, extent: i32, boundary: i32) -> i32 {
-    if index >= 0 && index < extent {
-        return index;
+pub fn fold(index: i32, extent: i32, low: i32, high: i32) -> i32 {
+    if index < 0 {
+        return match low {
+            1 => index + extent,
+            2 => -1 - index,
+            _ => -1,
+        };
     }
-    match boundary {
-        1 => {
-            if index < 0 {
-                index + extent
-            } else {
-                index - extent
-            }
-        }
-        2 => {
-            if index < 0 {
-                -1 - index
-            } else {
-                2 * extent - 1 - index
-            }
-        }
-        _ => -1,
+    if index >= extent {
+        return match high {
+            1 => index - extent,
+            2 => 2 * extent - 1 - index,
+            _ => -2,
+        };
     }
+    index
+}
+
+/// What stands in the place of a cell beyond the face with this number.
+#[helper]
+pub fn outside_place(face: i32) -> Vector3<i32> {
+    Vector3::new(NOWHERE, face, face)
 }
 
 /// The place of a neighbour, by its displacement and the boundary rules.
 #[helper]
 pub fn neighbour_place(p: &Lattice, here: Vector3<i32>, extents: Vector3<i32>, n: usize) -> Vector3<i32> {
     let there = here + displacement(p.shape, n, here);
-    let x = fold(there.x, extents.x, p.boundaries.x);
-    let y = fold(there.y, extents.y, p.boundaries.y);
-    let z = fold(there.z, extents.z, p.boundaries.z);
-    if x < 0 || y < 0 || z < 0 {
-        return Vector3::new(NOWHERE, NOWHERE, NOWHERE);
+    let x = fold(there.x, extents.x, p.low.x, p.high.x);
+    let y = fold(there.y, extents.y, p.low.y, p.high.y);
+    let z = fold(there.z, extents.z, p.low.z, p.high.z);
+    if z < 0 {
+        return outside_place(3 - z);
+    }
+    if y < 0 {
+        return outside_place(1 - y);
+    }
+    if x < 0 {
+        return outside_place(-1 - x);
     }
     Vector3::new(x, y, z)
 }

@@ -75,9 +75,9 @@ fn back(index: i32, gone: i32, extent: i32, boundary: i32) -> i32 {
 #[helper]
 pub fn resident(p: &Lattice, here: Vector3<i32>, extents: Vector3<i32>, step: u32, class: u32) -> u32 {
     let gone = motion(p, class) * (step as i32);
-    let x = back(here.x, cells_gone(gone.x), extents.x, p.boundaries.x);
-    let y = back(here.y, cells_gone(gone.y), extents.y, p.boundaries.y);
-    let z = back(here.z, cells_gone(gone.z), extents.z, p.boundaries.z);
+    let x = back(here.x, cells_gone(gone.x), extents.x, p.low.x);
+    let y = back(here.y, cells_gone(gone.y), extents.y, p.low.y);
+    let z = back(here.z, cells_gone(gone.z), extents.z, p.low.z);
     if x < 0 || y < 0 || z < 0 {
         return ABSENT;
     }
@@ -114,9 +114,9 @@ pub fn quarters_of(p: &Lattice, label: u32, extents: Vector3<i32>, step: u32) ->
     let start = place_of(start_of(label, extents.x * extents.y * extents.z), extents);
     let gone = motion(p, label % 3) * (step as i32);
     Vector3::new(
-        ahead(start.x, gone.x, extents.x, p.boundaries.x),
-        ahead(start.y, gone.y, extents.y, p.boundaries.y),
-        ahead(start.z, gone.z, extents.z, p.boundaries.z),
+        ahead(start.x, gone.x, extents.x, p.low.x),
+        ahead(start.y, gone.y, extents.y, p.low.y),
+        ahead(start.z, gone.z, extents.z, p.low.z),
     )
 }
 
@@ -136,9 +136,9 @@ fn shorter(distance: i32, extent: i32, boundary: i32) -> i32 {
 /// Whether two items are nearer than the radius of the lattice.
 #[helper]
 pub fn is_near(p: &Lattice, a: Vector3<i32>, b: Vector3<i32>, extents: Vector3<i32>) -> bool {
-    let x = shorter(a.x - b.x, extents.x, p.boundaries.x);
-    let y = shorter(a.y - b.y, extents.y, p.boundaries.y);
-    let z = shorter(a.z - b.z, extents.z, p.boundaries.z);
+    let x = shorter(a.x - b.x, extents.x, p.low.x);
+    let y = shorter(a.y - b.y, extents.y, p.low.y);
+    let z = shorter(a.z - b.z, extents.z, p.low.z);
     x * x + y * y + z * z < p.quarters * p.quarters
 }
 

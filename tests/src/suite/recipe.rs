@@ -16,7 +16,7 @@ pub struct Recipe {
     /// Which cells a cell sees.
     pub neighbourhood: Neighbourhood,
     /// What lies beyond the faces; changed where it has no meaning.
-    pub boundaries: [Boundary; 3],
+    pub boundaries: Faces<Boundary>,
     /// The side of a cell.
     pub side: f64,
     /// The processes by their numbers, see [`add`].
@@ -87,6 +87,12 @@ impl Recipe {
             .parameters(recipe.tuning)
             .substates_with_outside(medium_of(mix(salt, 17)))
             .fill(move |[x, y, z]| medium_of(mix(mix(mix(salt, x as u32), y as u32), z as u32)));
+        // Some flat faces have values of their own.
+        for (face, number) in Face::ALL.into_iter().zip(0..) {
+            if recipe.boundaries[face] == Boundary::Flat && mix(salt, number).is_multiple_of(2) {
+                builder = builder.outside(face, medium_of(mix(salt, 18 + number)));
+            }
+        }
         if slots > 0 {
             builder = builder
                 .population::<Walker>(slots)
@@ -118,12 +124,20 @@ impl Recipe {
             Parity::Column => Some(0),
         };
         for (axis, reach) in self.neighbourhood.reach().into_iter().enumerate() {
-            let reflecting = fitted.boundaries[axis] == Boundary::Reflecting;
-            if reflecting && (self.slots > 0 || alternating == Some(axis)) {
-                fitted.boundaries[axis] = Boundary::Toroidal;
+            let faces = Face::ALONG[axis];
+            let mirrors = self.slots == 0 && alternating != Some(axis);
+            for face in faces {
+                if fitted.boundaries[face] == Boundary::Reflecting && !mirrors {
+                    fitted.boundaries[face] = Boundary::Toroidal;
+                }
             }
+            // A torus has no face.
+            let toroidal = faces.map(|face| fitted.boundaries[face]).contains(&Boundary::Toroidal);
             let extent = &mut fitted.extents[axis];
-            if fitted.boundaries[axis] == Boundary::Toroidal {
+            if toroidal {
+                for face in faces {
+                    fitted.boundaries[face] = Boundary::Toroidal;
+                }
                 if reach > 0 {
                     *extent = (*extent).max(2 * reach + 1);
                 }
@@ -134,7 +148,7 @@ impl Recipe {
                 *extent = (*extent).max(reach);
             }
         }
-        let [x, y, z] = fitted.boundaries.map(|boundary| i32::from(boundary == Boundary::Toroidal));
+        let [x, y, z] = Face::ALONG.map(|[low, _]| i32::from(fitted.boundaries[low] == Boundary::Toroidal));
         fitted.tuning.torus = Vector3::new(x, y, z);
         // A search beyond what is covered is a fault, which only the greedy are to meet.
         if self.tuning.greed == 0 {

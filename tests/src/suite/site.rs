@@ -6,7 +6,7 @@
 //! that another process wrote too early. No physics is needed to test an engine.
 
 use super::around;
-use super::lattice::{Lattice, NOWHERE, Shape, mix, neighbour_place};
+use super::lattice::{Lattice, NOWHERE, Shape, mix, neighbour_place, outside_place};
 use xca_core::prelude::*;
 
 /// The fault of a cell that is told other indices than its own.
@@ -53,11 +53,11 @@ pub struct Site {
     pub steps: Vector4<u32>,
 }
 
-/// What a cell holds after a process, in 32 bits from which all its substates are made. Outside it is always the same.
+/// What a cell holds after a process, in 32 bits from which all its substates are made. Beyond a face it is always the same.
 #[helper]
 pub fn mark(place: Vector3<i32>, step: u32, process: u32) -> u32 {
     if place.x == NOWHERE {
-        return 0x0BAD_CAFE;
+        return mix(0x0BAD_CAFE, place.y as u32);
     }
     let place = mix(mix(place.x as u32, place.y as u32), place.z as u32);
     mix(mix(place, step), process)
@@ -203,9 +203,8 @@ pub fn fifth(cell: &mut Cell<Site>, space: &Space) {
     cell.steps.x += 1;
 }
 
-/// The state of a cell before the first step, or beyond a flat face (place [`NOWHERE`]).
-fn at_start(place: [i32; 3]) -> Site {
-    let place = Vector3::new(place[0], place[1], place[2]);
+/// The state of a cell before the first step, or beyond a flat face (its [`outside_place`]).
+fn at_start(place: Vector3<i32>) -> Site {
     let before = |process: u32| mark(place, u32::MAX, process);
     // What the processes of the step before would have left. The outside is the same after every process.
     let level = real_of(before(2));
@@ -227,20 +226,34 @@ fn at_start(place: [i32; 3]) -> Site {
 ///
 /// # Errors
 /// Where the neighbourhood and the boundaries do not fit the extents.
-pub fn model(shape: Shape, extents: [usize; 3], boundaries: [Boundary; 3]) -> Result<Model, ModelError> {
-    let builder = Model::builder(format!("sites, {shape:?}, {extents:?}, {boundaries:?}"))
+pub fn model(
+    shape: Shape,
+    extents: [usize; 3],
+    boundaries: impl Into<Faces<Boundary>>,
+) -> Result<Model, ModelError> {
+    let boundaries = boundaries.into();
+    let mut builder = Model::builder(format!("sites, {shape:?}, {extents:?}, {boundaries}"))
         .extents(extents)
         .neighbourhood(shape.neighbourhood())
         .boundaries(boundaries)
         .parameters(Lattice::new(shape, boundaries))
-        .substates_with_outside(at_start([NOWHERE; 3]))
+        .substates_with_outside(at_start(outside_place(0)))
         .process(first)
         .process(second)
         .process(third)
         .process(fourth)
         .process(fifth)
-        .process(around::look_around);
+        .process(around::look_around)
+        .fill(|[x, y, z]| at_start(Vector3::new(x as i32, y as i32, z as i32)));
     // There is no opposite in a list without symmetry.
-    let builder = if shape == Shape::Skewed { builder } else { builder.process(around::turn_round) };
-    builder.fill(|cell| at_start(cell.map(|index| index as i32))).build()
+    if shape != Shape::Skewed {
+        builder = builder.process(around::turn_round);
+    }
+    // The value of all flat faces is that of the first, and each other one is given its own.
+    for (face, number) in Face::ALL.into_iter().zip(0..).skip(1) {
+        if boundaries[face] == Boundary::Flat {
+            builder = builder.outside(face, at_start(outside_place(number)));
+        }
+    }
+    builder.build()
 }

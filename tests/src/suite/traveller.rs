@@ -231,9 +231,9 @@ pub fn travel(me: &mut Slot<Traveller>, p: &Lattice, space: &Space) {
     let quarter = 0.25 * space.side();
     let extents = space.extents();
     me.position += Vector3::new(quarters.x as Real, quarters.y as Real, quarters.z as Real) * quarter;
-    me.position.x = wrapped(me.position.x, extents.x as Real * space.side(), p.boundaries.x);
-    me.position.y = wrapped(me.position.y, extents.y as Real * space.side(), p.boundaries.y);
-    me.position.z = wrapped(me.position.z, extents.z as Real * space.side(), p.boundaries.z);
+    me.position.x = wrapped(me.position.x, extents.x as Real * space.side(), p.low.x);
+    me.position.y = wrapped(me.position.y, extents.y as Real * space.side(), p.low.y);
+    me.position.z = wrapped(me.position.z, extents.z as Real * space.side(), p.low.z);
 }
 
 /// To the cell of the position.

@@ -1,6 +1,6 @@
 //! How far a search can reach so that it misses nothing.
 
-use super::{Boundary, Geometry};
+use super::Geometry;
 use std::collections::HashSet;
 
 /// The distance from a cell to the nearest cell of the space that its neighbourhood does not hold, in sides of a
@@ -22,9 +22,10 @@ fn covered_from(geometry: &Geometry, cell: [usize; 3]) -> f64 {
     // further is missing too, and no nearer.
     let steps = |axis: usize| {
         let extent = extent(geometry, axis);
-        let (low, high) = match geometry.boundaries[axis] {
-            Boundary::Toroidal => ((extent - 1) / 2, extent / 2),
-            Boundary::Flat | Boundary::Reflecting => (extent - 1, extent - 1),
+        let (low, high) = if geometry.toroidal()[axis] {
+            ((extent - 1) / 2, extent / 2)
+        } else {
+            (extent - 1, extent - 1)
         };
         let reach = geometry.neighbourhood.reach()[axis] as i64 + 1;
         -low.min(reach)..=high.min(reach)
@@ -66,7 +67,7 @@ fn extent(geometry: &Geometry, axis: usize) -> i64 {
 /// The shorter one of the displacements that lead to the same cell.
 fn canonical(geometry: &Geometry, axis: usize, step: i32) -> i32 {
     let extent = extent(geometry, axis);
-    if geometry.boundaries[axis] != Boundary::Toroidal || extent == 0 {
+    if !geometry.toroidal()[axis] || extent == 0 {
         return step;
     }
     let low = (extent - 1) / 2;
@@ -75,12 +76,12 @@ fn canonical(geometry: &Geometry, axis: usize, step: i32) -> i32 {
 
 #[cfg(test)]
 mod tests {
-    use crate::geometry::{Boundary, Geometry};
+    use crate::geometry::{Boundary, Faces, Geometry};
     use crate::neighbourhood::{Hexagons, Neighbourhood};
     use crate::value::Precision;
 
     fn covered(extents: [usize; 3], boundary: Boundary, neighbourhood: Neighbourhood) -> f64 {
-        Geometry::new(extents, 0.5, [boundary; 3], neighbourhood).covered_radius(Precision::F64)
+        Geometry::new(extents, 0.5, Faces::all(boundary), neighbourhood).covered_radius(Precision::F64)
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Where the neighbours of a row's cells lie.
 
 use super::Row;
-use crate::geometry::Boundary;
+use crate::geometry::{Boundary, Faces};
 use crate::vector::Vector3;
 
 /// The neighbourhood of a row's cells as directions: `K` cells known to the compiler by number, or any number
@@ -10,8 +10,8 @@ use crate::vector::Vector3;
 pub struct Directions<'a, const K: usize> {
     fixed: Listed<[[i32; 3]; K], [Option<usize>; K]>,
     any: Listed<&'a [[i32; 3]], &'a [Option<usize>]>,
-    /// The axes along which neighbours may lie outside.
-    flat: [bool; 3],
+    /// The faces beyond which neighbours may lie outside.
+    flat: Faces<bool>,
 }
 
 /// What is known of each neighbour.
@@ -54,11 +54,13 @@ impl<const K: usize> Directions<'_, K> {
     pub fn exists(&self, index: usize, row: &Row<'_>, x: usize) -> bool {
         let (here, step) = (row.index(x), self.displacement(index, row, x));
         let [width, height, depth] = row.frame.extents;
-        // A negative index is a large one.
-        let inside = |here: i32, step: i32, extent: u32| (here.wrapping_add(step) as u32) < extent;
-        (!self.flat[0] | inside(here.x, step.x, width))
-            & (!self.flat[1] | inside(here.y, step.y, height))
-            & (!self.flat[2] | inside(here.z, step.z, depth))
+        let inside = |here: i32, step: i32, extent: u32, low: bool, high: bool| {
+            let there = here.wrapping_add(step);
+            !((low & (there < 0)) | (high & (there >= extent as i32)))
+        };
+        inside(here.x, step.x, width, self.flat.west, self.flat.east)
+            & inside(here.y, step.y, height, self.flat.south, self.flat.north)
+            & inside(here.z, step.z, depth, self.flat.bottom, self.flat.top)
     }
 }
 
@@ -82,7 +84,7 @@ impl<'a> Row<'a> {
             displacements: any.displacements.first_chunk().copied().unwrap_or([[0; 3]; K]),
             opposites: any.opposites.first_chunk().copied().unwrap_or([None; K]),
         };
-        let flat = geometry.boundaries().map(|boundary| boundary == Boundary::Flat);
+        let flat = geometry.boundaries().map(|boundary| *boundary == Boundary::Flat);
         Directions { fixed, any, flat }
     }
 }

@@ -5,7 +5,7 @@
 
 use super::wide::{self, Wide};
 use super::{Column, Row, WRONG_RADIUS};
-use crate::geometry::{Boundary, Geometry};
+use crate::geometry::Geometry;
 use crate::neighbourhood::Parity;
 use crate::value::{Float, Precision};
 use crate::vector::Vector3;
@@ -74,8 +74,7 @@ impl CellFilter {
     pub fn new(geometry: &Geometry, precision: Precision, steps: [isize; 2], slack: f64) -> Option<Self> {
         let neighbourhood = geometry.neighbourhood();
         // Round a torus, an item far outside its cell may be near to others on the far side, where a sphere around it does not reach.
-        let far_side = geometry.boundaries().contains(&Boundary::Toroidal)
-            && slack > SLACK_ROUND_TORUS * geometry.side();
+        let far_side = geometry.toroidal().contains(&true) && slack > SLACK_ROUND_TORUS * geometry.side();
         if !slack.is_finite() || far_side || neighbourhood.parity() != Parity::None {
             return None;
         }
@@ -134,9 +133,8 @@ fn margin(geometry: &Geometry, precision: Precision) -> f64 {
         Precision::F32 => f64::from(f32::EPSILON),
         Precision::F64 => f64::EPSILON,
     };
-    let toroidal = geometry.boundaries().into_iter().zip(geometry.extents());
-    let cells =
-        toroidal.filter(|(boundary, _)| *boundary == Boundary::Toroidal).map(|(_, extent)| extent).max();
+    let axes = geometry.toroidal().into_iter().zip(geometry.extents());
+    let cells = axes.filter(|(toroidal, _)| *toroidal).map(|(_, extent)| extent).max();
     (1e-3 + 4.0 * epsilon * cells.unwrap_or(0) as f64) * geometry.side()
 }
 

@@ -1,7 +1,7 @@
 //! The definition of a model, and its checks.
 
-use super::{Group, GroupKind, Model, ModelError};
-use crate::geometry::{Boundary, Geometry};
+use super::{Group, GroupKind, Model, ModelError, WriteOutside};
+use crate::geometry::{Boundary, Face, Faces, Geometry};
 use crate::kernel::NOWHERE;
 use crate::neighbourhood::{Neighbourhood, Parity};
 use crate::parameter_set::ParameterSet;
@@ -22,14 +22,22 @@ pub struct ModelBuilder {
     name: String,
     extents: Option<[usize; 3]>,
     side: f64,
-    boundaries: [Boundary; 3],
+    boundaries: Faces<Boundary>,
     neighbourhood: Neighbourhood,
     groups: Vec<Group>,
+    /// The faces that were given outside values of their own.
+    outsides: Vec<Outside>,
     processes: Vec<Process>,
     parameters: ParameterSet,
     steering: Vec<Steering>,
     fault_texts: Vec<(u32, String)>,
     mistake: Option<ModelError>,
+}
+
+/// Substates that have values of their own beyond a face.
+struct Outside {
+    substates: &'static str,
+    face: Face,
 }
 
 const AXES: [char; 3] = ['x', 'y', 'z'];
@@ -40,9 +48,10 @@ impl ModelBuilder {
             name,
             extents: None,
             side: 1.0,
-            boundaries: [Boundary::Flat; 3],
+            boundaries: Faces::all(Boundary::Flat),
             neighbourhood: Neighbourhood::von_neumann(0),
             groups: Vec::new(),
+            outsides: Vec::new(),
             processes: Vec::new(),
             parameters: ParameterSet::default(),
             steering: Vec::new(),
@@ -69,27 +78,52 @@ impl ModelBuilder {
         self
     }
 
-    /// The same boundary along all axes; flat unless it is given.
+    /// The same boundary at all faces; flat unless it is given.
     pub fn boundary(self, boundary: Boundary) -> Self {
-        self.boundaries([boundary; 3])
+        self.boundaries(Faces::all(boundary))
     }
 
-    /// The boundary along x, y, z.
-    pub fn boundaries(mut self, boundaries: [Boundary; 3]) -> Self {
-        self.boundaries = boundaries;
+    /// The boundaries of all faces: along x, y, z, as in `[Boundary::Toroidal, Boundary::Flat, Boundary::Flat]`, or for each face, as in
+    /// `Faces { north: Boundary::Flat, ..Faces::all(Boundary::Reflecting) }`.
+    pub fn boundaries(mut self, boundaries: impl Into<Faces<Boundary>>) -> Self {
+        self.boundaries = boundaries.into();
         self
     }
 
-    /// Adds the substates `S` of cells. Beyond flat boundaries they are zero.
-    pub fn substates<S: Substates>(self) -> Self {
-        self.add_group::<S>(GroupKind::Cells { outside: Arc::new(|_, _, bytes| bytes.fill(0)) })
+    /// The boundary of one face, in place of what was said of it before. A toroidal boundary joins two faces, so both of an axis need it.
+    pub fn face(mut self, face: Face, boundary: Boundary) -> Self {
+        self.boundaries[face] = boundary;
+        self
     }
 
-    /// Adds the substates `S` of cells, which beyond flat boundaries have these values.
+    /// Adds the substates `S` of cells. Beyond flat faces they are zero.
+    pub fn substates<S: Substates>(self) -> Self {
+        self.add_group::<S>(GroupKind::Cells { outside: Faces::all(Arc::new(|_, _, bytes| bytes.fill(0))) })
+    }
+
+    /// Adds the substates `S` of cells, which beyond all flat faces have these values.
     pub fn substates_with_outside<S: Substates>(self, outside: S) -> Self {
-        self.add_group::<S>(GroupKind::Cells {
-            outside: Arc::new(move |field, precision, bytes| outside.encode(field, precision, bytes)),
-        })
+        self.add_group::<S>(GroupKind::Cells { outside: Faces::all(encoder(outside)) })
+    }
+
+    /// Gives the substates `S` of cells values of their own beyond one flat face: a lid that moves, an inflow.
+    ///
+    /// A neighbour that lies beyond several flat faces shows the value of the one along z before that along y, and of the one along y
+    /// before that along x.
+    pub fn outside<S: Substates>(mut self, face: Face, outside: S) -> Self {
+        let substates = S::SCHEMA.name;
+        let group = self.groups.iter_mut().find(|group| group.type_id == TypeId::of::<S>());
+        let mistake = match group.map(|group| &mut group.kind) {
+            Some(GroupKind::Cells { outside: values }) => {
+                values[face] = encoder(outside);
+                self.outsides.push(Outside { substates, face });
+                return self;
+            }
+            Some(GroupKind::Population { .. }) => ModelError::OutsideOfItems { substates },
+            None => ModelError::NotAdded { substates },
+        };
+        self.mistake.get_or_insert(mistake);
+        self
     }
 
     /// Adds a population of items with the substates `S`, at most `slots` of them in a cell.
@@ -173,7 +207,7 @@ impl ModelBuilder {
         schedule: Schedule,
         operation: impl Fn(&mut State<'_>) -> Result<(), SteeringError> + Send + Sync + 'static,
     ) -> Self {
-        if schedule == Schedule::Every(0) {
+        if matches!(schedule, Schedule::Every(0) | Schedule::EveryFrom { interval: 0, .. }) {
             self.mistake.get_or_insert(ModelError::ZeroInterval);
         }
         self.steering.push(Steering::new(schedule, operation));
@@ -224,6 +258,12 @@ impl ModelBuilder {
         let extents = self.extents.ok_or_else(|| ModelError::NoExtents { model: self.name.clone() })?;
         let geometry = Geometry::new(extents, self.side, self.boundaries, self.neighbourhood);
         check_geometry(&geometry)?;
+        for Outside { substates, face } in self.outsides {
+            let boundary = geometry.boundaries()[face];
+            if boundary != Boundary::Flat {
+                return Err(ModelError::OutsideUnseen { substates, face, boundary });
+            }
+        }
         if self.groups.is_empty() {
             return Err(ModelError::NoSubstates { model: self.name });
         }
@@ -249,6 +289,10 @@ impl ModelBuilder {
     }
 }
 
+fn encoder<S: Substates>(outside: S) -> Arc<WriteOutside> {
+    Arc::new(move |field, precision, bytes| outside.encode(field, precision, bytes))
+}
+
 fn check_geometry(geometry: &Geometry) -> Result<(), ModelError> {
     let extents = geometry.extents();
     if let Some(axis) = extents.iter().position(|&extent| extent == 0) {
@@ -263,15 +307,25 @@ fn check_geometry(geometry: &Geometry) -> Result<(), ModelError> {
     if !(side.is_finite() && side > 0.0) {
         return Err(ModelError::CellSide { side });
     }
+    let length = *extents.iter().max().unwrap_or(&0) as f64 * side;
+    if !length.is_finite() {
+        return Err(ModelError::Length { side, extents });
+    }
+    for [low, high] in Face::ALONG {
+        let boundaries = geometry.boundaries();
+        for (toroidal, other) in [(low, high), (high, low)] {
+            if boundaries[toroidal] == Boundary::Toroidal && boundaries[other] != Boundary::Toroidal {
+                return Err(ModelError::HalfTorus { toroidal, other, boundary: boundaries[other] });
+            }
+        }
+    }
     let neighbourhood = geometry.neighbourhood();
     for (axis, reach) in neighbourhood.reach().into_iter().enumerate() {
-        let (extent, boundary) = (extents[axis], geometry.boundaries()[axis]);
-        let fits = match boundary {
-            Boundary::Toroidal => reach == 0 || 2 * reach < extent,
-            Boundary::Flat | Boundary::Reflecting => reach <= extent,
-        };
+        let (extent, toroidal) = (extents[axis], geometry.toroidal()[axis]);
+        let fits = if toroidal { reach == 0 || 2 * reach < extent } else { reach <= extent };
         if !fits {
             let neighbourhood = neighbourhood.to_string();
+            let boundary = geometry.boundaries()[Face::ALONG[axis][0]];
             return Err(ModelError::NeighbourhoodTooWide {
                 neighbourhood,
                 axis: AXES[axis],
@@ -286,21 +340,21 @@ fn check_geometry(geometry: &Geometry) -> Result<(), ModelError> {
         Parity::Row => 1,
         Parity::Column => 0,
     };
-    match geometry.boundaries()[alternating] {
-        Boundary::Toroidal if extents[alternating] % 2 == 1 => {
-            Err(ModelError::OddHexagonalTorus { axis: AXES[alternating], extent: extents[alternating] })
-        }
-        Boundary::Reflecting => Err(ModelError::ReflectedHexagons { axis: AXES[alternating] }),
-        _ => Ok(()),
+    if Face::ALONG[alternating].iter().any(|face| geometry.boundaries()[*face] == Boundary::Reflecting) {
+        return Err(ModelError::ReflectedHexagons { axis: AXES[alternating] });
     }
+    if geometry.toroidal()[alternating] && extents[alternating] % 2 == 1 {
+        return Err(ModelError::OddHexagonalTorus { axis: AXES[alternating], extent: extents[alternating] });
+    }
+    Ok(())
 }
 
 fn check_group(group: &Group, geometry: &Geometry) -> Result<(), ModelError> {
     if let GroupKind::Population { .. } = group.kind
-        && let Some(axis) =
-            geometry.boundaries().iter().position(|boundary| *boundary == Boundary::Reflecting)
+        && let Some(face) =
+            Face::ALL.into_iter().find(|face| geometry.boundaries()[*face] == Boundary::Reflecting)
     {
-        return Err(ModelError::ReflectedPopulation { substates: group.schema.name, axis: AXES[axis] });
+        return Err(ModelError::ReflectedPopulation { substates: group.schema.name, face });
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! What can be wrong with a model.
 
-use crate::geometry::Boundary;
+use crate::geometry::{Boundary, Face};
 use crate::parameters::ParameterError;
 
 /// A model that cannot be built; the message says what to change.
@@ -19,6 +19,18 @@ pub enum ModelError {
     TooManyCells { extents: [usize; 3], limit: u64 },
     #[error("the cell side is {side} m; it must be a positive number")]
     CellSide { side: f64 },
+    #[error(
+        "{extents:?} cells of side {side} m are too long: the length overflows; give a smaller cell side"
+    )]
+    Length { side: f64, extents: [usize; 3] },
+    #[error(
+        "the {toroidal} face is toroidal and the {other} face is {boundary}: a toroidal boundary joins both faces of an axis; make both toroidal, or neither"
+    )]
+    HalfTorus { toroidal: Face, other: Face, boundary: Boundary },
+    #[error(
+        "`{substates}` has outside values for the {face} face, which is {boundary}: no cell would see them; make the face flat, or leave the values out"
+    )]
+    OutsideUnseen { substates: &'static str, face: Face, boundary: Boundary },
     #[error(
         "the neighbourhood ({neighbourhood}) reaches {reach} cells along {axis}, which is too far for {extent} cells with a {boundary} boundary; \
          use more cells, or a neighbourhood within one layer for a 2D model"
@@ -76,9 +88,13 @@ pub enum ModelError {
     #[error("a population has no slots; `{substates}` needs at least 1 in a cell")]
     NoSlots { substates: &'static str },
     #[error(
-        "a reflecting boundary has no meaning for the items of `{substates}` along {axis}; use a flat or toroidal one"
+        "a reflecting boundary has no meaning for the items of `{substates}` at the {face} face; use a flat or toroidal one"
     )]
-    ReflectedPopulation { substates: &'static str, axis: char },
+    ReflectedPopulation { substates: &'static str, face: Face },
+    #[error(
+        "`{substates}` is a population, and items have no outside values; leave out `.outside(…, {substates} {{ … }})`"
+    )]
+    OutsideOfItems { substates: &'static str },
     #[error("`{substates}` is not among the substates of the model; add it before")]
     NotAdded { substates: &'static str },
     #[error("the interval must be at least 1 step")]

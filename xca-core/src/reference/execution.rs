@@ -2,7 +2,8 @@
 
 use super::{GroupState, ReferenceExecution};
 use crate::engine::{
-    EngineFailure, Execution, Fault, Interruption, Population, StepContext, SubstateId, step_by_step,
+    EngineFailure, Execution, Fault, Interruption, Population, StepContext, SubstateId, check_cells,
+    check_population, check_substate, check_values, check_values_of_cells, step_by_step,
 };
 use crate::process::ProcessKind;
 use crate::reduction::{ITEMS_IN_BLOCK, Reduced, Reduction, reduce_values};
@@ -29,10 +30,12 @@ impl Execution for ReferenceExecution {
     }
 
     fn read(&self, substate: SubstateId) -> Result<Vec<u8>, EngineFailure> {
+        check_substate(&self.model, substate)?;
         Ok(self.groups[substate.group].values(substate.field))
     }
 
     fn write(&mut self, substate: SubstateId, values: &[u8]) -> Result<(), EngineFailure> {
+        check_values(&self.model, self.precision, substate, self.items(substate.group), values)?;
         let group = &mut self.groups[substate.group];
         if !group.is_population() {
             group.planes[substate.field].bytes_mut().copy_from_slice(values);
@@ -46,12 +49,24 @@ impl Execution for ReferenceExecution {
         Ok(())
     }
 
-    fn read_cell(&self, substate: SubstateId, cell: usize) -> Result<Vec<u8>, EngineFailure> {
-        Ok(self.groups[substate.group].value(substate.field, cell).to_vec())
+    fn read_cells(&self, substate: SubstateId, cells: &[usize]) -> Result<Vec<u8>, EngineFailure> {
+        check_cells(&self.model, substate, cells)?;
+        let group = &self.groups[substate.group];
+        Ok(cells.iter().flat_map(|cell| group.value(substate.field, *cell)).copied().collect())
     }
 
-    fn write_cell(&mut self, substate: SubstateId, cell: usize, value: &[u8]) -> Result<(), EngineFailure> {
-        self.groups[substate.group].value_mut(substate.field, cell).copy_from_slice(value);
+    fn write_cells(
+        &mut self,
+        substate: SubstateId,
+        cells: &[usize],
+        values: &[u8],
+    ) -> Result<(), EngineFailure> {
+        check_values_of_cells(&self.model, self.precision, substate, cells, values)?;
+        let group = &mut self.groups[substate.group];
+        let size = group.types[substate.field].size();
+        for (cell, value) in cells.iter().zip(values.chunks_exact(size)) {
+            group.value_mut(substate.field, *cell).copy_from_slice(value);
+        }
         Ok(())
     }
 
@@ -63,13 +78,8 @@ impl Execution for ReferenceExecution {
     }
 
     fn set_population(&mut self, number: usize, population: &Population) -> Result<(), Fault> {
-        let geometry = self.model.geometry();
+        check_population(&self.model, self.precision, number, population)?;
         let group = &mut self.groups[number];
-        let slots = group.slots;
-        if let Some(cell) = population.counts.iter().position(|count| *count as usize > slots) {
-            let items = population.counts[cell] as usize;
-            return Err(Fault::CellFull { process: None, cell: geometry.indices(cell), items, slots });
-        }
         group.counts.clone_from(&population.counts);
         let places: Vec<usize> = group.occupied().collect();
         for (index, &place) in places.iter().enumerate() {
@@ -84,7 +94,7 @@ impl Execution for ReferenceExecution {
     }
 
     fn items(&self, group: usize) -> usize {
-        self.groups[group].counts.iter().map(|count| *count as usize).sum()
+        self.groups.get(group).map_or(0, |group| group.counts.iter().map(|count| *count as usize).sum())
     }
 
     fn left(&self, group: usize) -> u64 {
@@ -96,6 +106,7 @@ impl Execution for ReferenceExecution {
     }
 
     fn reduce(&self, substate: SubstateId, reduction: &Reduction) -> Result<Vec<Reduced>, EngineFailure> {
+        check_substate(&self.model, substate)?;
         let group = &self.groups[substate.group];
         let stored = group.types[substate.field];
         let block = if group.is_population() { ITEMS_IN_BLOCK } else { self.model.geometry().extents()[0] };

@@ -1,6 +1,6 @@
 //! Migration: every item to the cell that the model names, in the order of labels.
 
-use super::{GroupState, ReferenceExecution, neighbourhood};
+use super::{GroupState, Neighbour, ReferenceExecution, neighbourhood};
 use crate::engine::Fault;
 use crate::kernel::{NOWHERE, OUTSIDE, STAY};
 use crate::model::GroupKind;
@@ -32,7 +32,9 @@ impl ReferenceExecution {
                     OUTSIDE => return Err(Fault::Left { process: name, label, cell: from }),
                     other => other as usize,
                 };
-                if target != cell && !neighbourhood(&geometry, from).any(|near| near == Some(target)) {
+                if target != cell
+                    && !neighbourhood(&geometry, from).any(|near| near == Neighbour::Cell(target))
+                {
                     return Err(Fault::TooFar { process: name, label, from, to: geometry.indices(target) });
                 }
                 arrivals[target].push(place);

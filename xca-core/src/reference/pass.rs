@@ -3,9 +3,8 @@
 //! The kernels run on rows; here a row is a single cell, whose neighbourhood has been gathered into a list.
 #![allow(unsafe_code)]
 
-use super::{GroupState, ReferenceExecution, neighbourhood};
+use super::{GroupState, Neighbour, ReferenceExecution, neighbourhood};
 use crate::engine::{Fault, StepContext, SubstateId};
-use crate::geometry::Boundary;
 use crate::kernel::{Access, Entry, Frame, Memory, MemoryOf, Row, RowItems, Scratch};
 use crate::process::{Process, ProcessKind};
 use crate::storage::Buffer;
@@ -38,7 +37,7 @@ impl ReferenceExecution {
             geometry: &geometry,
             extents: geometry.extents().map(|extent| extent as u32),
             side: geometry.side(),
-            toroidal: geometry.boundaries().map(|boundary| boundary == Boundary::Toroidal),
+            toroidal: geometry.toroidal(),
             step: context.step,
             seed: context.seed,
             parameters: context.parameters,
@@ -49,7 +48,7 @@ impl ReferenceExecution {
         let scratch = Scratch::default();
         for cell in 0..geometry.cells() {
             let indices = geometry.indices(cell);
-            let around: Vec<Option<usize>> = neighbourhood(&geometry, indices).collect();
+            let around: Vec<Neighbour> = neighbourhood(&geometry, indices).collect();
             let entries: Vec<Entry> = passes.iter_mut().map(|pass| self.entry(pass, cell, &around)).collect();
             let ranges: Option<(Vec<u32>, Vec<u32>)> =
                 population.map(|group| self.groups[group].ranges(&around));
@@ -104,7 +103,7 @@ impl ReferenceExecution {
         Pass { substate, access: *access, stored, gathered, next }
     }
 
-    fn entry(&mut self, pass: &mut Pass, cell: usize, around: &[Option<usize>]) -> Entry {
+    fn entry(&mut self, pass: &mut Pass, cell: usize, around: &[Neighbour]) -> Entry {
         let group = &mut self.groups[pass.substate.group];
         let (field, size) = (pass.substate.field, pass.stored.size());
         let place = cell * group.slots;
@@ -118,8 +117,8 @@ impl ReferenceExecution {
             let element = pass.stored.element_size();
             for (number, at) in around.iter().enumerate() {
                 let value = match at {
-                    Some(cell) => group.value(field, *cell),
-                    None => &group.outside[field],
+                    Neighbour::Cell(cell) => group.value(field, *cell),
+                    Neighbour::Outside(face) => &group.outside[field][*face],
                 };
                 for (plane, value) in value.chunks_exact(element).enumerate() {
                     let place = (plane * around.len() + number) * element;
@@ -156,10 +155,13 @@ impl GroupState {
         (cell * self.slots, cell * self.slots + self.counts[cell] as usize)
     }
 
-    fn ranges(&self, around: &[Option<usize>]) -> (Vec<u32>, Vec<u32>) {
+    fn ranges(&self, around: &[Neighbour]) -> (Vec<u32>, Vec<u32>) {
         around
             .iter()
-            .map(|cell| cell.map_or((0, 0), |cell| self.range(cell)))
+            .map(|at| match at {
+                Neighbour::Cell(cell) => self.range(*cell),
+                Neighbour::Outside(_) => (0, 0),
+            })
             .map(|(start, end)| (start as u32, end as u32))
             .unzip()
     }

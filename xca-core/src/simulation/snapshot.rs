@@ -1,11 +1,11 @@
 //! The whole state of a run, taken out of a simulation and put back into one.
 
 use super::{RunError, RunOptions, Simulation};
+use crate::engine::input::{wrong_fields, wrong_items};
 use crate::engine::{Engine, Fault, Population, SubstateId};
 use crate::model::{Group, GroupKind, Model};
 use crate::parameters::ParameterValue;
 use crate::schema::Field;
-use crate::value::ScalarType;
 
 /// The whole state of a run between two steps: equal snapshots are equal to the last bit.
 ///
@@ -189,11 +189,10 @@ impl Snapshot {
             let name = group.schema().name;
             let reason = match (state, group.kind()) {
                 (GroupSnapshot::Cells(fields), GroupKind::Cells { .. }) => {
-                    wrong_fields(fields, group, options, cells)
+                    wrong_fields(fields, group, options.precision, cells)
                 }
                 (GroupSnapshot::Population(population, _), GroupKind::Population { slots, .. }) => {
-                    wrong_fields(&population.fields, group, options, population.labels.len())
-                        .or_else(|| wrong_items(population, *slots, model))
+                    wrong_items(population, group, options.precision, *slots, model)
                 }
                 _ => Some("the one belong to cells, the other are a population".to_owned()),
             };
@@ -215,58 +214,4 @@ impl Snapshot {
             })
         })
     }
-}
-
-/// What is wrong with the fields of a group that has so many cells or items.
-fn wrong_fields(fields: &[Vec<u8>], group: &Group, options: RunOptions, count: usize) -> Option<String> {
-    let wanted = group.schema().fields;
-    if fields.len() != wanted.len() {
-        return Some(format!("it has {} substates, not {}", fields.len(), wanted.len()));
-    }
-    let sizes = group.stored(options.precision).into_iter().map(|stored| stored.size() * count);
-    let mut wrong = fields.iter().zip(sizes).zip(wanted).filter(|((bytes, size), _)| bytes.len() != *size);
-    let wrong_size = wrong.next().map(|((bytes, size), field)| {
-        let precision = options.precision;
-        format!("`{}` takes {} bytes, not the {size} of a run in {precision}", field.name, bytes.len())
-    });
-    wrong_size.or_else(|| fields.iter().zip(wanted).find_map(|(bytes, field)| wrong_state(bytes, field)))
-}
-
-/// What is wrong with the values of a field that has only some: bool and states.
-fn wrong_state(bytes: &[u8], field: &Field) -> Option<String> {
-    let largest = match field.value_type.scalar {
-        ScalarType::Bool => 1,
-        ScalarType::State(names) => names.largest(),
-        _ => return None,
-    };
-    let wrong = bytes.iter().find(|byte| **byte > largest)?;
-    Some(format!("`{}` is {}, which {wrong} is not", field.name, field.value_type.described()))
-}
-
-/// What is wrong with the cells and labels of items.
-fn wrong_items(population: &Population, slots: usize, model: &Model) -> Option<String> {
-    let cells = model.geometry().cells();
-    if population.counts.len() != cells {
-        return Some(format!("it has {} cells, not {cells}", population.counts.len()));
-    }
-    let items: u64 = population.counts.iter().map(|count| u64::from(*count)).sum();
-    if items != population.labels.len() as u64 {
-        return Some(format!("it has {} items, but {items} in its cells", population.labels.len()));
-    }
-    let mut first = 0;
-    for (cell, count) in population.counts.iter().enumerate() {
-        let labels = &population.labels[first..first + *count as usize];
-        first += labels.len();
-        let place = || format!("cell {:?}", model.geometry().indices(cell));
-        if labels.len() > slots {
-            return Some(format!("{} has {} items in {slots} slots", place(), labels.len()));
-        }
-        if !labels.is_sorted() {
-            return Some(format!("the items of {} are not in the order of their labels", place()));
-        }
-    }
-    let mut labels = population.labels.clone();
-    labels.sort_unstable();
-    let twice = labels.windows(2).find(|pair| pair[0] == pair[1]);
-    twice.map(|pair| format!("the label {} stands on two items", pair[0]))
 }

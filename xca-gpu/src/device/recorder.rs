@@ -2,6 +2,7 @@
 
 use super::{Buffer, Device, DeviceError, Pipeline};
 use std::fmt;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// A part of a buffer, as code sees it.
@@ -65,9 +66,10 @@ impl Recorder {
         pass.dispatch_workgroups(x, y, z);
     }
 
-    pub(super) fn copy(&mut self, from: &Buffer, start: u64, to: &wgpu::Buffer, size: u64) {
+    pub(super) fn copy(&mut self, from: &Buffer, start: u64, to: &wgpu::Buffer, place: Range<u64>) {
         self.pass = None;
-        self.encoder.copy_buffer_to_buffer(&from.buffer, start, to, 0, size);
+        let size = place.end - place.start;
+        self.encoder.copy_buffer_to_buffer(&from.buffer, start, to, place.start, size);
     }
 }
 

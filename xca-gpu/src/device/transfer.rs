@@ -36,6 +36,41 @@ impl Device {
         Ok(bytes)
     }
 
+    /// Writes bytes to ranges, one after the other, as one piece of work; ranges begin and end at multiples of four.
+    pub(crate) fn scatter(
+        &self,
+        buffer: &Buffer,
+        ranges: &[Range<u64>],
+        bytes: &[u8],
+    ) -> Result<(), DeviceError> {
+        self.guarded("an upload", || {
+            let mut rest = bytes;
+            for range in ranges {
+                let (piece, after) = rest.split_at((range.end - range.start) as usize);
+                self.queue.write_buffer(&buffer.buffer, range.start, piece);
+                rest = after;
+            }
+        })
+    }
+
+    /// Reads ranges, one after the other, by one submission; ranges begin and end at multiples of four.
+    pub(crate) fn collect(&self, buffer: &Buffer, ranges: &[Range<u64>]) -> Result<Vec<u8>, DeviceError> {
+        let size = ranges.iter().map(|range| range.end - range.start).sum();
+        if size == 0 {
+            return Ok(Vec::new());
+        }
+        let landing = self.landing(size)?;
+        let mut recorder = self.recorder();
+        let mut place = 0;
+        for range in ranges {
+            let size = range.end - range.start;
+            recorder.copy(buffer, range.start, &landing.buffer, place..place + size);
+            place += size;
+        }
+        self.submit(recorder)?;
+        self.landed(&landing)
+    }
+
     /// Memory of the host that the device can write.
     pub(crate) fn landing(&self, size: u64) -> Result<Landing, DeviceError> {
         let description = wgpu::BufferDescriptor {
@@ -73,6 +108,6 @@ pub(crate) struct Landing {
 impl Recorder {
     /// Has bytes of a buffer land, as many as there is room for.
     pub(crate) fn land(&mut self, buffer: &Buffer, start: u64, landing: &Landing) {
-        self.copy(buffer, start, &landing.buffer, landing.buffer.size());
+        self.copy(buffer, start, &landing.buffer, 0..landing.buffer.size());
     }
 }

@@ -21,19 +21,11 @@ fn stored_number(cell: vec3<i32>) -> u32 {
 }
 
 // The index along an axis by the boundary rule, or -1 beyond a flat face.
-fn along(index: i32, extent: i32, boundary: u32) -> i32 {
+fn along(index: i32, extent: i32, toroidal: u32) -> i32 {
     if index >= 0 && index < extent {
         return index;
     }
-    if boundary == 0u {
-        return -1;
-    }
-    if boundary == 1u {
-        return ((index % extent) + extent) % extent;
-    }
-    let period = 2 * extent;
-    let folded = ((index % period) + period) % period;
-    return select(period - 1 - folded, folded, folded < extent);
+    return select(-1, ((index % extent) + extent) % extent, toroidal != 0u);
 }
 
 fn is_neighbour(cell: vec3<i32>, to: vec3<i32>) -> bool {
@@ -45,9 +37,9 @@ fn is_neighbour(cell: vec3<i32>, to: vec3<i32>) -> bool {
     for (var n = 0u; n < space.neighbours; n += 1u) {
         let at = cell + displacements[start + n].xyz;
         let there = vec3<i32>(
-            along(at.x, extents.x, space.boundaries.x),
-            along(at.y, extents.y, space.boundaries.y),
-            along(at.z, extents.z, space.boundaries.z),
+            along(at.x, extents.x, space.toroidal.x),
+            along(at.y, extents.y, space.toroidal.y),
+            along(at.z, extents.z, space.toroidal.z),
         );
         if all(there == to) {
             return true;

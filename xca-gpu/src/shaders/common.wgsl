@@ -6,8 +6,8 @@ struct Space {
     cells: u32,
     halo: vec3<u32>,
     row: u32,
-    // Along each axis: 0 flat, 1 toroidal, 2 reflecting.
-    boundaries: vec3<u32>,
+    // Of each axis: 1 if it is toroidal, else 0. Where there are items, no face is reflecting.
+    toroidal: vec3<u32>,
     layer: u32,
     neighbours: u32,
     // Which cells have the second list of neighbours: 0 none, 1 those in odd rows, 2 those in odd columns.

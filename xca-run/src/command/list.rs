@@ -110,11 +110,11 @@ fn as_json(model: &Model) -> serde_json::Result<String> {
 fn as_text(model: &Model) -> String {
     let geometry = model.geometry();
     let [x, y, z] = geometry.extents();
-    let boundaries = geometry.boundaries().map(|boundary| boundary.to_string()).join(", ");
     let space = format!(
-        "{}: {x} x {y} x {z} cells of side {}; {boundaries}; {}",
+        "{}: {x} x {y} x {z} cells of side {}; boundaries: {}; {}",
         model.name(),
         geometry.side(),
+        geometry.boundaries(),
         geometry.neighbourhood()
     );
     let engines = table(["engine", ""], engines().map(|(name, about)| [name, about]), &[]);

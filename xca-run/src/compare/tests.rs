@@ -113,11 +113,11 @@ impl HarmedExecution {
     fn do_harm(&mut self) -> Result<(), Fault> {
         match self.harm {
             Harm::Cell(substate, cell) => {
-                let mut value = self.inner.read_cell(substate, cell)?;
+                let mut value = self.inner.read_cells(substate, &[cell])?;
                 // Of an f64 not the very lowest, which would be rounded away before the next check.
                 let byte = value.len() / 4;
                 value[byte] ^= 1;
-                self.inner.write_cell(substate, cell, &value)?;
+                self.inner.write_cells(substate, &[cell], &value)?;
             }
             Harm::Item(substate, label) => {
                 let mut items = self.inner.population(substate.group)?;
@@ -128,7 +128,9 @@ impl HarmedExecution {
                 self.inner.set_population(substate.group, &items)?;
             }
             Harm::Failure => {
-                return Err(EngineFailure { engine: "harmed".into(), reason: "it is gone".into() }.into());
+                return Err(
+                    EngineFailure::Broken { engine: "harmed".into(), reason: "it is gone".into() }.into()
+                );
             }
         }
         Ok(())
@@ -159,12 +161,17 @@ impl Execution for HarmedExecution {
         self.inner.write(substate, values)
     }
 
-    fn read_cell(&self, substate: SubstateId, cell: usize) -> Result<Vec<u8>, EngineFailure> {
-        self.inner.read_cell(substate, cell)
+    fn read_cells(&self, substate: SubstateId, cells: &[usize]) -> Result<Vec<u8>, EngineFailure> {
+        self.inner.read_cells(substate, cells)
     }
 
-    fn write_cell(&mut self, substate: SubstateId, cell: usize, value: &[u8]) -> Result<(), EngineFailure> {
-        self.inner.write_cell(substate, cell, value)
+    fn write_cells(
+        &mut self,
+        substate: SubstateId,
+        cells: &[usize],
+        values: &[u8],
+    ) -> Result<(), EngineFailure> {
+        self.inner.write_cells(substate, cells, values)
     }
 
     fn population(&self, group: usize) -> Result<Population, EngineFailure> {

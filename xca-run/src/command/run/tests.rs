@@ -197,6 +197,33 @@ fn views_say_what_is_saved() {
     );
 }
 
+/// What is recorded of a step comes after the steering of that step, at step 0 too.
+#[test]
+fn sources_are_in_the_balance_of_every_step() {
+    let make = |_: Given| -> Result<SetUp, Failure> {
+        let model = Model::builder("lake")
+            .extents([4, 3, 1])
+            .boundary(Boundary::Reflecting)
+            .face(Face::South, Boundary::Flat)
+            .substates::<Stone>()
+            .fill(|_| Stone { weight: 1.0 })
+            .steer(Schedule::EveryFrom { first: 0, interval: 1 }, |state| {
+                Ok(state.update(Stone::WEIGHT, &[[1, 2, 0], [3, 0, 0]], |_, weight| weight + 2.0)?)
+            })
+            .build()?;
+        let observe =
+            |state: &State<'_>| Ok(vec![Observable::new("weight", "kg", state.sum(Stone::WEIGHT)?)]);
+        Ok(SetUp::new(model, 3).observables(observe))
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let (ended, report) = run_model(&make, &[], folder.path());
+    assert!(matches!(ended, Ok(Ended::Done)), "{}", message(&ended));
+    let series = lines(&folder.path().join("observables.csv"));
+    assert_eq!(series, ["step,time,weight", "0,0,16", "1,1,20", "2,2,24", "3,3,28"]);
+    let boundaries = &report["model"]["boundaries"];
+    assert_eq!((&boundaries["south"], &boundaries["north"]), (&"flat".into(), &"reflecting".into()));
+}
+
 #[test]
 fn views_that_do_not_fit_are_refused() {
     let folder = tempfile::tempdir().unwrap();

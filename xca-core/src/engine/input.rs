@@ -1,0 +1,254 @@
+//! What is handed to an engine from outside: checked at its door, before anything changes.
+//!
+//! Kernels trust the lengths and ranges that engines keep, and an engine's methods are open to everyone. So each engine calls these functions
+//! first, and unsafe code may rely on what they have checked.
+
+use super::{EngineFailure, Fault, Population, SubstateId};
+use crate::model::{Group, GroupKind, Model};
+use crate::schema::Field;
+use crate::value::{Precision, ScalarType};
+
+/// Input that does not fit the model. It has changed nothing.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum InputError {
+    /// A group that the model does not have.
+    #[error("the model has {groups} structs of substates, no number {group}")]
+    NoSuchGroup {
+        /// The number that was given.
+        group: usize,
+        /// How many there are.
+        groups: usize,
+    },
+    /// A field that the struct does not have.
+    #[error("`{substates}` has {fields} substates, no number {field}")]
+    NoSuchField {
+        /// The name of the struct.
+        substates: &'static str,
+        /// The number that was given.
+        field: usize,
+        /// How many there are.
+        fields: usize,
+    },
+    /// Cells were asked for, but the group is a population.
+    #[error("`{0}` is a population; its items are not numbered by cells")]
+    NotOfCells(&'static str),
+    /// Items were given, but the group belongs to cells.
+    #[error("`{0}` are the substates of cells, not of a population")]
+    NotAPopulation(&'static str),
+    /// A cell that the space does not have.
+    #[error("the space has {cells} cells, no cell number {cell}")]
+    NoSuchCell {
+        /// The linear index that was given.
+        cell: usize,
+        /// How many cells there are.
+        cells: usize,
+    },
+    /// More or fewer bytes than the values take.
+    #[error("the values of `{substates}.{substate}` take {wanted} bytes, but {given} are given")]
+    WrongLength {
+        /// The name of the struct.
+        substates: &'static str,
+        /// The name of the field.
+        substate: &'static str,
+        /// The bytes of so many values.
+        wanted: usize,
+        /// The bytes that were given.
+        given: usize,
+    },
+    /// A byte that is no bool or no state.
+    #[error("`{substates}`: {reason}")]
+    NoState {
+        /// The name of the struct.
+        substates: &'static str,
+        /// Which one is none.
+        reason: String,
+    },
+    /// Items whose numbers, labels or fields do not agree.
+    #[error("`{substates}`: {reason}")]
+    Items {
+        /// The name of the struct.
+        substates: &'static str,
+        /// What does not agree.
+        reason: String,
+    },
+}
+
+impl From<InputError> for Fault {
+    fn from(error: InputError) -> Self {
+        Self::Engine(EngineFailure::Input(error))
+    }
+}
+
+/// Checks that the model has a substate.
+///
+/// # Errors
+/// Where it does not.
+pub fn check_substate(model: &Model, substate: SubstateId) -> Result<(), InputError> {
+    checked_group(model, substate).map(|_| ())
+}
+
+/// Checks the values that are to replace all values of a substate. `items` is how many items the group has, if it is a population.
+///
+/// # Errors
+/// Where the model does not have the substate, or the values take another number of bytes.
+pub fn check_values(
+    model: &Model,
+    precision: Precision,
+    substate: SubstateId,
+    items: usize,
+    values: &[u8],
+) -> Result<(), InputError> {
+    let group = checked_group(model, substate)?;
+    let count = match group.kind() {
+        GroupKind::Cells { .. } => model.geometry().cells(),
+        GroupKind::Population { .. } => items,
+    };
+    check_bytes(group, precision, substate.field, count, values)
+}
+
+/// Checks the cells whose values of a substate are to be read, by their linear indices.
+///
+/// # Errors
+/// Where the model does not have the substate, it is none of cells, or the space does not have one of the cells.
+pub fn check_cells(model: &Model, substate: SubstateId, cells: &[usize]) -> Result<(), InputError> {
+    let group = checked_group(model, substate)?;
+    if let GroupKind::Population { .. } = group.kind() {
+        return Err(InputError::NotOfCells(group.schema().name));
+    }
+    let count = model.geometry().cells();
+    let unknown = cells.iter().find(|cell| **cell >= count);
+    unknown.map_or(Ok(()), |cell| Err(InputError::NoSuchCell { cell: *cell, cells: count }))
+}
+
+/// Checks the cells whose values of a substate are to be replaced, and their values.
+///
+/// # Errors
+/// As [`check_cells`], and where the values take another number of bytes.
+pub fn check_values_of_cells(
+    model: &Model,
+    precision: Precision,
+    substate: SubstateId,
+    cells: &[usize],
+    values: &[u8],
+) -> Result<(), InputError> {
+    check_cells(model, substate, cells)?;
+    check_bytes(&model.groups()[substate.group], precision, substate.field, cells.len(), values)
+}
+
+/// Checks the items that are to replace those of a population.
+///
+/// # Errors
+/// [`Fault::CellFull`] where a cell has more items than slots; [`InputError`] where the group is no population, or counts, labels and fields
+/// do not agree.
+pub fn check_population(
+    model: &Model,
+    precision: Precision,
+    group: usize,
+    population: &Population,
+) -> Result<(), Fault> {
+    let groups = model.groups().len();
+    let definition = model.groups().get(group).ok_or(InputError::NoSuchGroup { group, groups })?;
+    let substates = definition.schema().name;
+    let GroupKind::Population { slots, .. } = *definition.kind() else {
+        return Err(InputError::NotAPopulation(substates).into());
+    };
+    let cells = population.counts.iter().take(model.geometry().cells());
+    if let Some((cell, items)) = cells.enumerate().find(|(_, items)| **items as usize > slots) {
+        let cell = model.geometry().indices(cell);
+        return Err(Fault::CellFull { process: None, cell, items: *items as usize, slots });
+    }
+    let reason = wrong_items(population, definition, precision, slots, model);
+    reason.map_or(Ok(()), |reason| Err(InputError::Items { substates, reason }.into()))
+}
+
+fn checked_group(model: &Model, SubstateId { group, field }: SubstateId) -> Result<&Group, InputError> {
+    let groups = model.groups().len();
+    let definition = model.groups().get(group).ok_or(InputError::NoSuchGroup { group, groups })?;
+    let (substates, fields) = (definition.schema().name, definition.schema().fields.len());
+    if field < fields { Ok(definition) } else { Err(InputError::NoSuchField { substates, field, fields }) }
+}
+
+fn check_bytes(
+    group: &Group,
+    precision: Precision,
+    field: usize,
+    count: usize,
+    values: &[u8],
+) -> Result<(), InputError> {
+    let definition = &group.schema().fields[field];
+    let (wanted, given) = (definition.value_type.stored(precision).size() * count, values.len());
+    let (substates, substate) = (group.schema().name, definition.name);
+    if given != wanted {
+        return Err(InputError::WrongLength { substates, substate, wanted, given });
+    }
+    let reason = wrong_state(values, definition);
+    reason.map_or(Ok(()), |reason| Err(InputError::NoState { substates, reason }))
+}
+
+/// What is wrong with the values of a field that has only some: bool and states.
+fn wrong_state(values: &[u8], field: &Field) -> Option<String> {
+    let largest = match field.value_type.scalar {
+        ScalarType::Bool => 1,
+        ScalarType::State(names) => names.largest(),
+        _ => return None,
+    };
+    let wrong = values.iter().find(|value| **value > largest)?;
+    Some(format!("`{}` is {}, which {wrong} is not", field.name, field.value_type.described()))
+}
+
+/// What is wrong with the fields of a group that has so many cells or items.
+pub(crate) fn wrong_fields(
+    fields: &[Vec<u8>],
+    group: &Group,
+    precision: Precision,
+    count: usize,
+) -> Option<String> {
+    let wanted = group.schema().fields;
+    if fields.len() != wanted.len() {
+        return Some(format!("it has {} substates, not {}", fields.len(), wanted.len()));
+    }
+    let sizes = group.stored(precision).into_iter().map(|stored| stored.size() * count);
+    let mut wrong = fields.iter().zip(sizes).zip(wanted).filter(|((bytes, size), _)| bytes.len() != *size);
+    let wrong_size = wrong.next().map(|((bytes, size), field)| {
+        format!("`{}` takes {} bytes, not the {size} of a run in {precision}", field.name, bytes.len())
+    });
+    wrong_size.or_else(|| fields.iter().zip(wanted).find_map(|(bytes, field)| wrong_state(bytes, field)))
+}
+
+/// What is wrong with the fields, cells and labels of items.
+pub(crate) fn wrong_items(
+    population: &Population,
+    group: &Group,
+    precision: Precision,
+    slots: usize,
+    model: &Model,
+) -> Option<String> {
+    if let Some(reason) = wrong_fields(&population.fields, group, precision, population.labels.len()) {
+        return Some(reason);
+    }
+    let cells = model.geometry().cells();
+    if population.counts.len() != cells {
+        return Some(format!("it has {} cells, not {cells}", population.counts.len()));
+    }
+    let items: u64 = population.counts.iter().map(|count| u64::from(*count)).sum();
+    if items != population.labels.len() as u64 {
+        return Some(format!("it has {} items, but {items} in its cells", population.labels.len()));
+    }
+    let mut first = 0;
+    for (cell, count) in population.counts.iter().enumerate() {
+        let labels = &population.labels[first..first + *count as usize];
+        first += labels.len();
+        let place = || format!("cell {:?}", model.geometry().indices(cell));
+        if labels.len() > slots {
+            return Some(format!("{} has {} items in {slots} slots", place(), labels.len()));
+        }
+        if !labels.is_sorted() {
+            return Some(format!("the items of {} are not in the order of their labels", place()));
+        }
+    }
+    let mut labels = population.labels.clone();
+    labels.sort_unstable();
+    let twice = labels.windows(2).find(|pair| pair[0] == pair[1]);
+    twice.map(|pair| format!("the label {} stands on two items", pair[0]))
+}
