@@ -116,7 +116,7 @@ pub use model::{InitialError, Model, ModelBuilder, ModelError};
 pub use neighbourhood::{Hexagons, Neighbourhood, NeighbourhoodError, Parity};
 pub use parameters::{AnyParameters, FromLane, ParameterError, ParameterValue, Parameters};
 pub use process::{ElementaryProcess, Process, ProcessKind};
-pub use random::{Owner, draw_words, philox};
+pub use random::{Draw, Stream, philox};
 pub use reference::Reference;
 pub use schema::{Field, Schema};
 pub use simulation::{GroupSnapshot, Outcome, RunError, RunOptions, Simulation, Snapshot, SnapshotError};

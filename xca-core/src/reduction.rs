@@ -1,12 +1,13 @@
 //! Reductions: one value out of a whole substate.
 //!
-//! A reduction is done row by row (for items: block by block), and the rows' results are combined in order, so that it gives the same
-//! bits whoever works on which row. Floating numbers are added up in `f64`, integers in `i64`, which wraps around.
+//! A reduction is done row by row (of items: those of the cells of a row, by cell and label), and the rows' results are combined in order,
+//! so that it gives the same bits whoever works on which row. A row without items gives nothing, which changes no result. Floating numbers
+//! are added up in `f64`, integers in `i64`, which wraps around.
+//!
+//! NaN is never lost: a sum, product, minimum or maximum of values with a NaN among them is NaN. It equals no value, so [`Reduction::CountEqual`]
+//! does not count it, and it is not zero, so logical reductions take it for true.
 
 use crate::value::{HostValue, StoredScalar, StoredType};
-
-/// How many items make a block.
-pub const ITEMS_IN_BLOCK: usize = 4096;
 
 /// What is made of the values.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,9 +16,9 @@ pub enum Reduction {
     Sum,
     /// The product.
     Product,
-    /// The smallest; a NaN only where there is nothing else.
+    /// The smallest; NaN where any value is NaN.
     Minimum,
-    /// The largest; a NaN only where there is nothing else.
+    /// The largest; NaN where any value is NaN.
     Maximum,
     /// How many equal this value, given as the stored bytes of one lane; the two zeros are equal.
     CountEqual(Vec<u8>),
@@ -62,8 +63,8 @@ impl Reduced {
             }),
             (Self::Float(a), Self::Float(b)) => Self::Float(match reduction {
                 Reduction::Product => a * b,
-                Reduction::Minimum if b < a || a.is_nan() => b,
-                Reduction::Maximum if a < b || a.is_nan() => b,
+                Reduction::Minimum if b < a || b.is_nan() => b,
+                Reduction::Maximum if a < b || b.is_nan() => b,
                 Reduction::Minimum | Reduction::Maximum => a,
                 _ => a + b,
             }),
@@ -85,12 +86,33 @@ impl Reduced {
 
 /// Reduces consecutive stored values, lane by lane.
 pub fn reduce_values(reduction: &Reduction, stored: StoredType, values: &[u8]) -> Vec<Reduced> {
-    let lanes = usize::from(stored.lanes);
+    let mut results = Vec::with_capacity(usize::from(stored.lanes));
+    append_row(reduction, stored, values, &mut results);
+    results
+}
+
+/// Reduces consecutive stored values, lane by lane, and appends the results of the lanes.
+pub fn append_row(reduction: &Reduction, stored: StoredType, values: &[u8], results: &mut Vec<Reduced>) {
     let size = stored.scalar.size();
-    let mut results = vec![Reduced::Nothing; lanes];
+    let first = results.len();
+    results.resize(first + usize::from(stored.lanes), Reduced::Nothing);
     for value in values.chunks_exact(stored.size()) {
-        for (result, lane) in results.iter_mut().zip(value.chunks_exact(size)) {
+        for (result, lane) in results[first..].iter_mut().zip(value.chunks_exact(size)) {
             *result = result.combine(one(reduction, stored.scalar, lane), reduction);
+        }
+    }
+}
+
+/// Combines the results of rows in their order: for each lane one result.
+pub fn combine_rows<'a>(
+    reduction: &Reduction,
+    lanes: usize,
+    rows: impl IntoIterator<Item = &'a [Reduced]>,
+) -> Vec<Reduced> {
+    let mut results = vec![Reduced::Nothing; lanes];
+    for row in rows {
+        for (result, part) in results.iter_mut().zip(row) {
+            *result = result.combine(*part, reduction);
         }
     }
     results
@@ -215,8 +237,10 @@ mod tests {
         let values: Vec<u8> =
             [f64::NAN, 0.0, -0.0, 3.0].iter().flat_map(|value| value.to_ne_bytes()).collect();
         let reduce = |reduction: Reduction| reduce_values(&reduction, stored, &values)[0];
-        assert_eq!(reduce(Reduction::Minimum), Reduced::Float(0.0));
-        assert_eq!(reduce(Reduction::Maximum), Reduced::Float(3.0));
+        for reduction in [Reduction::Sum, Reduction::Product, Reduction::Minimum, Reduction::Maximum] {
+            assert!(reduce(reduction.clone()).number().is_some_and(f64::is_nan), "{reduction:?}");
+        }
+        assert_eq!(reduce(Reduction::LogicalXor), Reduced::Integer(0));
         assert_eq!(reduce(Reduction::CountEqual(0.0_f64.to_ne_bytes().to_vec())), Reduced::Integer(2));
     }
 }

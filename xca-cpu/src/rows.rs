@@ -17,7 +17,7 @@ use xca_core::engine::{Fault, StepContext, SubstateId};
 use xca_core::kernel::{
     Access, CellFilter, Entry, Frame, Of, Row, RowFault, RowItems, RowKernel, STAY, Scratch, StoppedAt,
 };
-use xca_core::{Boundary, Model, Parity, Precision, Process, ProcessKind};
+use xca_core::{Boundary, Model, Parity, Precision, Process, ProcessKind, Stream};
 
 /// The substates of one struct.
 pub(crate) enum Group {
@@ -51,7 +51,10 @@ unsafe impl Sync for Memory {}
 /// A process made ready for a pass.
 struct Prepared<'a> {
     process: &'a Process,
+    /// Its place in the step.
     index: usize,
+    /// Its place in the pass.
+    number: usize,
     kernel: RowKernel,
     memory: Vec<Memory>,
     population: Option<usize>,
@@ -92,20 +95,24 @@ pub(crate) fn run(
 ) -> Result<Vec<Mover>, Fault> {
     let geometry = model.geometry();
     let written = prepare_buffers(model, layout, groups, &processes);
-    let prepared: Vec<Prepared<'_>> =
-        processes.map(|index| prepare(model, groups, index, precision, &written)).collect();
+    let prepared: Vec<Prepared<'_>> = processes
+        .enumerate()
+        .map(|(number, index)| prepare(model, groups, (number, index), precision, &written))
+        .collect();
     let offsets = layout.offsets(geometry);
     let filter = filter(model, layout, precision, groups, &prepared);
-    let frames: [Frame<'_>; 2] = std::array::from_fn(|odd| Frame {
+    let frame = |index: usize, odd: usize| Frame {
         extents: geometry.extents().map(|extent| extent as u32),
         side: geometry.side(),
         toroidal: geometry.boundaries().map(|boundary| boundary == Boundary::Toroidal),
         step: context.step,
         seed: context.seed,
+        stream: Stream::process(index),
         parameters: context.parameters,
         offsets: &offsets[odd],
         filter: filter.as_ref(),
-    });
+    };
+    let frames = prepared.iter().map(|prepared| [0, 1].map(|odd| frame(prepared.index, odd))).collect();
     let continuation = layout.continuation();
     let parity = geometry.neighbourhood().parity();
     let pass = Pass { layout, parity, frames, prepared, continuation, groups };
@@ -207,7 +214,7 @@ fn prepare_buffers(
 fn prepare<'a>(
     model: &'a Model,
     groups: &mut [Group],
-    index: usize,
+    (number, index): (usize, usize),
     precision: Precision,
     written: &[(SubstateId, bool)],
 ) -> Prepared<'a> {
@@ -219,7 +226,7 @@ fn prepare<'a>(
         ProcessKind::Items | ProcessKind::Migration => Some(process.subject),
     };
     let population = population.and_then(|group| model.group_number((group.type_id)()));
-    Prepared { process, index, kernel: process.kernel(precision), memory, population }
+    Prepared { process, index, number, kernel: process.kernel(precision), memory, population }
 }
 
 fn memory(
@@ -257,7 +264,8 @@ fn memory(
 struct Pass<'a> {
     layout: &'a Layout,
     parity: Parity,
-    frames: [Frame<'a>; 2],
+    /// For each process those of even and odd rows or columns.
+    frames: Vec<[Frame<'a>; 2]>,
     prepared: Vec<Prepared<'a>>,
     /// The cells of the halo that continue a row, with their sources.
     continuation: Vec<(isize, isize)>,
@@ -369,9 +377,9 @@ impl Pass<'_> {
         population: Option<&Population>,
         work: &mut Work<'_>,
     ) {
+        let frames = &self.frames[prepared.number];
         if self.parity != Parity::Column || !prepared.process.local_interaction {
-            let frame =
-                &self.frames[if self.parity == Parity::Row { cells.origin[1] as usize % 2 } else { 0 }];
+            let frame = &frames[if self.parity == Parity::Row { cells.origin[1] as usize % 2 } else { 0 }];
             return self.run_cells(prepared, frame, cells, population, 0, work);
         }
         // The neighbourhood changes from cell to cell: each is a row of its own.
@@ -383,7 +391,7 @@ impl Pass<'_> {
             let cell = Cells { first, origin: [x as u32, cells.origin[1], cells.origin[2]], length: 1, own };
             // In a row without items the ranges of cells are empty, but may start anywhere.
             let first_answer = own.0.saturating_sub(cells.own.0);
-            self.run_cells(prepared, &self.frames[x % 2], &cell, population, first_answer, work);
+            self.run_cells(prepared, &frames[x % 2], &cell, population, first_answer, work);
         }
     }
 

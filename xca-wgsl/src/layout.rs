@@ -60,7 +60,7 @@ impl Layout {
 }
 
 /// The fields of the description of the space.
-pub(crate) const SPACE: [(&str, ValueType); 11] = [
+pub(crate) const SPACE: [(&str, ValueType); 12] = [
     ("extents", ValueType { scalar: ScalarType::I32, lanes: 3 }),
     ("neighbours", ValueType { scalar: ScalarType::U32, lanes: 1 }),
     ("halo", ValueType { scalar: ScalarType::U32, lanes: 3 }),
@@ -70,6 +70,7 @@ pub(crate) const SPACE: [(&str, ValueType); 11] = [
     ("count", ValueType { scalar: ScalarType::U32, lanes: 3 }),
     ("layer", ValueType { scalar: ScalarType::U32, lanes: 1 }),
     ("seed", ValueType { scalar: ScalarType::U32, lanes: 2 }),
+    ("stream", ValueType { scalar: ScalarType::U32, lanes: 1 }),
     ("side", ValueType { scalar: ScalarType::Real, lanes: 1 }),
     ("zero", ValueType { scalar: ScalarType::Real, lanes: 1 }),
 ];

@@ -176,8 +176,9 @@ impl Program for Landslide {
             .fill(move |cell| map.state(cell))
             .stop_when(Schedule::Every(20), move |state| {
                 let largest = state.maximum(Slope::OUTFLOW)?.unwrap_or_default();
-                let moves = [largest.x, largest.y, largest.z, largest.w].iter().any(|metres| *metres > until);
-                Ok((!moves).then(|| format!("no cell sends more than {until} m to a neighbour")))
+                let flows = [largest.x, largest.y, largest.z, largest.w];
+                let rests = flows.iter().all(|metres| *metres <= until);
+                Ok(rests.then(|| format!("no cell sends more than {until} m to a neighbour")))
             })
             .build()?;
         let observe = move |state: &State<'_>| {

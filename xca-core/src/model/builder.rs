@@ -6,6 +6,7 @@ use crate::kernel::{NOWHERE, Of};
 use crate::neighbourhood::{Neighbourhood, Parity};
 use crate::parameters::{AnyParameters, Parameters};
 use crate::process::{ElementaryProcess, Process, ProcessKind};
+use crate::random::Stream;
 use crate::state::State;
 use crate::steering::{Schedule, Steering, SteeringError};
 use crate::substates::Substates;
@@ -189,6 +190,13 @@ impl ModelBuilder {
         check_geometry(&geometry)?;
         if self.groups.is_empty() {
             return Err(ModelError::NoSubstates { model: self.name });
+        }
+        let (groups, processes) = (self.groups.len(), self.processes.len());
+        if groups > Stream::GROUPS {
+            return Err(ModelError::TooManyGroups { groups, limit: Stream::GROUPS });
+        }
+        if processes > Stream::PROCESSES {
+            return Err(ModelError::TooManyProcesses { processes, limit: Stream::PROCESSES });
         }
         for group in &self.groups {
             check_group(group, &geometry)?;

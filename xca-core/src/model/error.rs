@@ -39,6 +39,12 @@ pub enum ModelError {
     ReflectedHexagons { axis: char },
     #[error("the model `{model}` has no substates; call `.substates::<S>()` or `.population::<S>(slots)`")]
     NoSubstates { model: String },
+    #[error(
+        "the model has {processes} processes in a step, but random numbers tell {limit} apart; use fewer"
+    )]
+    TooManyProcesses { processes: usize, limit: usize },
+    #[error("the model has {groups} structs of substates, but random numbers tell {limit} apart; use fewer")]
+    TooManyGroups { groups: usize, limit: usize },
     #[error("the substates `{substates}` are given twice")]
     SubstatesTwice { substates: &'static str },
     #[error(

@@ -8,6 +8,7 @@ use crate::engine::{Fault, StepContext, SubstateId};
 use crate::geometry::Boundary;
 use crate::kernel::{Access, Entry, Frame, Row, RowItems, Scratch};
 use crate::process::{Process, ProcessKind};
+use crate::random::Stream;
 use crate::storage::Buffer;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -24,7 +25,12 @@ struct Pass {
 
 impl ReferenceExecution {
     /// Runs a process. For a migration the result is the answer for each place of the population.
-    pub(super) fn pass(&mut self, process: &Process, context: &StepContext<'_>) -> Result<Vec<u32>, Fault> {
+    pub(super) fn pass(
+        &mut self,
+        process: &Process,
+        stream: Stream,
+        context: &StepContext<'_>,
+    ) -> Result<Vec<u32>, Fault> {
         let geometry = self.model.geometry().clone();
         let mut passes: Vec<Pass> =
             process.access.iter().map(|access| self.prepare(process, access)).collect();
@@ -39,6 +45,7 @@ impl ReferenceExecution {
             toroidal: geometry.boundaries().map(|boundary| boundary == Boundary::Toroidal),
             step: context.step,
             seed: context.seed,
+            stream,
             parameters: context.parameters,
             offsets: &offsets,
             filter: None,

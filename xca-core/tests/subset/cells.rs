@@ -2,7 +2,7 @@
 
 use crate::common::{PRECISIONS, cells, step};
 use xca_core::prelude::*;
-use xca_core::{Owner, draw_words};
+use xca_core::{Draw, Stream};
 
 #[derive(Substates, Clone, Copy, Debug, PartialEq, Default)]
 struct State {
@@ -109,7 +109,8 @@ fn random_numbers_are_functions_of_seed_step_cell_and_draw() {
             Simulation::new(&model, &Reference, RunOptions { precision, seed: 42 }).expect("starts");
         simulation.run(2).expect("runs");
         for (x, cell) in cells::<State>(&simulation, precision).into_iter().enumerate() {
-            let word = |number| draw_words(42, 1, Owner::Cell(x as u32), number);
+            let stream = Stream::process(0);
+            let word = |number| Draw { stream, step: 1, owner: x as u32, number }.words(42);
             assert_eq!(cell.bits, word(0)[0]);
             let [high, low, ..] = word(1);
             let expected = match precision {
