@@ -47,7 +47,8 @@ fn long(salt: u32, number: u32) -> f64 {
     (bits as f64 - (1_u64 << 49) as f64) * GRAIN
 }
 
-fn ledger([x, y, z]: [usize; 3]) -> Ledger {
+fn ledger(site: Site) -> Ledger {
+    let [x, y, z] = site.cell();
     let salt = mix(mix(x as u32, y as u32), z as u32);
     Ledger {
         byte: (salt % 7) as u8,
@@ -285,6 +286,46 @@ fn the_short_ways() -> Result<(), Box<dyn Error>> {
         assert_ne!(product, 0);
         Ok(())
     })
+}
+
+/// What is computed from several substates is reduced as a substate is: the same bits on every engine.
+#[test]
+fn expressions() -> Result<(), Box<dyn Error>> {
+    let first: std::cell::Cell<Option<[u64; 2]>> = std::cell::Cell::new(None);
+    everywhere(|state| {
+        // The sum of a substate is that of the expression which names it, to the last bit.
+        let double = state.sum_of(|ledger: &Ledger| ledger.double)?;
+        assert_eq!(double.to_bits(), state.sum(Ledger::DOUBLE)?.to_bits());
+        let double = state.sum_of(|entry: &Entry| entry.double)?;
+        assert_eq!(double.to_bits(), state.sum(Entry::DOUBLE)?.to_bits());
+        assert_eq!(state.sum_of(|ledger: &Ledger| ledger.pair)?, state.sum(Ledger::PAIR)?);
+        assert_eq!(state.sum_of(|entry: &Entry| entry.quad)?, state.sum(Entry::QUAD)?);
+        let count = state.count_where(|ledger: &Ledger| ledger.byte == 3)?;
+        assert_eq!(count, state.count(Ledger::BYTE, 3)?);
+        let both = state.count_where(|entry: &Entry| entry.byte == 1 && entry.signed > 0)?;
+        let items = state.items::<Entry>()?;
+        let wanted = items.iter().filter(|item| item.state.byte == 1 && item.state.signed > 0).count();
+        assert_eq!(both, wanted as u64);
+        let mixed = [
+            state.sum_of(|ledger: &Ledger| ledger.double * f64::from(ledger.single))?,
+            state.sum_of(|entry: &Entry| entry.double * f64::from(entry.quad.x))?,
+        ];
+        let mixed = mixed.map(f64::to_bits);
+        assert_eq!(first.replace(Some(mixed)).unwrap_or(mixed), mixed);
+        Ok(())
+    })
+}
+
+#[test]
+fn expressions_of_nothing() -> Result<(), Box<dyn Error>> {
+    let model = Model::builder("empty").extents([3, 3, 3]).population::<Entry>(1).build()?;
+    let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
+    let state = simulation.state();
+    assert_eq!(state.sum_of(|entry: &Entry| entry.double)?, 0.0);
+    assert_eq!(state.count_where(|_: &Entry| true)?, 0);
+    let error = state.count_where(|_: &Ledger| true);
+    assert_eq!(error, Err(StateError::UnknownSubstates("Ledger")));
+    Ok(())
 }
 
 /// One NaN makes a sum, product, minimum and maximum NaN, wherever it stands, and counts as nothing; both zeros are zero.

@@ -53,7 +53,7 @@
 //!     .substates::<Forest>()
 //!     .parameters(Fire { spread: 0.3, burning_rate: 0.25 })
 //!     .process(burn)
-//!     .fill(|cell| Forest { tree: if cell == [32, 32, 0] { BURNING } else { GREEN }, fuel: 1.0 })
+//!     .fill(|site| Forest { tree: if site.cell() == [32, 32, 0] { BURNING } else { GREEN }, fuel: 1.0 })
 //!     .stop_when(Schedule::Every(1), |state| {
 //!         let burning = state.count(Forest::TREE, BURNING)?;
 //!         Ok((burning == 0).then(|| "the fire is out".to_owned()))
@@ -102,6 +102,7 @@ pub mod reduction;
 mod reference;
 mod schema;
 mod simulation;
+mod site;
 mod state;
 mod steering;
 pub mod storage;
@@ -120,6 +121,7 @@ pub use random::{Draw, Stream, philox};
 pub use reference::Reference;
 pub use schema::{Field, Schema};
 pub use simulation::{GroupSnapshot, Outcome, RunError, RunOptions, Simulation, Snapshot, SnapshotError};
+pub use site::Site;
 pub use state::{Item, State, StateError};
 pub use steering::{Schedule, SteeringError};
 pub use substates::{HasSubstate, Substate, Substates};
@@ -134,9 +136,9 @@ pub use xca_macros::{Parameters, Substates, elementary_process, helper, migratio
 /// What a model's source needs.
 pub mod prelude {
     pub use crate::{
-        Boundary, Cell, Destination, Engine, Hexagons, Item, Model, ModelError, Neighbourhood, Other,
-        Outcome, ParameterError, Parameters, Precision, Real, Reference, RunError, RunOptions, Schedule,
-        Simulation, Slot, Slots, Space, State, SteeringError, Substate, Substates, Vector2, Vector3, Vector4,
-        elementary_process, helper, migration,
+        Boundary, Cell, Destination, Engine, Hexagons, Item, Model, ModelBuilder, ModelError, Neighbourhood,
+        Other, Outcome, ParameterError, Parameters, Precision, Real, Reference, RunError, RunOptions,
+        Schedule, Simulation, Site, Slot, Slots, Space, State, SteeringError, Substate, Substates, Vector2,
+        Vector3, Vector4, elementary_process, helper, migration,
     };
 }

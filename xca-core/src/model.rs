@@ -2,7 +2,9 @@
 
 mod builder;
 mod error;
+mod filling;
 mod initial;
+mod names;
 
 pub use builder::ModelBuilder;
 pub use error::ModelError;
@@ -10,7 +12,7 @@ pub use initial::InitialError;
 
 use crate::engine::SubstateId;
 use crate::geometry::Geometry;
-use crate::parameters::AnyParameters;
+use crate::parameters::{AnyParameters, ParameterError, Parameters, typed};
 use crate::process::Process;
 use crate::schema::Schema;
 use crate::steering::Steering;
@@ -36,6 +38,8 @@ pub struct Model {
 #[derive(Clone)]
 pub struct Group {
     type_id: TypeId,
+    /// With its path, for messages.
+    type_name: &'static str,
     schema: &'static Schema,
     kind: GroupKind,
 }
@@ -160,11 +164,21 @@ impl Model {
         SubstateId { group, field: access.field }
     }
 
-    /// Sets a parameter of the model by name, before it is run.
+    /// The same model with other parameters. What the initial state makes of them follows.
+    ///
+    /// # Errors
+    /// Where the model has parameters of another type.
+    pub fn with_parameters<P: Parameters>(mut self, parameters: P) -> Result<Self, ParameterError> {
+        typed::<P>(&*self.parameters)?;
+        self.parameters = Box::new(parameters);
+        Ok(self)
+    }
+
+    /// Sets a parameter of the model by name, before it is run. What the initial state makes of it follows.
     ///
     /// # Errors
     /// Where no parameter has the name, or the text is no value of its type.
-    pub fn set_parameter(&mut self, name: &str, text: &str) -> Result<(), crate::ParameterError> {
+    pub fn set_parameter(&mut self, name: &str, text: &str) -> Result<(), ParameterError> {
         self.parameters.set_by_name(name, text)
     }
 }

@@ -178,6 +178,14 @@ from_lane!(u8 i32 u32 f32 f64);
 /// A parameter that cannot be read or set.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ParameterError {
+    /// The parameters are of another type.
+    #[error("the model's parameters are `{given}`, not `{wanted}`")]
+    OtherStruct {
+        /// The type that was asked for.
+        wanted: &'static str,
+        /// The type that the model has.
+        given: &'static str,
+    },
     /// No parameter has this name.
     #[error("no parameter is called `{name}`; {of} has {known}")]
     Unknown {
@@ -228,6 +236,12 @@ pub trait AnyParameters: Any + fmt::Debug + Send + Sync {
 
     /// For a downcast.
     fn as_any(&self) -> &dyn Any;
+}
+
+/// Parameters as what they are.
+pub(crate) fn typed<P: Parameters>(parameters: &dyn AnyParameters) -> Result<&P, ParameterError> {
+    let (wanted, given) = (P::SCHEMA.name, parameters.schema().name);
+    parameters.as_any().downcast_ref().ok_or(ParameterError::OtherStruct { wanted, given })
 }
 
 impl<P: Parameters> AnyParameters for P {

@@ -3,6 +3,8 @@
 //! J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw: "Parallel random numbers: as easy as 1, 2, 3", SC11. A number is
 //! a function of its counter and key alone, so that it does not matter who draws it, when, or in which order.
 
+use crate::value::{Float, Precision};
+
 const MULTIPLIERS: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];
 const KEY_INCREMENTS: [u32; 2] = [0x9E37_79B9, 0xBB67_AE85];
 const ROUNDS: usize = 10;
@@ -84,6 +86,14 @@ impl Draw {
     pub fn words(self, seed: u64) -> [u32; 4] {
         let high = (self.step >> 32) as u32 & 0xFFFF | u32::from(self.stream.0) << 16;
         philox([self.owner, self.step as u32, high, self.number], [seed as u32, (seed >> 32) as u32])
+    }
+}
+
+/// A random number in [0, 1) of the precision of a run.
+pub(crate) fn uniform([first, second, ..]: [u32; 4], precision: Precision) -> f64 {
+    match precision {
+        Precision::F32 => f32::uniform([first, second]).into(),
+        Precision::F64 => f64::uniform([first, second]),
     }
 }
 

@@ -145,12 +145,15 @@ pub trait Reducible: HostValue {
     /// The sum or product from the results of the lanes; where there was no value, in each lane what it is of nothing: 0 or 1.
     fn total(results: &[Reduced], of_nothing: u8) -> Self::Sum;
 
+    /// A lane as what it adds to a sum.
+    fn reduced(&self, lane: usize) -> Reduced;
+
     /// A value of the same type from the results of the lanes; nothing where there was no value.
     fn same(results: &[Reduced]) -> Option<Self>;
 }
 
 macro_rules! reducible {
-    ($($type:ident => $sum:ident),*) => {$(
+    ($($type:ident => $variant:ident($sum:ident)),*) => {$(
         impl Reducible for $type {
             type Sum = $sum;
 
@@ -160,6 +163,10 @@ macro_rules! reducible {
                     Reduced::Integer(value) => value as $sum,
                     Reduced::Float(value) => value as $sum,
                 }
+            }
+
+            fn reduced(&self, _lane: usize) -> Reduced {
+                Reduced::$variant((*self).into())
             }
 
             fn same(results: &[Reduced]) -> Option<Self> {
@@ -173,7 +180,7 @@ macro_rules! reducible {
     )*};
 }
 
-reducible!(u8 => i64, i32 => i64, u32 => i64, f32 => f64, f64 => f64);
+reducible!(u8 => Integer(i64), i32 => Integer(i64), u32 => Integer(i64), f32 => Float(f64), f64 => Float(f64));
 
 macro_rules! reducible_vector {
     ($($vector:ident { $($index:literal),+ }),*) => {$(
@@ -185,6 +192,10 @@ macro_rules! reducible_vector {
 
             fn total(results: &[Reduced], of_nothing: u8) -> Self::Sum {
                 crate::vector::$vector::new($(T::total(&results[$index..], of_nothing)),+)
+            }
+
+            fn reduced(&self, lane: usize) -> Reduced {
+                self.lane(lane).reduced(0)
             }
 
             fn same(results: &[Reduced]) -> Option<Self> {

@@ -28,6 +28,22 @@ impl Schema {
         self.fields.iter().enumerate().find(|(_, field)| field.name == name)
     }
 
+    /// What the lanes of the field with this number are called in tables: a scalar like the field, the lanes of a vector `field_x` and so
+    /// on, those of the position `x`, `y`, `z`.
+    pub fn columns(&self, field: usize) -> Vec<String> {
+        let Field { name, value_type } = &self.fields[field];
+        let lanes = usize::from(value_type.lanes);
+        if lanes == 1 {
+            return vec![(*name).to_owned()];
+        }
+        let letters = ["x", "y", "z", "w"].into_iter().take(lanes);
+        if self.position == Some(field) {
+            letters.map(str::to_owned).collect()
+        } else {
+            letters.map(|letter| format!("{name}_{letter}")).collect()
+        }
+    }
+
     /// The names of all fields, separated by commas, for messages.
     pub fn names(&self) -> String {
         self.fields.iter().map(|field| field.name).collect::<Vec<_>>().join(", ")

@@ -1,11 +1,14 @@
 //! The state of a run as steering and the host see it.
 
+mod expressions;
+mod initial;
+
 use crate::engine::{EngineFailure, Execution, Fault, Population, SubstateId};
 use crate::geometry::Geometry;
 use crate::model::Model;
-use crate::parameters::{AnyParameters, ParameterError, ParameterValue, Parameters};
+use crate::parameters::{AnyParameters, ParameterError, ParameterValue, Parameters, typed};
+use crate::random::{Draw, Stream, uniform};
 use crate::reduction::{Reduced, Reducible, Reduction};
-use crate::steering::SteeringError;
 use crate::substates::{Substate, Substates};
 use crate::value::{HostValue, Precision, StoredScalar};
 
@@ -18,6 +21,8 @@ pub struct State<'a> {
     pub(crate) precision: Precision,
     pub(crate) seed: u64,
     pub(crate) step: u64,
+    /// The number of the steering operation that has the state; for the host beyond all of them.
+    pub(crate) operation: u32,
     pub(crate) stop: &'a mut Option<String>,
 }
 
@@ -70,15 +75,7 @@ pub enum StateError {
     /// Two items with the same label.
     #[error("the label {0} is given to two items")]
     LabelTwice(u32),
-    /// The parameters are of another type.
-    #[error("the model's parameters are `{given}`, not `{wanted}`")]
-    OtherParameters {
-        /// The type that was asked for.
-        wanted: &'static str,
-        /// The type that the model has.
-        given: &'static str,
-    },
-    /// A parameter that cannot be set.
+    /// A parameter that cannot be read or set.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
     /// The engine cannot reach its state any more.
@@ -108,6 +105,22 @@ impl State<'_> {
     /// The cellular space.
     pub fn geometry(&self) -> &Geometry {
         self.model.geometry()
+    }
+
+    /// A random number in [0, 1) for steering: a function of the seed, the step, the operation and `draw`. It is independent of what
+    /// processes and initial states draw. In an `f32` run it has the 24 bits of an `f32`.
+    pub fn random(&self, draw: usize) -> f64 {
+        uniform(self.words(draw), self.precision)
+    }
+
+    /// 32 random bits, as [`Self::random`], whose number is made of the same ones.
+    pub fn random_bits(&self, draw: usize) -> u32 {
+        self.words(draw)[0]
+    }
+
+    fn words(&self, draw: usize) -> [u32; 4] {
+        let (stream, step, owner) = (Stream::STEERING, self.step, self.operation);
+        Draw { stream, step, owner, number: draw as u32 }.words(self.seed)
     }
 
     /// Ends the run, with a reason for the report.
@@ -144,28 +157,6 @@ impl State<'_> {
         } else {
             Err(StateError::NoSuchCell { cell, extents })
         }
-    }
-
-    /// Sets the state of every cell from its indices.
-    ///
-    /// # Errors
-    /// Where the model does not have these substates of cells.
-    pub fn fill<S: Substates>(&mut self, state: impl Fn([usize; 3]) -> S) -> Result<(), SteeringError> {
-        let group = self.cells_of::<S>()?;
-        let cells = self.geometry().cells();
-        let types = self.model.groups()[group].stored(self.precision);
-        let mut fields: Vec<Vec<u8>> = types.iter().map(|stored| vec![0; stored.size() * cells]).collect();
-        for linear in 0..cells {
-            let value = state(self.geometry().indices(linear));
-            for (field, (bytes, stored)) in fields.iter_mut().zip(&types).enumerate() {
-                let size = stored.size();
-                value.encode(field, self.precision, &mut bytes[linear * size..(linear + 1) * size]);
-            }
-        }
-        for (field, bytes) in fields.iter().enumerate() {
-            self.execution.write(SubstateId { group, field }, bytes)?;
-        }
-        Ok(())
     }
 
     /// The value of a substate in one cell.
@@ -402,10 +393,7 @@ impl State<'_> {
     /// # Errors
     /// Where they are of another type.
     pub fn parameters<P: Parameters>(&self) -> Result<P, StateError> {
-        self.parameters.as_any().downcast_ref::<P>().cloned().ok_or_else(|| StateError::OtherParameters {
-            wanted: P::SCHEMA.name,
-            given: self.parameters.schema().name,
-        })
+        Ok(typed::<P>(&**self.parameters)?.clone())
     }
 
     /// Replaces the parameters, from the next step on.
@@ -413,7 +401,7 @@ impl State<'_> {
     /// # Errors
     /// Where they are of another type.
     pub fn set_parameters<P: Parameters>(&mut self, parameters: P) -> Result<(), StateError> {
-        self.parameters::<P>()?;
+        typed::<P>(&**self.parameters)?;
         *self.parameters = Box::new(parameters);
         Ok(())
     }

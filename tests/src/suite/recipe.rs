@@ -85,7 +85,10 @@ impl Recipe {
             .boundaries(recipe.boundaries)
             .parameters(recipe.tuning)
             .substates_with_outside(medium_of(mix(salt, 17)))
-            .fill(move |[x, y, z]| medium_of(mix(mix(mix(salt, x as u32), y as u32), z as u32)));
+            .fill(move |site| {
+                let [x, y, z] = site.cell().map(|index| index as u32);
+                medium_of(mix(mix(mix(salt, x), y), z))
+            });
         if slots > 0 {
             builder = builder
                 .population::<Walker>(slots)

@@ -232,6 +232,6 @@ pub fn model(shape: Shape, extents: [usize; 3], boundaries: [Boundary; 3]) -> Re
         .process(third)
         .process(fourth)
         .process(fifth)
-        .fill(|cell| at_start(cell.map(|index| index as i32)))
+        .fill(|site| at_start(site.cell().map(|index| index as i32)))
         .build()
 }

@@ -75,6 +75,24 @@ pub enum ModelError {
     ReflectedPopulation { substates: &'static str, axis: char },
     #[error("`{substates}` is not among the substates of the model; add it before")]
     NotAdded { substates: &'static str },
-    #[error("a schedule of every 0 steps never comes; give at least 1")]
+    #[error("`{substates}` is a population; make its items by `.populate(|site| …)`, not by `.fill`")]
+    FillOfPopulation { substates: &'static str },
+    #[error("`{substates}` are the substates of cells; make them by `.fill(|site| …)`, not by `.populate`")]
+    PopulatedCells { substates: &'static str },
+    #[error(
+        "the initial state of `{substates}` takes the parameters `{wanted}`, but the model has `{given}`; call `.parameters({wanted} {{ … }})`"
+    )]
+    InitialParameters { substates: &'static str, wanted: &'static str, given: &'static str },
+    #[error("two structs of substates are called `{name}`: `{first}` and `{second}`; rename one of them")]
+    SameStructName { name: &'static str, first: &'static str, second: &'static str },
+    #[error(
+        "the fields `{first}` and `{second}` of `{substates}` would both be the column `{column}` in tables; rename one of them"
+    )]
+    SameColumn { substates: &'static str, first: &'static str, second: &'static str, column: String },
+    #[error(
+        "the field `label` of the population `{substates}` is called like the label that every item has; rename it"
+    )]
+    FieldNamedLabel { substates: &'static str },
+    #[error("a schedule of every 0 steps never comes; the interval must be at least 1 step")]
     ZeroInterval,
 }

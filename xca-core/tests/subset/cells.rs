@@ -14,16 +14,16 @@ struct State {
 }
 
 /// A row of six cells, whose neighbours are the left one, then the right one; beyond the ends lie cells of value 100.
-fn row() -> xca_core::ModelBuilder {
+fn row() -> ModelBuilder {
     Model::builder("row")
         .extents([6, 1, 1])
         .cell_side(0.5)
         .neighbourhood(Neighbourhood::custom(vec![[0, 0, 0], [-1, 0, 0], [1, 0, 0]]).expect("a list"))
         .substates_with_outside(State { value: 100, ..State::default() })
-        .fill(|[x, ..]| State { value: x as i32 + 1, ..State::default() })
+        .fill(|site| State { value: site.cell()[0] as i32 + 1, ..State::default() })
 }
 
-fn after_step(model: xca_core::ModelBuilder) -> Vec<State> {
+fn after_step(model: ModelBuilder) -> Vec<State> {
     let model = model.build().expect("the model is right");
     let [single, double] = PRECISIONS.map(|precision| step::<State>(&model, precision).expect("a step"));
     assert_eq!(single, double);

@@ -34,7 +34,7 @@ fn row() -> ModelBuilder {
         .population::<Grain>(4)
         .items_may_leave::<Grain>()
         .initialise(move |state| {
-            state.fill(|[x, ..]| Ground { height: x as f64 * 0.5 })?;
+            state.fill(|site| Ground { height: site.cell()[0] as f64 * 0.5 })?;
             let items = coordinates.iter().zip(1..).map(|(x, label)| Item {
                 label,
                 cell: [*x as usize, 0, 0],
