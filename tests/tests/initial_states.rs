@@ -59,7 +59,8 @@ fn builder() -> ModelBuilder {
         })
 }
 
-/// Numbers are Philox of the seed, the group, the cell and the draw, as it is documented; nothing of it depends on the engine.
+/// Numbers are Philox of the seed, the group, the cell and the draw, as it is documented; nothing of it
+/// depends on the engine.
 #[test]
 fn sites_draw_as_documented() -> Result<(), Box<dyn Error>> {
     let model = builder().build()?;
@@ -124,7 +125,8 @@ fn processes_draw_other_numbers() -> Result<(), Box<dyn Error>> {
     let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
     simulation.step()?;
     let state = simulation.state();
-    // The covariance of two uniform numbers has a standard error of 1/12 of one over the root of their number.
+    // The covariance of two uniform numbers has a standard error of 1/12 of one over the root of their
+    // number.
     let product = state.sum_of(|ground: &Ground| (ground.height - 0.5) * (ground.drawn - 0.5))? / 10_000.0;
     assert!(product.abs() < 5.0 / 1200.0, "{product}");
     let mean = state.sum(Ground::HEIGHT)? / 10_000.0;

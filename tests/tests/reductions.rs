@@ -169,8 +169,8 @@ fn of_items(state: &State<'_>) -> Result<Vec<usize>, StateError> {
     Ok(rows)
 }
 
-/// The sum is near the exact one, and its bits are those of the documented order: within each row from the first to the last, then the
-/// rows from the first to the last.
+/// The sum is near the exact one, and its bits are those of the documented order: within each row from the
+/// first to the last, then the rows from the first to the last.
 fn check_floats<S: Substates, V: HostValue>(
     state: &State<'_>,
     substate: Substate<S, V>,
@@ -328,7 +328,8 @@ fn expressions_of_nothing() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// One NaN makes a sum, product, minimum and maximum NaN, wherever it stands, and counts as nothing; both zeros are zero.
+/// One NaN makes a sum, product, minimum and maximum NaN, wherever it stands, and counts as nothing; both
+/// zeros are zero.
 #[test]
 fn no_numbers_and_zeros() -> Result<(), Box<dyn Error>> {
     let model = Model::builder("holes").extents([3, 5, 2]).substates::<Ledger>().fill(ledger).build()?;

@@ -92,7 +92,8 @@ fn a_criterion_from_the_start() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Each operation has random numbers of its own, in each step others, and the same in every run with one seed.
+/// Each operation has random numbers of its own, in each step others, and the same in every run with one
+/// seed.
 #[test]
 fn operations_draw() -> Result<(), Box<dyn Error>> {
     let draw = |cell: usize| {

@@ -1,4 +1,5 @@
-//! Random numbers of different processes, populations and structs of cells have nothing to do with each other, on every engine.
+//! Random numbers of different processes, populations and structs of cells have nothing to do with each
+//! other, on every engine.
 
 use std::error::Error;
 use xca_core::prelude::*;
@@ -126,7 +127,8 @@ fn equal_draws_of_different_owners_are_independent() -> Result<(), Box<dyn Error
     Ok(())
 }
 
-/// A process that stands in the model twice draws other numbers the second time; one that is run alone, those of its place.
+/// A process that stands in the model twice draws other numbers the second time; one that is run alone, those
+/// of its place.
 #[test]
 fn the_place_in_the_step_counts() -> Result<(), Box<dyn Error>> {
     let model = Model::builder("twice")

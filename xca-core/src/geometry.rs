@@ -81,7 +81,8 @@ impl Geometry {
         [linear % width, linear / width % height, linear / (width * height)]
     }
 
-    /// The centre of a cell in metres, from the corner of the space; of hexagons too without the shift of odd rows or columns.
+    /// The centre of a cell in metres, from the corner of the space; of hexagons too without the shift of odd
+    /// rows or columns.
     pub fn centre(&self, cell: [usize; 3]) -> [f64; 3] {
         cell.map(|index| (index as f64 + 0.5) * self.side)
     }

@@ -28,11 +28,12 @@ pub fn philox(mut counter: [u32; 4], mut key: [u32; 2]) -> [u32; 4] {
     counter
 }
 
-/// A sequence of random numbers that is independent of all others: one for each process of a step, one for the initial state of each
-/// struct of substates, one for steering.
+/// A sequence of random numbers that is independent of all others: one for each process of a step, one for
+/// the initial state of each struct of substates, one for steering.
 ///
-/// A stream is 16 bits of the counter. Those below 2^15 belong to the processes by their places in the step, so that two runs of one process
-/// in a step are independent too. From 2^15 on they belong to the initial states; the last one belongs to steering.
+/// A stream is 16 bits of the counter. Those below 2^15 belong to the processes by their places in the step,
+/// so that two runs of one process in a step are independent too. From 2^15 on they belong to the initial
+/// states; the last one belongs to steering.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Stream(u16);
 

@@ -1,11 +1,13 @@
 //! Reductions: one value out of a whole substate.
 //!
-//! A reduction is done row by row (of items: those of the cells of a row, by cell and label), and the rows' results are combined in order,
-//! so that it gives the same bits whoever works on which row. A row without items gives nothing, which changes no result. Floating numbers
-//! are added up in `f64`, integers in `i64`, which wraps around.
+//! A reduction is done row by row (of items: those of the cells of a row, by cell and label), and the rows'
+//! results are combined in order, so that it gives the same bits whoever works on which row. A row without
+//! items gives nothing, which changes no result. Floating numbers are added up in `f64`, integers in `i64`,
+//! which wraps around.
 //!
-//! NaN is never lost: a sum, product, minimum or maximum of values with a NaN among them is NaN. It equals no value, so [`Reduction::CountEqual`]
-//! does not count it, and it is not zero, so logical reductions take it for true.
+//! NaN is never lost: a sum, product, minimum or maximum of values with a NaN among them is NaN. It equals no
+//! value, so [`Reduction::CountEqual`] does not count it, and it is not zero, so logical reductions take it
+//! for true.
 
 use crate::value::{HostValue, StoredScalar, StoredType};
 

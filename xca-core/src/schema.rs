@@ -28,8 +28,8 @@ impl Schema {
         self.fields.iter().enumerate().find(|(_, field)| field.name == name)
     }
 
-    /// What the lanes of the field with this number are called in tables: a scalar like the field, the lanes of a vector `field_x` and so
-    /// on, those of the position `x`, `y`, `z`.
+    /// What the lanes of the field with this number are called in tables: a scalar like the field, the lanes
+    /// of a vector `field_x` and so on, those of the position `x`, `y`, `z`.
     pub fn columns(&self, field: usize) -> Vec<String> {
         let Field { name, value_type } = &self.fields[field];
         let lanes = usize::from(value_type.lanes);

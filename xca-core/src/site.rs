@@ -54,16 +54,18 @@ impl Site {
         self.cell
     }
 
-    /// The centre of the cell in metres, from the corner of the space: `(index + 0.5) * side` along each axis.
+    /// The centre of the cell in metres, from the corner of the space: `(index + 0.5) * side` along each
+    /// axis.
     ///
-    /// So too with hexagons: this is the centre of the cell that [`crate::Space::cell_containing`] finds, without the shift of odd rows or
-    /// columns.
+    /// So too with hexagons: this is the centre of the cell that [`crate::Space::cell_containing`] finds,
+    /// without the shift of odd rows or columns.
     pub fn centre(&self) -> Vector3<f64> {
         self.centre
     }
 
-    /// A random number in [0, 1): a function of the seed, the struct of substates, the cell and `draw`, the same on every engine. It is
-    /// independent of what processes draw. In an `f32` run it has the 24 bits of an `f32`.
+    /// A random number in [0, 1): a function of the seed, the struct of substates, the cell and `draw`, the
+    /// same on every engine. It is independent of what processes draw. In an `f32` run it has the 24 bits of
+    /// an `f32`.
     ///
     /// The function [`crate::State::fill`] draws other numbers at other steps.
     pub fn random(&self, draw: usize) -> f64 {

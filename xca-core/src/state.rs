@@ -107,8 +107,9 @@ impl State<'_> {
         self.model.geometry()
     }
 
-    /// A random number in [0, 1) for steering: a function of the seed, the step, the operation and `draw`. It is independent of what
-    /// processes and initial states draw. In an `f32` run it has the 24 bits of an `f32`.
+    /// A random number in [0, 1) for steering: a function of the seed, the step, the operation and `draw`. It
+    /// is independent of what processes and initial states draw. In an `f32` run it has the 24 bits of an
+    /// `f32`.
     pub fn random(&self, draw: usize) -> f64 {
         uniform(self.words(draw), self.precision)
     }

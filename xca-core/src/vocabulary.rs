@@ -37,16 +37,18 @@ impl<S: 'static> Cell<S> {
         match self.never {}
     }
 
-    /// A random number in [0, 1): a function of seed, step, process, cell and `draw`, the same on every engine.
+    /// A random number in [0, 1): a function of seed, step, process, cell and `draw`, the same on every
+    /// engine.
     ///
-    /// Give each use in a process a `draw` of its own: one that asks twice for the same draw gets the same number. Equal draws of two
-    /// processes are independent, and so are those of two runs of a process in one step.
+    /// Give each use in a process a `draw` of its own: one that asks twice for the same draw gets the same
+    /// number. Equal draws of two processes are independent, and so are those of two runs of a process in one
+    /// step.
     pub fn random(&self, _draw: u32) -> Real {
         match self.never {}
     }
 
-    /// 32 random bits: a function of seed, step, process, cell and `draw`, the same on every engine. Equal draws give equal bits, as with
-    /// [`Self::random`], whose number is made of the same ones.
+    /// 32 random bits: a function of seed, step, process, cell and `draw`, the same on every engine. Equal
+    /// draws give equal bits, as with [`Self::random`], whose number is made of the same ones.
     pub fn random_bits(&self, _draw: u32) -> u32 {
         match self.never {}
     }
@@ -89,16 +91,18 @@ impl<S: 'static> Slot<S> {
         match self.never {}
     }
 
-    /// A random number in [0, 1): a function of seed, step, process, label and `draw`, the same on every engine.
+    /// A random number in [0, 1): a function of seed, step, process, label and `draw`, the same on every
+    /// engine.
     ///
-    /// Give each use in a process a `draw` of its own: one that asks twice for the same draw gets the same number. Equal draws of two
-    /// processes are independent, and so are those of two runs of a process in one step.
+    /// Give each use in a process a `draw` of its own: one that asks twice for the same draw gets the same
+    /// number. Equal draws of two processes are independent, and so are those of two runs of a process in one
+    /// step.
     pub fn random(&self, _draw: u32) -> Real {
         match self.never {}
     }
 
-    /// 32 random bits: a function of seed, step, process, label and `draw`, the same on every engine. Equal draws give equal bits, as with
-    /// [`Self::random`], whose number is made of the same ones.
+    /// 32 random bits: a function of seed, step, process, label and `draw`, the same on every engine. Equal
+    /// draws give equal bits, as with [`Self::random`], whose number is made of the same ones.
     pub fn random_bits(&self, _draw: u32) -> u32 {
         match self.never {}
     }

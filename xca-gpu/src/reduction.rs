@@ -1,4 +1,5 @@
-//! Reductions on the device: each row of cells, or of their items, by one invocation in order; the rows' results in order on the host.
+//! Reductions on the device: each row of cells, or of their items, by one invocation in order; the rows'
+//! results in order on the host.
 //!
 //! So the result has the bits of the reference engine wherever float sums have.
 

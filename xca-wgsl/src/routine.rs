@@ -139,7 +139,8 @@ fn masked(text: &str, type_: &Type) -> String {
     if type_.is_u8() { format!("({text}) & 0xffu") } else { text.to_owned() }
 }
 
-/// Philox 4x32-10 and what is made of its words. `owner` is the counter's first word; [`xca_core::Draw`] has the layout of the others.
+/// Philox 4x32-10 and what is made of its words. `owner` is the counter's first word; [`xca_core::Draw`] has
+/// the layout of the others.
 pub(crate) fn random(owner: &str, precision: Precision) -> String {
     let uniform = match precision {
         Precision::F32 => "f32(words.x >> 8u) * 5.9604645e-8f".to_owned(),

@@ -21,7 +21,8 @@ impl State<'_> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
-    /// All substates of the struct are brought to the host; [`Self::count`] needs one of them, and counts where the state is.
+    /// All substates of the struct are brought to the host; [`Self::count`] needs one of them, and counts
+    /// where the state is.
     ///
     /// # Errors
     /// Where the model does not have these substates.
@@ -31,10 +32,12 @@ impl State<'_> {
         Ok(count)
     }
 
-    /// The sum of a value of each cell, or of each item of a population: in `f64`, or in `i64` of integers. Rows are summed up one by one,
-    /// then combined in order, as by [`Self::sum`]; so the bits are the same on every engine.
+    /// The sum of a value of each cell, or of each item of a population: in `f64`, or in `i64` of integers.
+    /// Rows are summed up one by one, then combined in order, as by [`Self::sum`]; so the bits are the same
+    /// on every engine.
     ///
-    /// All substates of the struct are brought to the host; [`Self::sum`] needs one of them, and adds up where the state is.
+    /// All substates of the struct are brought to the host; [`Self::sum`] needs one of them, and adds up
+    /// where the state is.
     ///
     /// # Errors
     /// Where the model does not have these substates.

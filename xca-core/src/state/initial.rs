@@ -37,8 +37,8 @@ impl State<'_> {
         self.fill(|site| state(site, &parameters))
     }
 
-    /// Replaces all items of a population by those that the function gives for each cell. Labels are given out in order, from 0: cell after
-    /// cell (x fastest), and in a cell in the order of its items.
+    /// Replaces all items of a population by those that the function gives for each cell. Labels are given
+    /// out in order, from 0: cell after cell (x fastest), and in a cell in the order of its items.
     ///
     /// # Errors
     /// Where the model does not have the population, or a cell gets more items than it has slots.
