@@ -72,18 +72,15 @@ fn sites_draw_as_documented() -> Result<(), Box<dyn Error>> {
             let words = |group, owner, number| {
                 Draw { stream: Stream::initial(group), step: 0, owner, number }.words(options.seed)
             };
-            let uniform = |[high, low, ..]: [u32; 4]| match precision {
-                Precision::F32 => f64::from(high >> 8) / 2_f64.powi(24),
-                Precision::F64 => {
-                    (f64::from(high >> 5) * 2_f64.powi(26) + f64::from(low >> 6)) / 2_f64.powi(53)
-                }
+            let uniform = |[high, low, ..]: [u32; 4]| {
+                (f64::from(high >> 5) * 2_f64.powi(26) + f64::from(low >> 6)) / 2_f64.powi(53)
             };
             let rounded =
                 |value: f64| if precision == Precision::F32 { f64::from(value as f32) } else { value };
             let (heights, bits, sky) =
                 (state.read(Ground::HEIGHT)?, state.read(Ground::BITS)?, state.read(Sky::HEIGHT)?);
             for cell in 0..105 {
-                assert_eq!(heights[cell as usize], uniform(words(0, cell, 0)));
+                assert_eq!(heights[cell as usize], rounded(uniform(words(0, cell, 0))));
                 assert_eq!(bits[cell as usize], words(0, cell, 1)[0]);
                 assert_eq!(sky[cell as usize], rounded(100.0 + uniform(words(1, cell, 0))));
             }

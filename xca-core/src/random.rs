@@ -3,7 +3,7 @@
 //! J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw: "Parallel random numbers: as easy as 1, 2, 3", SC11. A number is
 //! a function of its counter and key alone, so that it does not matter who draws it, when, or in which order.
 
-use crate::value::{Float, Precision};
+use crate::value::Float;
 
 const MULTIPLIERS: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];
 const KEY_INCREMENTS: [u32; 2] = [0x9E37_79B9, 0xBB67_AE85];
@@ -90,12 +90,9 @@ impl Draw {
     }
 }
 
-/// A random number in [0, 1) of the precision of a run.
-pub(crate) fn uniform([first, second, ..]: [u32; 4], precision: Precision) -> f64 {
-    match precision {
-        Precision::F32 => f32::uniform([first, second]).into(),
-        Precision::F64 => f64::uniform([first, second]),
-    }
+/// A random number in [0, 1) for the host, whose `Real` is `f64` in every run.
+pub(crate) fn uniform([first, second, ..]: [u32; 4]) -> f64 {
+    f64::uniform([first, second])
 }
 
 #[cfg(test)]

@@ -2,7 +2,6 @@
 
 use crate::geometry::Geometry;
 use crate::random::{Draw, Stream, uniform};
-use crate::value::Precision;
 use crate::vector::Vector3;
 
 /// A cell whose initial state, or whose items, are about to be made: where it lies, and its random numbers.
@@ -16,7 +15,6 @@ pub struct Site {
     stream: Stream,
     step: u64,
     seed: u64,
-    precision: Precision,
 }
 
 /// What all sites of a struct of substates share.
@@ -26,7 +24,6 @@ pub(crate) struct Sites<'a> {
     pub(crate) group: usize,
     pub(crate) step: u64,
     pub(crate) seed: u64,
-    pub(crate) precision: Precision,
 }
 
 impl<'a> Sites<'a> {
@@ -42,7 +39,6 @@ impl<'a> Sites<'a> {
                 stream: Stream::initial(self.group),
                 step: self.step,
                 seed: self.seed,
-                precision: self.precision,
             }
         })
     }
@@ -64,12 +60,12 @@ impl Site {
     }
 
     /// A random number in [0, 1): a function of the seed, the struct of substates, the cell and `draw`, the
-    /// same on every engine. It is independent of what processes draw. In an `f32` run it has the 24 bits of
-    /// an `f32`.
+    /// same on every engine. It is independent of what processes draw. It has 53 bits in every run; an `f32` run
+    /// rounds what is made of it.
     ///
     /// The function [`crate::State::fill`] draws other numbers at other steps.
     pub fn random(&self, draw: usize) -> f64 {
-        uniform(self.words(draw), self.precision)
+        uniform(self.words(draw))
     }
 
     /// 32 random bits, as [`Self::random`], whose number is made of the same ones.

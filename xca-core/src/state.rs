@@ -108,10 +108,9 @@ impl State<'_> {
     }
 
     /// A random number in [0, 1) for steering: a function of the seed, the step, the operation and `draw`. It
-    /// is independent of what processes and initial states draw. In an `f32` run it has the 24 bits of an
-    /// `f32`.
+    /// is independent of what processes and initial states draw. It has 53 bits in every run.
     pub fn random(&self, draw: usize) -> f64 {
-        uniform(self.words(draw), self.precision)
+        uniform(self.words(draw))
     }
 
     /// 32 random bits, as [`Self::random`], whose number is made of the same ones.

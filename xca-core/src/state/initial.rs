@@ -9,7 +9,7 @@ use crate::substates::Substates;
 impl State<'_> {
     fn sites(&self, group: usize) -> Sites<'_> {
         let (geometry, step) = (self.model.geometry(), self.step);
-        Sites { geometry, group, step, seed: self.seed, precision: self.precision }
+        Sites { geometry, group, step, seed: self.seed }
     }
 
     /// Sets the state of every cell.
