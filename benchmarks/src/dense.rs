@@ -115,7 +115,7 @@ pub(crate) fn heat_model(size: usize) -> Result<Model, ModelError> {
         .substates::<Heat>()
         .parameters(Conduction { alpha: ALPHA })
         .process(diffuse)
-        .fill(move |cell| Heat { temperature: heat_at(cell) })
+        .fill(move |site| Heat { temperature: heat_at(site.cell()) })
         .build()
 }
 
@@ -127,7 +127,7 @@ pub(crate) fn life_model(size: usize) -> Result<Model, ModelError> {
         .boundaries([Boundary::Toroidal, Boundary::Toroidal, Boundary::Flat])
         .substates::<Life>()
         .process(evolve)
-        .fill(move |cell| Life { alive: life_at(cell) })
+        .fill(move |site| Life { alive: life_at(site.cell()) })
         .build()
 }
 

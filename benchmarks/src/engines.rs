@@ -29,7 +29,10 @@ fn mod2_model(size: usize) -> Result<Model, ModelError> {
         .boundary(Boundary::Toroidal)
         .substates::<Parity>()
         .process(add_up)
-        .fill(|[x, y, z]| Parity { odd: u8::from((x * 31 + y * 17 + z * 7) % 5 == 0) })
+        .fill(|site| {
+            let [x, y, z] = site.cell();
+            Parity { odd: u8::from((x * 31 + y * 17 + z * 7) % 5 == 0) }
+        })
         .build()
 }
 

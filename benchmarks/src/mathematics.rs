@@ -90,7 +90,8 @@ pub(crate) fn costs(
         .process(angle)
         .process(direction)
         .process(hyperbolic_tangent)
-        .fill(|[index, ..]| {
+        .fill(|site| {
+            let [index, ..] = site.cell();
             // Neighbouring cells have arguments far apart, so that branches cannot be guessed.
             let spread = (index * 40_503) % CELLS;
             Values { x: (spread as f64 + 0.5) * 10.0 / CELLS as f64, result: 0.0 }

@@ -93,8 +93,8 @@ pub fn model(arguments: Vec<[f64; 2]>) -> Result<Model, ModelError> {
         .extents([arguments.len(), 1, 1])
         .substates::<Values>()
         .process(compute)
-        .fill(move |[index, ..]| {
-            let [x, y] = arguments[index];
+        .fill(move |site| {
+            let [x, y] = arguments[site.cell()[0]];
             Values { x, y, ..Values::default() }
         })
         .build()

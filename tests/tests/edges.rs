@@ -41,7 +41,7 @@ fn lava(boundaries: Faces<Boundary>) -> Result<Model, ModelError> {
         .substates::<Lava>()
         .process(flow)
         .fill(|[x, y, _]| Lava { inside: 1, thickness: (1000 * x * y) as i32, left: 0 })
-        .steer(Schedule::EveryFrom { first: 0, interval: 1 }, |state| {
+        .steer(Schedule::EveryFromStart(1), |state| {
             Ok(state.update(Lava::THICKNESS, &VENTS, |[x, ..], thickness| thickness + 100 + x as i32)?)
         })
         .build()
@@ -90,8 +90,8 @@ fn schedules_of_sources() -> TestResult {
     let model = Model::builder("sources")
         .extents([1, 1, 1])
         .substates::<Lava>()
-        .steer(Schedule::EveryFrom { first: 0, interval: 4 }, add(1))
-        .steer(Schedule::EveryFrom { first: 2, interval: 2 }, add(2))
+        .steer(Schedule::EveryFromStart(4), add(1))
+        .steer(Schedule::Every(2), add(2))
         .fill(|_| Lava { inside: 1, thickness: 0, left: 0 })
         .steer(Schedule::Every(4), add(3))
         .steer(Schedule::At(vec![0]), add(4))

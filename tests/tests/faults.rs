@@ -124,7 +124,7 @@ fn drop_out(me: &Slot<Mote>) -> Destination {
 const EXTENTS: [usize; 3] = [4, 9, 8];
 
 /// Many rows, a few items: two in the first cell, one beside it, two in the last one.
-fn base(step: u32, by: [f64; 3]) -> xca_core::ModelBuilder {
+fn base(step: u32, by: [f64; 3]) -> ModelBuilder {
     Model::builder("faulty")
         .extents(EXTENTS)
         .neighbourhood(Neighbourhood::von_neumann(1))
@@ -132,7 +132,10 @@ fn base(step: u32, by: [f64; 3]) -> xca_core::ModelBuilder {
         .substates::<Spot>()
         .population::<Mote>(2)
         .fault_text(TOO_HOT, "it is too hot")
-        .fill(|[x, y, z]| Spot { value: x as f64 + 10.0 * y as f64 + 100.0 * z as f64, zero: 0 })
+        .fill(|site| {
+            let [x, y, z] = site.cell().map(|index| index as f64);
+            Spot { value: x + 10.0 * y + 100.0 * z, zero: 0 }
+        })
         .initialise(|state| {
             let item = |label: u32, cell: [usize; 3]| {
                 let [x, y, z] = cell.map(|index| index as f64 + 0.5);
@@ -150,7 +153,7 @@ fn base(step: u32, by: [f64; 3]) -> xca_core::ModelBuilder {
 }
 
 /// The fault of a model and the whole message.
-fn fault(builder: xca_core::ModelBuilder) -> Result<(u64, Fault, String), Box<dyn Error>> {
+fn fault(builder: ModelBuilder) -> Result<(u64, Fault, String), Box<dyn Error>> {
     let model = builder.build()?;
     let engines = engines::all()?;
     let mut found = None;
@@ -280,7 +283,7 @@ fn a_panic() -> Result<(), Box<dyn Error>> {
         .extents([6, 2, 1])
         .neighbourhood(Neighbourhood::hexagonal(Hexagons::SideUp))
         .substates::<Spot>()
-        .fill(|[x, _, _]| Spot { value: x as f64, zero: 0 })
+        .fill(|site| Spot { value: site.cell()[0] as f64, zero: 0 })
         .process(divide_at_neighbours);
     let cell = match fault(hexagons)? {
         (1, Fault::Panicked { process: "divide_at_neighbours", cell, label: None, .. }, _) => cell,

@@ -263,10 +263,71 @@ fn processes() {
         "`position`",
         "search in one process, move in the next"
     );
-    refused!(soil().steer(Schedule::Every(0), |_| Ok(())), ZeroInterval, "at least 1");
-    let never = Schedule::EveryFrom { first: 3, interval: 0 };
-    refused!(soil().steer(never, |_| Ok(())), ZeroInterval, "at least 1");
+    refused!(soil().steer(Schedule::Every(0), |_| Ok(())), ZeroInterval, "at least 1 step");
+    refused!(soil().steer(Schedule::EveryFromStart(0), |_| Ok(())), ZeroInterval, "at least 1 step");
     assert!(soil().parameters(Weather { rain: 1.0 }).process(soak).build().is_ok());
+}
+
+mod other {
+    use xca_core::prelude::*;
+
+    /// The name of another struct.
+    #[derive(Substates, Clone, Copy, Debug, PartialEq)]
+    pub(crate) struct Soil {
+        pub(crate) water: Real,
+    }
+}
+
+#[derive(Substates, Clone, Copy, Debug, PartialEq)]
+struct Stream {
+    flow: Vector2<Real>,
+    depth: Real,
+    flow_y: Real,
+}
+
+#[derive(Substates, Clone, Copy, Debug, PartialEq)]
+struct Ticket {
+    label: u32,
+}
+
+#[derive(Substates, Clone, Copy, Debug, PartialEq)]
+struct Kite {
+    y: Real,
+    #[position]
+    position: Vector3<Real>,
+}
+
+/// The same names apart: a position of cells is none, and cells have no labels.
+#[derive(Substates, Clone, Copy, Debug, PartialEq)]
+struct Fine {
+    label: u32,
+    x: Real,
+    position: Vector3<Real>,
+    water: Real,
+}
+
+#[test]
+fn names_that_mean_two_things() {
+    use ModelError::{FieldNamedLabel, SameColumn, SameStructName};
+    refused!(
+        soil().substates::<other::Soil>(),
+        SameStructName { name: "Soil", .. },
+        "faults_of_models::Soil` and `faults_of_models::other::Soil`",
+        "rename"
+    );
+    refused!(
+        soil().substates::<Stream>(),
+        SameColumn { substates: "Stream", first: "flow", second: "flow_y", .. },
+        "`flow` and `flow_y`",
+        "`Stream`"
+    );
+    refused!(
+        soil().population::<Kite>(1),
+        SameColumn { substates: "Kite", first: "y", second: "position", .. },
+        "`y` and `position`"
+    );
+    refused!(soil().population::<Ticket>(1), FieldNamedLabel { substates: "Ticket" }, "`label`", "`Ticket`");
+    assert!(soil().substates::<Fine>().build().is_ok());
 }
 
 /// Heavy cells.

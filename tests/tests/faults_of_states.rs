@@ -132,7 +132,8 @@ fn items() -> Result<(), Box<dyn Error>> {
 
 #[test]
 fn parameters() -> Result<(), Box<dyn Error>> {
-    let other = StateError::OtherParameters { wanted: "Climate", given: "Weather" };
+    let other = ParameterError::OtherStruct { wanted: "Climate", given: "Weather" };
+    let other = StateError::Parameter(other);
     let message = "the model's parameters are `Weather`, not `Climate`";
     refused(&other, message, |state| state.parameters::<Climate>())?;
     refused(&other, message, |state| state.set_parameters(Climate { rain: 0.0 }))?;

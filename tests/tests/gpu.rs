@@ -56,7 +56,10 @@ fn heat(extents: [usize; 3], boundary: Boundary, limit: f64) -> Result<Model, Mo
         .substates::<Heat>()
         .parameters(Conduction { alpha: 0.1, limit })
         .process(diffuse)
-        .fill(|[x, y, z]| Heat { temperature: ((x * 31 + y * 17 + z * 7) % 101) as f64, visits: 0 })
+        .fill(|site| {
+            let [x, y, z] = site.cell();
+            Heat { temperature: ((x * 31 + y * 17 + z * 7) % 101) as f64, visits: 0 }
+        })
         .build()
 }
 
@@ -115,7 +118,7 @@ fn a_fault_names_its_step_and_cell() -> TestResult {
         .substates::<Heat>()
         .parameters(Conduction { alpha: 0.1, limit: 0.0 })
         .process(diffuse_downstream)
-        .fill(|[x, ..]| Heat { temperature: if x == 0 { 1.0 } else { 0.0 }, visits: 0 })
+        .fill(|site| Heat { temperature: if site.cell()[0] == 0 { 1.0 } else { 0.0 }, visits: 0 })
         .build()?;
     let engines: [Box<dyn Engine>; 3] =
         [Box::new(Reference), Box::new(gpu()?), Box::new(short_sighted(8 * 42 * 7 * 4)?)];

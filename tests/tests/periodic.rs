@@ -59,7 +59,8 @@ fn positions_come_in_and_separations_go_the_shorter_way() -> Result<(), Box<dyn 
             .boundaries(BOUNDARIES)
             .substates::<Place>()
             .process(bring_in)
-            .fill(move |[x, y, z]| {
+            .fill(move |site| {
+                let [x, y, z] = site.cell();
                 let given = of_cell((z * height + y) * width + x);
                 Place { given, wrapped: Vector3::splat(0.0), shorter: Vector3::splat(0.0) }
             })

@@ -2,7 +2,7 @@
 
 use std::error::Error;
 use xca_core::prelude::*;
-use xca_core::reduction::{ITEMS_IN_BLOCK, Reduced, Reduction};
+use xca_core::reduction::{Reduced, Reduction};
 use xca_core::{HostValue, StateError};
 use xca_tests::suite::engines::{self, PRECISIONS};
 use xca_tests::suite::lattice::mix;
@@ -31,8 +31,8 @@ struct Entry {
 }
 
 const EXTENTS: [usize; 3] = [37, 11, 5];
-/// More than two blocks, of which the last is not full.
-const ITEMS: usize = 2 * ITEMS_IN_BLOCK + 1234;
+/// Enough for a few in most cells; none are in the rows of every third y.
+const ITEMS: usize = 9426;
 /// What the floating numbers are multiples of.
 const GRAIN: f64 = 1.0 / (1_u64 << 40) as f64;
 
@@ -47,7 +47,8 @@ fn long(salt: u32, number: u32) -> f64 {
     (bits as f64 - (1_u64 << 49) as f64) * GRAIN
 }
 
-fn ledger([x, y, z]: [usize; 3]) -> Ledger {
+fn ledger(site: Site) -> Ledger {
+    let [x, y, z] = site.cell();
     let salt = mix(mix(x as u32, y as u32), z as u32);
     Ledger {
         byte: (salt % 7) as u8,
@@ -72,7 +73,11 @@ fn entry(label: u32) -> Item<Entry> {
     };
     Item {
         label,
-        cell: [mix(salt, 9) as usize % 37, mix(salt, 10) as usize % 11, mix(salt, 11) as usize % 5],
+        cell: [
+            mix(salt, 9) as usize % 37,
+            mix(salt, 10) as usize % 11 / 3 * 3 + mix(salt, 10) as usize % 11 % 3 % 2,
+            mix(salt, 11) as usize % 5,
+        ],
         state,
     }
 }
@@ -150,12 +155,26 @@ where
     Ok(())
 }
 
-/// The sum is near the exact one, and its bits are those of the documented order: within each part from the first to the last, then the
-/// parts from the first to the last.
+/// How many values each row has.
+fn of_cells(_: &State<'_>) -> Result<Vec<usize>, StateError> {
+    Ok(vec![EXTENTS[0]; EXTENTS[1] * EXTENTS[2]])
+}
+
+fn of_items(state: &State<'_>) -> Result<Vec<usize>, StateError> {
+    let mut rows = vec![0; EXTENTS[1] * EXTENTS[2]];
+    for item in state.items::<Entry>()? {
+        rows[item.cell[2] * EXTENTS[1] + item.cell[1]] += 1;
+    }
+    assert!(rows.contains(&0) && rows.iter().any(|items| *items > 50));
+    Ok(rows)
+}
+
+/// The sum is near the exact one, and its bits are those of the documented order: within each row from the
+/// first to the last, then the rows from the first to the last.
 fn check_floats<S: Substates, V: HostValue>(
     state: &State<'_>,
     substate: Substate<S, V>,
-    part: usize,
+    rows: &[usize],
 ) -> Result<(), StateError>
 where
     V::Scalar: Into<f64>,
@@ -176,7 +195,12 @@ where
             "{substate:?}: {sum} is off by {error}"
         );
         let in_order = |combine: &dyn Fn(f64, f64) -> f64| {
-            let parts = values.chunks(part).map(|part| part.iter().copied().reduce(combine));
+            let mut rest = values.as_slice();
+            let parts = rows.iter().map(|length| {
+                let (row, others) = rest.split_at(*length);
+                rest = others;
+                row.iter().copied().reduce(combine)
+            });
             parts.flatten().reduce(combine).map(f64::to_bits)
         };
         assert_eq!(Some(sum.to_bits()), in_order(&|a, b| a + b), "{substate:?}");
@@ -214,12 +238,13 @@ fn integers() -> Result<(), Box<dyn Error>> {
 #[test]
 fn floats() -> Result<(), Box<dyn Error>> {
     everywhere(|state| {
-        check_floats(state, Ledger::SINGLE, EXTENTS[0])?;
-        check_floats(state, Ledger::DOUBLE, EXTENTS[0])?;
-        check_floats(state, Ledger::REAL, EXTENTS[0])?;
-        check_floats(state, Ledger::TRIO, EXTENTS[0])?;
-        check_floats(state, Entry::DOUBLE, ITEMS_IN_BLOCK)?;
-        check_floats(state, Entry::QUAD, ITEMS_IN_BLOCK)
+        let (cells, items) = (of_cells(state)?, of_items(state)?);
+        check_floats(state, Ledger::SINGLE, &cells)?;
+        check_floats(state, Ledger::DOUBLE, &cells)?;
+        check_floats(state, Ledger::REAL, &cells)?;
+        check_floats(state, Ledger::TRIO, &cells)?;
+        check_floats(state, Entry::DOUBLE, &items)?;
+        check_floats(state, Entry::QUAD, &items)
     })
 }
 
@@ -263,7 +288,48 @@ fn the_short_ways() -> Result<(), Box<dyn Error>> {
     })
 }
 
-/// Values that are no numbers are the smallest or largest only where there is nothing else, wherever they stand; both zeros are zero.
+/// What is computed from several substates is reduced as a substate is: the same bits on every engine.
+#[test]
+fn expressions() -> Result<(), Box<dyn Error>> {
+    let first: std::cell::Cell<Option<[u64; 2]>> = std::cell::Cell::new(None);
+    everywhere(|state| {
+        // The sum of a substate is that of the expression which names it, to the last bit.
+        let double = state.sum_of(|ledger: &Ledger| ledger.double)?;
+        assert_eq!(double.to_bits(), state.sum(Ledger::DOUBLE)?.to_bits());
+        let double = state.sum_of(|entry: &Entry| entry.double)?;
+        assert_eq!(double.to_bits(), state.sum(Entry::DOUBLE)?.to_bits());
+        assert_eq!(state.sum_of(|ledger: &Ledger| ledger.pair)?, state.sum(Ledger::PAIR)?);
+        assert_eq!(state.sum_of(|entry: &Entry| entry.quad)?, state.sum(Entry::QUAD)?);
+        let count = state.count_where(|ledger: &Ledger| ledger.byte == 3)?;
+        assert_eq!(count, state.count(Ledger::BYTE, 3)?);
+        let both = state.count_where(|entry: &Entry| entry.byte == 1 && entry.signed > 0)?;
+        let items = state.items::<Entry>()?;
+        let wanted = items.iter().filter(|item| item.state.byte == 1 && item.state.signed > 0).count();
+        assert_eq!(both, wanted as u64);
+        let mixed = [
+            state.sum_of(|ledger: &Ledger| ledger.double * f64::from(ledger.single))?,
+            state.sum_of(|entry: &Entry| entry.double * f64::from(entry.quad.x))?,
+        ];
+        let mixed = mixed.map(f64::to_bits);
+        assert_eq!(first.replace(Some(mixed)).unwrap_or(mixed), mixed);
+        Ok(())
+    })
+}
+
+#[test]
+fn expressions_of_nothing() -> Result<(), Box<dyn Error>> {
+    let model = Model::builder("empty").extents([3, 3, 3]).population::<Entry>(1).build()?;
+    let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
+    let state = simulation.state();
+    assert_eq!(state.sum_of(|entry: &Entry| entry.double)?, 0.0);
+    assert_eq!(state.count_where(|_: &Entry| true)?, 0);
+    let error = state.count_where(|_: &Ledger| true);
+    assert_eq!(error, Err(StateError::UnknownSubstates("Ledger")));
+    Ok(())
+}
+
+/// One NaN makes a sum, product, minimum and maximum NaN, wherever it stands, and counts as nothing; both
+/// zeros are zero.
 #[test]
 fn no_numbers_and_zeros() -> Result<(), Box<dyn Error>> {
     let model = Model::builder("holes").extents([3, 5, 2]).substates::<Ledger>().fill(ledger).build()?;
@@ -272,17 +338,20 @@ fn no_numbers_and_zeros() -> Result<(), Box<dyn Error>> {
             let mut simulation = Simulation::new(&model, &*engine, RunOptions { precision, seed: 0 })?;
             let mut state = simulation.state();
             for empty in [0, 1, 14, 29] {
-                let mut values = vec![f64::NAN; 30];
-                values[empty] = -0.0;
+                let mut values = vec![-0.0; 30];
+                values[empty] = f64::NAN;
                 state.write(Ledger::REAL, &values)?;
-                assert_eq!(state.minimum(Ledger::REAL)?, Some(0.0));
-                assert_eq!(state.maximum(Ledger::REAL)?, Some(0.0));
-                assert_eq!(state.count(Ledger::REAL, 0.0)?, 1);
-                assert_eq!(state.reduce(Ledger::REAL, &Reduction::LogicalXor)?, [Reduced::Integer(1)]);
+                assert!(state.minimum(Ledger::REAL)?.is_some_and(f64::is_nan));
+                assert!(state.maximum(Ledger::REAL)?.is_some_and(f64::is_nan));
                 assert!(state.sum(Ledger::REAL)?.is_nan());
+                assert!(state.product(Ledger::REAL)?.is_nan());
+                assert_eq!(state.count(Ledger::REAL, 0.0)?, 29);
+                assert_eq!(state.count(Ledger::REAL, f64::NAN)?, 0);
+                assert_eq!(state.reduce(Ledger::REAL, &Reduction::LogicalXor)?, [Reduced::Integer(1)]);
+                assert_eq!(state.reduce(Ledger::REAL, &Reduction::LogicalAnd)?, [Reduced::Integer(0)]);
             }
-            state.write(Ledger::REAL, &[f64::NAN; 30])?;
-            assert!(state.minimum(Ledger::REAL)?.is_some_and(f64::is_nan));
+            state.write(Ledger::REAL, &[f64::INFINITY; 30])?;
+            assert_eq!(state.minimum(Ledger::REAL)?, Some(f64::INFINITY));
             for reduction in [Reduction::BitAnd, Reduction::BitOr, Reduction::BitXor] {
                 assert_eq!(state.reduce(Ledger::TRIO, &reduction), Err(StateError::BitsOfFloats("trio")));
             }

@@ -138,6 +138,12 @@ impl Geometry {
         [linear % width, linear / width % height, linear / (width * height)]
     }
 
+    /// The centre of a cell in metres, from the corner of the space; of hexagons too without the shift of odd
+    /// rows or columns.
+    pub fn centre(&self, cell: [usize; 3]) -> [f64; 3] {
+        cell.map(|index| (index as f64 + 0.5) * self.side)
+    }
+
     /// The indices of the cell that contains a position, where there is one.
     pub fn cell_containing(&self, position: [f64; 3]) -> Option<[usize; 3]> {
         let mut cell = [0; 3];

@@ -9,7 +9,7 @@
 #![allow(unsafe_code)]
 
 use crate::geometry::Geometry;
-use crate::random::{self, Owner};
+use crate::random::{Draw, Stream};
 use crate::value::Float;
 use crate::vector::Vector3;
 use std::any::Any;
@@ -81,6 +81,8 @@ pub struct Frame<'a> {
     pub step: u64,
     /// The seed of the run's random numbers.
     pub seed: u64,
+    /// The stream of the process's random numbers.
+    pub stream: Stream,
     /// `P::Native<R>` of each struct of the model's parameters.
     pub parameters: &'a [Arc<dyn Any + Send + Sync>],
     /// The distance in elements from a cell to each cell of its neighbourhood, index 0 being the cell itself.
@@ -337,31 +339,35 @@ impl<'a> Row<'a> {
         Vector3::new(first as i32 + x as i32, y as i32, z as i32)
     }
 
+    #[inline]
+    fn draw(&self, owner: u32, number: u32) -> [u32; 4] {
+        let Frame { stream, step, seed, .. } = *self.frame;
+        Draw { stream, step, owner, number }.words(seed)
+    }
+
     /// Random bits of a cell of the row.
     #[inline]
     pub fn random_bits(&self, x: usize, draw: usize) -> u32 {
-        random::draw_words(self.frame.seed, self.frame.step, Owner::Cell(self.cell(x)), draw as u32)[0]
+        self.draw(self.cell(x), draw as u32)[0]
     }
 
     /// A random number of a cell of the row.
     #[inline]
     pub fn random<R: Float>(&self, x: usize, draw: usize) -> R {
-        let words =
-            random::draw_words(self.frame.seed, self.frame.step, Owner::Cell(self.cell(x)), draw as u32);
+        let words = self.draw(self.cell(x), draw as u32);
         R::uniform([words[0], words[1]])
     }
 
     /// Random bits of an item.
     #[inline]
     pub fn item_random_bits(&self, item: usize, draw: usize) -> u32 {
-        random::draw_words(self.frame.seed, self.frame.step, Owner::Item(self.label(item)), draw as u32)[0]
+        self.draw(self.label(item), draw as u32)[0]
     }
 
     /// A random number of an item.
     #[inline]
     pub fn item_random<R: Float>(&self, item: usize, draw: usize) -> R {
-        let words =
-            random::draw_words(self.frame.seed, self.frame.step, Owner::Item(self.label(item)), draw as u32);
+        let words = self.draw(self.label(item), draw as u32);
         R::uniform([words[0], words[1]])
     }
 }

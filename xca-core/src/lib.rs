@@ -53,7 +53,7 @@
 //!     .substates::<Forest>()
 //!     .parameters(Fire { spread: 0.3, burning_rate: 0.25 })
 //!     .process(burn)
-//!     .fill(|cell| Forest { tree: if cell == [32, 32, 0] { BURNING } else { GREEN }, fuel: 1.0 })
+//!     .fill(|site| Forest { tree: if site.cell() == [32, 32, 0] { BURNING } else { GREEN }, fuel: 1.0 })
 //!     .stop_when(Schedule::Every(1), |state| {
 //!         let burning = state.count(Forest::TREE, BURNING)?;
 //!         Ok((burning == 0).then(|| "the fire is out".to_owned()))
@@ -108,6 +108,7 @@ pub mod reduction;
 mod reference;
 mod schema;
 mod simulation;
+mod site;
 mod state;
 mod states;
 mod steering;
@@ -125,10 +126,11 @@ pub use neighbourhood::{Hexagons, Neighbourhood, NeighbourhoodError, Parity};
 pub use parameter_set::ParameterSet;
 pub use parameters::{AnyParameters, ParameterError, ParameterValue, Parameters};
 pub use process::{Argument, ElementaryProcess, Holds, ParametersArgument, Process, ProcessKind, Processes};
-pub use random::{Owner, draw_words, philox};
+pub use random::{Draw, Stream, philox};
 pub use reference::Reference;
 pub use schema::{Field, Schema};
 pub use simulation::{GroupSnapshot, Outcome, RunError, RunOptions, Simulation, Snapshot, SnapshotError};
+pub use site::Site;
 pub use state::{Item, State, StateError};
 pub use states::{StateNames, States};
 pub use steering::{Schedule, SteeringError};
@@ -144,9 +146,9 @@ pub use xca_macros::{Parameters, States, Substates, elementary_process, helper, 
 /// What a model's source needs.
 pub mod prelude {
     pub use crate::{
-        Boundary, Cell, Destination, Engine, Face, Faces, Hexagons, Item, Model, ModelError, Neighbourhood,
-        Other, Outcome, ParameterError, Parameters, Precision, Real, Reference, RunError, RunOptions,
-        Schedule, Simulation, Slot, Slots, Space, State, States, SteeringError, Substate, Substates, Vector2,
-        Vector3, Vector4, directions, elementary_process, helper, migration,
+        Boundary, Cell, Destination, Engine, Face, Faces, Hexagons, Item, Model, ModelBuilder, ModelError,
+        Neighbourhood, Other, Outcome, ParameterError, Parameters, Precision, Real, Reference, RunError,
+        RunOptions, Schedule, Simulation, Site, Slot, Slots, Space, State, States, SteeringError, Substate,
+        Substates, Vector2, Vector3, Vector4, directions, elementary_process, helper, migration,
     };
 }

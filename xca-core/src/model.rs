@@ -2,7 +2,9 @@
 
 mod builder;
 mod error;
+mod filling;
 mod initial;
+mod names;
 
 pub use builder::ModelBuilder;
 pub use error::ModelError;
@@ -11,6 +13,7 @@ pub use initial::InitialError;
 use crate::engine::SubstateId;
 use crate::geometry::{Faces, Geometry};
 use crate::parameter_set::ParameterSet;
+use crate::parameters::{ParameterError, Parameters};
 use crate::plan::Plan;
 use crate::process::Process;
 use crate::schema::Schema;
@@ -38,6 +41,8 @@ pub struct Model {
 #[derive(Clone)]
 pub struct Group {
     type_id: TypeId,
+    /// With its path, for messages.
+    type_name: &'static str,
     schema: &'static Schema,
     kind: GroupKind,
 }
@@ -172,11 +177,20 @@ impl Model {
         self.groups[substate.group].schema.fields[substate.field].value_type.stored(precision)
     }
 
-    /// Sets a parameter of the model by name, before it is run.
+    /// The same model with other parameters of the struct `P`. What the initial state makes of them follows.
+    ///
+    /// # Errors
+    /// Where the model has no parameters of this type, or one is out of its range.
+    pub fn with_parameters<P: Parameters>(mut self, parameters: P) -> Result<Self, ParameterError> {
+        self.parameters.replace(Precision::F64, parameters)?;
+        Ok(self)
+    }
+
+    /// Sets a parameter of the model by name, before it is run. What the initial state makes of it follows.
     ///
     /// # Errors
     /// Where no parameter has the name or several have, it is computed, or the text is no value of its type or its range.
-    pub fn set_parameter(&mut self, name: &str, text: &str) -> Result<(), crate::ParameterError> {
+    pub fn set_parameter(&mut self, name: &str, text: &str) -> Result<(), ParameterError> {
         self.parameters.change(Precision::F64, |parameters| parameters.set_by_name(name, text))
     }
 }

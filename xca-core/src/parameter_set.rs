@@ -88,6 +88,36 @@ impl ParameterSet {
         self.structs().find_map(|parameters| parameters.as_any().downcast_ref())
     }
 
+    /// The values of the struct `P`.
+    ///
+    /// # Errors
+    /// Where there is none.
+    pub fn typed<P: Parameters>(&self) -> Result<&P, ParameterError> {
+        self.get().ok_or_else(|| ParameterError::OtherStruct { wanted: P::SCHEMA.name, given: self.listed() })
+    }
+
+    /// Replaces the values of the struct `P`.
+    ///
+    /// # Errors
+    /// Where there is none, or a parameter is out of its range. The parameters are then what they were.
+    pub(crate) fn replace<P: Parameters>(
+        &mut self,
+        precision: Precision,
+        parameters: P,
+    ) -> Result<(), ParameterError> {
+        self.typed::<P>()?;
+        self.change(precision, |set| {
+            set.add(parameters);
+            Ok(())
+        })
+    }
+
+    /// The names of the structs, for messages.
+    pub(crate) fn listed(&self) -> String {
+        let names: Vec<&str> = self.schemas().map(|schema| schema.name).collect();
+        if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+    }
+
     /// The schemas of the structs.
     pub fn schemas(&self) -> impl Iterator<Item = &'static Schema> {
         self.structs().map(AnyParameters::schema)

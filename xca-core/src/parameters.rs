@@ -199,6 +199,14 @@ impl fmt::Display for ParameterValue {
 /// A parameter that cannot be read or set.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ParameterError {
+    /// The model has no parameters of this type.
+    #[error("the model has no parameters `{wanted}`; it has: {given}")]
+    OtherStruct {
+        /// The type that was asked for.
+        wanted: &'static str,
+        /// The types that the model has.
+        given: String,
+    },
     /// No parameter has this name.
     #[error("no parameter is called `{name}`; {of} has {known}")]
     Unknown {

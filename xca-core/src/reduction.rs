@@ -1,12 +1,15 @@
 //! Reductions: one value out of a whole substate.
 //!
-//! A reduction is done row by row (for items: block by block), and the rows' results are combined in order, so that it gives the same
-//! bits whoever works on which row. Floating numbers are added up in `f64`, integers in `i64`, which wraps around.
+//! A reduction is done row by row (of items: those of the cells of a row, by cell and label), and the rows'
+//! results are combined in order, so that it gives the same bits whoever works on which row. A row without
+//! items gives nothing, which changes no result. Floating numbers are added up in `f64`, integers in `i64`,
+//! which wraps around.
+//!
+//! NaN is never lost: a sum, product, minimum or maximum of values with a NaN among them is NaN. It equals no
+//! value, so [`Reduction::CountEqual`] does not count it, and it is not zero, so logical reductions take it
+//! for true.
 
 use crate::value::{HostValue, StoredScalar, StoredType};
-
-/// How many items make a block.
-pub const ITEMS_IN_BLOCK: usize = 4096;
 
 /// What is made of the values.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,9 +18,9 @@ pub enum Reduction {
     Sum,
     /// The product.
     Product,
-    /// The smallest; a NaN only where there is nothing else.
+    /// The smallest; NaN where any value is NaN.
     Minimum,
-    /// The largest; a NaN only where there is nothing else.
+    /// The largest; NaN where any value is NaN.
     Maximum,
     /// How many equal this value, given as the stored bytes of one lane; the two zeros are equal.
     CountEqual(Vec<u8>),
@@ -62,8 +65,8 @@ impl Reduced {
             }),
             (Self::Float(a), Self::Float(b)) => Self::Float(match reduction {
                 Reduction::Product => a * b,
-                Reduction::Minimum if b < a || a.is_nan() => b,
-                Reduction::Maximum if a < b || a.is_nan() => b,
+                Reduction::Minimum if b < a || b.is_nan() => b,
+                Reduction::Maximum if a < b || b.is_nan() => b,
                 Reduction::Minimum | Reduction::Maximum => a,
                 _ => a + b,
             }),
@@ -85,11 +88,33 @@ impl Reduced {
 
 /// Reduces consecutive stored values, component by component.
 pub fn reduce_values(reduction: &Reduction, stored: StoredType, values: &[u8]) -> Vec<Reduced> {
+    let mut results = Vec::with_capacity(stored.components());
+    append_row(reduction, stored, values, &mut results);
+    results
+}
+
+/// Reduces consecutive stored values, component by component, and appends the results of the components.
+pub fn append_row(reduction: &Reduction, stored: StoredType, values: &[u8], results: &mut Vec<Reduced>) {
     let size = stored.scalar.size();
-    let mut results = vec![Reduced::Nothing; stored.components()];
+    let first = results.len();
+    results.resize(first + stored.components(), Reduced::Nothing);
     for value in values.chunks_exact(stored.size()) {
-        for (result, lane) in results.iter_mut().zip(value.chunks_exact(size)) {
+        for (result, lane) in results[first..].iter_mut().zip(value.chunks_exact(size)) {
             *result = result.combine(one(reduction, stored.scalar, lane), reduction);
+        }
+    }
+}
+
+/// Combines the results of rows in their order: for each lane one result.
+pub fn combine_rows<'a>(
+    reduction: &Reduction,
+    lanes: usize,
+    rows: impl IntoIterator<Item = &'a [Reduced]>,
+) -> Vec<Reduced> {
+    let mut results = vec![Reduced::Nothing; lanes];
+    for row in rows {
+        for (result, part) in results.iter_mut().zip(row) {
+            *result = result.combine(*part, reduction);
         }
     }
     results
@@ -127,12 +152,15 @@ pub trait Reducible: HostValue {
     /// The sum or product from the results of the components; where there was no value, in each what it is of nothing: 0 or 1.
     fn total(results: &[Reduced], of_nothing: u8) -> Self::Sum;
 
+    /// A component as what it adds to a sum.
+    fn reduced(&self, component: usize) -> Reduced;
+
     /// A value of the same type from the results of the components; nothing where there was no value.
     fn same(results: &[Reduced]) -> Option<Self>;
 }
 
 macro_rules! reducible {
-    ($($type:ident => $sum:ident),*) => {$(
+    ($($type:ident => $variant:ident($sum:ident)),*) => {$(
         impl Reducible for $type {
             type Sum = $sum;
 
@@ -142,6 +170,10 @@ macro_rules! reducible {
                     Reduced::Integer(value) => value as $sum,
                     Reduced::Float(value) => value as $sum,
                 }
+            }
+
+            fn reduced(&self, _lane: usize) -> Reduced {
+                Reduced::$variant((*self).into())
             }
 
             fn same(results: &[Reduced]) -> Option<Self> {
@@ -155,7 +187,7 @@ macro_rules! reducible {
     )*};
 }
 
-reducible!(u8 => i64, i32 => i64, u32 => i64, f32 => f64, f64 => f64);
+reducible!(u8 => Integer(i64), i32 => Integer(i64), u32 => Integer(i64), f32 => Float(f64), f64 => Float(f64));
 
 /// The sum is how many are `true`, the product whether all are, the minimum and the maximum are "and" and "or".
 impl Reducible for bool {
@@ -163,6 +195,10 @@ impl Reducible for bool {
 
     fn total(results: &[Reduced], of_nothing: u8) -> i64 {
         u8::total(results, of_nothing)
+    }
+
+    fn reduced(&self, _component: usize) -> Reduced {
+        Reduced::Integer(i64::from(*self))
     }
 
     fn same(results: &[Reduced]) -> Option<bool> {
@@ -175,6 +211,10 @@ impl<T: Reducible, const N: usize> Reducible for [T; N] {
 
     fn total(results: &[Reduced], of_nothing: u8) -> Self::Sum {
         std::array::from_fn(|element| T::total(&results[element * T::COMPONENTS..], of_nothing))
+    }
+
+    fn reduced(&self, component: usize) -> Reduced {
+        self[component / T::COMPONENTS].reduced(component % T::COMPONENTS)
     }
 
     fn same(results: &[Reduced]) -> Option<Self> {
@@ -193,6 +233,10 @@ macro_rules! reducible_vector {
 
             fn total(results: &[Reduced], of_nothing: u8) -> Self::Sum {
                 crate::vector::$vector::new($(T::total(&results[$index..], of_nothing)),+)
+            }
+
+            fn reduced(&self, component: usize) -> Reduced {
+                HostValue::component(self, component).reduced(0)
             }
 
             fn same(results: &[Reduced]) -> Option<Self> {
@@ -245,8 +289,10 @@ mod tests {
         let values: Vec<u8> =
             [f64::NAN, 0.0, -0.0, 3.0].iter().flat_map(|value| value.to_ne_bytes()).collect();
         let reduce = |reduction: Reduction| reduce_values(&reduction, stored, &values)[0];
-        assert_eq!(reduce(Reduction::Minimum), Reduced::Float(0.0));
-        assert_eq!(reduce(Reduction::Maximum), Reduced::Float(3.0));
+        for reduction in [Reduction::Sum, Reduction::Product, Reduction::Minimum, Reduction::Maximum] {
+            assert!(reduce(reduction.clone()).number().is_some_and(f64::is_nan), "{reduction:?}");
+        }
+        assert_eq!(reduce(Reduction::LogicalXor), Reduced::Integer(0));
         assert_eq!(reduce(Reduction::CountEqual(0.0_f64.to_ne_bytes().to_vec())), Reduced::Integer(2));
     }
 }

@@ -37,6 +37,18 @@ impl Schema {
         self.fields.iter().enumerate().find(|(_, field)| field.name == name)
     }
 
+    /// What the components of the field with this number are called in tables: a scalar like the field, others `field_x`,
+    /// `field_3` or `field_3_x` ([`ValueType::component_names`]), those of the position `x`, `y`, `z`.
+    pub fn columns(&self, field: usize) -> Vec<String> {
+        let Field { name, value_type, .. } = &self.fields[field];
+        let whole = |component: String| match component.as_str() {
+            "" => (*name).to_owned(),
+            _ if self.position == Some(field) => component,
+            _ => format!("{name}_{component}"),
+        };
+        value_type.component_names().into_iter().map(whole).collect()
+    }
+
     /// The names of all fields, separated by commas, for messages.
     pub fn names(&self) -> String {
         self.fields.iter().map(|field| field.name).collect::<Vec<_>>().join(", ")

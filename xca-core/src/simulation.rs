@@ -154,6 +154,11 @@ impl Simulation {
 
     /// The state, to look at or to change.
     pub fn state(&mut self) -> State<'_> {
+        self.state_for(u32::MAX)
+    }
+
+    /// The state for the steering operation with this number.
+    fn state_for(&mut self, operation: u32) -> State<'_> {
         State {
             model: &self.model,
             execution: &mut *self.execution,
@@ -162,6 +167,7 @@ impl Simulation {
             precision: self.options.precision,
             seed: self.options.seed,
             step: self.step,
+            operation,
             stop: &mut self.stop,
         }
     }
@@ -171,7 +177,8 @@ impl Simulation {
             if due(&self.model.steering()[index].schedule) {
                 let operation = self.model.steering()[index].operation.clone();
                 let step = self.step;
-                operation(&mut self.state()).map_err(|source| RunError::Steering { step, source })?;
+                operation(&mut self.state_for(index as u32))
+                    .map_err(|source| RunError::Steering { step, source })?;
             }
         }
         Ok(())

@@ -1,14 +1,16 @@
 //! The state of a run as steering and the host see it.
 
 mod cells;
+mod expressions;
+mod initial;
 
 use crate::engine::{EngineFailure, Execution, Fault, Population, SubstateId};
 use crate::geometry::Geometry;
 use crate::model::Model;
 use crate::parameter_set::ParameterSet;
 use crate::parameters::{ParameterError, ParameterValue, Parameters};
+use crate::random::{Draw, Stream, uniform};
 use crate::reduction::{Reduced, Reducible, Reduction};
-use crate::steering::SteeringError;
 use crate::substates::{Substate, Substates};
 use crate::value::{HostScalar, HostValue, Precision, StoredScalar};
 
@@ -21,6 +23,8 @@ pub struct State<'a> {
     pub(crate) precision: Precision,
     pub(crate) seed: u64,
     pub(crate) step: u64,
+    /// The number of the steering operation that has the state; for the host beyond all of them.
+    pub(crate) operation: u32,
     pub(crate) stop: &'a mut Option<String>,
 }
 
@@ -73,15 +77,7 @@ pub enum StateError {
     /// Two items with the same label.
     #[error("the label {0} is given to two items")]
     LabelTwice(u32),
-    /// The model has no parameters of this type.
-    #[error("the model has no parameters `{wanted}`; it has: {given}")]
-    OtherParameters {
-        /// The type that was asked for.
-        wanted: &'static str,
-        /// The types that the model has.
-        given: String,
-    },
-    /// A parameter that cannot be set.
+    /// A parameter that cannot be read or set.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
     /// The engine cannot reach its state any more.
@@ -111,6 +107,22 @@ impl State<'_> {
     /// The cellular space.
     pub fn geometry(&self) -> &Geometry {
         self.model.geometry()
+    }
+
+    /// A random number in [0, 1) for steering: a function of the seed, the step, the operation and `draw`. It
+    /// is independent of what processes and initial states draw. It has 53 bits in every run.
+    pub fn random(&self, draw: usize) -> f64 {
+        uniform(self.words(draw))
+    }
+
+    /// 32 random bits, as [`Self::random`], whose number is made of the same ones.
+    pub fn random_bits(&self, draw: usize) -> u32 {
+        self.words(draw)[0]
+    }
+
+    fn words(&self, draw: usize) -> [u32; 4] {
+        let (stream, step, owner) = (Stream::STEERING, self.step, self.operation);
+        Draw { stream, step, owner, number: draw as u32 }.words(self.seed)
     }
 
     /// Ends the run, with a reason for the report.
@@ -147,28 +159,6 @@ impl State<'_> {
         } else {
             Err(StateError::NoSuchCell { cell, extents })
         }
-    }
-
-    /// Sets the state of every cell from its indices.
-    ///
-    /// # Errors
-    /// Where the model does not have these substates of cells.
-    pub fn fill<S: Substates>(&mut self, state: impl Fn([usize; 3]) -> S) -> Result<(), SteeringError> {
-        let group = self.cells_of::<S>()?;
-        let cells = self.geometry().cells();
-        let types = self.model.groups()[group].stored(self.precision);
-        let mut fields: Vec<Vec<u8>> = types.iter().map(|stored| vec![0; stored.size() * cells]).collect();
-        for linear in 0..cells {
-            let value = state(self.geometry().indices(linear));
-            for (field, (bytes, stored)) in fields.iter_mut().zip(&types).enumerate() {
-                let size = stored.size();
-                value.encode(field, self.precision, &mut bytes[linear * size..(linear + 1) * size]);
-            }
-        }
-        for (field, bytes) in fields.iter().enumerate() {
-            self.execution.write(SubstateId { group, field }, bytes)?;
-        }
-        Ok(())
     }
 
     /// All values of a substate: of cells by linear index (x fastest), of items cell after cell and by label.
@@ -371,7 +361,7 @@ impl State<'_> {
     /// # Errors
     /// Where the model has none of this type.
     pub fn parameters<P: Parameters>(&self) -> Result<P, StateError> {
-        self.parameters.get::<P>().cloned().ok_or_else(|| self.no_parameters::<P>())
+        Ok(self.parameters.typed::<P>()?.clone())
     }
 
     /// Replaces the parameters of the struct `P`, from the next step on.
@@ -379,20 +369,7 @@ impl State<'_> {
     /// # Errors
     /// Where the model has none of this type, or one is out of its range.
     pub fn set_parameters<P: Parameters>(&mut self, parameters: P) -> Result<(), StateError> {
-        if self.parameters.get::<P>().is_none() {
-            return Err(self.no_parameters::<P>());
-        }
-        let replace = |set: &mut ParameterSet| {
-            set.add(parameters);
-            Ok(())
-        };
-        Ok(self.parameters.change(self.precision, replace)?)
-    }
-
-    fn no_parameters<P: Parameters>(&self) -> StateError {
-        let given: Vec<&str> = self.parameters.schemas().map(|schema| schema.name).collect();
-        let given = if given.is_empty() { "none".to_owned() } else { given.join(", ") };
-        StateError::OtherParameters { wanted: P::SCHEMA.name, given }
+        Ok(self.parameters.replace(self.precision, parameters)?)
     }
 
     /// The value of a parameter by name.

@@ -9,15 +9,10 @@ use std::sync::Arc;
 pub enum Schedule {
     /// Before the first step, to make the initial state.
     Start,
-    /// After every so many steps, the first time after so many.
+    /// After n, 2n, 3n … steps.
     Every(u64),
-    /// After this number of steps, and from there on after every so many; 0 is before the first step.
-    EveryFrom {
-        /// The number of steps before the first time.
-        first: u64,
-        /// The number of steps from one time to the next.
-        interval: u64,
-    },
+    /// On the initial state, and after n, 2n, 3n … steps.
+    EveryFromStart(u64),
     /// After these numbers of steps; 0 is before the first.
     At(Vec<u64>),
     /// When the run is over, which the host says by [`crate::Simulation::finish`].
@@ -30,9 +25,7 @@ impl Schedule {
         match self {
             Self::Start | Self::End => false,
             Self::Every(interval) => step > 0 && *interval > 0 && step.is_multiple_of(*interval),
-            Self::EveryFrom { first, interval } => {
-                *interval > 0 && step.checked_sub(*first).is_some_and(|since| since.is_multiple_of(*interval))
-            }
+            Self::EveryFromStart(interval) => *interval > 0 && step.is_multiple_of(*interval),
             Self::At(steps) => steps.contains(&step),
         }
     }
@@ -41,13 +34,9 @@ impl Schedule {
     pub(crate) fn next_after(&self, step: u64) -> Option<u64> {
         match self {
             Self::Start | Self::End => None,
-            Self::Every(interval) => step.checked_div(*interval)?.checked_add(1)?.checked_mul(*interval),
-            Self::EveryFrom { first, interval } => match step.checked_sub(*first) {
-                None => Some(*first),
-                Some(since) => {
-                    first.checked_add(since.checked_div(*interval)?.checked_add(1)?.checked_mul(*interval)?)
-                }
-            },
+            Self::Every(interval) | Self::EveryFromStart(interval) => {
+                step.checked_div(*interval)?.checked_add(1)?.checked_mul(*interval)
+            }
             Self::At(steps) => steps.iter().copied().filter(|due| *due > step).min(),
         }
     }

@@ -58,16 +58,18 @@ impl<S: 'static> Cell<S> {
         match self.never {}
     }
 
-    /// A random number in [0, 1): a function of seed, step, cell and `draw`, the same on every engine.
+    /// A random number in [0, 1): a function of seed, step, process, cell and `draw`, the same on every
+    /// engine.
     ///
-    /// The process is not part of it: two processes that ask for the same draw in one step get the same number, and so does one that asks
-    /// twice. Where numbers have to be independent, give each its own `draw` in the whole model.
+    /// Give each use in a process a `draw` of its own: one that asks twice for the same draw gets the same
+    /// number. Equal draws of two processes are independent, and so are those of two runs of a process in one
+    /// step.
     pub fn random(&self, _draw: usize) -> Real {
         match self.never {}
     }
 
-    /// 32 random bits: a function of seed, step, cell and `draw`, the same on every engine. Equal draws give equal bits, as with
-    /// [`Self::random`], whose number is made of the same ones.
+    /// 32 random bits: a function of seed, step, process, cell and `draw`, the same on every engine. Equal
+    /// draws give equal bits, as with [`Self::random`], whose number is made of the same ones.
     pub fn random_bits(&self, _draw: usize) -> u32 {
         match self.never {}
     }
@@ -110,16 +112,18 @@ impl<S: 'static> Slot<S> {
         match self.never {}
     }
 
-    /// A random number in [0, 1): a function of seed, step, label and `draw`, the same on every engine.
+    /// A random number in [0, 1): a function of seed, step, process, label and `draw`, the same on every
+    /// engine.
     ///
-    /// The process is not part of it: two processes that ask for the same draw in one step get the same number, and so does one that asks
-    /// twice. Where numbers have to be independent, give each its own `draw` in the whole model.
+    /// Give each use in a process a `draw` of its own: one that asks twice for the same draw gets the same
+    /// number. Equal draws of two processes are independent, and so are those of two runs of a process in one
+    /// step.
     pub fn random(&self, _draw: usize) -> Real {
         match self.never {}
     }
 
-    /// 32 random bits: a function of seed, step, label and `draw`, the same on every engine. Equal draws give equal bits, as with
-    /// [`Self::random`], whose number is made of the same ones.
+    /// 32 random bits: a function of seed, step, process, label and `draw`, the same on every engine. Equal
+    /// draws give equal bits, as with [`Self::random`], whose number is made of the same ones.
     pub fn random_bits(&self, _draw: usize) -> u32 {
         match self.never {}
     }

@@ -27,7 +27,7 @@ fn glider_goes_round_the_torus() -> Result<(), Box<dyn std::error::Error>> {
         .boundary(Boundary::Toroidal)
         .substates::<Life>()
         .process(evolve)
-        .fill(|[x, y, _]| Life { alive: u8::from(GLIDER.contains(&[x, y])) })
+        .fill(|site| Life { alive: u8::from(GLIDER.contains(&[site.cell()[0], site.cell()[1]])) })
         .build()?;
     let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
     let before = simulation.state().read(Life::ALIVE)?;

@@ -1,5 +1,6 @@
 //! The state of a model on this engine.
 
+use crate::blocks::blocks;
 use crate::dense::Dense;
 use crate::layout::Layout;
 use crate::migration;
@@ -15,7 +16,7 @@ use xca_core::engine::{
     step_by_step,
 };
 use xca_core::model::{Group as Definition, GroupKind};
-use xca_core::reduction::{ITEMS_IN_BLOCK, Reduced, Reduction, reduce_values};
+use xca_core::reduction::{Reduced, Reduction, append_row, combine_rows};
 use xca_core::{Model, Precision, ProcessKind, StoredType};
 
 /// A model under way.
@@ -215,24 +216,38 @@ impl Execution for CpuExecution {
     fn reduce(&self, substate: SubstateId, reduction: &Reduction) -> Result<Vec<Reduced>, EngineFailure> {
         check_substate(&self.model, substate)?;
         let stored = self.model.stored(substate, self.precision);
-        let parts: Vec<Vec<Reduced>> = self.pool.install(|| match &self.groups[substate.group] {
-            Group::Cells(planes) => (0..self.layout.rows())
-                .into_par_iter()
-                .map(|row| reduce_values(reduction, stored, &planes[substate.field].row(&self.layout, row)))
-                .collect(),
-            Group::Population(population) => population.items.fields[substate.field]
-                .bytes()
-                .par_chunks(ITEMS_IN_BLOCK * stored.size())
-                .map(|values| reduce_values(reduction, stored, values))
-                .collect(),
-        });
-        let mut results = vec![Reduced::Nothing; stored.components()];
-        for part in parts {
-            for (result, part) in results.iter_mut().zip(part) {
-                *result = result.combine(part, reduction);
+        let row = |row: usize, results: &mut Vec<Reduced>| match &self.groups[substate.group] {
+            Group::Cells(planes) => {
+                append_row(reduction, stored, &planes[substate.field].row(&self.layout, row), results);
             }
-        }
-        Ok(results)
+            // Most rows may be empty.
+            Group::Population(population) => match population.row(row) {
+                (first, end) if first == end => {}
+                (first, end) => {
+                    let values = population.items.fields[substate.field].bytes();
+                    append_row(
+                        reduction,
+                        stored,
+                        &values[first * stored.size()..end * stored.size()],
+                        results,
+                    );
+                }
+            },
+        };
+        let reduce = |rows: &Range<usize>| {
+            let mut results = Vec::new();
+            rows.clone().for_each(|number| row(number, &mut results));
+            results
+        };
+        let parts: Vec<Vec<Reduced>> = self.pool.install(|| {
+            let populations: Vec<&Population> = match &self.groups[substate.group] {
+                Group::Cells(_) => Vec::new(),
+                Group::Population(population) => vec![population],
+            };
+            blocks(&self.layout, &populations, rayon::current_num_threads()).par_iter().map(reduce).collect()
+        });
+        let components = stored.components();
+        Ok(combine_rows(reduction, components, parts.iter().flat_map(|part| part.chunks_exact(components))))
     }
 
     fn workers(&self) -> Option<Arc<dyn Workers>> {

@@ -18,7 +18,7 @@ use xca_core::kernel::{
     Access, CellFilter, Entry, Frame, Memory, MemoryOf, Row, RowFault, RowItems, RowKernel, STAY, Scratch,
     StoppedAt,
 };
-use xca_core::{Model, Parity, Precision, Process, ProcessKind};
+use xca_core::{Model, Parity, Precision, Process, ProcessKind, Stream};
 
 /// The substates of one struct.
 pub(crate) enum Group {
@@ -72,7 +72,10 @@ impl Shared {
 /// A process made ready for a pass.
 struct Prepared<'a> {
     process: &'a Process,
+    /// Its place in the step.
     index: usize,
+    /// Its place in the pass.
+    number: usize,
     kernel: RowKernel,
     substates: Vec<Shared>,
     population: Option<usize>,
@@ -113,21 +116,26 @@ pub(crate) fn run(
 ) -> Result<Vec<Mover>, Fault> {
     let geometry = model.geometry();
     let written = prepare_buffers(model, layout, groups, processes);
-    let prepared: Vec<Prepared<'_>> =
-        processes.iter().map(|&index| prepare(model, layout, groups, index, precision, &written)).collect();
+    let prepared: Vec<Prepared<'_>> = processes
+        .iter()
+        .enumerate()
+        .map(|(number, &index)| prepare(model, layout, groups, (number, index), precision, &written))
+        .collect();
     let offsets = layout.offsets(geometry);
     let filter = filter(model, layout, precision, groups, &prepared);
-    let frames: [Frame<'_>; 2] = std::array::from_fn(|odd| Frame {
+    let frame = |index: usize, odd: usize| Frame {
         geometry,
         extents: geometry.extents().map(|extent| extent as u32),
         side: geometry.side(),
         toroidal: geometry.toroidal(),
         step: context.step,
         seed: context.seed,
+        stream: Stream::process(index),
         parameters: context.parameters,
         offsets: &offsets[odd],
         filter: filter.as_ref(),
-    });
+    };
+    let frames = prepared.iter().map(|prepared| [0, 1].map(|odd| frame(prepared.index, odd))).collect();
     let continuation = layout.continuation();
     let parity = geometry.neighbourhood().parity();
     let pass = Pass { layout, parity, frames, prepared, continuation, groups };
@@ -228,7 +236,7 @@ fn prepare<'a>(
     model: &'a Model,
     layout: &Layout,
     groups: &mut [Group],
-    index: usize,
+    (number, index): (usize, usize),
     precision: Precision,
     written: &[(SubstateId, bool)],
 ) -> Prepared<'a> {
@@ -238,7 +246,7 @@ fn prepare<'a>(
     let substates =
         accesses.map(|(access, &substate)| shared(layout, groups, access, substate, written)).collect();
     let population = plan.population;
-    Prepared { process, index, kernel: process.kernel(precision), substates, population }
+    Prepared { process, index, number, kernel: process.kernel(precision), substates, population }
 }
 
 fn shared(
@@ -276,7 +284,8 @@ fn shared(
 struct Pass<'a> {
     layout: &'a Layout,
     parity: Parity,
-    frames: [Frame<'a>; 2],
+    /// For each process those of even and odd rows or columns.
+    frames: Vec<[Frame<'a>; 2]>,
     prepared: Vec<Prepared<'a>>,
     /// The cells of the halo that continue a row, with their sources.
     continuation: Vec<(isize, isize)>,
@@ -391,9 +400,9 @@ impl Pass<'_> {
         population: Option<&Population>,
         work: &mut Work<'_>,
     ) {
+        let frames = &self.frames[prepared.number];
         if self.parity != Parity::Column || !prepared.process.local_interaction {
-            let frame =
-                &self.frames[if self.parity == Parity::Row { cells.origin[1] as usize % 2 } else { 0 }];
+            let frame = &frames[if self.parity == Parity::Row { cells.origin[1] as usize % 2 } else { 0 }];
             return self.run_cells(prepared, frame, cells, population, 0, work);
         }
         // The neighbourhood changes from cell to cell: each is a row of its own.
@@ -405,7 +414,7 @@ impl Pass<'_> {
             let cell = Cells { first, origin: [x as u32, cells.origin[1], cells.origin[2]], length: 1, own };
             // In a row without items the ranges of cells are empty, but may start anywhere.
             let first_answer = own.0.saturating_sub(cells.own.0);
-            self.run_cells(prepared, &self.frames[x % 2], &cell, population, first_answer, work);
+            self.run_cells(prepared, &frames[x % 2], &cell, population, first_answer, work);
         }
     }
 

@@ -1,16 +1,16 @@
 //! The state as simulations ask for it.
 
-use crate::device::{Binding, DeviceError};
+use crate::device::DeviceError;
 use crate::execution::{GpuExecution, failure};
 use crate::groups::Group;
-use crate::reduction::{self, Rows};
+use crate::reduction::{self, Rows, Values};
 use crate::service::{OCCUPANCY, Services};
 use std::ops::Range;
 use xca_core::engine::{
     EngineFailure, Execution, Fault, Interruption, Population as Items, StepContext, SubstateId, check_cells,
     check_population, check_substate, check_values, check_values_of_cells,
 };
-use xca_core::reduction::{ITEMS_IN_BLOCK, Reduced, Reduction, reduce_values};
+use xca_core::reduction::{Reduced, Reduction, combine_rows, reduce_values};
 
 impl Execution for GpuExecution {
     fn run(&mut self, processes: Range<usize>, context: &StepContext<'_>) -> Result<(), Fault> {
@@ -93,21 +93,22 @@ impl Execution for GpuExecution {
         let rows = if reduction::is_possible(&self.device, reduction, stored) {
             self.reduce_here(substate, reduction).map_err(|error| failure(&error))?
         } else {
-            let of_cells = self.groups.of_cells(substate);
-            let width = if of_cells { self.space.geometry().extents()[0] } else { ITEMS_IN_BLOCK };
+            let lengths = match self.groups.group(substate.group) {
+                Group::Cells(_) => vec![self.space.geometry().extents()[0]; self.space.rows()],
+                Group::Population(population) => {
+                    population.row_lengths(&self.device, &self.space).map_err(|error| failure(&error))?
+                }
+            };
             let values = self.read(substate)?;
-            values
-                .chunks(width * stored.size())
-                .map(|values| reduce_values(reduction, stored, values))
-                .collect()
+            let mut rest = values.as_slice();
+            let reduced = lengths.into_iter().map(|length| {
+                let (row, others) = rest.split_at(length * stored.size());
+                rest = others;
+                reduce_values(reduction, stored, row)
+            });
+            reduced.collect()
         };
-        let mut results = vec![Reduced::Nothing; usize::from(stored.lanes)];
-        for row in rows {
-            for (result, part) in results.iter_mut().zip(row) {
-                *result = result.combine(part, reduction);
-            }
-        }
-        Ok(results)
+        Ok(combine_rows(reduction, usize::from(stored.lanes), rows.iter().map(Vec::as_slice)))
     }
 
     fn memory(&self) -> usize {
@@ -147,7 +148,7 @@ impl GpuExecution {
         Ok(bytemuck::pod_collect_to_vec::<u8, u32>(&bytes).into_iter().max().unwrap_or(0))
     }
 
-    /// The reduced rows, or blocks of items, made on the device.
+    /// The reduced rows, made on the device.
     fn reduce_here(
         &self,
         substate: SubstateId,
@@ -155,29 +156,30 @@ impl GpuExecution {
     ) -> Result<Vec<Vec<Reduced>>, DeviceError> {
         let stored = self.model.stored(substate, self.manner.precision);
         let plane = self.groups.plane(substate);
-        let reduce = |values: Binding, rows: Rows| {
+        let reduce = |values: Values<'_>, rows: Rows| {
             reduction::reduce(&self.device, self.manner.strict, (reduction, stored), values, rows)
         };
         if let Group::Population(population) = self.groups.group(substate.group) {
-            let (items, width) = (population.items as u32, ITEMS_IN_BLOCK as u32);
-            if items == 0 {
+            if population.items == 0 {
                 return Ok(Vec::new());
             }
-            let rows = items.div_ceil(width);
-            let blocks =
-                Rows { rows, width, values: items, height: rows, first: 0, row: width, layer: 0, unused: 0 };
-            return reduce(plane.now().into(), blocks);
+            let [width, height, depth] = self.space.geometry().extents();
+            let whole = self.rows([width, height, depth], self.space.row_start(0));
+            let ranges = [&population.starts, &population.ends];
+            return reduce(Values::OfItems(plane.now().into(), ranges), whole);
         }
         let mut all = Vec::new();
         for part in self.space.parts() {
-            let [width, height, depth] = part.count.map(|count| count as u32);
-            let rows = height * depth;
-            let values = width.saturating_mul(rows);
-            let first = (self.space.number(part.first) - part.base) as u32;
-            let (row, layer) = (self.space.row() as u32, self.space.layer() as u32);
-            let rows = Rows { rows, width, values, height, first, row, layer, unused: 0 };
-            all.extend(reduce(plane.part(plane.now(), part), rows)?);
+            let rows = self.rows(part.count, self.space.number(part.first) - part.base);
+            all.extend(reduce(Values::OfCells(plane.part(plane.now(), part)), rows)?);
         }
         Ok(all)
+    }
+
+    /// The rows of so many cells along each axis, the first of which has this number.
+    fn rows(&self, count: [usize; 3], first: usize) -> Rows {
+        let [width, height, depth] = count.map(|count| count as u32);
+        let (row, layer) = (self.space.row() as u32, self.space.layer() as u32);
+        Rows { rows: height * depth, width, height, first: first as u32, row, layer }
     }
 }

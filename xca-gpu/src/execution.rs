@@ -18,7 +18,7 @@ use std::sync::Arc;
 use std::time::Instant;
 use xca_core::engine::{EngineFailure, Fault, Interruption, StepContext, SubstateId};
 use xca_core::model::GroupKind;
-use xca_core::{Face, Faces, Model, ParameterValue, ProcessKind, StoredScalar};
+use xca_core::{Face, Faces, Model, ParameterValue, ProcessKind, StoredScalar, Stream};
 use xca_wgsl::{Content, Dispatch};
 
 /// A model with its state on a device.
@@ -57,8 +57,9 @@ impl GpuExecution {
         check_types(model, manner, &device)?;
         let space = space_of(model, manner)?;
         let mut programs = Vec::new();
-        for process in model.processes() {
-            programs.push(Program::new(&device, model, &space, *process, (manner, texts))?);
+        for (place, process) in model.processes().iter().enumerate() {
+            let process = (*process, Stream::process(place));
+            programs.push(Program::new(&device, model, &space, process, (manner, texts))?);
         }
         let doubled: HashSet<SubstateId> =
             programs.iter().flat_map(|program| program.doubled(model)).collect();

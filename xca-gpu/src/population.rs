@@ -130,6 +130,13 @@ impl Population {
         Ok(Items { counts, labels: numbers(&self.labels)?, fields: fields.collect::<Result<_, _>>()? })
     }
 
+    /// How many items each row has that has any.
+    pub(crate) fn row_lengths(&self, device: &Device, space: &Space) -> Result<Vec<usize>, DeviceError> {
+        let cells: Vec<u32> = bytemuck::pod_collect_to_vec(&self.cells.read_items(device, self.items)?);
+        let row = |cell: u32| cell as usize / space.row();
+        Ok(cells.chunk_by(|cell, next| row(*cell) == row(*next)).map(<[u32]>::len).collect())
+    }
+
     /// What a process is bound to.
     pub(crate) fn binding(&self, content: &Content, part: Option<&Part>) -> Option<Binding> {
         let ranges = |buffer: &Buffer| match part {

@@ -10,7 +10,7 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 use xca_core::engine::SubstateId;
 use xca_core::kernel::Of;
-use xca_core::{AnyParameters, Model, Parity, Precision, Process, ProcessKind};
+use xca_core::{AnyParameters, Model, Parity, Precision, Process, ProcessKind, Stream};
 use xca_wgsl::{BindingAccess, Content, Dispatch, Layout, Options, Shader, State};
 
 /// How processes are compiled.
@@ -29,6 +29,8 @@ pub(crate) struct Manner {
 #[derive(Debug)]
 pub(crate) struct Program {
     pub(crate) process: Process,
+    /// Of its random numbers.
+    stream: Stream,
     pub(crate) shader: Shader,
     pipeline: Arc<Pipeline>,
     parameters: Option<(Layout, Buffer)>,
@@ -88,7 +90,7 @@ impl Program {
         device: &Device,
         model: &Model,
         space: &Space,
-        process: Process,
+        (process, stream): (Process, Stream),
         (manner, texts): (Manner, &Texts),
     ) -> Result<Self, NotOnDevice> {
         let geometry = model.geometry();
@@ -145,7 +147,7 @@ impl Program {
                 _ => {}
             }
         }
-        Ok(Self { process, shader, pipeline, parameters, spaces, offsets, directions, bound: HashMap::new() })
+        Ok(Self { process, stream, shader, pipeline, parameters, spaces, offsets, directions, bound: HashMap::new() })
     }
 
     /// The substates whose results go to a second buffer.
@@ -209,7 +211,7 @@ impl Program {
             // Items are not bound part by part: their cells have the numbers of the whole space.
             let whole = Part { base: 0, ..part.clone() };
             let part = if self.process.kind == ProcessKind::Cells { part } else { &whole };
-            device.upload(buffer, 0, &values::space(layout, space, part, seed, precision))
+            device.upload(buffer, 0, &values::space(layout, space, part, (seed, self.stream), precision))
         })
     }
 

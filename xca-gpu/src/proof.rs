@@ -5,7 +5,7 @@
 
 use crate::device::{Access, Code, Device, DeviceError};
 use std::fmt::Write as _;
-use xca_core::draw_words;
+use xca_core::philox;
 
 /// What is tried, as WGSL over `a`, `b` and `c`, and as the host does it.
 const OPERATIONS: [(&str, &str); 12] = [
@@ -137,7 +137,7 @@ fn operands<T: Tried>() -> Vec<T> {
     }
     let mut draw = 0;
     while operands.len() < 3 * SETS as usize {
-        operands.push(T::random(draw_words(0x5eed, u64::from(draw), xca_core::Owner::Cell(0), draw)));
+        operands.push(T::random(philox([draw, 0, 0, 0], [0x5eed, 0])));
         draw += 1;
     }
     operands

@@ -1,8 +1,9 @@
-//! Reductions on the device: each row, or block of items, by one invocation in order; the rows' results in order on the host.
+//! Reductions on the device: each row of cells, or of their items, by one invocation in order; the rows'
+//! results in order on the host.
 //!
 //! So the result has the bits of the reference engine wherever float sums have.
 
-use crate::device::{Access, Binding, Code, Device, DeviceError};
+use crate::device::{Access, Binding, Buffer, Code, Device, DeviceError};
 use crate::service::workgroups;
 use xca_core::reduction::{Reduced, Reduction};
 use xca_core::{StoredScalar, StoredType};
@@ -10,26 +11,30 @@ use xca_core::{StoredScalar, StoredType};
 /// The invocations of a workgroup.
 const WORKGROUP: u32 = 64;
 
-/// The rows of values that are reduced: row `r` begins at `first + r % height * row + r / height * layer`.
+/// The rows of cells that are reduced: row `r` begins at `first + r % height * row + r / height * layer`.
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub(crate) struct Rows {
     /// How many.
     pub(crate) rows: u32,
-    /// The values of each.
+    /// The cells of each.
     pub(crate) width: u32,
-    /// The values of all: the last row may be shorter.
-    pub(crate) values: u32,
     /// How many rows lie `row` apart.
     pub(crate) height: u32,
-    /// The first value.
+    /// The first cell.
     pub(crate) first: u32,
     /// From one to the next.
     pub(crate) row: u32,
     /// From one set of `height` rows to the next.
     pub(crate) layer: u32,
-    /// Nothing.
-    pub(crate) unused: u32,
+}
+
+/// What is reduced.
+pub(crate) enum Values<'a> {
+    /// A value for each cell.
+    OfCells(Binding),
+    /// A value for each item, with the first item of each cell, and one past the last.
+    OfItems(Binding, [&'a Buffer; 2]),
 }
 
 /// What a row is reduced to on the device.
@@ -53,21 +58,26 @@ pub(crate) fn is_possible(device: &Device, reduction: &Reduction, stored: Stored
     device.adapter().has_f64 || !(float && sum)
 }
 
-/// Reduces rows of values, lane by lane: the results of the rows in order.
+/// Reduces rows of values, lane by lane: the results of the rows that have values, in order.
 pub(crate) fn reduce(
     device: &Device,
     strict: bool,
     (reduction, stored): (&Reduction, StoredType),
-    values: Binding,
+    values: Values<'_>,
     rows: Rows,
 ) -> Result<Vec<Vec<Reduced>>, DeviceError> {
     let lanes = usize::from(stored.lanes);
-    let (source, kind) = text(reduction, stored);
+    let of_items = matches!(values, Values::OfItems(..));
+    let (source, kind) = text(reduction, stored, of_items);
+    let mut buffers = vec![Access::Uniform, Access::Read, Access::Read, Access::Write];
+    if of_items {
+        buffers.extend([Access::Read, Access::Read, Access::Write]);
+    }
     let code = Code {
         name: format!("the reduction {reduction:?}"),
         source,
         workgroup: [WORKGROUP, 1, 1],
-        buffers: vec![Access::Uniform, Access::Read, Access::Read, Access::Write],
+        buffers,
         strict,
     };
     let description = device.uniform("rows", bytemuck::bytes_of(&rows))?;
@@ -82,14 +92,32 @@ pub(crate) fn reduce(
     };
     let length = (rows.rows as usize * lanes * size) as u64;
     let results = device.buffer("results", length)?;
-    let parts = [(&description).into(), values, (&wanted).into(), (&results).into()];
+    let counts = device.buffer("counts", u64::from(rows.rows) * 4)?;
+    let parts = match values {
+        Values::OfCells(values) => vec![(&description).into(), values, (&wanted).into(), (&results).into()],
+        Values::OfItems(values, [starts, ends]) => vec![
+            (&description).into(),
+            values,
+            (&wanted).into(),
+            (&results).into(),
+            starts.into(),
+            ends.into(),
+            (&counts).into(),
+        ],
+    };
     let bindings = device.bind(&device.pipeline(&code)?, &parts)?;
     let mut recorder = device.recorder();
     recorder.run(&bindings, workgroups(device, (rows.rows as usize).div_ceil(WORKGROUP as usize)));
     device.submit(recorder)?;
     let bytes = device.download(&results, 0..length)?;
-    let numbers: Vec<Reduced> = bytes.chunks_exact(size).map(|bytes| kind.number(bytes)).collect();
-    Ok(numbers.chunks_exact(lanes).map(<[Reduced]>::to_vec).collect())
+    let numbers = |row: &[u8]| row.chunks_exact(size).map(|bytes| kind.number(bytes)).collect();
+    let all = bytes.chunks_exact(lanes * size);
+    if !of_items {
+        return Ok(all.map(numbers).collect());
+    }
+    let counts: Vec<u32> =
+        bytemuck::pod_collect_to_vec(&device.download(&counts, 0..u64::from(rows.rows) * 4)?);
+    Ok(all.zip(counts).filter(|(_, count)| *count > 0).map(|(row, _)| numbers(row)).collect())
 }
 
 impl RowResult {
@@ -105,7 +133,7 @@ impl RowResult {
 }
 
 /// The shader, and what it makes of a row.
-fn text(reduction: &Reduction, stored: StoredType) -> (String, RowResult) {
+fn text(reduction: &Reduction, stored: StoredType, of_items: bool) -> (String, RowResult) {
     let float = matches!(stored.scalar, StoredScalar::F32 | StoredScalar::F64);
     let (scalar, same) = match stored.scalar {
         StoredScalar::U8 | StoredScalar::U32 => ("u32", RowResult::Unsigned),
@@ -120,9 +148,9 @@ fn text(reduction: &Reduction, stored: StoredType) -> (String, RowResult) {
         Reduction::Product if float => ("f64(value)", "all * one", RowResult::Double),
         Reduction::Sum => (long, "add(all, one)", RowResult::Long),
         Reduction::Product => (long, "multiply(all, one)", RowResult::Long),
-        // NaN gives way to every number, and is the only value that does not equal itself.
-        Reduction::Minimum if float => ("value", "select(all, one, one < all || !(all == all))", same),
-        Reduction::Maximum if float => ("value", "select(all, one, all < one || !(all == all))", same),
+        // No number is taken in place of a NaN, the only value that does not equal itself.
+        Reduction::Minimum if float => ("value", "select(all, one, one < all || !(one == one))", same),
+        Reduction::Maximum if float => ("value", "select(all, one, all < one || !(one == one))", same),
         Reduction::Minimum => ("value", "min(all, one)", same),
         Reduction::Maximum => ("value", "max(all, one)", same),
         Reduction::CountEqual(_) => ("select(0u, 1u, value == wanted[0])", "all + one", RowResult::Unsigned),
@@ -143,23 +171,22 @@ fn text(reduction: &Reduction, stored: StoredType) -> (String, RowResult) {
     };
     let lanes = stored.lanes;
     let functions = if kind == RowResult::Long { LONG } else { "" };
+    let (items, range) = if of_items { (ITEMS, RANGE_OF_ITEMS) } else { ("", RANGE_OF_CELLS) };
     let source = format!(
         "struct Rows {{
     rows: u32,
     width: u32,
-    values: u32,
     height: u32,
     first: u32,
     row: u32,
     layer: u32,
-    unused: u32,
 }}
 
 @group(0) @binding(0) var<uniform> rows: Rows;
 @group(0) @binding(1) var<storage, read> values: array<{scalar}>;
 @group(0) @binding(2) var<storage, read> wanted: array<{scalar}>;
 @group(0) @binding(3) var<storage, read_write> results: array<{result}>;
-
+{items}
 {functions}
 fn one_of(value: {scalar}) -> {result} {{
     return {one};
@@ -175,9 +202,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) w
     if row >= rows.rows {{
         return;
     }}
-    let first = rows.first + row % rows.height * rows.row + row / rows.height * rows.layer;
-    let end = first + min(rows.width, rows.values - row * rows.width);
-    for (var lane = 0u; lane < {lanes}u; lane += 1u) {{
+    let cell = rows.first + row % rows.height * rows.row + row / rows.height * rows.layer;
+{range}    for (var lane = 0u; lane < {lanes}u; lane += 1u) {{
         var all = one_of(values[first * {lanes}u + lane]);
         for (var i = first + 1u; i < end; i += 1u) {{
             all = both(all, one_of(values[i * {lanes}u + lane]));
@@ -189,6 +215,22 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) w
     );
     (source, kind)
 }
+
+/// The items of the cells of a row follow each other.
+const ITEMS: &str = "@group(0) @binding(4) var<storage, read> item_starts: array<u32>;
+@group(0) @binding(5) var<storage, read> item_ends: array<u32>;
+@group(0) @binding(6) var<storage, read_write> counts: array<u32>;
+";
+const RANGE_OF_ITEMS: &str = "    let first = item_starts[cell];
+    let end = item_ends[cell + rows.width - 1u];
+    counts[row] = end - first;
+    if first == end {
+        return;
+    }
+";
+const RANGE_OF_CELLS: &str = "    let first = cell;
+    let end = first + rows.width;
+";
 
 /// Not by `!=`, which is false for NaN on some ways to the device.
 const NON_ZERO: &str = "select(1u, 0u, value == 0)";
@@ -238,17 +280,19 @@ mod tests {
                 reductions.extend([BitAnd, BitOr, BitXor]);
             }
             for reduction in reductions {
-                let (source, _) = text(&reduction, stored);
-                let module = naga::front::wgsl::parse_str(&source).unwrap_or_else(|error| {
-                    panic!("{scalar:?} {reduction:?}: {}", error.emit_to_string(&source))
-                });
-                let mut validator = naga::valid::Validator::new(
-                    naga::valid::ValidationFlags::all(),
-                    naga::valid::Capabilities::all(),
-                );
-                validator
-                    .validate(&module)
-                    .unwrap_or_else(|error| panic!("{scalar:?} {reduction:?}: {error:?}"));
+                for of_items in [false, true] {
+                    let (source, _) = text(&reduction, stored, of_items);
+                    let module = naga::front::wgsl::parse_str(&source).unwrap_or_else(|error| {
+                        panic!("{scalar:?} {reduction:?}: {}", error.emit_to_string(&source))
+                    });
+                    let mut validator = naga::valid::Validator::new(
+                        naga::valid::ValidationFlags::all(),
+                        naga::valid::Capabilities::all(),
+                    );
+                    validator
+                        .validate(&module)
+                        .unwrap_or_else(|error| panic!("{scalar:?} {reduction:?}: {error:?}"));
+                }
             }
         }
     }

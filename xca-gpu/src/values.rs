@@ -1,7 +1,7 @@
 //! Bytes of the structs that processes read.
 
 use crate::space::{Part, Space};
-use xca_core::{AnyParameters, Precision, StoredScalar};
+use xca_core::{AnyParameters, Precision, StoredScalar, Stream};
 use xca_wgsl::Layout;
 
 /// Fills a struct, field by field.
@@ -27,7 +27,13 @@ fn real(value: f64, precision: Precision) -> Vec<u8> {
 }
 
 /// What a process knows of the space.
-pub(crate) fn space(layout: &Layout, space: &Space, part: &Part, seed: u64, precision: Precision) -> Vec<u8> {
+pub(crate) fn space(
+    layout: &Layout,
+    space: &Space,
+    part: &Part,
+    (seed, stream): (u64, Stream),
+    precision: Precision,
+) -> Vec<u8> {
     let narrow = |values: [usize; 3]| words(&values.map(|value| value as u32));
     let geometry = space.geometry();
     filled(layout, |name| match name {
@@ -40,6 +46,7 @@ pub(crate) fn space(layout: &Layout, space: &Space, part: &Part, seed: u64, prec
         "count" => narrow(part.count),
         "base" => words(&[part.base as u32]),
         "seed" => words(&[seed as u32, (seed >> 32) as u32]),
+        "stream" => words(&[stream.number().into()]),
         "side" => real(geometry.side(), precision),
         "covered" => real(geometry.covered_radius(precision), precision),
         // The zero that drivers cannot see; and whatever else there may be, is one.

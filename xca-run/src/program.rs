@@ -3,7 +3,7 @@
 use crate::set_up::SetUp;
 use std::fmt;
 use std::str::FromStr;
-use xca_core::{ParameterError, Parameters, Precision, philox};
+use xca_core::{ParameterError, Parameters, Precision};
 
 /// Any error. Its causes are shown below it, each on a line of its own.
 pub type Failure = Box<dyn std::error::Error + Send + Sync>;
@@ -47,7 +47,7 @@ pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 ///             .neighbourhood(Neighbourhood::von_neumann_2d(1))
 ///             .substates::<Fire>()
 ///             .process(spread)
-///             .fill(move |cell| Fire { burning: u8::from(cell == middle) })
+///             .fill(move |site| Fire { burning: u8::from(site.cell() == middle) })
 ///             .build()?;
 ///         Ok(SetUp::new(model, 100))
 ///     }
@@ -102,22 +102,6 @@ impl Given {
             parameters.set(name, value)?;
         }
         Ok(parameters)
-    }
-
-    /// A random number in [0, 1) for the initial state: a function of the seed, the cell and the number of the draw.
-    ///
-    /// ```
-    /// let given = xca_run::Given { seed: 7, ..Default::default() };
-    /// let number = given.random([3, 4, 0], 0);
-    /// assert!((0.0..1.0).contains(&number));
-    /// assert_eq!(number, given.random([3, 4, 0], 0));
-    /// assert_ne!(number, given.random([4, 3, 0], 0));
-    /// ```
-    pub fn random(&self, cell: [usize; 3], draw: u32) -> f64 {
-        let [x, y, z] = cell.map(|index| index as u32);
-        // Processes have the plain seed as their key; the initial state has another, so that no process sees its numbers again.
-        let key = [self.seed as u32 ^ 0x696e_6974, (self.seed >> 32) as u32 ^ 0x6961_6c21];
-        f64::from(philox([x, y, z, draw], key)[0]) / 4_294_967_296.0
     }
 }
 
@@ -203,14 +187,5 @@ mod tests {
         for text in ["wind", "=1", "wind=", ""] {
             assert_eq!(text.parse::<Assignment>(), Err(NoAssignment), "{text}");
         }
-    }
-
-    #[test]
-    fn random_numbers_of_the_initial_state_are_spread_evenly() {
-        let given = Given { seed: 1, ..Given::default() };
-        let cells = (0..100).flat_map(|x| (0..100).map(move |y| [x, y, 0]));
-        let below = cells.filter(|&cell| given.random(cell, 0) < 0.3).count();
-        // Three standard deviations are 137.
-        assert!((2863..=3137).contains(&below), "{below}");
     }
 }

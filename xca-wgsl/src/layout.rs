@@ -70,6 +70,7 @@ pub(crate) const SPACE: [(&str, ValueType); 12] = [
     ("count", ValueType { scalar: ScalarType::U32, lanes: 3 }),
     ("layer", ValueType { scalar: ScalarType::U32, lanes: 1 }),
     ("seed", ValueType { scalar: ScalarType::U32, lanes: 2 }),
+    ("stream", ValueType { scalar: ScalarType::U32, lanes: 1 }),
     ("side", ValueType { scalar: ScalarType::Real, lanes: 1 }),
     ("covered", ValueType { scalar: ScalarType::Real, lanes: 1 }),
     ("zero", ValueType { scalar: ScalarType::Real, lanes: 1 }),

@@ -48,12 +48,8 @@ pub(crate) fn write(program: &Program, options: &Options) -> Result<Shader, Erro
         body.push(entry::report_fault(kind));
     }
     if uses.random {
-        let (owner, mark) = if over_cells {
-            ("linear_index(here_index)", "0u")
-        } else {
-            ("item_labels[this_item]", "0x80000000u")
-        };
-        body.push(routine::random(owner, mark, options.precision));
+        let owner = if over_cells { "linear_index(here_index)" } else { "item_labels[this_item]" };
+        body.push(routine::random(owner, options.precision));
     }
     body.extend(functions);
     body.push(entry.text());

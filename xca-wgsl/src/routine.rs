@@ -141,8 +141,9 @@ fn masked(text: &str, type_: &Type) -> String {
     if type_.is_u8() { format!("({text}) & 0xffu") } else { text.to_owned() }
 }
 
-/// Philox 4x32-10 and what is made of its words. `owner` is the counter's first word, `mark` is added to the third.
-pub(crate) fn random(owner: &str, mark: &str, precision: Precision) -> String {
+/// Philox 4x32-10 and what is made of its words. `owner` is the counter's first word; [`xca_core::Draw`] has
+/// the layout of the others.
+pub(crate) fn random(owner: &str, precision: Precision) -> String {
     let uniform = match precision {
         Precision::F32 => "f32(words.x >> 8u) * 5.9604645e-8f".to_owned(),
         Precision::F64 => {
@@ -178,7 +179,8 @@ fn philox(counter: vec4<u32>, key: vec2<u32>) -> vec4<u32> {{
 }}
 
 fn random_words(draw: u32) -> vec4<u32> {{
-    return philox(vec4<u32>({owner}, moment.step.x, moment.step.y ^ {mark}, draw), space.seed);
+    let high = (moment.step.y & 0xffffu) | (space.stream << 16u);
+    return philox(vec4<u32>({owner}, moment.step.x, high, draw), space.seed);
 }}
 
 fn random_bits(draw: u32) -> u32 {{

@@ -99,9 +99,10 @@ pub enum BindingAccess {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Content {
     /// What is known of the space: `extents`, the number of cells of the neighbourhood, `halo`, `row`, `layer`, `seed` (low word, high
-    /// word); where they are used, `side`, `covered`, the largest radius of a search, and `zero`, which is 0. A process over cells can be run for a part of them: the `first`
-    /// cell, by its indices, the `count` of cells along each axis, and the number `base` of the stored cell with which the bound buffers
-    /// begin. For all cells these are 0, the extents, and 0.
+    /// word), the number of the `stream` of random numbers; where they are used, `side`, `covered`, the largest radius of
+    /// a search, and `zero`, which is 0. A process over cells can be run for a part of them: the `first` cell, by its
+    /// indices, the `count` of cells along each axis, and the number `base` of the stored cell with which the bound
+    /// buffers begin. For all cells these are 0, the extents, and 0.
     Space(Layout),
     /// What changes with the step: `step` (low word, high word) and the number of items of the population.
     Moment(Layout),

@@ -73,7 +73,9 @@ impl Program for Cube {
             .substates::<Heat>()
             .parameters(copper)
             .process(diffuse)
-            .fill(move |cell| Heat { temperature: copper.initial * Self::shape(size, cell) })
+            .fill_with(move |site, copper: &Copper| Heat {
+                temperature: copper.initial * Self::shape(size, site.cell()),
+            })
             .stop_when(Schedule::Every(10), move |state| {
                 let hottest = state.maximum(Heat::TEMPERATURE)?.unwrap_or(0.0);
                 Ok((hottest <= until).then(|| format!("no cell is hotter than {until} degrees")))

@@ -108,23 +108,24 @@ struct Landslide {
 struct Map {
     ground: AsciiGrid,
     debris: AsciiGrid,
+    /// How much the ground rises at random in each cell at most, in m.
+    roughness: f64,
     files: Vec<PathBuf>,
 }
 
 impl Map {
     /// A valley that falls to the south, has bends, and ends at another slope; and a slab of debris at its head.
-    fn made_up(given: &Given) -> Option<Self> {
+    fn made_up() -> Option<Self> {
         let (extents, side) = ([160, 240], 10.0);
         let metres = |cell: usize| (cell as f64 + 0.5) * side;
         let cells = || (0..extents[1]).flat_map(|y| (0..extents[0]).map(move |x| [x, y]));
         let bed = |y: f64| 800.0 + 180.0 * (y / 350.0).sin();
         let ground = cells().map(|[x, y]| {
-            let roughness = 2.0 * given.random([x, y, 0], 0);
             let across = (metres(x) - bed(metres(y))) / 100.0;
             // The opposite slope is the steeper one.
             let along = (metres(y) - 600.0) / 1000.0;
             let steepness = if along < 0.0 { 300.0 } else { 120.0 };
-            500.0 + steepness * along * along + 12.0 * across * across + roughness
+            500.0 + steepness * along * along + 12.0 * across * across
         });
         let debris = cells().map(|[x, y]| {
             let away = [(metres(x) - bed(2150.0)) / 180.0, (metres(y) - 2150.0) / 120.0];
@@ -133,6 +134,7 @@ impl Map {
         Some(Self {
             ground: AsciiGrid::new(extents, side, ground.collect())?,
             debris: AsciiGrid::new(extents, side, debris.collect())?,
+            roughness: 2.0,
             files: Vec::new(),
         })
     }
@@ -146,12 +148,14 @@ impl Map {
         if thickness.values().iter().any(|thickness| *thickness < 0.0) {
             return Err(format!("{} has debris of less than 0 m", debris.display()).into());
         }
-        Ok(Self { ground, debris: thickness, files: vec![dem.to_owned(), debris.to_owned()] })
+        Ok(Self { ground, debris: thickness, roughness: 0.0, files: vec![dem.to_owned(), debris.to_owned()] })
     }
 
-    fn state(&self, [x, y, _]: [usize; 3]) -> Slope {
+    fn state(&self, site: Site) -> Slope {
+        let [x, y, _] = site.cell();
+        let rough = |altitude: f64| altitude + self.roughness * site.random(0);
         Slope {
-            altitude: self.ground.value([x, y]).unwrap_or(WALL),
+            altitude: self.ground.value([x, y]).map_or(WALL, rough),
             thickness: self.debris.value([x, y]).unwrap_or(0.0),
             outflow: Vector4::splat(0.0),
         }
@@ -165,11 +169,11 @@ impl Program for Landslide {
     const EXAMPLES: &'static str =
         "--set adherence=0.5 --set rate=0.75\n--dem ground.asc --debris debris.asc";
 
-    fn set_up(&self, given: Given) -> Result<SetUp, Failure> {
+    fn set_up(&self, _given: Given) -> Result<SetUp, Failure> {
         let map = match (&self.dem, &self.debris) {
             (Some(dem), Some(debris)) => Map::read(dem, debris)?,
             (Some(_), None) => return Err("a map needs its debris too: add --debris FILE".into()),
-            _ => Map::made_up(&given).ok_or("a valley has cells")?,
+            _ => Map::made_up().ok_or("a valley has cells")?,
         };
         let ([columns, rows], side, until) = (map.ground.extents(), map.ground.side(), self.until);
         let (corner, files) = (map.ground.corner(), map.files.clone());
@@ -184,19 +188,21 @@ impl Program for Landslide {
             .parameters(debris)
             .process(flow)
             .process(settle)
-            .fill(move |cell| map.state(cell))
+            .fill(move |site| map.state(site))
             .stop_when(Schedule::Every(20), move |state| {
                 let largest = state.maximum(Slope::OUTFLOW)?.unwrap_or_default();
-                let moves = [largest.x, largest.y, largest.z, largest.w].iter().any(|metres| *metres > until);
-                Ok((!moves).then(|| format!("no cell sends more than {until} m to a neighbour")))
+                let flows = [largest.x, largest.y, largest.z, largest.w];
+                let rests = flows.iter().all(|metres| *metres <= until);
+                Ok(rests.then(|| format!("no cell sends more than {until} m to a neighbour")))
             })
             .build()?;
         let observe = move |state: &State<'_>| {
             let thickness = state.read(Slope::THICKNESS)?;
             let adherence = state.parameters::<Debris>()?.adherence;
-            let covered = |cell: &usize| thickness[*cell] > adherence;
-            let front = (0..thickness.len()).find(covered).map_or(0, |cell| cell / columns);
-            let area = (0..thickness.len()).filter(covered).count() as f64 * side * side;
+            let front =
+                thickness.iter().position(|metres| *metres > adherence).map_or(0, |cell| cell / columns);
+            let covered = state.count_where(|slope: &Slope| slope.thickness > adherence)?;
+            let area = covered as f64 * side * side;
             Ok(vec![
                 Observable::new("volume", "m^3", state.sum(Slope::THICKNESS)? * side * side).conserved(),
                 Observable::new("covered_area", "m^2", area),

@@ -16,14 +16,14 @@ fn evolve(cell: &mut Cell<Life>) {
 }
 
 fn main() -> ExitCode {
-    xca_run::main_of("life", "Conway's Game of Life on a torus", |given| {
+    xca_run::main_of("life", "Conway's Game of Life on a torus", |_given| {
         let model = Model::builder("life")
             .extents([256, 256, 1])
             .neighbourhood(Neighbourhood::moore_2d(1))
             .boundary(Boundary::Toroidal)
             .substates::<Life>()
             .process(evolve)
-            .fill(move |cell| Life { alive: u8::from(given.random(cell, 0) < 0.3) })
+            .fill(|site| Life { alive: u8::from(site.random(0) < 0.3) })
             .build()?;
         Ok(SetUp::new(model, 1000))
     })

@@ -43,8 +43,8 @@ impl Program for Mod2 {
             .boundary(Boundary::Toroidal)
             .substates::<Parity>()
             .process(add_up)
-            .fill(move |cell| Parity {
-                odd: u8::from(FIGURE.contains(&cell.map(|index| index.wrapping_sub(middle)))),
+            .fill(move |site| Parity {
+                odd: u8::from(FIGURE.contains(&site.cell().map(|index| index.wrapping_sub(middle)))),
             })
             .build()?;
         let observe =

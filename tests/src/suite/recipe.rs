@@ -86,7 +86,10 @@ impl Recipe {
             .boundaries(recipe.boundaries)
             .parameters(recipe.tuning)
             .substates_with_outside(medium_of(mix(salt, 17)))
-            .fill(move |[x, y, z]| medium_of(mix(mix(mix(salt, x as u32), y as u32), z as u32)));
+            .fill(move |site| {
+                let [x, y, z] = site.cell().map(|index| index as u32);
+                medium_of(mix(mix(mix(salt, x), y), z))
+            });
         // Some flat faces have values of their own.
         for (face, number) in Face::ALL.into_iter().zip(0..) {
             if recipe.boundaries[face] == Boundary::Flat && mix(salt, number).is_multiple_of(2) {

@@ -244,7 +244,10 @@ pub fn model(
         .process(fourth)
         .process(fifth)
         .process(around::look_around)
-        .fill(|[x, y, z]| at_start(Vector3::new(x as i32, y as i32, z as i32)));
+        .fill(|site| {
+            let [x, y, z] = site.cell().map(|index| index as i32);
+            at_start(Vector3::new(x, y, z))
+        });
     // There is no opposite in a list without symmetry.
     if shape != Shape::Skewed {
         builder = builder.process(around::turn_round);

@@ -1,5 +1,7 @@
 //! The definition of a model, and its checks.
 
+use super::filling::Filling;
+use super::names::check_names;
 use super::{Group, GroupKind, Model, ModelError, WriteOutside};
 use crate::geometry::{Boundary, Face, Faces, Geometry};
 use crate::kernel::NOWHERE;
@@ -8,6 +10,7 @@ use crate::parameter_set::ParameterSet;
 use crate::parameters::Parameters;
 use crate::plan::Plan;
 use crate::process::{Holds, Process, Processes};
+use crate::random::Stream;
 use crate::state::State;
 use crate::steering::{Schedule, Steering, SteeringError};
 use crate::substates::Substates;
@@ -30,6 +33,7 @@ pub struct ModelBuilder {
     processes: Vec<Process>,
     parameters: ParameterSet,
     steering: Vec<Steering>,
+    pub(super) fillings: Vec<Filling>,
     fault_texts: Vec<(u32, String)>,
     mistake: Option<ModelError>,
 }
@@ -55,6 +59,7 @@ impl ModelBuilder {
             processes: Vec::new(),
             parameters: ParameterSet::default(),
             steering: Vec::new(),
+            fillings: Vec::new(),
             fault_texts: Vec::new(),
             mistake: None,
         }
@@ -151,7 +156,8 @@ impl ModelBuilder {
         if self.groups.iter().any(|group| group.type_id == type_id) {
             self.mistake.get_or_insert(ModelError::SubstatesTwice { substates: S::SCHEMA.name });
         }
-        self.groups.push(Group { type_id, schema: S::SCHEMA, kind });
+        let type_name = std::any::type_name::<S>();
+        self.groups.push(Group { type_id, type_name, schema: S::SCHEMA, kind });
         self
     }
 
@@ -207,7 +213,7 @@ impl ModelBuilder {
         schedule: Schedule,
         operation: impl Fn(&mut State<'_>) -> Result<(), SteeringError> + Send + Sync + 'static,
     ) -> Self {
-        if matches!(schedule, Schedule::Every(0) | Schedule::EveryFrom { interval: 0, .. }) {
+        if matches!(schedule, Schedule::Every(0) | Schedule::EveryFromStart(0)) {
             self.mistake.get_or_insert(ModelError::ZeroInterval);
         }
         self.steering.push(Steering::new(schedule, operation));
@@ -220,11 +226,6 @@ impl ModelBuilder {
         operation: impl Fn(&mut State<'_>) -> Result<(), SteeringError> + Send + Sync + 'static,
     ) -> Self {
         self.steer(Schedule::Start, operation)
-    }
-
-    /// Sets the initial state of each cell from its indices.
-    pub fn fill<S: Substates>(self, state: impl Fn([usize; 3]) -> S + Send + Sync + 'static) -> Self {
-        self.initialise(move |space| space.fill(&state))
     }
 
     /// Stops the run when the condition gives a reason.
@@ -267,8 +268,19 @@ impl ModelBuilder {
         if self.groups.is_empty() {
             return Err(ModelError::NoSubstates { model: self.name });
         }
+        let (groups, processes) = (self.groups.len(), self.processes.len());
+        if groups > Stream::GROUPS {
+            return Err(ModelError::TooManyGroups { groups, limit: Stream::GROUPS });
+        }
+        if processes > Stream::PROCESSES {
+            return Err(ModelError::TooManyProcesses { processes, limit: Stream::PROCESSES });
+        }
         for group in &self.groups {
             check_group(group, &geometry)?;
+        }
+        check_names(&self.groups)?;
+        for filling in &self.fillings {
+            filling.check(&self.groups, &self.parameters)?;
         }
         for process in &self.processes {
             check_process(process, &self.groups, &self.parameters)?;
@@ -382,8 +394,7 @@ fn check_process(process: &Process, groups: &[Group], parameters: &ParameterSet)
     }
     for wanted in process.parameters {
         if parameters.struct_of_type((wanted.type_id)()).is_none() {
-            let given: Vec<&str> = parameters.schemas().map(|schema| schema.name).collect();
-            let given = if given.is_empty() { "none".to_owned() } else { given.join(", ") };
+            let given = parameters.listed();
             return Err(ModelError::Parameters { process: name, wanted: wanted.schema.name, given });
         }
     }

@@ -52,6 +52,12 @@ pub enum ModelError {
     ReflectedHexagons { axis: char },
     #[error("the model `{model}` has no substates; call `.substates::<S>()` or `.population::<S>(slots)`")]
     NoSubstates { model: String },
+    #[error(
+        "the model has {processes} processes in a step, but random numbers tell {limit} apart; use fewer"
+    )]
+    TooManyProcesses { processes: usize, limit: usize },
+    #[error("the model has {groups} structs of substates, but random numbers tell {limit} apart; use fewer")]
+    TooManyGroups { groups: usize, limit: usize },
     #[error("the substates `{substates}` are given twice")]
     SubstatesTwice { substates: &'static str },
     #[error(
@@ -97,6 +103,25 @@ pub enum ModelError {
     OutsideOfItems { substates: &'static str },
     #[error("`{substates}` is not among the substates of the model; add it before")]
     NotAdded { substates: &'static str },
+    #[error("`{substates}` is a population; make its items by `.populate(|site| …)`, not by `.fill`")]
+    FillOfPopulation { substates: &'static str },
+    #[error("`{substates}` are the substates of cells; make them by `.fill(|site| …)`, not by `.populate`")]
+    PopulatedCells { substates: &'static str },
+    #[error(
+        "the initial state of `{substates}` takes the parameters `{wanted}`, which the model does not have (it has: {given}); call \
+         `.parameters({wanted} {{ … }})`"
+    )]
+    InitialParameters { substates: &'static str, wanted: &'static str, given: String },
+    #[error("two structs of substates are called `{name}`: `{first}` and `{second}`; rename one of them")]
+    SameStructName { name: &'static str, first: &'static str, second: &'static str },
+    #[error(
+        "the fields `{first}` and `{second}` of `{substates}` would both be the column `{column}` in tables; rename one of them"
+    )]
+    SameColumn { substates: &'static str, first: &'static str, second: &'static str, column: String },
+    #[error(
+        "the field `label` of the population `{substates}` is called like the label that every item has; rename it"
+    )]
+    FieldNamedLabel { substates: &'static str },
     #[error("the interval must be at least 1 step")]
     ZeroInterval,
     #[error("a process must run at least once in a step; leave it out instead of repeating it 0 times")]

@@ -6,7 +6,8 @@ use crate::engine::{
     check_population, check_substate, check_values, check_values_of_cells, step_by_step,
 };
 use crate::process::ProcessKind;
-use crate::reduction::{ITEMS_IN_BLOCK, Reduced, Reduction, reduce_values};
+use crate::random::Stream;
+use crate::reduction::{Reduced, Reduction, reduce_values};
 use std::ops::Range;
 
 impl Execution for ReferenceExecution {
@@ -16,7 +17,7 @@ impl Execution for ReferenceExecution {
             if !process.is_due(context.step) {
                 continue;
             }
-            let answers = self.pass(&process, context)?;
+            let answers = self.pass(&process, Stream::process(index), context)?;
             if process.kind == ProcessKind::Migration {
                 self.migrate(&process, &answers)?;
             }
@@ -31,7 +32,7 @@ impl Execution for ReferenceExecution {
 
     fn read(&self, substate: SubstateId) -> Result<Vec<u8>, EngineFailure> {
         check_substate(&self.model, substate)?;
-        Ok(self.groups[substate.group].values(substate.field))
+        Ok(self.groups[substate.group].values(substate.field, self.cells()))
     }
 
     fn write(&mut self, substate: SubstateId, values: &[u8]) -> Result<(), EngineFailure> {
@@ -72,7 +73,7 @@ impl Execution for ReferenceExecution {
 
     fn population(&self, group: usize) -> Result<Population, EngineFailure> {
         let group = &self.groups[group];
-        let fields = (0..group.types.len()).map(|field| group.values(field)).collect();
+        let fields = (0..group.types.len()).map(|field| group.values(field, self.cells())).collect();
         let labels = group.occupied().map(|place| group.labels[place]).collect();
         Ok(Population { counts: group.counts.clone(), labels, fields })
     }
@@ -109,10 +110,12 @@ impl Execution for ReferenceExecution {
         check_substate(&self.model, substate)?;
         let group = &self.groups[substate.group];
         let stored = group.types[substate.field];
-        let block = if group.is_population() { ITEMS_IN_BLOCK } else { self.model.geometry().extents()[0] };
+        let geometry = self.model.geometry();
+        let width = geometry.extents()[0];
         let mut results = vec![Reduced::Nothing; stored.components()];
-        for values in group.values(substate.field).chunks(block * stored.size()) {
-            for (result, part) in results.iter_mut().zip(reduce_values(reduction, stored, values)) {
+        for row in 0..geometry.cells() / width {
+            let values = group.values(substate.field, row * width..(row + 1) * width);
+            for (result, part) in results.iter_mut().zip(reduce_values(reduction, stored, &values)) {
                 *result = result.combine(part, reduction);
             }
         }
@@ -124,13 +127,22 @@ impl Execution for ReferenceExecution {
     }
 }
 
+impl ReferenceExecution {
+    /// All cells.
+    fn cells(&self) -> Range<usize> {
+        0..self.model.geometry().cells()
+    }
+}
+
 impl GroupState {
-    /// All values of a field; of items, those in occupied slots.
-    fn values(&self, field: usize) -> Vec<u8> {
-        if !self.is_population() {
-            return self.planes[field].bytes().to_vec();
-        }
-        self.occupied().flat_map(|place| self.value(field, place)).copied().collect()
+    /// The values of a field in a range of cells; of items, those in occupied slots.
+    fn values(&self, field: usize, cells: Range<usize>) -> Vec<u8> {
+        let places = cells.flat_map(|cell| {
+            let first = cell * self.slots;
+            let count = if self.is_population() { self.counts[cell] as usize } else { 1 };
+            first..first + count
+        });
+        places.flat_map(|place| self.value(field, place)).copied().collect()
     }
 
     fn memory(&self) -> usize {

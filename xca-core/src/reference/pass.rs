@@ -7,6 +7,7 @@ use super::{GroupState, Neighbour, ReferenceExecution, neighbourhood};
 use crate::engine::{Fault, StepContext, SubstateId};
 use crate::kernel::{Access, Entry, Frame, Memory, MemoryOf, Row, RowItems, Scratch};
 use crate::process::{Process, ProcessKind};
+use crate::random::Stream;
 use crate::storage::Buffer;
 use crate::value::StoredType;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -24,7 +25,12 @@ struct Pass {
 
 impl ReferenceExecution {
     /// Runs a process. For a migration the result is the answer for each place of the population.
-    pub(super) fn pass(&mut self, process: &Process, context: &StepContext<'_>) -> Result<Vec<u32>, Fault> {
+    pub(super) fn pass(
+        &mut self,
+        process: &Process,
+        stream: Stream,
+        context: &StepContext<'_>,
+    ) -> Result<Vec<u32>, Fault> {
         let geometry = self.model.geometry().clone();
         let mut passes: Vec<Pass> =
             process.access.iter().map(|access| self.prepare(process, access)).collect();
@@ -40,6 +46,7 @@ impl ReferenceExecution {
             toroidal: geometry.toroidal(),
             step: context.step,
             seed: context.seed,
+            stream,
             parameters: context.parameters,
             offsets: &offsets,
             filter: None,

@@ -2,7 +2,7 @@
 
 use crate::common::{PRECISIONS, cells, step};
 use xca_core::prelude::*;
-use xca_core::{Owner, draw_words};
+use xca_core::{Draw, Stream};
 
 #[derive(Substates, Clone, Copy, Debug, PartialEq, Default)]
 struct State {
@@ -14,16 +14,16 @@ struct State {
 }
 
 /// A row of six cells, whose neighbours are the left one, then the right one; beyond the ends lie cells of value 100.
-fn row() -> xca_core::ModelBuilder {
+fn row() -> ModelBuilder {
     Model::builder("row")
         .extents([6, 1, 1])
         .cell_side(0.5)
         .neighbourhood(Neighbourhood::custom(vec![[0, 0, 0], [-1, 0, 0], [1, 0, 0]]).expect("a list"))
         .substates_with_outside(State { value: 100, ..State::default() })
-        .fill(|[x, ..]| State { value: x as i32 + 1, ..State::default() })
+        .fill(|site| State { value: site.cell()[0] as i32 + 1, ..State::default() })
 }
 
-fn after_step(model: xca_core::ModelBuilder) -> Vec<State> {
+fn after_step(model: ModelBuilder) -> Vec<State> {
     let model = model.build().expect("the model is right");
     let [single, double] = PRECISIONS.map(|precision| step::<State>(&model, precision).expect("a step"));
     assert_eq!(single, double);
@@ -109,7 +109,8 @@ fn random_numbers_are_functions_of_seed_step_cell_and_draw() {
             Simulation::new(&model, &Reference, RunOptions { precision, seed: 42 }).expect("starts");
         simulation.run(2).expect("runs");
         for (x, cell) in cells::<State>(&simulation, precision).into_iter().enumerate() {
-            let word = |number| draw_words(42, 1, Owner::Cell(x as u32), number);
+            let stream = Stream::process(0);
+            let word = |number| Draw { stream, step: 1, owner: x as u32, number }.words(42);
             assert_eq!(cell.bits, word(0)[0]);
             let [high, low, ..] = word(1);
             let expected = match precision {

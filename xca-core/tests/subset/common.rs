@@ -6,7 +6,7 @@ use xca_core::{ElementaryProcess, GroupSnapshot};
 pub(crate) const PRECISIONS: [Precision; 2] = [Precision::F32, Precision::F64];
 
 /// A builder for a model of a single cell.
-pub(crate) fn single_cell<S: Substates + Copy>(before: S) -> xca_core::ModelBuilder {
+pub(crate) fn single_cell<S: Substates + Copy>(before: S) -> ModelBuilder {
     Model::builder("one cell").extents([1, 1, 1]).substates::<S>().fill(move |_| before)
 }
 

@@ -2,7 +2,7 @@
 
 use crate::common::PRECISIONS;
 use xca_core::prelude::*;
-use xca_core::{ElementaryProcess, ModelBuilder, Owner, draw_words};
+use xca_core::{Draw, ElementaryProcess, ModelBuilder, Stream};
 
 #[derive(Substates, Clone, Copy, Debug, PartialEq)]
 struct Grain {
@@ -34,7 +34,7 @@ fn row() -> ModelBuilder {
         .population::<Grain>(4)
         .items_may_leave::<Grain>()
         .initialise(move |state| {
-            state.fill(|[x, ..]| Ground { height: x as f64 * 0.5 })?;
+            state.fill(|site| Ground { height: site.cell()[0] as f64 * 0.5 })?;
             let items = coordinates.iter().zip(1..).map(|(x, label)| Item {
                 label,
                 cell: [*x as usize, 0, 0],
@@ -150,7 +150,8 @@ fn an_item_sees_its_cell_label_place_and_random_numbers() {
         let ten = label as i32 * 10;
         assert_eq!(state.place, Vector3::new(cell[0] as i32 + ten, ten, ten));
         assert_eq!(state.speed, cell[0] as f64 * 0.5 + 1.0);
-        let word = |draw| draw_words(7, 0, Owner::Item(label), draw)[0];
+        let stream = Stream::process(0);
+        let word = |number| Draw { stream, step: 0, owner: label, number }.words(7)[0];
         assert_eq!(state.found, word(3));
         assert_eq!(state.centre.y, (f64::from(word(4)) / 2.0_f64.powi(32) * 8.0).floor());
     }

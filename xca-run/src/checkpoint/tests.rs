@@ -76,7 +76,7 @@ fn model() -> Model {
         .substates::<Field>()
         .population::<Ant>(3)
         .process(warm)
-        .fill(|[x, ..]| Field { heat: x as f64, flow: Vector2::new(-0.0, 2.0), kind: 9 })
+        .fill(|site| Field { heat: site.cell()[0] as f64, flow: Vector2::new(-0.0, 2.0), kind: 9 })
         .initialise(move |state| Ok(state.set_items(vec![ant(6), ant(2)])?))
         .build()
         .unwrap()

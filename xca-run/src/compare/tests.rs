@@ -60,7 +60,10 @@ fn model() -> Model {
         .process(diffuse)
         .process(move_on)
         .process(reassign)
-        .fill(|[x, y, _]| Heat { temperature: (x * x + y) as f64 / 3.0, kind: 1 })
+        .fill(|site| {
+            let [x, y, _] = site.cell();
+            Heat { temperature: (x * x + y) as f64 / 3.0, kind: 1 }
+        })
         .initialise(move |state| Ok(state.set_items([5, 2, 0].map(grain).to_vec())?))
         .build()
         .unwrap()

@@ -55,9 +55,7 @@ impl<'a> Items<'a> {
         for (cell, count) in self.population.counts.iter().enumerate() {
             cells.extend(std::iter::repeat_n(cell, *count as usize));
         }
-        let centre = |place: &usize| {
-            self.geometry.indices(cells[*place]).map(|index| (index as f64 + 0.5) * self.geometry.side())
-        };
+        let centre = |place: &usize| self.geometry.centre(self.geometry.indices(cells[*place]));
         Plane::points(self.which.iter().map(centre).collect())
     }
 
@@ -68,16 +66,9 @@ impl<'a> Items<'a> {
         }
         let schema = self.group.schema();
         let mut columns = Vec::new();
-        for (field, definition) in schema.fields.iter().enumerate() {
-            let lanes = usize::from(definition.value_type.lanes);
-            columns.extend(["x", "y", "z", "w"].into_iter().take(lanes).enumerate().map(|(lane, letter)| {
-                let header = match (lanes, schema.position == Some(field)) {
-                    (1, _) => definition.name.to_owned(),
-                    (_, true) => letter.to_owned(),
-                    (_, false) => format!("{}_{letter}", definition.name),
-                };
-                (header, field, lane)
-            }));
+        for field in 0..schema.fields.len() {
+            let headers = schema.columns(field).into_iter().enumerate();
+            columns.extend(headers.map(|(lane, header)| (header, field, lane)));
         }
         columns
     }

@@ -38,6 +38,7 @@ struct Space {
     count: vec3<u32>,
     layer: u32,
     seed: vec2<u32>,
+    stream: u32,
 }
 
 struct Conduction {

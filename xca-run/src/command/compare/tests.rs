@@ -20,19 +20,19 @@ fn fall(cell: &mut Cell<Drop>) {
     cell.height = 3.9 * cell.height * (1.0 - cell.height);
 }
 
-fn set_up(given: Given) -> Result<SetUp, Failure> {
+fn set_up() -> Result<SetUp, Failure> {
     let model = Model::builder("drops")
         .extents([8, 4, 1])
         .substates::<Drop>()
         .process(fall)
-        .fill(move |cell| Drop { height: 0.1 + 0.8 * given.random(cell, 0) })
+        .fill(|site| Drop { height: 0.1 + 0.8 * site.random(0) })
         .build()?;
     Ok(SetUp::new(model, 12))
 }
 
 /// Runs the command, and gives back what it has written as JSON.
 fn compared(words: &[&str]) -> (Result<Ended, Unable>, Value) {
-    let set_up = |_: &clap::ArgMatches, given: Given| set_up(given).map_err(Unable::Refused);
+    let set_up = |_: &clap::ArgMatches, _: Given| set_up().map_err(Unable::Refused);
     let definition = Definition {
         name: "drops",
         about: "",

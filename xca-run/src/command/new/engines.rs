@@ -7,7 +7,7 @@ use xca_run::{EngineError, EngineName, EngineOptions};
 /// The state after so many steps.
 fn after(steps: u64, engine: EngineName) -> Result<Vec<u32>, EngineError> {
     let engine = engine.engine(&EngineOptions::default())?;
-    let model = model(&Given::default()).expect("the model makes sense");
+    let model = model().expect("the model makes sense");
     let mut simulation = Simulation::new(&model, &*engine, RunOptions::default()).expect("the model begins");
     simulation.run(steps).expect("the model runs");
     Ok(simulation.state().read(Medium::PHASE).expect("the state is read"))

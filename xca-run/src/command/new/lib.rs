@@ -38,16 +38,14 @@ fn excite(cell: &mut Cell<Medium>, p: &Excitation) {
 }
 
 /// The whole model: space, neighbourhood, substates, parameters, processes, initial state.
-pub fn model(given: &Given) -> Result<Model, Failure> {
-    let given = given.clone();
-    let model = Model::builder("new-model")
+pub fn model() -> Result<Model, ModelError> {
+    Model::builder("new-model")
         .extents([160, 160, 1])
         .neighbourhood(Neighbourhood::moore_2d(1))
         .boundary(Boundary::Toroidal)
         .substates::<Medium>()
         .parameters(Excitation { threshold: 1, duration: 7 })
         .process(excite)
-        .fill(move |cell| Medium { phase: (given.random(cell, 0) * 9.0) as u32 % 8 })
-        .build()?;
-    Ok(model)
+        .fill(|site| Medium { phase: (site.random(0) * 9.0) as u32 % 8 })
+        .build()
 }

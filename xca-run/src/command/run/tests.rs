@@ -70,7 +70,10 @@ fn model() -> Result<Model, Failure> {
         .process(grow)
         .process(age)
         .fault_text(7, "a hare is too old")
-        .fill(|[x, ..]| Grass { height: x as f64, wind: Vector2::new(1.0, x as f32), kind: 2 })
+        .fill(|site| {
+            let [x, ..] = site.cell();
+            Grass { height: x as f64, wind: Vector2::new(1.0, x as f32), kind: 2 }
+        })
         .initialise(move |state| Ok(state.set_items(vec![hare(9), hare(4), hare(6)])?))
         .initialise(|state| {
             Ok(state.set_items(vec![Item { label: 1, cell: [3, 2, 1], state: Stone { weight: 2.5 } }])?)
@@ -207,7 +210,7 @@ fn sources_are_in_the_balance_of_every_step() {
             .face(Face::South, Boundary::Flat)
             .substates::<Stone>()
             .fill(|_| Stone { weight: 1.0 })
-            .steer(Schedule::EveryFrom { first: 0, interval: 1 }, |state| {
+            .steer(Schedule::EveryFromStart(1), |state| {
                 Ok(state.update(Stone::WEIGHT, &[[1, 2, 0], [3, 0, 0]], |_, weight| weight + 2.0)?)
             })
             .build()?;

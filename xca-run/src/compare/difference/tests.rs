@@ -25,7 +25,8 @@ fn state(beads: &[(usize, u32, f64)], flow: [f64; 12], count: [i32; 6]) -> Snaps
     let mut simulation = Simulation::new(&model, &Reference, RunOptions::default()).unwrap();
     let mut state = simulation.state();
     state
-        .fill(|[x, y, _]| {
+        .fill(|site| {
+            let [x, y, _] = site.cell();
             let cell = x + 3 * y;
             Field { flow: Vector2::new(flow[2 * cell], flow[2 * cell + 1]), count: count[cell] }
         })

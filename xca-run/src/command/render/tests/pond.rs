@@ -82,10 +82,10 @@ fn model(width: usize) -> Result<Model, Failure> {
         .parameters(Weather { rain: 0.125 })
         .process(rise)
         .process(swim)
-        .fill(|[x, y, z]| Water {
-            depth: 0.1 * x as f64 + 1.0 / (1.0 + y as f64),
-            flow: Vector2::new(1.0 + z as f32, 0.1),
-            kind: ((x + y) % 2) as u8,
+        .fill(|site| {
+            let [x, y, z] = site.cell();
+            let depth = 0.1 * x as f64 + 1.0 / (1.0 + y as f64);
+            Water { depth, flow: Vector2::new(1.0 + z as f32, 0.1), kind: ((x + y) % 2) as u8 }
         })
         .initialise(move |state| Ok(state.set_items(vec![fish(9), fish(4), fish(7), fish(2)])?))
         .initialise(move |state| Ok(state.set_items(vec![stone(2), stone(0), stone(1)])?))

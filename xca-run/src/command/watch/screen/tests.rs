@@ -44,7 +44,10 @@ fn life(size: [usize; 3], alive: &'static [[usize; 2]]) -> SetUp {
         .boundary(Boundary::Toroidal)
         .substates::<Life>()
         .process(evolve)
-        .fill(move |[x, y, _]| Life { alive: u8::from(alive.contains(&[x, y])), age: 0.0 })
+        .fill(move |site| {
+            let [x, y, _] = site.cell();
+            Life { alive: u8::from(alive.contains(&[x, y])), age: 0.0 }
+        })
         .build();
     SetUp::new(model.unwrap(), 10)
 }

@@ -198,7 +198,10 @@ fn layers_lie_along_any_axis() {
         .neighbourhood(Neighbourhood::von_neumann(1))
         .substates::<Bar>()
         .process(stay)
-        .fill(|[x, y, z]| Bar { temperature: (100 * x + 10 * y + z) as f64 })
+        .fill(|site| {
+            let [x, y, z] = site.cell();
+            Bar { temperature: (100 * x + 10 * y + z) as f64 }
+        })
         .build();
     let view =
         CellView::named("bar").draw(Bar::TEMPERATURE, "T (K^2)").range(0.0, 321.0).map(ColourMap::Paper);

@@ -1,0 +1,149 @@
+//! The functions that make the initial state, and what they need of the model.
+
+use super::{Group, GroupKind, ModelBuilder, ModelError};
+use crate::parameter_set::ParameterSet;
+use crate::parameters::Parameters;
+use crate::site::Site;
+use crate::substates::Substates;
+use std::any::TypeId;
+
+impl ModelBuilder {
+    /// Makes the initial state of each cell.
+    ///
+    /// ```
+    /// # use xca_core::prelude::*;
+    /// # #[derive(Substates, Clone, Copy)]
+    /// # struct Forest { tree: u8, height: Real }
+    /// # let builder = Model::builder("forest").extents([9, 9, 1]).substates::<Forest>();
+    /// builder.fill(|site| Forest { tree: u8::from(site.random(0) < 0.6), height: 20.0 * site.random(1) })
+    /// # .build().unwrap();
+    /// ```
+    pub fn fill<S: Substates>(mut self, state: impl Fn(Site) -> S + Send + Sync + 'static) -> Self {
+        self.fillings.push(Filling::cells::<S>());
+        self.initialise(move |space| Ok(space.fill(&state)?))
+    }
+
+    /// Makes the initial state of each cell from the parameters that the run begins with, whoever has set
+    /// them.
+    ///
+    /// ```
+    /// # use xca_core::prelude::*;
+    /// # #[derive(Substates, Clone, Copy)]
+    /// # struct Heat { temperature: Real }
+    /// # #[derive(Parameters, Clone, Debug)]
+    /// # struct Copper { initial: Real }
+    /// let mut model = Model::builder("heat")
+    ///     .extents([9, 9, 9])
+    ///     .substates::<Heat>()
+    ///     .parameters(Copper { initial: 100.0 })
+    ///     .fill_with(|_, copper: &Copper| Heat { temperature: copper.initial })
+    ///     .build()?;
+    /// model.set_parameter("initial", "50")?;
+    /// let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
+    /// assert_eq!(simulation.state().maximum(Heat::TEMPERATURE)?, Some(50.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn fill_with<S: Substates, P: Parameters>(
+        mut self,
+        state: impl Fn(Site, &P) -> S + Send + Sync + 'static,
+    ) -> Self {
+        self.fillings.push(Filling::cells::<S>().with::<P>());
+        self.initialise(move |space| Ok(space.fill_with(&state)?))
+    }
+
+    /// Makes the initial items of each cell: anything that can be iterated over, such as an `Option`, a `Vec`
+    /// or an iterator. Labels are given out in order, from 0: cell after cell (x fastest), and in a cell in
+    /// the order of its items.
+    ///
+    /// ```
+    /// # use xca_core::prelude::*;
+    /// # #[derive(Substates, Clone, Copy)]
+    /// # struct Molecule { position: Vector3<Real> }
+    /// # let builder = Model::builder("gas").extents([9, 9, 9]).population::<Molecule>(4);
+    /// // Two molecules in each cell, anywhere in it.
+    /// builder.populate(|site| {
+    ///     (0..2).map(move |number| {
+    ///         let offset = Vector3::new(0, 1, 2).map(|axis| site.random(3 * number + axis) - 0.5);
+    ///         Molecule { position: site.centre() + offset }
+    ///     })
+    /// })
+    /// # .build().unwrap();
+    /// ```
+    pub fn populate<S: Substates, I: IntoIterator<Item = S>>(
+        mut self,
+        items: impl Fn(Site) -> I + Send + Sync + 'static,
+    ) -> Self {
+        self.fillings.push(Filling::items::<S>());
+        self.initialise(move |space| Ok(space.populate(&items)?))
+    }
+
+    /// As [`Self::populate`], with the parameters that the run begins with.
+    pub fn populate_with<S: Substates, P: Parameters, I: IntoIterator<Item = S>>(
+        mut self,
+        items: impl Fn(Site, &P) -> I + Send + Sync + 'static,
+    ) -> Self {
+        self.fillings.push(Filling::items::<S>().with::<P>());
+        self.initialise(move |space| Ok(space.populate_with(&items)?))
+    }
+}
+
+/// What a function makes, and of what.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Filling {
+    substates: Named,
+    /// Whether it makes items, and not the states of cells.
+    of_items: bool,
+    parameters: Option<Named>,
+}
+
+/// A type with the name that users know it by.
+#[derive(Debug, Clone, Copy)]
+struct Named {
+    type_id: TypeId,
+    name: &'static str,
+}
+
+impl Filling {
+    /// Of cells.
+    pub(super) fn cells<S: Substates>() -> Self {
+        Self { substates: Named::substates::<S>(), of_items: false, parameters: None }
+    }
+
+    /// Of a population.
+    pub(super) fn items<S: Substates>() -> Self {
+        Self { of_items: true, ..Self::cells::<S>() }
+    }
+
+    /// The same, with parameters.
+    pub(super) fn with<P: Parameters>(self) -> Self {
+        let parameters = Named { type_id: TypeId::of::<P>(), name: P::SCHEMA.name };
+        Self { parameters: Some(parameters), ..self }
+    }
+
+    /// Looks for what it makes and needs.
+    pub(super) fn check(&self, groups: &[Group], parameters: &ParameterSet) -> Result<(), ModelError> {
+        let substates = self.substates.name;
+        let group = groups.iter().find(|group| group.type_id == self.substates.type_id);
+        match (group.map(|group| &group.kind), self.of_items) {
+            (None, _) => return Err(ModelError::NotAdded { substates }),
+            (Some(GroupKind::Population { .. }), false) => {
+                return Err(ModelError::FillOfPopulation { substates });
+            }
+            (Some(GroupKind::Cells { .. }), true) => return Err(ModelError::PopulatedCells { substates }),
+            _ => {}
+        }
+        match self.parameters {
+            Some(wanted) if parameters.struct_of_type(wanted.type_id).is_none() => {
+                let (wanted, given) = (wanted.name, parameters.listed());
+                Err(ModelError::InitialParameters { substates, wanted, given })
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl Named {
+    fn substates<S: Substates>() -> Self {
+        Self { type_id: TypeId::of::<S>(), name: S::SCHEMA.name }
+    }
+}

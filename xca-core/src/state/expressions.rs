@@ -1,0 +1,80 @@
+//! Reductions of an expression: of something that is computed from several substates of a cell or an item.
+
+use super::{State, StateError};
+use crate::engine::{Population, SubstateId};
+use crate::reduction::{Reduced, Reducible, Reduction, combine_rows};
+use crate::substates::Substates;
+
+impl State<'_> {
+    /// How many cells, or items of a population, meet a condition.
+    ///
+    /// ```
+    /// # use xca_core::prelude::*;
+    /// # #[derive(Substates, Clone, Copy)]
+    /// # struct Lava { thickness: Real, temperature: Real }
+    /// # let model = Model::builder("lava").extents([4, 4, 1]).substates::<Lava>().build()?;
+    /// # let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
+    /// let state = simulation.state();
+    /// let crusted = state.count_where(|lava: &Lava| lava.thickness > 0.0 && lava.temperature < 800.0)?;
+    /// let heat = state.sum_of(|lava: &Lava| lava.thickness * lava.temperature)?;
+    /// # assert_eq!((crusted, heat), (0, 0.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// All substates of the struct are brought to the host; [`Self::count`] needs one of them, and counts
+    /// where the state is.
+    ///
+    /// # Errors
+    /// Where the model does not have these substates.
+    pub fn count_where<S: Substates>(&self, condition: impl Fn(&S) -> bool) -> Result<u64, StateError> {
+        let mut count = 0;
+        self.for_each(|_, state: &S| count += u64::from(condition(state)))?;
+        Ok(count)
+    }
+
+    /// The sum of a value of each cell, or of each item of a population: in `f64`, or in `i64` of integers.
+    /// Rows are summed up one by one, then combined in order, as by [`Self::sum`]; so the bits are the same
+    /// on every engine.
+    ///
+    /// All substates of the struct are brought to the host; [`Self::sum`] needs one of them, and adds up
+    /// where the state is.
+    ///
+    /// # Errors
+    /// Where the model does not have these substates.
+    pub fn sum_of<S: Substates, V: Reducible>(&self, value: impl Fn(&S) -> V) -> Result<V::Sum, StateError> {
+        let mut rows: Vec<Reduced> = Vec::new();
+        self.for_each(|row, state: &S| {
+            let value = value(state);
+            rows.resize((row + 1) * V::COMPONENTS, Reduced::Nothing);
+            for (lane, result) in rows[row * V::COMPONENTS..].iter_mut().enumerate() {
+                *result = result.combine(value.reduced(lane), &Reduction::Sum);
+            }
+        })?;
+        let rows = rows.chunks_exact(V::COMPONENTS);
+        Ok(V::total(&combine_rows(&Reduction::Sum, V::COMPONENTS, rows), 0))
+    }
+
+    /// Visits the cells, or the items of a population, row after row, each with the number of its row.
+    fn for_each<S: Substates>(&self, mut visit: impl FnMut(usize, &S)) -> Result<(), StateError> {
+        let group = self.group::<S>()?;
+        let stored = self.model.groups()[group].stored(self.precision);
+        let width = self.geometry().extents()[0];
+        let (fields, lengths) = if self.is_population(group) {
+            let Population { counts, fields, .. } = self.execution.population(group)?;
+            let items = |row: &[u32]| row.iter().map(|count| *count as usize).sum();
+            (fields, counts.chunks_exact(width).map(items).collect())
+        } else {
+            let fields = (0..stored.len()).map(|field| self.execution.read(SubstateId { group, field }));
+            (fields.collect::<Result<Vec<_>, _>>()?, vec![width; self.geometry().cells() / width])
+        };
+        let rows = lengths.into_iter().enumerate().flat_map(|(row, length)| std::iter::repeat_n(row, length));
+        for (place, row) in rows.enumerate() {
+            let bytes = |field: usize| {
+                let size = stored[field].size();
+                &fields[field][place * size..(place + 1) * size]
+            };
+            visit(row, &S::decode(self.precision, bytes));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,89 @@
+//! Whole structs of substates, and whole populations, made cell by cell.
+
+use super::{State, StateError};
+use crate::engine::{Population, SubstateId};
+use crate::parameters::Parameters;
+use crate::site::{Site, Sites};
+use crate::substates::Substates;
+
+impl State<'_> {
+    fn sites(&self, group: usize) -> Sites<'_> {
+        let (geometry, step) = (self.model.geometry(), self.step);
+        Sites { geometry, group, step, seed: self.seed }
+    }
+
+    /// Sets the state of every cell.
+    ///
+    /// # Errors
+    /// Where the model does not have these substates of cells.
+    pub fn fill<S: Substates>(&mut self, state: impl Fn(Site) -> S) -> Result<(), StateError> {
+        let group = self.cells_of::<S>()?;
+        let fields = self.encoded(group, self.sites(group).iter().map(state));
+        for (field, bytes) in fields.iter().enumerate() {
+            self.execution.write(SubstateId { group, field }, bytes)?;
+        }
+        Ok(())
+    }
+
+    /// Sets the state of every cell, which depends on the parameters.
+    ///
+    /// # Errors
+    /// As [`Self::fill`], and where the model has other parameters.
+    pub fn fill_with<S: Substates, P: Parameters>(
+        &mut self,
+        state: impl Fn(Site, &P) -> S,
+    ) -> Result<(), StateError> {
+        let parameters = self.parameters::<P>()?;
+        self.fill(|site| state(site, &parameters))
+    }
+
+    /// Replaces all items of a population by those that the function gives for each cell. Labels are given
+    /// out in order, from 0: cell after cell (x fastest), and in a cell in the order of its items.
+    ///
+    /// # Errors
+    /// Where the model does not have the population, or a cell gets more items than it has slots.
+    pub fn populate<S: Substates, I: IntoIterator<Item = S>>(
+        &mut self,
+        items: impl Fn(Site) -> I,
+    ) -> Result<(), StateError> {
+        let group = self.population_of::<S>()?;
+        let mut counts = Vec::with_capacity(self.geometry().cells());
+        let mut states = Vec::new();
+        for site in self.sites(group).iter() {
+            let before = states.len();
+            states.extend(items(site));
+            counts.push((states.len() - before) as u32);
+        }
+        let labels = (0..states.len() as u32).collect();
+        let fields = self.encoded(group, states.into_iter());
+        Ok(self.execution.set_population(group, &Population { counts, labels, fields })?)
+    }
+
+    /// As [`Self::populate`], with the parameters.
+    ///
+    /// # Errors
+    /// As [`Self::populate`], and where the model has other parameters.
+    pub fn populate_with<S: Substates, P: Parameters, I: IntoIterator<Item = S>>(
+        &mut self,
+        items: impl Fn(Site, &P) -> I,
+    ) -> Result<(), StateError> {
+        let parameters = self.parameters::<P>()?;
+        self.populate(|site| items(site, &parameters))
+    }
+
+    /// The stored bytes of each field of these states.
+    fn encoded<S: Substates>(&self, group: usize, states: impl Iterator<Item = S>) -> Vec<Vec<u8>> {
+        let sizes: Vec<usize> =
+            self.model.groups()[group].stored(self.precision).iter().map(|stored| stored.size()).collect();
+        let count = states.size_hint().0;
+        let mut fields: Vec<Vec<u8>> = sizes.iter().map(|size| Vec::with_capacity(size * count)).collect();
+        for state in states {
+            for (field, (bytes, size)) in fields.iter_mut().zip(&sizes).enumerate() {
+                let start = bytes.len();
+                bytes.resize(start + size, 0);
+                state.encode(field, self.precision, &mut bytes[start..]);
+            }
+        }
+        fields
+    }
+}
