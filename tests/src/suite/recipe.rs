@@ -16,6 +16,8 @@ pub struct Recipe {
     pub neighbourhood: Neighbourhood,
     /// What lies beyond the faces; changed where it has no meaning.
     pub boundaries: Faces<Boundary>,
+    /// Whether some flat faces have outside values of their own.
+    pub outsides: bool,
     /// The side of a cell.
     pub side: f64,
     /// The processes by their numbers, see [`add`].
@@ -86,9 +88,9 @@ impl Recipe {
             .parameters(recipe.tuning)
             .substates_with_outside(medium_of(mix(salt, 17)))
             .fill(move |[x, y, z]| medium_of(mix(mix(mix(salt, x as u32), y as u32), z as u32)));
-        // Some flat faces have values of their own.
         for (face, number) in Face::ALL.into_iter().zip(0..) {
-            if recipe.boundaries[face] == Boundary::Flat && mix(salt, number).is_multiple_of(2) {
+            let is_apart = recipe.outsides && mix(salt, number).is_multiple_of(2);
+            if is_apart && recipe.boundaries[face] == Boundary::Flat {
                 builder = builder.outside(face, medium_of(mix(salt, 18 + number)));
             }
         }
