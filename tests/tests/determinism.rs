@@ -15,6 +15,7 @@ fn everything() -> Recipe {
         extents: [11, 12, 14],
         neighbourhood: Neighbourhood::moore(1),
         boundaries: [Boundary::Toroidal, Boundary::Flat, Boundary::Toroidal].into(),
+        outsides: false,
         side: 0.3,
         processes: vec![0, 1, 3, 10, 4, 12, 5, 2, 14, 6, 17, 9, 11, 7, 13, 15, 16],
         slots: 40,

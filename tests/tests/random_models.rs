@@ -83,6 +83,7 @@ fn recipes() -> impl Strategy<Value = Recipe> {
                 extents,
                 neighbourhood,
                 boundaries,
+                outsides: true,
                 side,
                 processes,
                 slots,

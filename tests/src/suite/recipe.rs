@@ -17,6 +17,8 @@ pub struct Recipe {
     pub neighbourhood: Neighbourhood,
     /// What lies beyond the faces; changed where it has no meaning.
     pub boundaries: Faces<Boundary>,
+    /// Whether some flat faces have outside values of their own.
+    pub outsides: bool,
     /// The side of a cell.
     pub side: f64,
     /// The processes by their numbers, see [`add`].
@@ -90,9 +92,9 @@ impl Recipe {
                 let [x, y, z] = site.cell().map(|index| index as u32);
                 medium_of(mix(mix(mix(salt, x), y), z))
             });
-        // Some flat faces have values of their own.
         for (face, number) in Face::ALL.into_iter().zip(0..) {
-            if recipe.boundaries[face] == Boundary::Flat && mix(salt, number).is_multiple_of(2) {
+            let is_apart = recipe.outsides && mix(salt, number).is_multiple_of(2);
+            if is_apart && recipe.boundaries[face] == Boundary::Flat {
                 builder = builder.outside(face, medium_of(mix(salt, 18 + number)));
             }
         }

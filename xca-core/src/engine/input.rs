@@ -1,7 +1,7 @@
 //! What is handed to an engine from outside: checked at its door, before anything changes.
 //!
-//! Kernels trust the lengths and ranges that engines keep, and an engine's methods are open to everyone. So each engine calls these functions
-//! first, and unsafe code may rely on what they have checked.
+//! Kernels trust the lengths and ranges that engines keep, and an engine's methods are open to everyone. So
+//! each engine calls these functions first, and unsafe code may rely on what they have checked.
 
 use super::{EngineFailure, Fault, Population, SubstateId};
 use crate::model::{Group, GroupKind, Model};
@@ -88,7 +88,8 @@ pub fn check_substate(model: &Model, substate: SubstateId) -> Result<(), InputEr
     checked_group(model, substate).map(|_| ())
 }
 
-/// Checks the values that are to replace all values of a substate. `items` is how many items the group has, if it is a population.
+/// Checks the values that are to replace all values of a substate. `items` is how many items the group has, if
+/// it is a population.
 ///
 /// # Errors
 /// Where the model does not have the substate, or the values take another number of bytes.
@@ -110,7 +111,8 @@ pub fn check_values(
 /// Checks the cells whose values of a substate are to be read, by their linear indices.
 ///
 /// # Errors
-/// Where the model does not have the substate, it is none of cells, or the space does not have one of the cells.
+/// Where the model does not have the substate, it is none of cells, or the space does not have one of the
+/// cells.
 pub fn check_cells(model: &Model, substate: SubstateId, cells: &[usize]) -> Result<(), InputError> {
     let group = checked_group(model, substate)?;
     if let GroupKind::Population { .. } = group.kind() {
@@ -139,8 +141,8 @@ pub fn check_values_of_cells(
 /// Checks the items that are to replace those of a population.
 ///
 /// # Errors
-/// [`Fault::CellFull`] where a cell has more items than slots; [`InputError`] where the group is no population, or counts, labels and fields
-/// do not agree.
+/// [`Fault::CellFull`] where a cell has more items than slots; [`InputError`] where the group is no population,
+/// or counts, labels and fields do not agree.
 pub fn check_population(
     model: &Model,
     precision: Precision,

@@ -58,9 +58,9 @@ fn row() -> xca_core::ModelBuilder {
         .substates::<Plants>()
         .parameters(Soil { loss: 0.5, rate: 2.0 })
         .parameters(Growth { rate: 4.0 })
-        .fill(|[x, ..]| Ground { height: x as f64, water: 10.0 })
-        .fill(|[x, ..]| Weather { rain: 1.0 + x as f64, wind: [x as i32, 3] })
-        .fill(|[x, ..]| Plants { cover: 0.25 * x as f64 })
+        .fill(|site| Ground { height: site.cell()[0] as f64, water: 10.0 })
+        .fill(|site| Weather { rain: 1.0 + site.cell()[0] as f64, wind: [site.cell()[0] as i32, 3] })
+        .fill(|site| Plants { cover: 0.25 * site.cell()[0] as f64 })
 }
 
 fn simulation(model: &Model, precision: Precision) -> Simulation {

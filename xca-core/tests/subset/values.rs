@@ -137,7 +137,7 @@ fn neighbours_show_arrays_from_before_the_process() {
         .neighbourhood(Neighbourhood::custom(vec![[0, 0, 0], [-1, 0, 0], [1, 0, 0]]).unwrap())
         .substates_with_outside(outside)
         .process(exchange)
-        .fill(move |[x, ..]| lane(x))
+        .fill(move |site| lane(site.cell()[0]))
         .build()
         .unwrap();
     for precision in PRECISIONS {
@@ -224,7 +224,7 @@ fn items_hold_arrays_bool_and_states() {
         .process(gather)
         .process(look_down)
         .initialise(move |state| Ok(state.set_items(items())?))
-        .fill(|[x, ..]| Lane { flows: [x as f64, 10.0], states: [Ground::Water; 2], ..Lane::default() })
+        .fill(|site| Lane { flows: [site.cell()[0] as f64, 10.0], states: [Ground::Water; 2], ..Lane::default() })
         .build()
         .unwrap();
     for precision in PRECISIONS {
@@ -338,11 +338,14 @@ fn the_host_reads_writes_and_reduces_them() {
     let model = Model::builder("land")
         .extents([3, 2, 1])
         .substates::<Land>()
-        .fill(|[x, y, _]| Land {
-            ground: if x == 1 { Ground::Water } else { Ground::Rock },
-            wet: y == 1,
-            flows: [x as f64, y as f64, 1.0],
-            ..Land::default()
+        .fill(|site| {
+            let [x, y, _] = site.cell();
+            Land {
+                ground: if x == 1 { Ground::Water } else { Ground::Rock },
+                wet: y == 1,
+                flows: [x as f64, y as f64, 1.0],
+                ..Land::default()
+            }
         })
         .build()
         .unwrap();
