@@ -52,8 +52,10 @@ fn look_by_sides(me: &mut Slot<Speck>, p: &Sight, space: &Space) {
 /// A row of cells with an item at each of these places along x.
 fn row(side: f64, cells: usize, neighbourhood: Neighbourhood, radius: f64, places: &[f64]) -> ModelBuilder {
     let places = places.to_vec();
+    // As thick as the neighbourhood needs.
+    let thick = neighbourhood.reach()[1].max(1);
     Model::builder("row")
-        .extents([cells, 1, 1])
+        .extents([cells, thick, thick])
         .cell_side(side)
         .neighbourhood(neighbourhood)
         .population::<Speck>(4)
