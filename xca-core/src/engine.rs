@@ -297,8 +297,6 @@ pub enum Fault {
         radius: f64,
         /// The largest radius that the neighbourhood covers, in metres.
         covered: f64,
-        /// The neighbourhood.
-        neighbourhood: String,
     },
     /// A search has a negative or NaN radius.
     InvalidRadius {
@@ -384,11 +382,11 @@ impl fmt::Display for Fault {
                     size.saturating_sub(1)
                 )
             }
-            Self::SearchTooFar { process, cell, label, radius, covered, neighbourhood } => {
+            Self::SearchTooFar { process, cell, label, radius, covered } => {
                 write!(
                     f,
                     "`{process}` searches within {radius} m around item {} in cell {cell:?}, but the \
-                     neighbourhood ({neighbourhood}) covers {covered} m; use a wider neighbourhood (Moore covers \
+                     neighbourhood covers {covered} m; use a wider neighbourhood (Moore covers \
                      its radius times the cell side) or larger cells",
                     label.unwrap_or_default()
                 )
@@ -463,8 +461,7 @@ impl Fault {
                 Self::InvalidRadius { process, cell, label, radius }
             } else {
                 let covered = geometry.covered_radius(Precision::F64);
-                let neighbourhood = geometry.neighbourhood().to_string();
-                Self::SearchTooFar { process, cell, label, radius, covered, neighbourhood }
+                Self::SearchTooFar { process, cell, label, radius, covered }
             };
         }
         Self::Reported {

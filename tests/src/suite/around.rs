@@ -37,9 +37,6 @@ pub fn turn_round(cell: &mut Cell<Site>, p: &Lattice, space: &Space) {
     let mut n = cell.neighbour_count();
     while n > 0 {
         n -= 1;
-        if cell.opposite(n) != opposite(p, n, here) {
-            cell.fault(WRONG_OPPOSITE, n as Real);
-        }
         if cell.opposite(cell.opposite(n)) != n {
             cell.fault(WRONG_OPPOSITE, n as Real);
         }

@@ -263,7 +263,7 @@ pub fn displacement(shape: u32, n: usize, here: Vector3<i32>) -> Vector3<i32> {
             _ => Vector3::new(1, 1, 1),
         },
         PAIRED => {
-            let one = in_block((n + 1) / 2, 3, 3);
+            let one = in_block(n / 2 + n % 2, 3, 3);
             if n % 2 == 1 { one } else { -one }
         }
         _ => Vector3::new(NOWHERE, NOWHERE, NOWHERE),

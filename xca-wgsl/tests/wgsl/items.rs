@@ -67,6 +67,9 @@ fn outer_contacts() {
     }
     var force: vec3<Real> = me.force;
     let radius: Real = 2.0lf * p.radius;
+    if !(radius >= Real() && radius <= space.covered) {
+        report_fault(0xfffffffeu, radius);
+    }
     let limit: Real = radius * radius;
     let centre: vec3<Real> = position_at(this_item);
     for (var neighbour: u32 = 1u; neighbour < 27u; neighbour += 1u) {

@@ -527,3 +527,36 @@ fn chance(cell: &mut Cell<State>) {
 fn random_numbers() {
     accepted::<chance>();
 }
+
+#[elementary_process]
+fn directions_of_neighbours(cell: &mut Cell<State>) {
+    for n in 1..cell.neighbour_count() {
+        if cell.exists(n) {
+            cell.unsigned += cell.opposite(n) as u32;
+        }
+    }
+    cell.signed = cell.displacement(directions::von_neumann::UP).z;
+    cell.signed += cell.displacement(cell.unsigned as usize).x;
+}
+
+/// A number that may lie beyond the neighbourhood is checked; one from a loop over the neighbours is not.
+#[test]
+fn directions_are_read_from_a_table() {
+    accepted::<directions_of_neighbours>();
+    for parity in [Parity::None, Parity::Row, Parity::Column] {
+        let options = Options { parity, neighbourhood_size: Some(7), ..Options::default() };
+        let text = written_with::<directions_of_neighbours>(&options).source;
+        for words in [
+            "if neighbour_exists(n) {",
+            "u32(neighbour_direction(n).w)",
+            "neighbour_direction(valid_neighbour(cell.unsigned)).x",
+            "u32(there.y) < u32(space.extents.y)",
+        ] {
+            assert!(text.contains(words), "{words}: {text}");
+        }
+        assert!(!text.contains("neighbour_offsets"), "{text}");
+    }
+    let boundaries = [Boundary::Toroidal, Boundary::Reflecting, Boundary::Toroidal];
+    let text = written_with::<directions_of_neighbours>(&Options { boundaries, ..Options::default() }).source;
+    assert!(text.contains("return true;"), "{text}");
+}
