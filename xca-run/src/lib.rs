@@ -20,7 +20,7 @@
 //! }
 //!
 //! fn main() -> ExitCode {
-//!     xca_run::main_of("life", "Conway's Game of Life on a torus", |given| {
+//!     xca_run::main_of!("life", "Conway's Game of Life on a torus", |given| {
 //!         let model = Model::builder("life")
 //!             .extents([256, 256, 1])
 //!             .neighbourhood(Neighbourhood::moore_2d(1))
@@ -65,6 +65,7 @@
 mod checkpoint;
 mod command;
 mod compare;
+mod components;
 mod engines;
 pub mod interrupt;
 mod machine;
@@ -80,7 +81,9 @@ mod terminal;
 mod view;
 
 pub use checkpoint::CheckpointError;
-pub use command::{ConfigError, main, main_of};
+pub use command::ConfigError;
+#[doc(hidden)]
+pub use command::{run_model, run_program};
 pub use engines::{EngineError, EngineName, EngineOptions, MOST_THREADS};
 pub use machine::{NotEnoughMemory, check_memory};
 pub use program::{Assignment, Failure, Given, NoAssignment, Observable, Program};

@@ -64,8 +64,8 @@ struct Data<'a> {
 
 impl Data<'_> {
     /// The next plane of so many values; nothing where there is less.
-    fn plane(&mut self, count: usize, lanes: usize, size: usize) -> Option<Vec<u8>> {
-        let length = count.checked_mul(lanes)?.checked_mul(size)?;
+    fn plane(&mut self, count: usize, components: usize, size: usize) -> Option<Vec<u8>> {
+        let length = count.checked_mul(components)?.checked_mul(size)?;
         let (bytes, rest) = self.rest.split_at_checked(length)?;
         self.rest = rest;
         Some(if cfg!(target_endian = "little") { bytes.to_vec() } else { turned(bytes.to_vec(), size) })

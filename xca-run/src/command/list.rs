@@ -2,6 +2,7 @@
 
 use super::parse::{Choice, with_help, with_model};
 use super::{Definition, Ended, Unable};
+use crate::components::type_text;
 use crate::engines::EngineName;
 use crate::report;
 use crate::table::table;
@@ -127,12 +128,12 @@ fn as_text(model: &Model) -> String {
             };
             let name = group.schema().name;
             group.schema().fields.iter().map(move |field| {
-                [format!("{name}.{}", field.name), field.value_type.to_string(), of.clone()]
+                [format!("{name}.{}", field.name), type_text(field.value_type), of.clone()]
             })
         });
     let parameters = model.parameters();
     let fields = parameters.schema().fields.iter().enumerate().map(|(index, field)| {
-        [field.name.to_owned(), field.value_type.to_string(), parameters.value_of(index).to_string()]
+        [field.name.to_owned(), type_text(field.value_type), parameters.value_of(index).to_string()]
     });
     let processes = model.processes().iter().map(|process| {
         let [reads, elsewhere, writes] = accesses(model, process).map(|names| names.join(" "));

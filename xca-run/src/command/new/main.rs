@@ -3,7 +3,7 @@
 use xca_run::prelude::*;
 
 fn main() -> ExitCode {
-    xca_run::main_of("new-model", "An excitable medium", |given| {
+    xca_run::main_of!("new-model", "An excitable medium", |given| {
         Ok(SetUp::new(new_model::model(&given)?, 200))
     })
 }

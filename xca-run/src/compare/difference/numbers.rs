@@ -25,7 +25,7 @@ impl<'a> Numbers<'a> {
         Self { stored, bytes }
     }
 
-    pub(super) fn lanes(&self) -> usize {
+    pub(super) fn components(&self) -> usize {
         self.stored.components()
     }
 
