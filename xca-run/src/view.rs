@@ -9,8 +9,8 @@ use xca_core::{Field, Geometry, HostScalar, HostValue, Model, Schema, Substate, 
 
 /// How the items of a population are saved and drawn.
 ///
-/// What is not said follows from the substates: all items with all substates, as spheres of half a cell's side, coloured by the length of
-/// the first vector beside the position.
+/// Default: all items with all substates, as spheres with a diameter of half a cell side, coloured by the first vector beside the position,
+/// else by the first other substate.
 #[derive(Debug, Clone)]
 pub struct ItemView<S> {
     view: AnyItemView,
@@ -19,7 +19,7 @@ pub struct ItemView<S> {
 
 /// How the substates of cells are saved and drawn.
 ///
-/// What is not said follows from the substates: all are saved, and the first is drawn, in the middle layer.
+/// Default: all substates are saved, and the first is drawn, in the middle layer. `bool` and states have one colour a value and a legend.
 #[derive(Debug, Clone)]
 pub struct CellView<S> {
     view: AnyCellView,

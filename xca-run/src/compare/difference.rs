@@ -136,6 +136,11 @@ impl Difference {
         }
     }
 
+    /// This, and then its components that differ.
+    pub(crate) fn with_components(&self) -> impl Iterator<Item = &Self> {
+        std::iter::once(self).chain(&self.components)
+    }
+
     /// The share of identical bits, from 0 to 1.
     pub(crate) fn identical_share(&self) -> f64 {
         if self.values == 0 { 1.0 } else { 1.0 - self.different as f64 / self.values as f64 }

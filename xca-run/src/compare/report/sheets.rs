@@ -149,9 +149,8 @@ fn differences(comparison: &Comparison) -> Sheet {
     };
     let rows = comparison.engines.iter().flat_map(|engine| {
         let differences = engine.differences.iter().flat_map(|differences| &differences.substates);
-        let with_components =
-            differences.flat_map(|difference| [difference].into_iter().chain(&difference.components));
-        with_components.map(|difference| row(engine, difference)).collect::<Vec<_>>()
+        let all = differences.flat_map(Difference::with_components);
+        all.map(|difference| row(engine, difference)).collect::<Vec<_>>()
     });
     Sheet {
         title: "Differences from the first engine after the last step",
