@@ -209,7 +209,8 @@ impl ValueType {
         }
     }
 
-    /// The number of the component with this name: as [`Self::component_names`] has it, or written `[3].x`, `3.x`.
+    /// The number of the component with this name: as [`Self::component_names`] has it, or written `[3].x`,
+    /// `3.x`.
     pub fn component_named(self, name: &str) -> Option<usize> {
         let name = name.replace(['.', '['], "_").replace(']', "");
         let name = name.trim_start_matches('_');

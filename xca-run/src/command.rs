@@ -107,9 +107,9 @@ type SetUpModel<'a> = dyn Fn(&ArgMatches, Given) -> Result<SetUp, Unable> + RefU
 
 /// The whole of a program: reads the command line, runs the model, reports.
 ///
-/// `fn main() -> ExitCode { xca_run::main!(MyModel) }` is all that a model's program needs beside its [`Program`](crate::Program). The
-/// version of the program is that of the crate that this is written in. Errors are shown as one line and the lines of their causes; the
-/// exit codes are those that `--help` lists.
+/// `fn main() -> ExitCode { xca_run::main!(MyModel) }` is all that a model's program needs beside its
+/// [`Program`](crate::Program). The version of the program is that of the crate that this is written in.
+/// Errors are shown as one line and the lines of their causes; the exit codes are those that `--help` lists.
 #[macro_export]
 macro_rules! main {
     ($program:ty) => {

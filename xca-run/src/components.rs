@@ -1,7 +1,7 @@
 //! The components of a value: what each is called, and what its number says.
 //!
-//! Files and columns take their names from [`ValueType::component_names`] (`outflow_3_x`); people read `outflow[3].x`, and the command
-//! line takes that and `outflow.3.x`, which needs no quotes in any shell.
+//! Files and columns take their names from [`ValueType::component_names`] (`outflow_3_x`); people read
+//! `outflow[3].x`, and the command line takes that and `outflow.3.x`, which needs no quotes in any shell.
 
 use serde_json::Value;
 use xca_core::{Field, ScalarType, ValueType};
@@ -25,9 +25,10 @@ impl Part {
                 _ => None,
             }
         };
-        fields.iter().enumerate().find_map(|(index, field)| {
-            find(field).map(|component| Self { field: index, component })
-        })
+        fields
+            .iter()
+            .enumerate()
+            .find_map(|(index, field)| find(field).map(|component| Self { field: index, component }))
     }
 }
 
@@ -38,12 +39,15 @@ pub(crate) enum DrawnPart {
     /// The sum of the elements of an array; of `bool`, how many are true.
     Sum,
     /// The length of a vector of so many lanes; of an array of vectors, that of their sum.
-    Length { lanes: usize },
+    Length {
+        lanes: usize,
+    },
 }
 
 impl DrawnPart {
-    /// What is drawn of a value: the component that is named; else of a vector the length, of an array of numbers or `bool` the sum, of
-    /// an array of vectors the length of the sum, of an array of states the first element.
+    /// What is drawn of a value: the component that is named; else of a vector the length, of an array of
+    /// numbers or `bool` the sum, of an array of vectors the length of the sum, of an array of states the
+    /// first element.
     pub(crate) fn of(value_type: ValueType, component: Option<usize>) -> Self {
         let ValueType { scalar, lanes, length } = value_type;
         match (component, lanes, length, scalar) {
@@ -75,8 +79,8 @@ impl DrawnPart {
     }
 }
 
-/// What follows the name of a value for each of its components: nothing for a scalar, `.x` for a lane, `[3]` for an element, `[3].x` for a
-/// lane of an element.
+/// What follows the name of a value for each of its components: nothing for a scalar, `.x` for a lane, `[3]`
+/// for an element, `[3].x` for a lane of an element.
 pub(crate) fn suffixes(value_type: ValueType) -> Vec<String> {
     let suffix = |part: &str| match part.parse::<u32>() {
         Ok(element) => format!("[{element}]"),

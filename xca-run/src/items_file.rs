@@ -16,8 +16,9 @@ pub struct ReadItem<S> {
     pub line: u64,
 }
 
-/// Reads the items of a table with a column for each component of each substate of `S`, such as the `final.csv` of a run whose view names no
-/// columns: `label,x,y,z,velocity_x,…,state,ages_0,…`. States are given by name, `bool` as `true` or `false`.
+/// Reads the items of a table with a column for each component of each substate of `S`, such as the
+/// `final.csv` of a run whose view names no columns: `label,x,y,z,velocity_x,…,state,ages_0,…`. States are
+/// given by name, `bool` as `true` or `false`.
 ///
 /// # Errors
 /// [`ReadError`] with the path, the line and the column.
@@ -46,15 +47,18 @@ pub struct ReadItem<S> {
 ///
 /// std::fs::write(&path, "label,phase,ages_0,ages_1\n7,Liquid,3,40\n8,Gas,0,0\n")?;
 /// let error = xca_run::read_items::<Drop>(&path).unwrap_err().to_string();
-/// assert!(error.ends_with("final.csv:3: `Gas` in column `phase` must be a Phase: Solid, Liquid"), "{error}");
+/// assert!(error.ends_with("final.csv:3: `Gas` in column `phase` must be a Phase: Solid, Liquid"),
+/// "{error}");
 /// # Ok(())
 /// # }
 /// ```
 pub fn read_items<S: Substates>(path: &Path) -> Result<Vec<ReadItem<S>>, ReadError> {
     let fields = S::SCHEMA.fields;
     let columns = TableColumn::all(S::SCHEMA);
-    let wanted: Vec<_> =
-        columns.iter().map(|column| (column.header.as_str(), fields[column.field].value_type.scalar)).collect();
+    let wanted: Vec<_> = columns
+        .iter()
+        .map(|column| (column.header.as_str(), fields[column.field].value_type.scalar))
+        .collect();
     let table = particle_csv::read(path, &wanted)?;
     let item = |row: usize| {
         let mut bytes: Vec<Vec<u8>> = vec![Vec::new(); fields.len()];

@@ -11,8 +11,9 @@ pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 /// A model's program: a struct whose fields are the options that only this model has. A model without such options needs no struct:
 /// see [`crate::main_of!`].
 ///
-/// [`crate::main!`] makes a whole program of it. The options that all models share (`--engine`, `--steps`, `--set`, `--out`, …)
-/// come with it; no field may be named like one of them. A program whose fields are says so, and nothing else, each time that it is started.
+/// [`crate::main!`] makes a whole program of it. The options that all models share (`--engine`, `--steps`,
+/// `--set`, `--out`, …) come with it; no field may be named like one of them. A program whose fields are says
+/// so, and nothing else, each time that it is started.
 ///
 /// ```no_run
 /// use xca_run::prelude::*;

@@ -202,7 +202,8 @@ pub(crate) fn of_model(model: &Model) -> ModelReport {
             GroupKind::Cells { .. } => (None, None),
         };
         let fields = group.schema().fields.iter();
-        let substates = fields.map(|field| format!("{}: {}", field.name, type_text(field.value_type))).collect();
+        let substates =
+            fields.map(|field| format!("{}: {}", field.name, type_text(field.value_type))).collect();
         GroupReport { name: group.schema().name, substates, slots, items_may_leave }
     });
     ModelReport {
@@ -224,11 +225,7 @@ pub(crate) fn of_host() -> Host {
 /// The values of all parameters by name.
 pub(crate) fn of_parameters(parameters: &dyn AnyParameters) -> Map<String, Value> {
     let fields = parameters.schema().fields.iter().enumerate();
-    fields
-        .map(|(index, field)| {
-            (field.name.to_owned(), of_value(&parameters.value_of(index)))
-        })
-        .collect()
+    fields.map(|(index, field)| (field.name.to_owned(), of_value(&parameters.value_of(index)))).collect()
 }
 
 /// A vector or an array is a list, an array of vectors a list of lists.

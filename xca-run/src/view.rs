@@ -9,8 +9,8 @@ use xca_core::{Field, Geometry, HostScalar, HostValue, Model, Schema, Substate, 
 
 /// How the items of a population are saved and drawn.
 ///
-/// Default: all items with all substates, as spheres with a diameter of half a cell side, coloured by the first vector beside the position,
-/// else by the first other substate.
+/// Default: all items with all substates, as spheres with a diameter of half a cell side, coloured by the
+/// first vector beside the position, else by the first other substate.
 #[derive(Debug, Clone)]
 pub struct ItemView<S> {
     view: AnyItemView,
@@ -19,7 +19,8 @@ pub struct ItemView<S> {
 
 /// How the substates of cells are saved and drawn.
 ///
-/// Default: all substates are saved, and the first is drawn, in the middle layer. `bool` and states have one colour a value and a legend.
+/// Default: all substates are saved, and the first is drawn, in the middle layer. `bool` and states have one
+/// colour a value and a legend.
 #[derive(Debug, Clone)]
 pub struct CellView<S> {
     view: AnyCellView,
@@ -102,14 +103,15 @@ impl ValueColour {
     }
 }
 
-/// The states of what is drawn with their colours; none where it is a number.
-fn categories(schema: &Schema, part: Part, colours: &[ValueColour]) -> Vec<Category> {
+/// The states of what is drawn with their colours, from the colour with this number in the palette on; none
+/// where it is a number.
+fn categories(schema: &Schema, part: Part, colours: &[ValueColour], first: usize) -> Vec<Category> {
     let states = schema.fields.get(part.field).map(|field| {
         let drawn = DrawnPart::of(field.value_type, part.component);
         drawn.states(field.value_type)
     });
     let names = states.unwrap_or_default().into_iter().enumerate();
-    coloured(names.map(|(number, name)| (number as f64, name)), part.field, colours)
+    coloured(names.map(|(number, name)| (number as f64, name)), part.field, colours, first)
 }
 
 /// Values with their names, in the colours that the author gives them, else in those of the palette.
@@ -117,10 +119,11 @@ fn coloured(
     names: impl Iterator<Item = (f64, String)>,
     field: usize,
     colours: &[ValueColour],
+    first: usize,
 ) -> Vec<Category> {
     let category = |(number, (value, name)): (usize, (f64, String))| {
         let given = colours.iter().find(|given| given.field == field && given.value == value);
-        let plain = Category::new(number, value, name);
+        let plain = Category::new(first + number, value, name);
         given.map_or(plain.clone(), |given| Category { colour: given.colour, ..plain })
     };
     names.enumerate().map(category).collect()
@@ -158,7 +161,8 @@ impl<S: Substates> ItemView<S> {
         self
     }
 
-    /// Adds columns to the table of items, one for each component of a substate. Substates without a column are then saved nowhere.
+    /// Adds columns to the table of items, one for each component of a substate. Substates without a column
+    /// are then saved nowhere.
     #[must_use]
     pub fn columns<V: HostValue, const N: usize>(
         mut self,
@@ -183,8 +187,8 @@ impl<S: Substates> ItemView<S> {
         self
     }
 
-    /// Colours items by a substate: a number, `bool` or a state; of a vector its length, of an array the sum of its elements. `^` in the
-    /// label raises what follows: `speed (m s^-1)`.
+    /// Colours items by a substate: a number, `bool` or a state; of a vector its length, of an array the sum
+    /// of its elements. `^` in the label raises what follows: `speed (m s^-1)`.
     #[must_use]
     pub fn colour<V: HostValue>(mut self, substate: Substate<S, V>, label: impl Into<String>) -> Self {
         self.view.colour =
@@ -192,8 +196,8 @@ impl<S: Substates> ItemView<S> {
         self
     }
 
-    /// Colours items by one component of a substate: a lane of a vector, an element of an array. The lanes of an array of vectors are
-    /// numbered one element after the other.
+    /// Colours items by one component of a substate: a lane of a vector, an element of an array. The lanes of
+    /// an array of vectors are numbered one element after the other.
     #[must_use]
     pub fn colour_component<V: HostValue>(
         mut self,
@@ -206,7 +210,8 @@ impl<S: Substates> ItemView<S> {
         self
     }
 
-    /// The colours (sRGB) of some values of a substate: of states, `true` and `false`. Others keep those of the palette.
+    /// The colours (sRGB) of some values of a substate: of states, `true` and `false`. Others keep those of
+    /// the palette.
     #[must_use]
     pub fn colours<V: HostValue>(
         mut self,
@@ -228,8 +233,9 @@ impl<S: Substates> CellView<S> {
         Self { view: AnyCellView::plain(TypeId::of::<S>(), name.into()), of: PhantomData }
     }
 
-    /// Draws a substate: a number, `bool` or a state; of a vector its length, of an array the sum of its elements (of vectors, the length
-    /// of the sum; of `bool`, how many are true; of states, the first element).
+    /// Draws a substate: a number, `bool` or a state; of a vector its length, of an array the sum of its
+    /// elements (of vectors, the length of the sum; of `bool`, how many are true; of states, the first
+    /// element).
     #[must_use]
     pub fn draw<V: HostValue>(mut self, substate: Substate<S, V>, label: impl Into<String>) -> Self {
         self.view.drawn =
@@ -237,8 +243,8 @@ impl<S: Substates> CellView<S> {
         self
     }
 
-    /// Draws one component of a substate: a lane of a vector, an element of an array. The lanes of an array of vectors are numbered one
-    /// element after the other.
+    /// Draws one component of a substate: a lane of a vector, an element of an array. The lanes of an array
+    /// of vectors are numbered one element after the other.
     #[must_use]
     pub fn draw_component<V: HostValue>(
         mut self,
@@ -251,8 +257,8 @@ impl<S: Substates> CellView<S> {
         self
     }
 
-    /// The colours (sRGB) of some values of a substate: of states, `true` and `false`, or of [`Self::kinds`]. Others keep those of the
-    /// palette.
+    /// The colours (sRGB) of some values of a substate: of states, `true` and `false`, or of [`Self::kinds`].
+    /// Others keep those of the palette.
     ///
     /// ```
     /// use xca_run::prelude::*;
@@ -346,7 +352,8 @@ impl AnyItemView {
     /// The states that colour the items; none where a number does.
     pub(crate) fn categories(&self, schema: &Schema) -> Vec<Category> {
         let colour = self.colour(schema);
-        colour.map(|drawn| categories(schema, drawn.part, &self.colours)).unwrap_or_default()
+        // White spheres are hard to see on the ground.
+        colour.map(|drawn| categories(schema, drawn.part, &self.colours, 1)).unwrap_or_default()
     }
 }
 
@@ -385,9 +392,9 @@ impl AnyCellView {
     pub(crate) fn categories(&self, schema: &Schema) -> Vec<Category> {
         let part = self.part();
         if self.kinds.is_empty() {
-            categories(schema, part, &self.colours)
+            categories(schema, part, &self.colours, 0)
         } else {
-            coloured(self.kinds.iter().cloned(), part.field, &self.colours)
+            coloured(self.kinds.iter().cloned(), part.field, &self.colours, 0)
         }
     }
 

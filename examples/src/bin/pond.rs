@@ -67,7 +67,7 @@ fn level(cell: &mut Cell<Pond>, weather: &Weather) {
     let mut change = 0.0;
     for n in 1..cell.neighbours() {
         // A neighbour's outflow to here is that in the opposite direction.
-        change += cell.neighbour(n).outflow[4 - n] - cell.outflow[n - 1];
+        change += cell.neighbour(n).outflow[4 - n as usize] - cell.outflow[n as usize - 1];
     }
     cell.depth += change;
     cell.currents[0] = Vector2::new(
@@ -153,8 +153,9 @@ fn main() -> ExitCode {
             })
             .initialise(|state| Ok(state.set_items((0..32).map(leaf).collect())?))
             .build()?;
-        let cells = CellView::named("pond")
-            .colours(Pond::GROUND, &[(Ground::Rock, [150, 150, 150]), (Ground::Mud, [110, 70, 40])]);
+        let earth =
+            [(Ground::Rock, [150, 150, 150]), (Ground::Soil, [222, 200, 150]), (Ground::Mud, [110, 70, 40])];
+        let cells = CellView::named("pond").colours(Pond::GROUND, &earth);
         let leaves = ItemView::named("leaves").colour(Litter::STATE, "leaves");
         Ok(SetUp::new(model, 100).cells(cells).items(leaves))
     })

@@ -109,7 +109,10 @@ fn items_are_found_by_cell_and_by_label() {
     assert_eq!((&item["label"], &item["cell"]), (&5.into(), &serde_json::json!([5, 5, 2])));
     let position =
         item["values"].as_array().unwrap().iter().find(|value| value["name"] == "position").unwrap();
-    assert_eq!((position["components"][0].as_f64(), position["components"][1].as_f64()), (Some(0.0111), Some(0.011)));
+    assert_eq!(
+        (position["components"][0].as_f64(), position["components"][1].as_f64()),
+        (Some(0.0111), Some(0.011))
+    );
     let text = told(&place, CADEM, "inspect out/cadem/checkpoints/step_00000025.checkpoint --cell 5,5,2");
     assert!(
         text.contains("\nDem 5 in cell 5,5,2\n") && text.contains("\n  position = 0.0111, 0.011, 0.005"),

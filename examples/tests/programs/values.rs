@@ -102,7 +102,8 @@ fn inspect_counts_states_and_names_components() {
     place.succeed(POND, "--steps 61 --checkpoint-every 60 --out kept");
     let kept = "kept/checkpoints/step_00000060.checkpoint";
     let of_checkpoint = succeed(&place, &format!("inspect {kept} --cell 20,16,0 --label 3"));
-    for name in ["Pond.outflow[3]", "Pond.currents[1].y", "Litter.ages[2]", "Litter.position.z", "Pond.depth"] {
+    for name in ["Pond.outflow[3]", "Pond.currents[1].y", "Litter.ages[2]", "Litter.position.z", "Pond.depth"]
+    {
         assert_eq!(rows(&of_checkpoint, name).len(), 1, "{name}: {of_checkpoint}");
     }
     for words in ["ground = Rock", "wet = true", "raining = true", "source = Rock", "state = Soaked"] {
@@ -115,9 +116,7 @@ fn inspect_counts_states_and_names_components() {
         let found = all.iter().find(|substate| substate["name"] == name).unwrap();
         assert!(found.get("mean").is_none(), "{found}");
         let states = found["states"].as_array().unwrap().iter();
-        states
-            .map(|it| (it["state"].as_str().unwrap().to_owned(), it["count"].as_u64().unwrap()))
-            .collect()
+        states.map(|it| (it["state"].as_str().unwrap().to_owned(), it["count"].as_u64().unwrap())).collect()
     };
     let ground = states(&json, "Pond.ground");
     assert_eq!(ground.iter().map(|(state, _)| state.as_str()).collect::<Vec<_>>(), STATES);
@@ -176,7 +175,10 @@ fn tables_keep_types_and_grids_keep_numbers() {
     assert!(zeros.lines().skip(6).all(|line| line.split(' ').all(|value| value == "0")), "{zeros}");
     for (initial, message) in [
         ("ground=out/final_depth.asc", "is no value for `ground`, which is a Ground: Rock, Soil, Mud"),
-        ("outflow=out/final_depth.asc", "`outflow` is a [Real; 4]; give one of its components, such as `outflow.0`"),
+        (
+            "outflow=out/final_depth.asc",
+            "`outflow` is a [Real; 4]; give one of its components, such as `outflow.0`",
+        ),
         ("outflow.4=out/final_depth.asc", "no substate of cells is called `outflow.4`"),
     ] {
         let said = place.fail(2, POND, &format!("--initial {initial}"));
@@ -187,7 +189,8 @@ fn tables_keep_types_and_grids_keep_numbers() {
 #[test]
 fn engines_are_compared_component_by_component() {
     let place = Workplace::new();
-    let output = place.invocation(POND, "compare --engines reference,cpu:2 --steps 30 --repeats 1 --json").output();
+    let output =
+        place.invocation(POND, "compare --engines reference,cpu:2 --steps 30 --repeats 1 --json").output();
     let same: Value = serde_json::from_slice(&output.unwrap().stdout).unwrap();
     assert_eq!(same["verdict"], "IDENTICAL");
     // In other precision, floats differ in each component.
@@ -213,9 +216,15 @@ fn every_substate_and_component_is_drawn() {
         assert!(place.path(&out).join("frames/frame_00000040.png").is_file(), "{name}");
     }
     let said = fail(&place, 2, "render out --substate outflow.4 --out pictures/none");
-    assert!(said.contains("no substate is called `outflow.4`; there are ground, wet, depth, outflow ([0] to [3])"), "{said}");
+    assert!(
+        said.contains(
+            "no substate is called `outflow.4`; there are ground, wet, depth, outflow ([0] to [3])"
+        ),
+        "{said}"
+    );
     // Rock has the colour that the model gives it.
-    let decoder = png::Decoder::new(std::io::BufReader::new(fs::File::open(place.path("out/final.png")).unwrap()));
+    let decoder =
+        png::Decoder::new(std::io::BufReader::new(fs::File::open(place.path("out/final.png")).unwrap()));
     let mut reader = decoder.read_info().unwrap();
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
     reader.next_frame(&mut pixels).unwrap();

@@ -266,7 +266,11 @@ fn the_frames_of_arrays_and_states_have_their_names() {
     };
     let shape = |name: &str| {
         let array = found(name);
-        (array["type"].as_str().unwrap().to_owned(), array["components"].clone(), array["component_names"].clone())
+        (
+            array["type"].as_str().unwrap().to_owned(),
+            array["components"].clone(),
+            array["component_names"].clone(),
+        )
     };
     assert_eq!(shape("ground"), ("unsigned char".to_owned(), json!(1), Value::Null));
     assert_eq!(shape("wet"), ("unsigned char".to_owned(), json!(1), Value::Null));

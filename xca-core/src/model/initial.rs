@@ -60,11 +60,12 @@ pub enum InitialError {
 }
 
 impl Model {
-    /// Replaces the initial values of a substate of cells, or of one component of it, by these (by linear index, x fastest). They are set
-    /// after all that the model does to make its initial state.
+    /// Replaces the initial values of a substate of cells, or of one component of it, by these (by linear
+    /// index, x fastest). They are set after all that the model does to make its initial state.
     ///
-    /// The substate is named by its field, or by struct and field (`Heat.temperature`); a component of a vector or an array by what
-    /// follows: `velocity.x`, `outflow.3`, `paths.1.x`. `bool` is given as 0 or 1, a state by its number.
+    /// The substate is named by its field, or by struct and field (`Heat.temperature`); a component of a
+    /// vector or an array by what follows: `velocity.x`, `outflow.3`, `paths.1.x`. `bool` is given as 0 or 1,
+    /// a state by its number.
     ///
     /// # Errors
     /// Where there is no such substate, or the values are not one for each cell and of its type.

@@ -163,9 +163,8 @@ impl Parameter {
     /// The parameters of a model that has not been run.
     fn all(parameters: &dyn AnyParameters) -> Vec<Self> {
         let fields = parameters.schema().fields.iter().enumerate();
-        let of_field = |(index, field)| {
-            Self::new(field, parameters.value_of(index).components().iter().copied())
-        };
+        let of_field =
+            |(index, field)| Self::new(field, parameters.value_of(index).components().iter().copied());
         fields.map(of_field).collect()
     }
 

@@ -106,7 +106,8 @@ fn list(key: &str, value: &Value) -> Texts<Vec<String>> {
     values.into_iter().map(|value| Ok(format!("--{key}={}", single(value).map_err(|_| wanted)?))).collect()
 }
 
-/// `[set]` with a line for each parameter; a vector or an array is a list, an array of vectors a list of lists.
+/// `[set]` with a line for each parameter; a vector or an array is a list, an array of vectors a list of
+/// lists.
 fn assignments(value: &Value) -> Texts<Vec<String>> {
     let wanted = "a table with a line `name = value` for each parameter";
     let table = value.as_table().ok_or(wanted)?;

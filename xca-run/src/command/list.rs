@@ -120,17 +120,18 @@ fn as_text(model: &Model) -> String {
     );
     let engines = table(["engine", ""], engines().map(|(name, about)| [name, about]), &[]);
     let adapters = adapters();
-    let substates =
-        model.groups().iter().flat_map(|group| {
-            let of = match group.kind() {
-                GroupKind::Cells { .. } => "cells".to_owned(),
-                GroupKind::Population { slots, .. } => format!("items, {slots} slots in a cell"),
-            };
-            let name = group.schema().name;
-            group.schema().fields.iter().map(move |field| {
-                [format!("{name}.{}", field.name), type_text(field.value_type), of.clone()]
-            })
-        });
+    let substates = model.groups().iter().flat_map(|group| {
+        let of = match group.kind() {
+            GroupKind::Cells { .. } => "cells".to_owned(),
+            GroupKind::Population { slots, .. } => format!("items, {slots} slots in a cell"),
+        };
+        let name = group.schema().name;
+        group
+            .schema()
+            .fields
+            .iter()
+            .map(move |field| [format!("{name}.{}", field.name), type_text(field.value_type), of.clone()])
+    });
     let parameters = model.parameters();
     let fields = parameters.schema().fields.iter().enumerate().map(|(index, field)| {
         [field.name.to_owned(), type_text(field.value_type), parameters.value_of(index).to_string()]

@@ -6,8 +6,8 @@ use clap::Args;
 /// What is looked at.
 #[derive(Args, Debug, Clone)]
 pub(super) struct LookArguments {
-    /// Substate to draw, or a component of it: outflow, outflow.3, velocity.x. Of a whole vector the length is drawn, of an array the
-    /// sum of its elements
+    /// Substate to draw, or a component of it: outflow, outflow.3, velocity.x. Of a whole vector the length
+    /// is drawn, of an array the sum of its elements
     #[arg(long, value_name = "NAME")]
     substate: Option<String>,
 

@@ -67,7 +67,8 @@ pub(crate) struct Difference {
     pub(crate) scale: f64,
     /// Where the absolute difference is largest.
     pub(crate) worst: Option<Worst>,
-    /// Of a vector or an array, the components that differ, each as a substate of its own (`Lava.outflow[3]`).
+    /// Of a vector or an array, the components that differ, each as a substate of its own
+    /// (`Lava.outflow[3]`).
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) components: Vec<Self>,
 }
@@ -168,7 +169,8 @@ impl Difference {
         }
     }
 
-    /// Compares pairs of values; then, where there are several components, those that differ, each for itself.
+    /// Compares pairs of values; then, where there are several components, those that differ, each for
+    /// itself.
     fn compare(
         &mut self,
         both: [&Numbers<'_>; 2],
@@ -304,9 +306,8 @@ impl Differences {
                 continue;
             }
             let stored = ValueType { scalar: ScalarType::F64, ..field.value_type }.stored(Precision::F64);
-            let bytes = [a, b].map(|numbers| {
-                numbers.iter().flat_map(|number| number.to_ne_bytes()).collect::<Vec<u8>>()
-            });
+            let bytes = [a, b]
+                .map(|numbers| numbers.iter().flat_map(|number| number.to_ne_bytes()).collect::<Vec<u8>>());
             let [a, b] = bytes.each_ref().map(|bytes| Numbers::new(stored, bytes));
             let mut difference = Difference::none(format!("parameter {}", field.name), Kind::Float);
             difference.compare([&a, &b], &Pairs::Same(1), field.value_type, &|_| Place::Parameter);

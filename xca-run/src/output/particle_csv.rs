@@ -1,9 +1,9 @@
 //! Particles as CSV: one row a particle, exact to the last bit.
 //!
 //! The header is `label` and then the names of the columns (CADEM: `label,x,y,z,vx,vy,vz`). Rows are sorted by label.
-//! Floats have 17 significant digits (`f64`) or 9 (`f32`), in scientific notation, so that every value is read back as
-//! the same bits. Whole numbers are written as such, `bool` as `true` and `false`, states by name. Units are those of
-//! the model.
+//! Floats have 17 significant digits (`f64`) or 9 (`f32`), in scientific notation, so that every value is
+//! read back as the same bits. Whole numbers are written as such, `bool` as `true` and `false`, states by
+//! name. Units are those of the model.
 //!
 //! [`write()`] makes such a file, [`read()`] takes one, by hand or from a run, with errors that say the line.
 
@@ -30,7 +30,8 @@ pub enum Column<'a> {
     F64(&'a [f64]),
     /// Written with 9 significant digits.
     F32(&'a [f32]),
-    /// Values of this type, as numbers: whole ones written as such, `bool` as `true` and `false`, states by name.
+    /// Values of this type, as numbers: whole ones written as such, `bool` as `true` and `false`, states by
+    /// name.
     Typed(ScalarType, &'a [f64]),
 }
 

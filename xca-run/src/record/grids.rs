@@ -1,4 +1,5 @@
-//! The final state of a layer of cells as ESRI ASCII grids, one for each component of each substate. `bool` and states are numbers.
+//! The final state of a layer of cells as ESRI ASCII grids, one for each component of each substate. `bool`
+//! and states are numbers.
 
 use super::values::Plane;
 use super::{RecordError, Recorder};

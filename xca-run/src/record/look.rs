@@ -123,10 +123,11 @@ impl Recorder {
                 return Ok((shown, Some(Drawn { part, label })));
             }
         }
-        let known = self.shown.iter().flat_map(fields).map(|field| match suffixes(field.value_type).as_slice() {
-            [first, .., last] => format!("{} ({first} to {last})", field.name),
-            _ => field.name.to_owned(),
-        });
+        let known =
+            self.shown.iter().flat_map(fields).map(|field| match suffixes(field.value_type).as_slice() {
+                [first, .., last] => format!("{} ({first} to {last})", field.name),
+                _ => field.name.to_owned(),
+            });
         let known = known.collect::<Vec<_>>().join(", ");
         Err(LookError::NoSubstate { name: name.clone(), known })
     }

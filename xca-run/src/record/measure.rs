@@ -7,9 +7,9 @@ use xca_core::model::{Group, GroupKind};
 use xca_core::reduction::{Reduction, reduce_values};
 use xca_core::{GroupSnapshot, Model, Precision, ScalarType, Snapshot};
 
-/// Of each substate: minimum, mean and maximum of floats; minimum, sum and maximum of whole numbers; the mean of each component of a vector
-/// or an array of numbers; how many are true; how many are in each state. Of a population: the number of items, and the number in the
-/// fullest cell.
+/// Of each substate: minimum, mean and maximum of floats; minimum, sum and maximum of whole numbers; the mean
+/// of each component of a vector or an array of numbers; how many are true; how many are in each state. Of a
+/// population: the number of items, and the number in the fullest cell.
 pub(super) fn measure(model: &Model, precision: Precision, snapshot: &Snapshot) -> Vec<Observable> {
     let mut observables = Vec::new();
     for (group, state) in model.groups().iter().zip(&snapshot.groups) {
@@ -64,7 +64,9 @@ fn of_field(
             let gap = if component.is_empty() { "" } else { "_" };
             let values = bytes.iter().skip(index).step_by(stored.components());
             let counted = counts(scalar, values).into_iter();
-            counted.map(|(state, count)| Observable::number(name(&format!("{component}{gap}{state}")), count)).collect::<Vec<_>>()
+            counted
+                .map(|(state, count)| Observable::number(name(&format!("{component}{gap}{state}")), count))
+                .collect::<Vec<_>>()
         };
         return component_names.into_iter().enumerate().flat_map(component).collect();
     }

@@ -3,7 +3,8 @@
 use super::seen::{Seen, wider};
 use super::shown::Shown;
 use crate::output::picture::{
-    BlockPicture, Category, ColourMap, Domain, ParticlePicture, Picture, PictureError, Relief, Scalar, SlicePicture,
+    BlockPicture, Category, ColourMap, Domain, ParticlePicture, Picture, PictureError, Relief, Scalar,
+    SlicePicture,
 };
 use crate::view::{AnyCellView, AnyItemView, AnyView, Drawn};
 use xca_core::model::Group;
@@ -68,7 +69,8 @@ impl Shown {
                 let schema = group.schema();
                 let label = view.label(schema);
                 let heights = heights.as_deref();
-                let field = Field { view, schema, geometry, label: &label, is_float: *is_float, values, heights };
+                let field =
+                    Field { view, schema, geometry, label: &label, is_float: *is_float, values, heights };
                 let range = seen.range();
                 Some(if view.block { field.block(frame, range)? } else { field.slice(frame, range)? })
             }

@@ -113,8 +113,9 @@ fn statistics(view: &str, array: &ReadArray) -> Vec<Statistics> {
 
 /// The values of the item or the cell with this number.
 fn values(arrays: &[ReadArray], index: usize) -> Vec<NamedValue> {
-    let value =
-        |array: &ReadArray| NamedValue::new(array.name.clone(), &array.states, &Plane::of_array(array), index);
+    let value = |array: &ReadArray| {
+        NamedValue::new(array.name.clone(), &array.states, &Plane::of_array(array), index)
+    };
     arrays.iter().map(value).collect()
 }
 

@@ -24,10 +24,11 @@ pub struct ParticleTable {
 
 /// Reads the particles of `path`, whose header must hold `label` and each of `columns` once, in any order.
 ///
-/// Skips blanks around fields, blank lines and lines that begin with `#`. Every value must be one of its column's type:
-/// a finite float, a whole number in range, `true` or `false`, the name of a state (its number is returned). Every label must be
-/// unique. What else the model demands, it checks itself, with [`ParticleTable::lines`] for its messages. A file written in `f32` gives
-/// the same `f32` when its values are cast.
+/// Skips blanks around fields, blank lines and lines that begin with `#`. Every value must be one of its
+/// column's type: a finite float, a whole number in range, `true` or `false`, the name of a state (its number
+/// is returned). Every label must be unique. What else the model demands, it checks itself, with
+/// [`ParticleTable::lines`] for its messages. A file written in `f32` gives the same `f32` when its values
+/// are cast.
 ///
 /// # Errors
 /// [`ReadError`], with the path, the line and the column.
@@ -181,8 +182,7 @@ mod tests {
         read(&path, &[("x", ScalarType::F64), ("y", ScalarType::Real)])
     }
 
-    const PHASE: ScalarType =
-        ScalarType::State(&StateNames { name: "Phase", states: &["Solid", "Liquid"] });
+    const PHASE: ScalarType = ScalarType::State(&StateNames { name: "Phase", states: &["Solid", "Liquid"] });
 
     #[test]
     fn values_are_read_by_the_types_of_their_columns() {

@@ -14,8 +14,9 @@ pub struct Category {
 }
 
 impl Category {
-    /// A value in the colour that the palette has for the category with this number. The first is nearly white, for what is dead, empty or
-    /// false. Colour-blind readers can tell all ten apart; after ten they repeat.
+    /// A value in the colour that the palette has for the category with this number. The first is nearly
+    /// white, for what is dead, empty or false. Colour-blind readers can tell all ten apart; after ten they
+    /// repeat.
     #[must_use]
     pub fn new(number: usize, value: f64, name: impl Into<String>) -> Self {
         Self { value, name: name.into(), colour: PALETTE[number % PALETTE.len()] }
@@ -37,7 +38,8 @@ impl Category {
     }
 }
 
-/// Near-white, navy, the colours of Okabe and Ito (orange, sky blue, bluish green, vermilion, reddish purple, yellow), black, and blue.
+/// Near-white, navy, the colours of Okabe and Ito (orange, sky blue, bluish green, vermilion, reddish purple,
+/// yellow), black, and blue.
 const PALETTE: [[u8; 3]; 10] = [
     [246, 246, 250],
     [26, 52, 98],
@@ -57,7 +59,8 @@ mod tests {
 
     type Matrix = [[f32; 3]; 3];
 
-    /// What is left of linear RGB without red and without green cones (Machado, Oliveira and Fernandes, 2009).
+    /// What is left of linear RGB without red and without green cones (Machado, Oliveira and Fernandes,
+    /// 2009).
     const WITHOUT_RED: Matrix = [
         [0.152_286, 1.052_583, -0.204_868],
         [0.114_503, 0.786_281, 0.099_216],

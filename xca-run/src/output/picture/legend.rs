@@ -133,7 +133,8 @@ pub(super) fn draw_bar(
     text::draw(canvas, label, [left, above], Anchor::Left, &text::fitted(label, style, room));
 }
 
-/// Draws a list of categories with their colours, as many as there is room for above `bottom`; says how many more there are.
+/// Draws a list of categories with their colours, as many as there is room for above `bottom`; says how many
+/// more there are.
 pub(super) fn draw_categories(
     canvas: &mut Canvas,
     [x, y]: [usize; 2],

@@ -33,7 +33,8 @@ pub struct ParticlePicture<'a> {
     pub domain: Domain,
     /// The scalar that colours the particles; `None` for one colour.
     pub colour: Option<Scalar<'a>>,
-    /// If not empty, the scalar's values are no magnitudes but these kinds or states. Others are drawn in grey.
+    /// If not empty, the scalar's values are no magnitudes but these kinds or states. Others are drawn in
+    /// grey.
     pub categories: &'a [Category],
     /// The text above the picture, such as the model and the case.
     pub title: &'a str,

@@ -57,7 +57,8 @@ pub struct ReadArray {
     pub numbers: NumberType,
     /// How many of them a value has.
     pub components: usize,
-    /// What follows the name of the array in the name of each component: nothing for a scalar, else `.x`, `[3]`, `[3].x`.
+    /// What follows the name of the array in the name of each component: nothing for a scalar, else `.x`,
+    /// `[3]`, `[3].x`.
     pub component_names: Vec<String>,
     /// What its values are called, by number, if they are states.
     pub states: Vec<String>,
@@ -263,7 +264,14 @@ impl Element {
     /// The array with its values.
     fn array(self, bytes: Vec<u8>, states: Vec<String>) -> ReadArray {
         let Self { name, numbers, components, component_names, .. } = self;
-        ReadArray { name, numbers, components, component_names, states, bytes: numbers.of_this_machine(bytes) }
+        ReadArray {
+            name,
+            numbers,
+            components,
+            component_names,
+            states,
+            bytes: numbers.of_this_machine(bytes),
+        }
     }
 }
 

@@ -130,7 +130,8 @@ pub struct DataArray<'a> {
     pub values: Values<'a>,
     /// What ParaView calls the components of a value. Without names it takes X, Y and Z, or numbers.
     pub components: &'a [String],
-    /// What the values of `u8` are called, by number, where they are states. The names become the field data `states of NAME`.
+    /// What the values of `u8` are called, by number, where they are states. The names become the field data
+    /// `states of NAME`.
     pub states: &'a [String],
 }
 

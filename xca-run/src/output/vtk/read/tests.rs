@@ -57,7 +57,8 @@ fn names_of_components_and_states_are_read_back() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("d.vti");
     let names = |names: &[&str]| -> Vec<String> { names.iter().map(|name| (*name).to_owned()).collect() };
-    let (elements, ground) = (names(&["[0].x", "[0].y", "[1].x", "[1].y"]), names(&["Rock", "Öl & <Wasser>"]));
+    let (elements, ground) =
+        (names(&["[0].x", "[0].y", "[1].x", "[1].y"]), names(&["Rock", "Öl & <Wasser>"]));
     let arrays = [
         DataArray::new("paths", &[[1_i32, 2, 3, 4]; 6][..]).with_components(&elements),
         DataArray::new("a \"b\"", &[1_u8, 0, 1, 1, 0, 0][..]).with_states(&ground),
