@@ -236,7 +236,7 @@ pub(crate) fn substates(item: &DeriveInput) -> Result<TokenStream> {
             if documentation.is_empty() { quote!(#[doc = #about]) } else { quote!(#(#documentation)*) };
         handles.extend(quote! {
             #about
-            #[allow(dead_code)]
+            #[allow(dead_code, clippy::type_complexity)]
             #visibility const #handle: ::xca_core::Substate<#name, #type_> = ::xca_core::Substate::from_index(#index);
         });
     }
@@ -251,6 +251,7 @@ pub(crate) fn substates(item: &DeriveInput) -> Result<TokenStream> {
             #handles
         }
 
+        #[allow(clippy::type_complexity)]
         const _: () = {
             #schema
             #named
@@ -290,6 +291,7 @@ pub(crate) fn parameters(item: &DeriveInput) -> Result<TokenStream> {
     let marked: Vec<TokenStream> = fields.iter().map(|field| marked(&field.type_)).collect();
     let indices: Vec<usize> = (0..fields.len()).collect();
     Ok(quote! {
+        #[allow(clippy::type_complexity)]
         const _: () = {
             #[doc(hidden)]
             #[derive(Clone, Copy)]
