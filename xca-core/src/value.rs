@@ -209,6 +209,14 @@ impl ValueType {
         }
     }
 
+    /// The number of the component with this name: as [`Self::component_names`] has it, or written `[3].x`,
+    /// `3.x`.
+    pub fn component_named(self, name: &str) -> Option<usize> {
+        let name = name.replace(['.', '['], "_").replace(']', "");
+        let name = name.trim_start_matches('_');
+        self.component_names().iter().position(|known| !name.is_empty() && known == name)
+    }
+
     /// The machine type at this precision.
     pub const fn stored(self, precision: Precision) -> StoredType {
         let scalar = match (self.scalar, precision) {

@@ -265,7 +265,7 @@ mod tests {
         let scalars =
             [StoredScalar::U8, StoredScalar::I32, StoredScalar::U32, StoredScalar::F32, StoredScalar::F64];
         for scalar in scalars {
-            let stored = StoredType { scalar, lanes: 3 };
+            let stored = StoredType { scalar, lanes: 3, length: 1 };
             let mut reductions = vec![
                 Sum,
                 Product,

@@ -60,7 +60,7 @@ pub(crate) fn parameters(layout: &Layout, parameters: &dyn AnyParameters, precis
         let Some((index, field)) = parameters.schema().field(name) else { return Vec::new() };
         let scalar = field.value_type.stored(precision).scalar;
         let value = parameters.value_of(index);
-        value.lanes().iter().flat_map(|lane| lane_bytes(*lane, scalar)).collect()
+        value.components().iter().flat_map(|lane| lane_bytes(*lane, scalar)).collect()
     })
 }
 

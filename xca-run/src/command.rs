@@ -105,15 +105,33 @@ impl Definition<'_> {
 
 type SetUpModel<'a> = dyn Fn(&ArgMatches, Given) -> Result<SetUp, Unable> + RefUnwindSafe + 'a;
 
-/// A whole program: reads the command line, runs the model, reports.
+/// The whole of a program: reads the command line, runs the model, reports.
 ///
-/// `fn main() -> ExitCode { xca_run::main::<MyModel>() }` is all that a model's program needs beside its model. Errors are shown as one line
-/// and the lines of their causes; the exit codes are those that `--help` lists.
-pub fn main<P: Program>() -> ExitCode {
+/// `fn main() -> ExitCode { xca_run::main!(MyModel) }` is all that a model's program needs beside its
+/// [`Program`](crate::Program). The version of the program is that of the crate that this is written in.
+/// Errors are shown as one line and the lines of their causes; the exit codes are those that `--help` lists.
+#[macro_export]
+macro_rules! main {
+    ($program:ty) => {
+        $crate::run_program::<$program>(::core::env!("CARGO_PKG_VERSION"))
+    };
+}
+
+/// As [`main!`], of a model that has no options of its own: its name, a line about it, and how it is made.
+#[macro_export]
+macro_rules! main_of {
+    ($name:expr, $about:expr, $set_up:expr $(,)?) => {
+        $crate::run_model($name, $about, ::core::env!("CARGO_PKG_VERSION"), $set_up)
+    };
+}
+
+/// What [`main!`] calls.
+#[doc(hidden)]
+pub fn run_program<P: Program>(version: &'static str) -> ExitCode {
     main_with(&Definition {
         name: P::NAME,
         about: P::ABOUT,
-        version: P::VERSION,
+        version,
         examples: P::EXAMPLES,
         options: P::augment_args,
         set_up: &|matches, given| {
@@ -123,16 +141,18 @@ pub fn main<P: Program>() -> ExitCode {
     })
 }
 
-/// As [`main()`], of a model that has no options of its own: its name, a line about it, and how it is made.
-pub fn main_of(
+/// What [`main_of!`] calls.
+#[doc(hidden)]
+pub fn run_model(
     name: &'static str,
     about: &'static str,
+    version: &'static str,
     set_up: impl Fn(Given) -> Result<SetUp, Failure> + RefUnwindSafe,
 ) -> ExitCode {
     main_with(&Definition {
         name,
         about,
-        version: env!("CARGO_PKG_VERSION"),
+        version,
         examples: "--steps 500 --engine reference",
         options: std::convert::identity,
         set_up: &|_, given| set_up(given).map_err(Unable::Refused),

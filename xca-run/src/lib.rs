@@ -20,7 +20,7 @@
 //! }
 //!
 //! fn main() -> ExitCode {
-//!     xca_run::main_of("life", "Conway's Game of Life on a torus", |_given| {
+//!     xca_run::main_of!("life", "Conway's Game of Life on a torus", |_given| {
 //!         let model = Model::builder("life")
 //!             .extents([256, 256, 1])
 //!             .neighbourhood(Neighbourhood::moore_2d(1))
@@ -38,12 +38,12 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `observables.csv` | a row of numbers every so many steps; least, mean and largest of each substate unless [`SetUp::observables`] says others |
+//! | `observables.csv` | a row of numbers every so many steps; statistics of each substate unless [`SetUp::observables`] says others |
 //! | `life.pvd` | what ParaView opens: all frames with their times |
 //! | `frames/life_00000050.vti`, … | all substates (`.vtp` for the items of a population) |
 //! | `initial.png`, `final.png` | pictures of the first state and the last |
-//! | `final.csv` | of a population, all items with 17 digits, by label |
-//! | `final_altitude.asc`, … | of a model of one layer, if [`SetUp::corner`] or `--grids` says so, each substate of cells for geographic information systems |
+//! | `final.csv` | of a population, all items by label, exact; [`read_items`] reads them back |
+//! | `final_altitude.asc`, … | of a model of one layer, if [`SetUp::corner`] or `--grids` says so, each component of each substate of cells for geographic information systems |
 //! | `run.json` | everything about the run: options, parameters, engine, seed, times, why it ended |
 //!
 //! Every program has the same command line: `--engine`, `--threads`, `--precision`, `--steps`, `--seed`, `--set`, `--config`, `--out`, `--every`,
@@ -65,8 +65,10 @@
 mod checkpoint;
 mod command;
 mod compare;
+mod components;
 mod engines;
 pub mod interrupt;
+mod items_file;
 mod machine;
 mod numbers;
 pub mod output;
@@ -80,8 +82,11 @@ mod terminal;
 mod view;
 
 pub use checkpoint::CheckpointError;
-pub use command::{ConfigError, main, main_of};
+pub use command::ConfigError;
+#[doc(hidden)]
+pub use command::{run_model, run_program};
 pub use engines::{EngineError, EngineName, EngineOptions, MOST_THREADS};
+pub use items_file::{ReadItem, read_items};
 pub use machine::{NotEnoughMemory, check_memory};
 pub use program::{Assignment, Failure, Given, NoAssignment, Observable, Program};
 pub use record::{FolderError, RecordError};

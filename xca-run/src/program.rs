@@ -9,10 +9,11 @@ use xca_core::{ParameterError, Parameters, Precision};
 pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 
 /// A model's program: a struct whose fields are the options that only this model has. A model without such options needs no struct:
-/// see [`crate::main_of`].
+/// see [`crate::main_of!`].
 ///
-/// [`crate::main()`] makes a whole program of it. The options that all models share (`--engine`, `--steps`, `--set`, `--out`, …)
-/// come with it; no field may be named like one of them. A program whose fields are says so, and nothing else, each time that it is started.
+/// [`crate::main!`] makes a whole program of it. The options that all models share (`--engine`, `--steps`,
+/// `--set`, `--out`, …) come with it; no field may be named like one of them. A program whose fields are says
+/// so, and nothing else, each time that it is started.
 ///
 /// ```no_run
 /// use xca_run::prelude::*;
@@ -54,7 +55,7 @@ pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 /// }
 ///
 /// fn main() -> ExitCode {
-///     xca_run::main::<Forest>()
+///     xca_run::main!(Forest)
 /// }
 /// ```
 pub trait Program: clap::Args {
@@ -63,9 +64,6 @@ pub trait Program: clap::Args {
 
     /// One line that says what the model is.
     const ABOUT: &'static str;
-
-    /// The version.
-    const VERSION: &'static str = env!("CARGO_PKG_VERSION");
 
     /// Command lines to try, for `--help`: the arguments of `run`, one example a line.
     const EXAMPLES: &'static str = "--steps 500 --engine reference";

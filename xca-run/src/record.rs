@@ -3,6 +3,7 @@
 mod cells;
 mod drawing;
 mod folder;
+mod frame_field;
 mod grids;
 mod items;
 mod look;

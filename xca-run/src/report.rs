@@ -1,17 +1,18 @@
 //! `run.json`: everything about a run but its results.
 
 use crate::checkpoint::Difference;
+use crate::components::{json, type_text};
 use crate::machine::cores;
 use crate::output::atomic::{WriteError, write_atomically};
 use crate::program::Observable;
 use crate::record::REPORT;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Value};
 use std::io::{self, Write as _};
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 use xca_core::model::GroupKind;
-use xca_core::{AnyParameters, Boundary, Faces, Model, Precision, ScalarType};
+use xca_core::{Boundary, Faces, Model, ParameterSet, ParameterValue, Precision, ValueType};
 
 /// The report of a run.
 #[derive(Debug, Clone, Serialize)]
@@ -83,7 +84,7 @@ impl Report {
             self.started.clone_from(started);
         }
         self.resumed.clone_from(&earlier.resumed);
-        self.resumed.push(json!({
+        self.resumed.push(serde_json::json!({
             "at": now(),
             "step": step,
             "checkpoint": checkpoint.file_name().map(|name| name.to_string_lossy()),
@@ -201,7 +202,8 @@ pub(crate) fn of_model(model: &Model) -> ModelReport {
             GroupKind::Cells { .. } => (None, None),
         };
         let fields = group.schema().fields.iter();
-        let substates = fields.map(|field| format!("{}: {}", field.name, field.value_type)).collect();
+        let substates =
+            fields.map(|field| format!("{}: {}", field.name, type_text(field.value_type))).collect();
         GroupReport { name: group.schema().name, substates, slots, items_may_leave }
     });
     ModelReport {
@@ -223,17 +225,18 @@ pub(crate) fn of_host() -> Host {
 /// The values of all parameters by name.
 pub(crate) fn of_parameters(parameters: &dyn AnyParameters) -> Map<String, Value> {
     let fields = parameters.schema().fields.iter().enumerate();
-    fields
-        .map(|(index, field)| {
-            let value = parameters.value_of(index);
-            let is_whole =
-                matches!(field.value_type.scalar, ScalarType::U8 | ScalarType::I32 | ScalarType::U32);
-            let lane = |lane: &f64| if is_whole { json!(*lane as i64) } else { json!(lane) };
-            let lanes: Vec<Value> = value.lanes().iter().map(lane).collect();
-            let value = if let [lane] = lanes.as_slice() { lane.clone() } else { Value::Array(lanes) };
-            (field.name.to_owned(), value)
-        })
-        .collect()
+    fields.map(|(index, field)| (field.name.to_owned(), of_value(&parameters.value_of(index)))).collect()
+}
+
+/// A vector or an array is a list, an array of vectors a list of lists.
+fn of_value(value: &ParameterValue) -> Value {
+    let ValueType { scalar, lanes, length } = value.value_type();
+    let components: Vec<Value> = value.components().iter().map(|number| json(scalar, *number)).collect();
+    match (length, lanes) {
+        (None, 1) => components.into_iter().next().unwrap_or_default(),
+        (_, 1) | (None, _) => Value::Array(components),
+        _ => components.chunks(lanes.into()).map(|element| Value::Array(element.to_vec())).collect(),
+    }
 }
 
 /// Observables with their first and last values.

@@ -11,8 +11,9 @@ type Observe = dyn Fn(&State<'_>) -> Result<Vec<Observable>, Failure> + Send + S
 
 /// A model, how long it is run, and what is shown and saved of it.
 ///
-/// What is not said has a default that follows from the model's substates: the least, mean and largest value of each are observed,
-/// every population and all substates of cells are saved, and the first of them is drawn.
+/// What is not said has a default that follows from the model's substates: statistics of each are observed
+/// (of `bool` and states, how many there are), every population and all substates of cells are saved, and the
+/// first of them is drawn.
 pub struct SetUp {
     pub(crate) model: Model,
     pub(crate) title: String,

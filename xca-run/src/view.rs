@@ -1,15 +1,16 @@
 //! What of a model's substates is saved and drawn, and how.
 
-use crate::output::picture::ColourMap;
+use crate::components::{DrawnPart, Part};
+use crate::output::picture::{Category, ColourMap};
 use std::any::TypeId;
 use std::marker::PhantomData;
 use xca_core::model::GroupKind;
-use xca_core::{Geometry, HostValue, Model, Schema, Substate, Substates};
+use xca_core::{Field, Geometry, HostScalar, HostValue, Model, Schema, Substate, Substates};
 
 /// How the items of a population are saved and drawn.
 ///
-/// What is not said follows from the substates: all items with all substates, as spheres of half a cell's side, coloured by the length of
-/// the first vector beside the position.
+/// Default: all items with all substates, as spheres with a diameter of half a cell side, coloured by the
+/// first vector beside the position, else by the first other substate.
 #[derive(Debug, Clone)]
 pub struct ItemView<S> {
     view: AnyItemView,
@@ -18,7 +19,8 @@ pub struct ItemView<S> {
 
 /// How the substates of cells are saved and drawn.
 ///
-/// What is not said follows from the substates: all are saved, and the first is drawn, in the middle layer.
+/// Default: all substates are saved, and the first is drawn, in the middle layer. `bool` and states have one
+/// colour a value and a legend.
 #[derive(Debug, Clone)]
 pub struct CellView<S> {
     view: AnyCellView,
@@ -39,11 +41,92 @@ pub(crate) struct AnyItemView {
     pub(crate) name: String,
     /// The items that are shown: those where this substate has this value.
     pub(crate) only: Option<(usize, f64)>,
-    /// Columns of the table: header, number of the substate, lane.
-    pub(crate) columns: Vec<(String, usize, usize)>,
+    /// The columns of the table; all substates where there are none.
+    pub(crate) columns: Vec<TableColumn>,
     pub(crate) radius: Option<f64>,
-    /// The number of the substate and what it is called.
-    pub(crate) colour: Option<(usize, String)>,
+    pub(crate) colour: Option<Drawn>,
+    pub(crate) colours: Vec<ValueColour>,
+}
+
+/// A column of a table of items.
+#[derive(Debug, Clone)]
+pub(crate) struct TableColumn {
+    pub(crate) header: String,
+    /// The number of the substate.
+    pub(crate) field: usize,
+    pub(crate) component: usize,
+}
+
+impl TableColumn {
+    /// A column for each component of each substate. Those of the position are `x`, `y` and `z`.
+    pub(crate) fn all(schema: &Schema) -> Vec<Self> {
+        let of_field = |(field, definition): (usize, &Field)| {
+            let is_position = schema.position == Some(field);
+            let names = definition.value_type.component_names().into_iter().enumerate();
+            let columns = names.map(move |(component, name)| {
+                let header = match name.as_str() {
+                    "" => definition.name.to_owned(),
+                    lane if is_position => lane.to_owned(),
+                    component => format!("{}_{component}", definition.name),
+                };
+                Self { header, field, component }
+            });
+            columns.collect::<Vec<_>>()
+        };
+        schema.fields.iter().enumerate().flat_map(of_field).collect()
+    }
+}
+
+/// A substate or a component of it that is drawn, and what the scale calls it.
+#[derive(Debug, Clone)]
+pub(crate) struct Drawn {
+    pub(crate) part: Part,
+    pub(crate) label: String,
+}
+
+/// The colour of a value of a substate.
+#[derive(Debug, Clone)]
+pub(crate) struct ValueColour {
+    /// The number of the substate.
+    field: usize,
+    value: f64,
+    colour: [u8; 3],
+}
+
+impl ValueColour {
+    fn all<S: Substates, V: HostValue>(
+        substate: Substate<S, V>,
+        colours: &[(V::Scalar, [u8; 3])],
+    ) -> impl Iterator<Item = Self> {
+        let field = substate.index();
+        colours.iter().map(move |(value, colour)| Self { field, value: value.to_number(), colour: *colour })
+    }
+}
+
+/// The states of what is drawn with their colours, from the colour with this number in the palette on; none
+/// where it is a number.
+fn categories(schema: &Schema, part: Part, colours: &[ValueColour], first: usize) -> Vec<Category> {
+    let states = schema.fields.get(part.field).map(|field| {
+        let drawn = DrawnPart::of(field.value_type, part.component);
+        drawn.states(field.value_type)
+    });
+    let names = states.unwrap_or_default().into_iter().enumerate();
+    coloured(names.map(|(number, name)| (number as f64, name)), part.field, colours, first)
+}
+
+/// Values with their names, in the colours that the author gives them, else in those of the palette.
+fn coloured(
+    names: impl Iterator<Item = (f64, String)>,
+    field: usize,
+    colours: &[ValueColour],
+    first: usize,
+) -> Vec<Category> {
+    let category = |(number, (value, name)): (usize, (f64, String))| {
+        let given = colours.iter().find(|given| given.field == field && given.value == value);
+        let plain = Category::new(first + number, value, name);
+        given.map_or(plain.clone(), |given| Category { colour: given.colour, ..plain })
+    };
+    names.enumerate().map(category).collect()
 }
 
 /// [`CellView`] with its substates by number.
@@ -51,14 +134,14 @@ pub(crate) struct AnyItemView {
 pub(crate) struct AnyCellView {
     pub(crate) group: TypeId,
     pub(crate) name: String,
-    /// The number of the substate and what it is called.
-    pub(crate) drawn: Option<(usize, String)>,
+    pub(crate) drawn: Option<Drawn>,
     pub(crate) layer: Option<usize>,
     /// The axis that the layers are counted along: z but for `render`.
     pub(crate) axis: usize,
     pub(crate) range: Option<[f64; 2]>,
     pub(crate) map: Option<ColourMap>,
     pub(crate) kinds: Vec<(f64, String)>,
+    pub(crate) colours: Vec<ValueColour>,
     /// The substate that it is drawn over, and the value up to which that is seen.
     pub(crate) relief: Option<(usize, f64)>,
     /// Whether all cells are drawn, as cubes: only by `render`.
@@ -78,18 +161,22 @@ impl<S: Substates> ItemView<S> {
         self
     }
 
-    /// Adds columns to the table of items, one for each lane of a substate. Substates without a column are then saved nowhere.
+    /// Adds columns to the table of items, one for each component of a substate. Substates without a column
+    /// are then saved nowhere.
     #[must_use]
     pub fn columns<V: HostValue, const N: usize>(
         mut self,
         substate: Substate<S, V>,
         headers: [&str; N],
     ) -> Self {
-        const { assert!(N == V::LANES, "one header for each lane of the substate") };
+        const { assert!(N == V::COMPONENTS, "one header for each component of the substate") };
+        let field = substate.index();
         let columns = headers.iter().enumerate();
-        self.view
-            .columns
-            .extend(columns.map(|(lane, header)| ((*header).to_owned(), substate.index(), lane)));
+        self.view.columns.extend(columns.map(|(component, header)| TableColumn {
+            header: (*header).to_owned(),
+            field,
+            component,
+        }));
         self
     }
 
@@ -100,10 +187,38 @@ impl<S: Substates> ItemView<S> {
         self
     }
 
-    /// Colours items by a substate: a number, or the length of a vector. `^` in the label raises what follows: `speed (m s^-1)`.
+    /// Colours items by a substate: a number, `bool` or a state; of a vector its length, of an array the sum
+    /// of its elements. `^` in the label raises what follows: `speed (m s^-1)`.
     #[must_use]
     pub fn colour<V: HostValue>(mut self, substate: Substate<S, V>, label: impl Into<String>) -> Self {
-        self.view.colour = Some((substate.index(), label.into()));
+        self.view.colour =
+            Some(Drawn { part: Part { field: substate.index(), component: None }, label: label.into() });
+        self
+    }
+
+    /// Colours items by one component of a substate: a lane of a vector, an element of an array. The lanes of
+    /// an array of vectors are numbered one element after the other.
+    #[must_use]
+    pub fn colour_component<V: HostValue>(
+        mut self,
+        substate: Substate<S, V>,
+        component: usize,
+        label: impl Into<String>,
+    ) -> Self {
+        let part = Part { field: substate.index(), component: Some(component) };
+        self.view.colour = Some(Drawn { part, label: label.into() });
+        self
+    }
+
+    /// The colours (sRGB) of some values of a substate: of states, `true` and `false`. Others keep those of
+    /// the palette.
+    #[must_use]
+    pub fn colours<V: HostValue>(
+        mut self,
+        substate: Substate<S, V>,
+        colours: &[(V::Scalar, [u8; 3])],
+    ) -> Self {
+        self.view.colours.extend(ValueColour::all(substate, colours));
         self
     }
 
@@ -118,10 +233,56 @@ impl<S: Substates> CellView<S> {
         Self { view: AnyCellView::plain(TypeId::of::<S>(), name.into()), of: PhantomData }
     }
 
-    /// Draws a substate: a number, or the length of a vector.
+    /// Draws a substate: a number, `bool` or a state; of a vector its length, of an array the sum of its
+    /// elements (of vectors, the length of the sum; of `bool`, how many are true; of states, the first
+    /// element).
     #[must_use]
     pub fn draw<V: HostValue>(mut self, substate: Substate<S, V>, label: impl Into<String>) -> Self {
-        self.view.drawn = Some((substate.index(), label.into()));
+        self.view.drawn =
+            Some(Drawn { part: Part { field: substate.index(), component: None }, label: label.into() });
+        self
+    }
+
+    /// Draws one component of a substate: a lane of a vector, an element of an array. The lanes of an array
+    /// of vectors are numbered one element after the other.
+    #[must_use]
+    pub fn draw_component<V: HostValue>(
+        mut self,
+        substate: Substate<S, V>,
+        component: usize,
+        label: impl Into<String>,
+    ) -> Self {
+        let part = Part { field: substate.index(), component: Some(component) };
+        self.view.drawn = Some(Drawn { part, label: label.into() });
+        self
+    }
+
+    /// The colours (sRGB) of some values of a substate: of states, `true` and `false`, or of [`Self::kinds`].
+    /// Others keep those of the palette.
+    ///
+    /// ```
+    /// use xca_run::prelude::*;
+    ///
+    /// #[derive(States, Clone, Copy, PartialEq)]
+    /// enum Ground {
+    ///     Rock,
+    ///     Water,
+    /// }
+    ///
+    /// #[derive(Substates, Clone)]
+    /// struct Land {
+    ///     ground: Ground,
+    /// }
+    ///
+    /// let view = CellView::<Land>::named("land").colours(Land::GROUND, &[(Ground::Water, [60, 120, 200])]);
+    /// ```
+    #[must_use]
+    pub fn colours<V: HostValue>(
+        mut self,
+        substate: Substate<S, V>,
+        colours: &[(V::Scalar, [u8; 3])],
+    ) -> Self {
+        self.view.colours.extend(ValueColour::all(substate, colours));
         self
     }
 
@@ -155,7 +316,7 @@ impl<S: Substates> CellView<S> {
         self
     }
 
-    /// The values are no magnitudes but kinds, each with its name.
+    /// Names for the values of a number that stands for kinds. States and `bool` have names of their own.
     #[must_use]
     pub fn kinds<K: Into<f64> + Copy>(mut self, kinds: &[(K, &str)]) -> Self {
         self.view.kinds = kinds.iter().map(|(value, name)| ((*value).into(), (*name).to_owned())).collect();
@@ -169,39 +330,72 @@ impl<S: Substates> CellView<S> {
 
 impl AnyItemView {
     fn plain(group: TypeId, name: String) -> Self {
-        Self { group, name, only: None, columns: Vec::new(), radius: None, colour: None }
+        let (columns, colours) = (Vec::new(), Vec::new());
+        Self { group, name, only: None, columns, radius: None, colour: None, colours }
     }
 
-    /// The substate that colours the items, and what it is called.
-    pub(crate) fn colour(&self, schema: &Schema) -> Option<(usize, String)> {
+    /// What colours the items.
+    pub(crate) fn colour(&self, schema: &Schema) -> Option<Drawn> {
         let default = || {
             let other = |field: &usize| schema.position != Some(*field);
             let vector = (0..schema.fields.len())
                 .filter(other)
                 .find(|&field| schema.fields[field].value_type.lanes > 1);
             let field = vector.or_else(|| (0..schema.fields.len()).find(other))?;
-            let name = schema.fields[field].name;
-            Some((field, if vector.is_some() { format!("length of {name}") } else { name.to_owned() }))
+            let value_type = schema.fields[field].value_type;
+            let label = DrawnPart::of(value_type, None).label(&schema.fields[field]);
+            Some(Drawn { part: Part { field, component: None }, label })
         };
         self.colour.clone().or_else(default)
+    }
+
+    /// The states that colour the items; none where a number does.
+    pub(crate) fn categories(&self, schema: &Schema) -> Vec<Category> {
+        let colour = self.colour(schema);
+        // White spheres are hard to see on the ground.
+        colour.map(|drawn| categories(schema, drawn.part, &self.colours, 1)).unwrap_or_default()
     }
 }
 
 impl AnyCellView {
     fn plain(group: TypeId, name: String) -> Self {
-        let (drawn, layer, range, map) = (None, None, None, None);
-        Self { group, name, drawn, layer, axis: 2, range, map, kinds: Vec::new(), relief: None, block: false }
+        Self {
+            group,
+            name,
+            drawn: None,
+            layer: None,
+            axis: 2,
+            range: None,
+            map: None,
+            kinds: Vec::new(),
+            colours: Vec::new(),
+            relief: None,
+            block: false,
+        }
     }
 
-    /// The number of the substate that is drawn.
-    pub(crate) fn field(&self) -> usize {
-        self.drawn.as_ref().map_or(0, |(field, _)| *field)
+    /// What is drawn.
+    pub(crate) fn part(&self) -> Part {
+        self.drawn.as_ref().map_or(Part { field: 0, component: None }, |drawn| drawn.part)
     }
 
-    /// What that substate is called.
-    pub(crate) fn label<'a>(&'a self, schema: &Schema) -> &'a str {
-        let first = schema.fields.first().map_or("", |field| field.name);
-        self.drawn.as_ref().map_or(first, |(_, label)| label)
+    /// What the scale calls it.
+    pub(crate) fn label(&self, schema: &Schema) -> String {
+        let default = || {
+            let field = schema.fields.first();
+            field.map_or_else(String::new, |field| DrawnPart::of(field.value_type, None).label(field))
+        };
+        self.drawn.as_ref().map_or_else(default, |drawn| drawn.label.clone())
+    }
+
+    /// The kinds or states of what is drawn; none where it is a number.
+    pub(crate) fn categories(&self, schema: &Schema) -> Vec<Category> {
+        let part = self.part();
+        if self.kinds.is_empty() {
+            categories(schema, part, &self.colours, 0)
+        } else {
+            coloured(self.kinds.iter().cloned(), part.field, &self.colours, 0)
+        }
     }
 
     /// The layer that is drawn.
@@ -240,6 +434,18 @@ pub enum ViewError {
     /// Two views whose files would have the same names.
     #[error("two views are named `{0}`; their files would have the same names")]
     SameName(String),
+    /// A component that the substate does not have.
+    #[error("the view `{view}` draws component {component} of `{substate}`, which has {components}")]
+    Component {
+        /// The name of the view.
+        view: String,
+        /// The substate.
+        substate: &'static str,
+        /// The number of the component.
+        component: usize,
+        /// How many there are.
+        components: usize,
+    },
     /// A layer that the space does not have.
     #[error("the view `{view}` draws layer {layer}, but the space has {layers} layers")]
     Layer {
@@ -274,6 +480,9 @@ pub(crate) fn complete(model: &Model, given: Vec<AnyView>) -> Result<Vec<(usize,
                 return Err(ViewError::Layer { view: name.clone(), layer: *layer, layers });
             }
         }
+        if let Some(error) = wrong_component(&view, model.groups()[group].schema()) {
+            return Err(error);
+        }
         views.push((group, view));
     }
     for (number, group) in model.groups().iter().enumerate() {
@@ -292,4 +501,21 @@ pub(crate) fn complete(model: &Model, given: Vec<AnyView>) -> Result<Vec<(usize,
         }
     }
     Ok(views)
+}
+
+/// A component that is drawn and that its substate does not have.
+fn wrong_component(view: &AnyView, schema: &Schema) -> Option<ViewError> {
+    let drawn = match view {
+        AnyView::Items(view) => view.colour.as_ref(),
+        AnyView::Cells(view) => view.drawn.as_ref(),
+    };
+    let Part { field, component } = drawn?.part;
+    let (field, component) = (schema.fields.get(field)?, component?);
+    let components = field.value_type.components();
+    (component >= components).then(|| ViewError::Component {
+        view: view.name().to_owned(),
+        substate: field.name,
+        component,
+        components,
+    })
 }

@@ -60,32 +60,32 @@ impl Layout {
 }
 
 /// The fields of the description of the space.
-pub(crate) const SPACE: [(&str, ValueType); 12] = [
-    ("extents", ValueType { scalar: ScalarType::I32, lanes: 3 }),
-    ("neighbours", ValueType { scalar: ScalarType::U32, lanes: 1 }),
-    ("halo", ValueType { scalar: ScalarType::U32, lanes: 3 }),
-    ("row", ValueType { scalar: ScalarType::U32, lanes: 1 }),
-    ("first", ValueType { scalar: ScalarType::U32, lanes: 3 }),
-    ("base", ValueType { scalar: ScalarType::U32, lanes: 1 }),
-    ("count", ValueType { scalar: ScalarType::U32, lanes: 3 }),
-    ("layer", ValueType { scalar: ScalarType::U32, lanes: 1 }),
-    ("seed", ValueType { scalar: ScalarType::U32, lanes: 2 }),
-    ("stream", ValueType { scalar: ScalarType::U32, lanes: 1 }),
-    ("side", ValueType { scalar: ScalarType::Real, lanes: 1 }),
-    ("covered", ValueType { scalar: ScalarType::Real, lanes: 1 }),
-    ("zero", ValueType { scalar: ScalarType::Real, lanes: 1 }),
+pub(crate) const SPACE: [(&str, ValueType); 13] = [
+    ("extents", ValueType { scalar: ScalarType::I32, lanes: 3, length: None }),
+    ("neighbours", ValueType { scalar: ScalarType::U32, lanes: 1, length: None }),
+    ("halo", ValueType { scalar: ScalarType::U32, lanes: 3, length: None }),
+    ("row", ValueType { scalar: ScalarType::U32, lanes: 1, length: None }),
+    ("first", ValueType { scalar: ScalarType::U32, lanes: 3, length: None }),
+    ("base", ValueType { scalar: ScalarType::U32, lanes: 1, length: None }),
+    ("count", ValueType { scalar: ScalarType::U32, lanes: 3, length: None }),
+    ("layer", ValueType { scalar: ScalarType::U32, lanes: 1, length: None }),
+    ("seed", ValueType { scalar: ScalarType::U32, lanes: 2, length: None }),
+    ("stream", ValueType { scalar: ScalarType::U32, lanes: 1, length: None }),
+    ("side", ValueType { scalar: ScalarType::Real, lanes: 1, length: None }),
+    ("covered", ValueType { scalar: ScalarType::Real, lanes: 1, length: None }),
+    ("zero", ValueType { scalar: ScalarType::Real, lanes: 1, length: None }),
 ];
 
 /// The fields of what changes from step to step.
 pub(crate) const MOMENT: [(&str, ValueType); 2] = [
-    ("step", ValueType { scalar: ScalarType::U32, lanes: 2 }),
-    ("items", ValueType { scalar: ScalarType::U32, lanes: 1 }),
+    ("step", ValueType { scalar: ScalarType::U32, lanes: 2, length: None }),
+    ("items", ValueType { scalar: ScalarType::U32, lanes: 1, length: None }),
 ];
 
 /// The fields of the record of a fault.
 pub(crate) const FAULT: [(&str, ValueType); 4] = [
-    ("cell", ValueType { scalar: ScalarType::U32, lanes: 1 }),
-    ("label", ValueType { scalar: ScalarType::U32, lanes: 1 }),
-    ("code", ValueType { scalar: ScalarType::U32, lanes: 1 }),
-    ("value", ValueType { scalar: ScalarType::Real, lanes: 1 }),
+    ("cell", ValueType { scalar: ScalarType::U32, lanes: 1, length: None }),
+    ("label", ValueType { scalar: ScalarType::U32, lanes: 1, length: None }),
+    ("code", ValueType { scalar: ScalarType::U32, lanes: 1, length: None }),
+    ("value", ValueType { scalar: ScalarType::Real, lanes: 1, length: None }),
 ];

@@ -47,6 +47,10 @@ pub(crate) fn integer(value: i128, scalar: ScalarType) -> Result<String, Problem
             format!("the literal `{value}`"),
             "an integer stands where a float is needed",
         )),
+        ScalarType::Bool | ScalarType::State(_) => Err(Problem::unsupported(
+            format!("the literal `{value}`"),
+            "an integer stands where bool or a state is needed",
+        )),
     }
 }
 

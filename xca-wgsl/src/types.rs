@@ -75,6 +75,7 @@ impl From<&ir::Type> for Type {
         match written {
             ir::Type::Bool => Self::Bool,
             ir::Type::Scalar(scalar) => Self::Scalar(*scalar),
+            ir::Type::State(names) => Self::Scalar(ScalarType::State(names)),
             ir::Type::Vector(scalar, lanes) => Self::Vector(*scalar, *lanes),
             ir::Type::Array(element, length) => Self::Array(Box::new(Self::from(&**element)), *length),
             ir::Type::Destination => Self::Destination,
@@ -85,7 +86,7 @@ impl From<&ir::Type> for Type {
 /// What WGSL calls a scalar. There are no bytes in WGSL: `u8` is a `u32` that is kept below 256.
 pub(crate) fn scalar_name(scalar: ScalarType) -> &'static str {
     match scalar {
-        ScalarType::U8 | ScalarType::U32 => "u32",
+        ScalarType::Bool | ScalarType::State(_) | ScalarType::U8 | ScalarType::U32 => "u32",
         ScalarType::I32 => "i32",
         ScalarType::F32 => "f32",
         ScalarType::F64 => "f64",

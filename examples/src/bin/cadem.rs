@@ -162,5 +162,5 @@ fn integrator() -> impl TypedValueParser<Value = Integrator> {
 }
 
 fn main() -> ExitCode {
-    xca_run::main::<Cadem>()
+    xca_run::main!(Cadem)
 }

@@ -105,5 +105,5 @@ impl Program for Cube {
 }
 
 fn main() -> ExitCode {
-    xca_run::main::<Cube>()
+    xca_run::main!(Cube)
 }

@@ -218,5 +218,5 @@ impl Program for Landslide {
 }
 
 fn main() -> ExitCode {
-    xca_run::main::<Landslide>()
+    xca_run::main!(Landslide)
 }

@@ -16,7 +16,7 @@ fn evolve(cell: &mut Cell<Life>) {
 }
 
 fn main() -> ExitCode {
-    xca_run::main_of("life", "Conway's Game of Life on a torus", |_given| {
+    xca_run::main_of!("life", "Conway's Game of Life on a torus", |_given| {
         let model = Model::builder("life")
             .extents([256, 256, 1])
             .neighbourhood(Neighbourhood::moore_2d(1))

@@ -54,5 +54,5 @@ impl Program for Mod2 {
 }
 
 fn main() -> ExitCode {
-    xca_run::main::<Mod2>()
+    xca_run::main!(Mod2)
 }

@@ -76,7 +76,7 @@ fn a_folder_and_its_checkpoints_are_told_of() {
     assert!((number(&of_substate["largest"]) / (100.0 * fade.powi(20)) - 1.0).abs() < 1e-12, "{of_substate}");
     let value = &json["state"]["places"][0]["values"][0];
     assert_eq!(
-        (&value["name"], number(&value["lanes"][0])),
+        (&value["name"], number(&value["components"][0])),
         (&"temperature".into(), number(&of_substate["largest"]))
     );
     // Any program looks into any checkpoint, and tells which of them are not whole.
@@ -110,7 +110,10 @@ fn items_are_found_by_cell_and_by_label() {
     assert_eq!((&item["label"], &item["cell"]), (&5.into(), &serde_json::json!([5, 5, 2])));
     let position =
         item["values"].as_array().unwrap().iter().find(|value| value["name"] == "position").unwrap();
-    assert_eq!((position["lanes"][0].as_f64(), position["lanes"][1].as_f64()), (Some(0.0111), Some(0.011)));
+    assert_eq!(
+        (position["components"][0].as_f64(), position["components"][1].as_f64()),
+        (Some(0.0111), Some(0.011))
+    );
     let text = told(&place, CADEM, "inspect out/cadem/checkpoints/step_00000025.checkpoint --cell 5,5,2");
     assert!(
         text.contains("\nDem 5 in cell 5,5,2\n") && text.contains("\n  position = 0.0111, 0.011, 0.005"),
@@ -129,7 +132,7 @@ fn items_are_found_by_cell_and_by_label() {
         of_last.lines().last().unwrap().split(',').map(|number| number.parse().unwrap()).collect();
     let item = &found["state"]["places"][0];
     assert_eq!((&item["of"], &item["label"], &item["cell"]), (&"particles".into(), &8.into(), &Value::Null));
-    assert_eq!(item["values"][0]["lanes"], serde_json::json!(last[1..4]));
+    assert_eq!(item["values"][0]["components"], serde_json::json!(last[1..4]));
     refused(
         &place,
         CADEM,
@@ -150,7 +153,7 @@ fn the_last_frames_are_looked_into_where_there_is_no_checkpoint() {
     let fade = 1.0 - 12.0 * 0.125 * (std::f64::consts::PI / 20.0).sin().powi(2);
     let largest = of_substate["largest"].as_f64().unwrap();
     assert!((largest / (100.0 * fade.powi(20)) - 1.0).abs() < 1e-12, "{of_substate}");
-    assert_eq!(found["state"]["places"][0]["values"][0]["lanes"][0].as_f64(), Some(largest));
+    assert_eq!(found["state"]["places"][0]["values"][0]["components"][0].as_f64(), Some(largest));
     refused(
         &place,
         HEAT,

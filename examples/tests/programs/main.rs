@@ -18,5 +18,6 @@ mod running;
 mod same_bits;
 mod scripted;
 mod shaders;
+mod values;
 mod vtk_library;
 mod watched;

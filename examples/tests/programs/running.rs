@@ -13,6 +13,7 @@ pub(crate) const HEAT: &str = env!("CARGO_BIN_EXE_heat");
 pub(crate) const LANDSLIDE: &str = env!("CARGO_BIN_EXE_landslide");
 pub(crate) const LIFE: &str = env!("CARGO_BIN_EXE_life");
 pub(crate) const MOD2: &str = env!("CARGO_BIN_EXE_mod2");
+pub(crate) const POND: &str = env!("CARGO_BIN_EXE_pond");
 
 /// A folder that programs are run in.
 pub(crate) struct Workplace {

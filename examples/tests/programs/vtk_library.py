@@ -20,13 +20,17 @@ def bits(number):
 
 
 def array(found):
-    return {
+    told = {
         "name": found.GetName(),
         "type": found.GetDataTypeAsString(),
         "components": found.GetNumberOfComponents(),
         "tuples": found.GetNumberOfTuples(),
-        "bytes": bytes(memoryview(found)).hex(),
     }
+    if found.HasAComponentName():
+        told["component_names"] = [found.GetComponentName(index) for index in range(told["components"])]
+    if told["type"] == "string":
+        return told | {"strings": [found.GetValue(index) for index in range(found.GetNumberOfValues())]}
+    return told | {"bytes": bytes(memoryview(found)).hex()}
 
 
 def arrays(data):

@@ -1,6 +1,6 @@
 //! Frames and collections, read back by the VTK library itself.
 
-use crate::running::{CADEM, HEAT, LIFE, MOD2, Table, Workplace, report};
+use crate::running::{CADEM, HEAT, LIFE, MOD2, POND, Table, Workplace, report};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -43,7 +43,7 @@ impl Run {
         let frames = self::found(&paths);
         let time_step = report["progress"]["time_step"].as_f64();
         // Automata without a time of their own count steps.
-        assert_eq!(time_step.is_none(), program == LIFE || program == MOD2);
+        assert_eq!(time_step.is_none(), [LIFE, MOD2, POND].contains(&program));
         for ((step, frame), of_collection) in
             steps.iter().zip(&frames).zip(found["times"].as_array().unwrap())
         {
@@ -51,7 +51,9 @@ impl Run {
             assert_eq!(*of_collection, time, "step {step}");
             // What the library takes for the time of the file, and where it takes it from.
             assert_eq!(frame["times"], json!([time]), "step {step}");
-            assert_eq!(frame["field_data"], json!([array("TimeValue", "double", 1, 1, time)]), "step {step}");
+            assert_eq!(frame["field_data"][0], array("TimeValue", "double", 1, 1, time), "step {step}");
+            let names = frame["field_data"].as_array().unwrap().len() - 1;
+            assert_eq!(names > 0, program == POND, "step {step}");
         }
         Self { folder, frames, steps }
     }
@@ -202,7 +204,7 @@ fn the_frames_of_heat_hold_the_exact_temperatures() {
                 let output = place.invocation(HEAT, "inspect").arg(&run.folder).args(words).output().unwrap();
                 let told: Value = serde_json::from_slice(&output.stdout).unwrap();
                 assert_eq!(told["state"]["step"], 15);
-                assert_eq!(told["state"]["places"][0]["values"][0]["lanes"], json!([value]), "{name}");
+                assert_eq!(told["state"]["places"][0]["values"][0]["components"], json!([value]), "{name}");
             }
         }
     }
@@ -250,6 +252,48 @@ fn the_frames_of_particles_hold_those_of_the_tables() {
     }
     // They have moved.
     assert_ne!(run.frames[0]["positions"], run.frames[2]["positions"]);
+}
+
+/// Components and states have their names in the library, too.
+#[test]
+fn the_frames_of_arrays_and_states_have_their_names() {
+    let place = Workplace::new();
+    let run = Run::of(&place, POND, "--steps 8 --every 4 --grids");
+    let last = run.frames.last().unwrap();
+    let found = |name: &str| {
+        let arrays = last["cell_data"].as_array().unwrap().iter();
+        arrays.into_iter().find(|array| array["name"] == name).unwrap()
+    };
+    let shape = |name: &str| {
+        let array = found(name);
+        (
+            array["type"].as_str().unwrap().to_owned(),
+            array["components"].clone(),
+            array["component_names"].clone(),
+        )
+    };
+    assert_eq!(shape("ground"), ("unsigned char".to_owned(), json!(1), Value::Null));
+    assert_eq!(shape("wet"), ("unsigned char".to_owned(), json!(1), Value::Null));
+    let elements = json!(["[0]", "[1]", "[2]", "[3]"]);
+    assert_eq!(shape("outflow"), ("double".to_owned(), json!(4), elements));
+    let lanes = json!(["[0].x", "[0].y", "[1].x", "[1].y"]);
+    assert_eq!(shape("currents"), ("double".to_owned(), json!(4), lanes));
+    let names = |name: &str, strings: &[&str]| {
+        let (name, tuples) = (format!("states of {name}"), strings.len());
+        json!({"name": name, "type": "string", "components": 1, "tuples": tuples, "strings": strings})
+    };
+    let expected = [names("ground", &["Rock", "Soil", "Mud"]), names("wet", &["false", "true"])];
+    assert_eq!(last["field_data"].as_array().unwrap()[1..], expected);
+    // The values are those of the grids, row by row from the north.
+    let outflow = doubles(&unhex(found("outflow")["bytes"].as_str().unwrap()));
+    for element in 0..4 {
+        let grid = std::fs::read_to_string(run.folder.join(format!("final_outflow_{element}.asc"))).unwrap();
+        let rows: Vec<&str> = grid.lines().skip(6).collect();
+        let values = rows.into_iter().rev().flat_map(str::split_whitespace);
+        let values: Vec<f64> = values.map(|value| value.parse().unwrap()).collect();
+        let of_frame: Vec<f64> = outflow.iter().skip(element).step_by(4).copied().collect();
+        assert!(values == of_frame && values.iter().any(|value| *value > 0.0), "{element}");
+    }
 }
 
 /// That the tests above could fail.

@@ -25,13 +25,15 @@ pub enum InitialError {
         /// Those that it may mean.
         known: String,
     },
-    /// The substate is a vector or an array.
-    #[error("`{name}` is a {value_type}; only single numbers and states can be given")]
+    /// The substate is a vector or an array, and no component of it is named.
+    #[error("`{name}` is a {value_type}; give one of its components, such as `{name}.{component}`")]
     Several {
         /// The substate.
         name: String,
         /// Its type.
         value_type: ValueType,
+        /// The name of its first component.
+        component: String,
     },
     /// Not as many values as cells.
     #[error("`{name}` has {cells} values, one for each cell, but {given} are given")]
@@ -58,16 +60,18 @@ pub enum InitialError {
 }
 
 impl Model {
-    /// Has a scalar substate of cells begin with these values (by linear index, x fastest), in place of those that the model gives it. They
-    /// are set once all that the model does to make its initial state is done.
+    /// Replaces the initial values of a substate of cells, or of one component of it, by these (by linear
+    /// index, x fastest). They are set after all that the model does to make its initial state.
     ///
-    /// The substate is named by its field, or by struct and field (`Heat.temperature`).
+    /// The substate is named by its field, or by struct and field (`Heat.temperature`); a component of a
+    /// vector or an array by what follows: `velocity.x`, `outflow.3`, `paths.1.x`. `bool` is given as 0 or 1,
+    /// a state by its number.
     ///
     /// # Errors
     /// Where there is no such substate, or the values are not one for each cell and of its type.
     pub fn set_initial(&mut self, substate: &str, values: Vec<f64>) -> Result<(), InitialError> {
-        let (id, field) = self.scalar_of_cells(substate)?;
-        let (name, value_type) = (field.name.to_owned(), field.value_type);
+        let (id, value_type, component) = self.component_of_cells(substate)?;
+        let name = substate.to_owned();
         let cells = self.geometry.cells();
         if values.len() != cells {
             return Err(InitialError::WrongNumber { name, cells, given: values.len() });
@@ -78,26 +82,34 @@ impl Model {
         }
         self.steering.push(Steering::new(Schedule::Start, move |state| {
             let stored = value_type.stored(state.precision);
-            let mut bytes = vec![0; stored.size() * values.len()];
+            let size = stored.scalar.size();
+            let mut bytes = state.execution.read(id)?;
             for (value, bytes) in values.iter().zip(bytes.chunks_exact_mut(stored.size())) {
-                stored.scalar.encode(*value, bytes);
+                stored.scalar.encode(*value, &mut bytes[component * size..(component + 1) * size]);
             }
             Ok(state.execution.write(id, &bytes)?)
         }));
         Ok(())
     }
 
-    fn scalar_of_cells(&self, wanted: &str) -> Result<(SubstateId, &'static Field), InitialError> {
+    /// The substate that is meant, its type and the number of its component.
+    fn component_of_cells(&self, wanted: &str) -> Result<(SubstateId, ValueType, usize), InitialError> {
         let all = self.of_cells();
-        let found: Vec<_> = all.iter().filter(|known| known.is_meant_by(wanted)).collect();
+        let found: Vec<_> = all.iter().filter_map(|known| Some((known, known.rest_of(wanted)?))).collect();
         let name = wanted.to_owned();
         match found.as_slice() {
             [] => Err(InitialError::Unknown { name, known: names(&all) }),
-            [Named { id, field, .. }] => match field.value_type {
-                ValueType { lanes: 1, length: None, .. } => Ok((*id, field)),
-                value_type => Err(InitialError::Several { name, value_type }),
-            },
-            several => Err(InitialError::Ambiguous { name, known: names(several.iter().copied()) }),
+            [(Named { id, field, .. }, component)] => {
+                let value_type = field.value_type;
+                let single = (value_type.components() == 1).then_some(0);
+                let first = || value_type.component_names().into_iter().next().unwrap_or_default();
+                component.or(single).map(|component| (*id, value_type, component)).ok_or_else(|| {
+                    InitialError::Several { name, value_type, component: first().replace('_', ".") }
+                })
+            }
+            several => {
+                Err(InitialError::Ambiguous { name, known: names(several.iter().map(|(known, _)| *known)) })
+            }
         }
     }
 
@@ -126,8 +138,15 @@ impl Named {
         format!("{}.{}", self.of.name, self.field.name)
     }
 
-    fn is_meant_by(&self, name: &str) -> bool {
-        name == self.field.name || name == self.name()
+    /// The component that a name means, if it means this substate; none if it names the whole.
+    fn rest_of(&self, name: &str) -> Option<Option<usize>> {
+        let component = |rest: &str| match rest {
+            "" => Some(None),
+            rest if rest.starts_with(['.', '[']) => self.field.value_type.component_named(rest).map(Some),
+            _ => None,
+        };
+        let of_field = name.strip_prefix(self.field.name).and_then(component);
+        of_field.or_else(|| name.strip_prefix(&self.name()).and_then(component))
     }
 }
 

@@ -49,7 +49,7 @@ fn soak(
     cell.height = around + weather.wind[0] as Real;
 }
 
-fn row() -> xca_core::ModelBuilder {
+fn row() -> ModelBuilder {
     Model::builder("row")
         .extents([4, 1, 1])
         .neighbourhood(Neighbourhood::custom(vec![[0, 0, 0], [-1, 0, 0], [1, 0, 0]]).expect("a list"))
@@ -167,14 +167,14 @@ fn note(cell: &mut Cell<Counter>, space: &Space) {
     cell.log = cell.log * 10 + 2;
 }
 
-fn counter(model: xca_core::ModelBuilder, steps: u64) -> Counter {
+fn counter(model: ModelBuilder, steps: u64) -> Counter {
     let model = model.build().expect("the model is right");
     let mut simulation = simulation(&model, Precision::F64);
     simulation.run(steps).expect("the steps succeed");
     cells::<Counter>(&simulation, Precision::F64)[0]
 }
 
-fn one_cell() -> xca_core::ModelBuilder {
+fn one_cell() -> ModelBuilder {
     Model::builder("one").extents([1, 1, 1]).substates::<Counter>()
 }
 
@@ -191,7 +191,7 @@ fn processes_run_every_so_many_steps_and_several_times_in_one() {
 
 #[test]
 fn what_cannot_be_composed_is_refused() {
-    let message = |model: xca_core::ModelBuilder| model.build().unwrap_err().to_string();
+    let message = |model: ModelBuilder| model.build().unwrap_err().to_string();
     assert_eq!(message(one_cell().process_every(0, count)), "the interval must be at least 1 step");
     assert_eq!(
         message(one_cell().repeat(0, count)),

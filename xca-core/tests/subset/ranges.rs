@@ -30,7 +30,7 @@ fn flow() -> Flow {
     Flow { reynolds: 100.0, speed: 0.1, width: 10, shares: [0.5, 1.0], viscosity: 0.0, free: 0.0 }
 }
 
-fn builder(flow: Flow) -> xca_core::ModelBuilder {
+fn builder(flow: Flow) -> ModelBuilder {
     Model::builder("flow")
         .extents([2, 1, 1])
         .substates::<Fluid>()

@@ -21,6 +21,7 @@ pub(crate) fn parameters(item: &DeriveInput) -> Result<TokenStream> {
     let values = fields.iter().map(value);
     let indices: Vec<usize> = (0..fields.len()).collect();
     Ok(quote! {
+        #[allow(clippy::type_complexity)]
         const _: () = {
             #schema
 

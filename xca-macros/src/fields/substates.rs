@@ -38,7 +38,7 @@ pub(crate) fn substates(item: &DeriveInput) -> Result<TokenStream> {
             if documentation.is_empty() { quote!(#[doc = #about]) } else { quote!(#(#documentation)*) };
         handles.extend(quote! {
             #about
-            #[allow(dead_code)]
+            #[allow(dead_code, clippy::type_complexity)]
             #visibility const #handle: ::xca_core::Substate<#name, #type_> = ::xca_core::Substate::from_index(#index);
         });
     }
@@ -51,6 +51,7 @@ pub(crate) fn substates(item: &DeriveInput) -> Result<TokenStream> {
     let values = fields.iter().map(value);
     let types = fields.iter().map(|field| checked(&field.type_));
     Ok(quote! {
+        #[allow(clippy::type_complexity)]
         const _: () = {
             #schema
 

@@ -1,5 +1,6 @@
 //! What a checkpoint says of itself: whose it is, and what its data are.
 
+use crate::components::{state_names, suffixes, text};
 use crate::numbers::Exact;
 use crate::record::{Recorded, Recorder};
 use crate::report;
@@ -7,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use xca_core::model::Group;
 use xca_core::{
-    AnyParameters, Engine, GroupSnapshot, Model, ParameterValue, Precision, RunOptions, Snapshot, StoredType,
+    AnyParameters, Engine, Field, GroupSnapshot, Model, Precision, RunOptions, Snapshot, StoredType,
 };
 
 /// The JSON part of a checkpoint.
@@ -55,7 +56,10 @@ pub(crate) struct Parameter {
     pub(crate) name: String,
     #[serde(rename = "type")]
     pub(crate) value_type: String,
-    pub(crate) lanes: Vec<Exact>,
+    /// The names of the values of `bool` and states, by number.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) states: Vec<String>,
+    pub(crate) components: Vec<Exact>,
 }
 
 /// The substates of one struct.
@@ -82,6 +86,11 @@ pub(crate) struct SubstateShape {
     /// As the model says it.
     #[serde(rename = "type")]
     pub(crate) value_type: String,
+    /// The names of the values of `bool` and states, by number.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) states: Vec<String>,
+    /// What follows its name for each of its components: `.x`, `[3]`.
+    pub(crate) components: Vec<String>,
     /// As it is stored.
     #[serde(flatten)]
     pub(crate) stored: StoredType,
@@ -97,11 +106,7 @@ impl Description {
             time: Exact(recorder.time(snapshot.step)),
             stop: snapshot.stop.clone(),
             parameters: parameters
-                .map(|(field, bits)| Parameter {
-                    name: field.name.to_owned(),
-                    value_type: field.value_type.to_string(),
-                    lanes: bits.iter().map(|bits| Exact(f64::from_bits(*bits))).collect(),
-                })
+                .map(|(field, bits)| Parameter::new(field, bits.iter().copied().map(f64::from_bits)))
                 .collect(),
             groups: groups
                 .map(|(group, state)| GroupShape::new(group, state, model, run.precision))
@@ -137,6 +142,8 @@ impl GroupShape {
         let substates = group.schema().fields.iter().map(|field| SubstateShape {
             name: field.name.to_owned(),
             value_type: field.value_type.to_string(),
+            states: state_names(field.value_type.scalar),
+            components: suffixes(field.value_type),
             stored: field.value_type.stored(precision),
         });
         Self { name: group.schema().name.to_owned(), kind, substates: substates.collect() }
@@ -144,28 +151,32 @@ impl GroupShape {
 }
 
 impl Parameter {
+    fn new(field: &Field, components: impl Iterator<Item = f64>) -> Self {
+        Self {
+            name: field.name.to_owned(),
+            value_type: field.value_type.to_string(),
+            states: state_names(field.value_type.scalar),
+            components: components.map(Exact).collect(),
+        }
+    }
+
     /// The parameters of a model that has not been run.
     fn all(parameters: &dyn AnyParameters) -> Vec<Self> {
         let fields = parameters.schema().fields.iter().enumerate();
-        let lanes = |value: ParameterValue| value.lanes().iter().copied().map(Exact).collect();
-        fields
-            .map(|(index, field)| Self {
-                name: field.name.to_owned(),
-                value_type: field.value_type.to_string(),
-                lanes: lanes(parameters.value_of(index)),
-            })
-            .collect()
+        let of_field =
+            |(index, field)| Self::new(field, parameters.value_of(index).components().iter().copied());
+        fields.map(of_field).collect()
     }
 
     pub(super) fn bits(&self) -> Vec<u64> {
-        self.lanes.iter().map(|lane| lane.0.to_bits()).collect()
+        self.components.iter().map(|component| component.0.to_bits()).collect()
     }
 }
 
 impl std::fmt::Display for Parameter {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let lanes: Vec<String> = self.lanes.iter().map(|lane| format!("{:?}", lane.0)).collect();
-        write!(f, "{} = {}", self.name, lanes.join(","))
+        let components = self.components.iter().map(|component| text(&self.states, component.0));
+        write!(f, "{} = {}", self.name, components.collect::<Vec<_>>().join(","))
     }
 }
 

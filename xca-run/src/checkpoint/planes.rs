@@ -64,8 +64,8 @@ struct Data<'a> {
 
 impl Data<'_> {
     /// The next plane of so many values; nothing where there is less.
-    fn plane(&mut self, count: usize, lanes: usize, size: usize) -> Option<Vec<u8>> {
-        let length = count.checked_mul(lanes)?.checked_mul(size)?;
+    fn plane(&mut self, count: usize, components: usize, size: usize) -> Option<Vec<u8>> {
+        let length = count.checked_mul(components)?.checked_mul(size)?;
         let (bytes, rest) = self.rest.split_at_checked(length)?;
         self.rest = rest;
         Some(if cfg!(target_endian = "little") { bytes.to_vec() } else { turned(bytes.to_vec(), size) })
@@ -78,7 +78,7 @@ impl Data<'_> {
 
     fn substates(&mut self, shape: &GroupShape, count: usize) -> Option<Vec<Vec<u8>>> {
         let stored = shape.substates.iter().map(|substate| substate.stored);
-        stored.map(|stored| self.plane(count, usize::from(stored.lanes), stored.scalar.size())).collect()
+        stored.map(|stored| self.plane(count, stored.components(), stored.scalar.size())).collect()
     }
 }
 

@@ -20,11 +20,13 @@ pub(crate) struct ModelArguments {
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
 
-    /// Set a parameter of the model; can be given several times. A name that it does not have lists those that it has
+    /// Set a parameter of the model; can be given several times. Values: 0.1, true, Water (a state by its
+    /// name); the components of a vector or an array as a list: 1,2,3. An unknown name lists the known ones
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<Assignment>,
 
-    /// Have a substate of a one-layer model begin with the values of an ESRI ASCII grid; can be given several times
+    /// Start a substate of a one-layer model from an ESRI ASCII grid; can be given several times. NAME can be
+    /// a component: outflow.3. bool is 0 or 1 in a grid, a state its number
     #[arg(long, value_name = "NAME=FILE", value_parser = grid)]
     pub(crate) initial: Vec<Assignment>,
 
@@ -81,7 +83,8 @@ pub(crate) struct RunArguments {
     #[arg(long, value_name = "N|TIME")]
     pub(crate) checkpoint_every: Option<Interval>,
 
-    /// Write the final state of a one-layer model as ESRI ASCII grids too, one for each substate of cells
+    /// Write the final state of a one-layer model as ESRI ASCII grids too, one for each component of each
+    /// substate of cells
     #[arg(long)]
     pub(crate) grids: bool,
 

@@ -106,18 +106,25 @@ fn list(key: &str, value: &Value) -> Texts<Vec<String>> {
     values.into_iter().map(|value| Ok(format!("--{key}={}", single(value).map_err(|_| wanted)?))).collect()
 }
 
-/// `[set]` with a line for each parameter; a vector is a list of numbers.
+/// `[set]` with a line for each parameter; a vector or an array is a list, an array of vectors a list of
+/// lists.
 fn assignments(value: &Value) -> Texts<Vec<String>> {
     let wanted = "a table with a line `name = value` for each parameter";
     let table = value.as_table().ok_or(wanted)?;
-    table
-        .iter()
-        .map(|(name, value)| {
-            let lanes = value.as_array().map_or_else(|| vec![value], |values| values.iter().collect());
-            let lanes = lanes.into_iter().map(single).collect::<Result<Vec<_>, _>>().map_err(|_| wanted)?;
-            Ok(format!("--{SET}={name}={}", lanes.join(",")))
-        })
-        .collect()
+    let assignment = |(name, value)| {
+        let components = components(value).map_err(|_| wanted)?;
+        Ok(format!("--{SET}={name}={}", components.join(",")))
+    };
+    table.iter().map(assignment).collect()
+}
+
+fn components(value: &Value) -> Texts<Vec<String>> {
+    match value {
+        Value::Array(values) => {
+            Ok(values.iter().map(components).collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
+        }
+        value => Ok(vec![single(value)?]),
+    }
 }
 
 /// Lets the command check the options of one key, so that an error can name the file.

@@ -2,6 +2,7 @@
 
 use super::parse::{Choice, with_help, with_model};
 use super::{Definition, Ended, Unable};
+use crate::components::type_text;
 use crate::engines::EngineName;
 use crate::report;
 use crate::table::table;
@@ -119,20 +120,21 @@ fn as_text(model: &Model) -> String {
     );
     let engines = table(["engine", ""], engines().map(|(name, about)| [name, about]), &[]);
     let adapters = adapters();
-    let substates =
-        model.groups().iter().flat_map(|group| {
-            let of = match group.kind() {
-                GroupKind::Cells { .. } => "cells".to_owned(),
-                GroupKind::Population { slots, .. } => format!("items, {slots} slots in a cell"),
-            };
-            let name = group.schema().name;
-            group.schema().fields.iter().map(move |field| {
-                [format!("{name}.{}", field.name), field.value_type.to_string(), of.clone()]
-            })
-        });
+    let substates = model.groups().iter().flat_map(|group| {
+        let of = match group.kind() {
+            GroupKind::Cells { .. } => "cells".to_owned(),
+            GroupKind::Population { slots, .. } => format!("items, {slots} slots in a cell"),
+        };
+        let name = group.schema().name;
+        group
+            .schema()
+            .fields
+            .iter()
+            .map(move |field| [format!("{name}.{}", field.name), type_text(field.value_type), of.clone()])
+    });
     let parameters = model.parameters();
     let fields = parameters.schema().fields.iter().enumerate().map(|(index, field)| {
-        [field.name.to_owned(), field.value_type.to_string(), parameters.value_of(index).to_string()]
+        [field.name.to_owned(), type_text(field.value_type), parameters.value_of(index).to_string()]
     });
     let processes = model.processes().iter().map(|process| {
         let [reads, elsewhere, writes] = accesses(model, process).map(|names| names.join(" "));

@@ -6,7 +6,8 @@ use clap::Args;
 /// What is looked at.
 #[derive(Args, Debug, Clone)]
 pub(super) struct LookArguments {
-    /// The substate that gives the colours: a number, or the length of a vector
+    /// Substate to draw, or a component of it: outflow, outflow.3, velocity.x. Of a whole vector the length
+    /// is drawn, of an array the sum of its elements
     #[arg(long, value_name = "NAME")]
     substate: Option<String>,
 

@@ -6,12 +6,14 @@ mod pairs;
 mod tests;
 
 use super::verdict::Verdict;
+use crate::components::{state_names, suffixes, text};
 use numbers::Numbers;
 use pairs::Pairs;
 use serde::Serialize;
 use std::fmt;
+use std::ops::Range;
 use xca_core::model::Group;
-use xca_core::{GroupSnapshot, Model, Precision, Snapshot};
+use xca_core::{GroupSnapshot, Model, Precision, ScalarType, Snapshot, ValueType};
 
 /// A state with what its `Real` is.
 #[derive(Debug, Clone, Copy)]
@@ -65,16 +67,32 @@ pub(crate) struct Difference {
     pub(crate) scale: f64,
     /// Where the absolute difference is largest.
     pub(crate) worst: Option<Worst>,
+    /// Of a vector or an array, the components that differ, each as a substate of its own
+    /// (`Lava.outflow[3]`).
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) components: Vec<Self>,
 }
 
 /// A value that differs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct Worst {
     pub(crate) place: Place,
-    /// The lane of a vector, from 0.
-    pub(crate) lane: usize,
+    /// The number of the component among those that were compared.
+    #[serde(skip)]
+    number: usize,
+    /// What follows the name of the substate in that of the component: `.x`, `[3]`; nothing for a scalar.
+    pub(crate) component: String,
     pub(crate) first: f64,
     pub(crate) other: f64,
+    /// The names of the two values, where they are states or `bool`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) states: Option<[String; 2]>,
+}
+
+impl Worst {
+    fn new(place: Place, number: usize, [first, other]: [f64; 2]) -> Self {
+        Self { place, number, component: String::new(), first, other, states: None }
+    }
 }
 
 /// Where a value is.
@@ -115,7 +133,13 @@ impl Difference {
             rms: 0.0,
             scale: 0.0,
             worst: None,
+            components: Vec::new(),
         }
+    }
+
+    /// This, and then its components that differ.
+    pub(crate) fn with_components(&self) -> impl Iterator<Item = &Self> {
+        std::iter::once(self).chain(&self.components)
     }
 
     /// The share of identical bits, from 0 to 1.
@@ -145,19 +169,49 @@ impl Difference {
         }
     }
 
-    /// Takes note of pairs of values; returns with the root mean square still to be made of the sum of squares.
+    /// Compares pairs of values; then, where there are several components, those that differ, each for
+    /// itself.
     fn compare(
         &mut self,
-        first: &Numbers<'_>,
-        other: &Numbers<'_>,
+        both: [&Numbers<'_>; 2],
         pairs: &Pairs,
-        place: impl Fn(usize) -> Place,
+        value_type: ValueType,
+        place: &dyn Fn(usize) -> Place,
     ) {
-        let lanes = first.lanes();
+        let suffixes = suffixes(value_type);
+        self.compare_components(both, pairs, 0..suffixes.len(), place);
+        let states = state_names(value_type.scalar);
+        let name = |worst: Worst, first: usize| {
+            let states = (!states.is_empty()).then(|| [worst.first, worst.other].map(|it| text(&states, it)));
+            Worst { component: suffixes[first + worst.number].clone(), states, ..worst }
+        };
+        self.worst = self.worst.take().map(|worst| name(worst, 0));
+        if suffixes.len() == 1 || self.different == 0 {
+            return;
+        }
+        for (component, suffix) in suffixes.iter().enumerate() {
+            let mut single = Self::none(format!("{}{suffix}", self.substate), self.kind);
+            single.unmatched = self.unmatched;
+            single.compare_components(both, pairs, component..component + 1, place);
+            single.worst = single.worst.take().map(|worst| name(worst, component));
+            if single.different > 0 {
+                self.components.push(single);
+            }
+        }
+    }
+
+    fn compare_components(
+        &mut self,
+        [first, other]: [&Numbers<'_>; 2],
+        pairs: &Pairs,
+        components: Range<usize>,
+        place: &dyn Fn(usize) -> Place,
+    ) {
+        let all = first.components();
         let (mut squares, mut largest) = (0.0, -1.0);
         for (index, (a, b)) in pairs.iter().enumerate() {
-            for lane in 0..lanes {
-                let pair = first.pair(a * lanes + lane, other, b * lanes + lane);
+            for (number, component) in components.clone().enumerate() {
+                let pair = first.pair(a * all + component, other, b * all + component);
                 self.values += 1;
                 if pair.first.is_finite() {
                     self.scale = self.scale.max(pair.first.abs());
@@ -173,8 +227,7 @@ impl Difference {
                 if absolute > largest {
                     largest = absolute;
                     self.largest_absolute = absolute;
-                    self.worst =
-                        Some(Worst { place: place(index), lane, first: pair.first, other: pair.other });
+                    self.worst = Some(Worst::new(place(index), number, [pair.first, pair.other]));
                 }
             }
         }
@@ -198,7 +251,7 @@ impl Differences {
                     let pairs = Pairs::Same(model.geometry().cells());
                     let place = |index| Place::Cell(model.geometry().indices(index));
                     let fields = Fields { group, precisions: [first.precision, other.precision] };
-                    differences.fields(&fields, [a, b], &pairs, 0, place);
+                    differences.fields(&fields, [a, b], &pairs, 0, &place);
                 }
                 (GroupSnapshot::Population(a, left_a), GroupSnapshot::Population(b, left_b)) => {
                     let name = group.schema().name;
@@ -206,7 +259,7 @@ impl Differences {
                     let (pairs, unmatched) = pairs::by_label(a, b);
                     let place = |index: usize| Place::Item(a.labels[pairs.first(index)]);
                     let fields = Fields { group, precisions: [first.precision, other.precision] };
-                    differences.fields(&fields, [&a.fields, &b.fields], &pairs, unmatched, place);
+                    differences.fields(&fields, [&a.fields, &b.fields], &pairs, unmatched, &place);
                     cells.push(pairs::cells(name, a, b, &pairs));
                 }
                 _ => differences.remarks.push(format!("{} is of another kind", group.schema().name)),
@@ -230,7 +283,7 @@ impl Differences {
         planes: [&Vec<Vec<u8>>; 2],
         pairs: &Pairs,
         unmatched: usize,
-        place: impl Fn(usize) -> Place,
+        place: &dyn Fn(usize) -> Place,
     ) {
         let schema = fields.group.schema();
         for (index, field) in schema.fields.iter().enumerate() {
@@ -240,7 +293,7 @@ impl Differences {
             let kind = if a.is_float() { Kind::Float } else { Kind::Whole };
             let mut difference = Difference::none(format!("{}.{}", schema.name, field.name), kind);
             difference.unmatched = unmatched;
-            difference.compare(&a, &b, pairs, &place);
+            difference.compare([&a, &b], pairs, field.value_type, place);
             self.substates.push(difference);
         }
     }
@@ -252,13 +305,12 @@ impl Differences {
             if a == b {
                 continue;
             }
-            let stored =
-                xca_core::StoredType { scalar: xca_core::StoredScalar::F64, lanes: field.value_type.lanes };
-            let bytes =
-                [a, b].map(|lanes| lanes.iter().flat_map(|lane| lane.to_ne_bytes()).collect::<Vec<u8>>());
+            let stored = ValueType { scalar: ScalarType::F64, ..field.value_type }.stored(Precision::F64);
+            let bytes = [a, b]
+                .map(|numbers| numbers.iter().flat_map(|number| number.to_ne_bytes()).collect::<Vec<u8>>());
             let [a, b] = bytes.each_ref().map(|bytes| Numbers::new(stored, bytes));
             let mut difference = Difference::none(format!("parameter {}", field.name), Kind::Float);
-            difference.compare(&a, &b, &Pairs::Same(1), |_| Place::Parameter);
+            difference.compare([&a, &b], &Pairs::Same(1), field.value_type, &|_| Place::Parameter);
             self.substates.push(difference);
         }
     }

@@ -2,7 +2,7 @@
 
 use super::CompareError;
 use super::contender::Contender;
-use super::difference::{Differences, Place, Side};
+use super::difference::{Differences, Side, Worst};
 use super::verdict::Verdict;
 use crate::program::Observable;
 use serde::Serialize;
@@ -48,8 +48,7 @@ pub(crate) struct FirstDifference {
     /// Whether this is the exact step; else the two ran alike when they were run again.
     pub(crate) is_exact: bool,
     pub(crate) substate: Option<String>,
-    pub(crate) place: Option<Place>,
-    pub(crate) values: Option<[f64; 2]>,
+    pub(crate) worst: Option<Worst>,
 }
 
 /// How far an engine is from the first one after some step.
@@ -118,13 +117,11 @@ impl Findings {
 impl FirstDifference {
     pub(crate) fn new(step: u64, is_exact: bool, differences: &Differences) -> Self {
         let gravest = differences.gravest();
-        let worst = gravest.and_then(|difference| difference.worst.as_ref());
         Self {
             step,
             is_exact,
             substate: gravest.map(|difference| difference.substate.clone()),
-            place: worst.map(|worst| worst.place),
-            values: worst.map(|worst| [worst.first, worst.other]),
+            worst: gravest.and_then(|difference| difference.worst.clone()),
         }
     }
 }

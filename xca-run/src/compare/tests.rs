@@ -258,7 +258,7 @@ fn a_bit_of_a_cell_is_found_with_its_step() {
         assert_eq!((found.step, found.is_exact), (after, true), "{after} {every}");
         assert_eq!(found.substate.as_deref(), Some("Heat.temperature"));
         // 33 = 5 + 7 * (4 + 5 * 0)
-        assert_eq!(found.place, Some(Place::Cell([5, 4, 0])));
+        assert_eq!(found.worst.as_ref().unwrap().place, Place::Cell([5, 4, 0]));
         assert_eq!(harmed.verdict, Some(Verdict::Rounding));
         assert_eq!((reference.verdict, cpu.verdict), (None, Some(Verdict::Identical)));
         assert_eq!((&cpu.first_difference, comparison.verdict), (&None, Verdict::Rounding));
@@ -276,7 +276,8 @@ fn a_whole_number_is_never_rounded() {
     assert_eq!((harmed.verdict, comparison.verdict), (Some(Verdict::Different), Verdict::Different));
     let kind = &harmed.differences.as_ref().unwrap().substates[1];
     assert_eq!((kind.kind, kind.different, kind.values), (Kind::Whole, 1, 105));
-    assert_eq!(harmed.first_difference.as_ref().unwrap().values, Some([1.0, 0.0]));
+    let worst = harmed.first_difference.as_ref().unwrap().worst.as_ref().unwrap();
+    assert_eq!([worst.first, worst.other], [1.0, 0.0]);
 }
 
 #[test]
@@ -284,7 +285,8 @@ fn a_bit_of_an_item_is_found_by_its_label() {
     let comparison = with_harm(SubstateOrFailure::Position(2), 9, 20);
     let harmed = &comparison.engines[1];
     let found = harmed.first_difference.as_ref().unwrap();
-    assert_eq!((found.step, found.place), (9, Some(Place::Item(2))));
+    let worst = found.worst.as_ref().unwrap();
+    assert_eq!((found.step, worst.place, worst.component.as_str()), (9, Place::Item(2), ".x"));
     assert_eq!(found.substate.as_deref(), Some("Grain.position"));
     let differences = &harmed.differences.as_ref().unwrap().substates;
     let names: Vec<&str> = differences.iter().map(|difference| difference.substate.as_str()).collect();

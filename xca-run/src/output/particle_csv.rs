@@ -1,8 +1,9 @@
 //! Particles as CSV: one row a particle, exact to the last bit.
 //!
 //! The header is `label` and then the names of the columns (CADEM: `label,x,y,z,vx,vy,vz`). Rows are sorted by label.
-//! Numbers have 17 significant digits (`f64`) or 9 (`f32`), in scientific notation, which is what it takes for every
-//! value to be read back as the same bits. Units are those of the model, for all of ours SI.
+//! Floats have 17 significant digits (`f64`) or 9 (`f32`), in scientific notation, so that every value is
+//! read back as the same bits. Whole numbers are written as such, `bool` as `true` and `false`, states by
+//! name. Units are those of the model.
 //!
 //! [`write()`] makes such a file, [`read()`] takes one, by hand or from a run, with errors that say the line.
 
@@ -14,6 +15,7 @@ use std::fmt::{self, Write as _};
 use std::path::Path;
 
 use super::atomic::write_atomically;
+use xca_core::ScalarType;
 
 pub use error::{ReadError, WriteParticlesError};
 pub use read::{ParticleTable, read};
@@ -28,6 +30,9 @@ pub enum Column<'a> {
     F64(&'a [f64]),
     /// Written with 9 significant digits.
     F32(&'a [f32]),
+    /// Values of this type, as numbers: whole ones written as such, `bool` as `true` and `false`, states by
+    /// name.
+    Typed(ScalarType, &'a [f64]),
 }
 
 impl Column<'_> {
@@ -35,6 +40,7 @@ impl Column<'_> {
         match self {
             Self::F64(values) => values.len(),
             Self::F32(values) => values.len(),
+            Self::Typed(_, values) => values.len(),
         }
     }
 
@@ -43,6 +49,7 @@ impl Column<'_> {
         match self {
             Self::F64(values) => write!(text, "{:.16e}", values[index]),
             Self::F32(values) => write!(text, "{:.8e}", values[index]),
+            Self::Typed(scalar, values) => text.write_str(&scalar.text(values[index])),
         }
     }
 }
@@ -135,7 +142,7 @@ mod tests {
         }
         let labels: Vec<u32> = (1..=2000).collect();
         write(&path, &labels, &[("x", Column::F64(&values))]).unwrap();
-        let table = read(&path, &["x"]).unwrap();
+        let table = read(&path, &[("x", ScalarType::F64)]).unwrap();
         assert_eq!(table.labels, labels);
         for (written, back) in values.iter().zip(&table.columns[0]) {
             assert_eq!(written.to_bits(), back.to_bits(), "{written:e}");
@@ -154,7 +161,7 @@ mod tests {
         }
         let labels: Vec<u32> = (1..=2000).collect();
         write(&path, &labels, &[("x", Column::F32(&values))]).unwrap();
-        let table = read(&path, &["x"]).unwrap();
+        let table = read(&path, &[("x", ScalarType::F64)]).unwrap();
         for (written, &back) in values.iter().zip(&table.columns[0]) {
             assert_eq!(written.to_bits(), (back as f32).to_bits(), "{written:e}");
         }
@@ -166,7 +173,7 @@ mod tests {
         let path = folder.path().join("p.csv");
         write(&path, &[], &[("x", Column::F64(&[]))]).unwrap();
         assert_eq!(fs::read_to_string(&path).unwrap(), "label,x\n");
-        assert!(read(&path, &["x"]).unwrap().labels.is_empty());
+        assert!(read(&path, &[("x", ScalarType::F64)]).unwrap().labels.is_empty());
     }
 
     #[test]

@@ -29,6 +29,7 @@
 mod averaging;
 mod block;
 mod canvas;
+mod category;
 mod colour;
 mod depth;
 mod glyphs;
@@ -49,6 +50,7 @@ use super::atomic::{WriteError, write_atomically};
 
 pub(crate) use averaging::fitted;
 pub use block::BlockPicture;
+pub use category::Category;
 pub use colour::ColourMap;
 pub(crate) use colour::encode;
 pub(crate) use depth::{DepthBuffer, Disc};

@@ -1,8 +1,10 @@
 //! Substates of cells: the frames, and what is drawn of them.
 
 use super::RecordError;
+use super::frame_field::FrameField;
 use super::seen::Seen;
 use super::values::Plane;
+use crate::components::{DrawnPart, Part};
 use crate::output::vtk::{DataArray, Grid, write_dense};
 use crate::view::AnyCellView;
 use std::path::Path;
@@ -32,38 +34,41 @@ impl<'a> Cells<'a> {
 
     /// Writes all substates.
     pub(super) fn write_frame(&self, path: &Path, time: f64) -> Result<(), RecordError> {
-        let stored = self.group.stored(self.precision);
-        let names = self.group.schema().fields.iter().map(|field| field.name);
-        let fields: Vec<(&str, Plane)> = names
-            .zip(stored.iter().zip(self.fields).map(|(stored, bytes)| Plane::all(*stored, bytes)))
+        let fields = self.group.schema().fields.iter().zip(self.fields);
+        let fields: Vec<FrameField> = fields
+            .map(|(field, bytes)| {
+                FrameField::new(field, Plane::all(field.value_type.stored(self.precision), bytes))
+            })
             .collect();
-        let arrays: Vec<DataArray<'_>> =
-            fields.iter().map(|(name, plane)| DataArray::new(name, plane.as_values())).collect();
+        let arrays: Vec<DataArray<'_>> = fields.iter().map(FrameField::array).collect();
         let grid = Grid::cubic(self.geometry.extents(), self.geometry.side());
         Ok(write_dense(path, time, &grid, &arrays)?)
     }
 
     /// What is drawn.
     pub(super) fn seen(&self) -> Seen {
-        let fields = self.group.schema().fields.iter().zip(self.fields);
-        let fields: Vec<_> =
-            fields.map(|(field, bytes)| (field.value_type.stored(self.precision), bytes)).collect();
+        let schema = self.group.schema();
         let plane = |field: usize| {
-            fields.get(field).map(|(stored, bytes)| drawn(self.view, self.geometry, *stored, bytes))
+            let stored = schema.fields.get(field)?.value_type.stored(self.precision);
+            Some(drawn(self.view, self.geometry, stored, self.fields.get(field)?))
         };
-        match plane(self.view.field()) {
-            Some(values) => seen(values, self.view.relief.and_then(|(field, _)| plane(field))),
-            None => Seen::Cells { is_float: false, values: Vec::new(), heights: None },
+        let Part { field, component } = self.view.part();
+        match (plane(field), schema.fields.get(field)) {
+            (Some(values), Some(field)) => {
+                let part = DrawnPart::of(field.value_type, component);
+                seen(&values, part, self.view.relief.and_then(|(field, _)| plane(field)))
+            }
+            _ => Seen::Cells { is_float: false, values: Vec::new(), heights: None },
         }
     }
 }
 
 /// What is seen of a substate, over the heights of the ground.
-pub(super) fn seen(values: Plane, heights: Option<Plane>) -> Seen {
+pub(super) fn seen(values: &Plane, part: DrawnPart, heights: Option<Plane>) -> Seen {
     Seen::Cells {
         is_float: values.is_float(),
-        values: values.magnitudes(),
-        heights: heights.map(|heights| heights.lane(0)),
+        values: values.drawn(part),
+        heights: heights.map(|heights| heights.component(0)),
     }
 }
 

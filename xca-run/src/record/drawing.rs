@@ -65,13 +65,14 @@ impl Recorder {
 
 impl Panel {
     /// The scale, if it does not depend on the states that are drawn.
-    fn fixed_range(&self) -> Option<[f64; 2]> {
-        match &self.shown.view {
-            AnyView::Items(_) => self.range,
-            AnyView::Cells(view) if view.kinds.is_empty() => view.range,
-            // Kinds have no scale.
-            AnyView::Cells(_) => Some([0.0; 2]),
-        }
+    fn fixed_range(&self, model: &Model) -> Option<[f64; 2]> {
+        let schema = model.groups()[self.shown.group].schema();
+        let (range, categories) = match &self.shown.view {
+            AnyView::Items(view) => (self.range, view.categories(schema)),
+            AnyView::Cells(view) => (view.range, view.categories(schema)),
+        };
+        // Kinds and states have no scale.
+        if categories.is_empty() { range } else { Some([0.0; 2]) }
     }
 
     fn is_slice(&self) -> bool {
@@ -108,13 +109,13 @@ impl Drawing<'_> {
 
     /// The scales, as far as they do not depend on the states that are drawn.
     pub(crate) fn fixed_scales(&self) -> Scales {
-        Scales(self.panels.iter().map(Panel::fixed_range).collect())
+        Scales(self.panels.iter().map(|panel| panel.fixed_range(self.model())).collect())
     }
 
     /// Widens the scales that are not fixed to what a state has.
     pub(crate) fn widen(&self, scales: &mut Scales, seen: &[Seen]) {
         for ((panel, range), seen) in self.panels.iter().zip(&mut scales.0).zip(seen) {
-            if panel.fixed_range().is_none() {
+            if panel.fixed_range(self.model()).is_none() {
                 let now = seen.range();
                 *range = range.map_or(now, |range| Some(wider(range, now)));
             }

@@ -1,4 +1,5 @@
-//! The final state of a layer of cells as ESRI ASCII grids, one for each substate.
+//! The final state of a layer of cells as ESRI ASCII grids, one for each component of each substate. `bool`
+//! and states are numbers.
 
 use super::values::Plane;
 use super::{RecordError, Recorder};
@@ -8,17 +9,15 @@ use xca_core::engine::SubstateId;
 use xca_core::model::GroupKind;
 use xca_core::{GroupSnapshot, Model, Precision, Snapshot, StoredScalar};
 
-/// One lane of a substate of cells, and the file that it is written to.
-struct Lane {
+/// One component of a substate of cells, and the file that it is written to.
+struct Component {
     file: String,
     substate: SubstateId,
-    lane: usize,
+    component: usize,
 }
 
-const LANES: [&str; 4] = ["_x", "_y", "_z", "_w"];
-
 /// What the final grids of a model are; none of one with several layers.
-fn lanes(model: &Model) -> Vec<Lane> {
+fn components(model: &Model) -> Vec<Component> {
     let of_cells = |kind: &GroupKind| matches!(kind, GroupKind::Cells { .. });
     let groups = || model.groups().iter().enumerate().filter(|(_, group)| of_cells(group.kind()));
     let fields = || groups().flat_map(|(_, group)| group.schema().fields);
@@ -30,11 +29,10 @@ fn lanes(model: &Model) -> Vec<Lane> {
         for (index, field) in of.schema().fields.iter().enumerate() {
             let is_single = fields().filter(|other| other.name == field.name).count() == 1;
             let of = if is_single { String::new() } else { format!("{}_", of.schema().name.to_lowercase()) };
-            let lanes = usize::from(field.value_type.lanes);
-            for (lane, letter) in LANES.into_iter().take(lanes).enumerate() {
-                let letter = if lanes > 1 { letter } else { "" };
-                let file = format!("final_{of}{}{letter}.asc", field.name);
-                all.push(Lane { file, substate: SubstateId { group, field: index }, lane });
+            for (component, name) in field.value_type.component_names().into_iter().enumerate() {
+                let gap = if name.is_empty() { "" } else { "_" };
+                let file = format!("final_{of}{}{gap}{name}.asc", field.name);
+                all.push(Component { file, substate: SubstateId { group, field: index }, component });
             }
         }
     }
@@ -44,8 +42,8 @@ fn lanes(model: &Model) -> Vec<Lane> {
 impl Recorder {
     /// The files of the final grids, if they are wanted.
     pub(super) fn grid_files(&self) -> Vec<String> {
-        let wanted = self.set_up.grids.then(|| lanes(self.model()));
-        wanted.into_iter().flatten().map(|lane| lane.file).collect()
+        let wanted = self.set_up.grids.then(|| components(self.model()));
+        wanted.into_iter().flatten().map(|component| component.file).collect()
     }
 
     /// Writes the grids, if they are wanted.
@@ -60,10 +58,10 @@ impl Recorder {
         }
         let model = self.model();
         let [columns, rows, _] = model.geometry().extents();
-        for Lane { file, substate, lane } in lanes(model) {
+        for Component { file, substate, component } in components(model) {
             let GroupSnapshot::Cells(fields) = &snapshot.groups[substate.group] else { continue };
             let stored = model.stored(substate, precision);
-            let mut values = Plane::all(stored, &fields[substate.field]).lane(lane);
+            let mut values = Plane::all(stored, &fields[substate.field]).component(component);
             if stored.scalar == StoredScalar::F32 {
                 values.iter_mut().for_each(|value| *value = with_digits_of_f32(*value));
             }

@@ -1,15 +1,17 @@
 //! Items: the table of the final state, the frames, and what is drawn of them.
 
 use super::RecordError;
+use super::frame_field::FrameField;
 use super::seen::Seen;
 use super::values::Plane;
+use crate::components::DrawnPart;
 use crate::output::particle_csv::{self, Column};
 use crate::output::vtk::{DataArray, write_particles};
-use crate::view::AnyItemView;
+use crate::view::{AnyItemView, Drawn, TableColumn};
 use std::path::Path;
 use xca_core::engine::Population;
 use xca_core::model::Group;
-use xca_core::{Geometry, Precision, StoredType};
+use xca_core::{Geometry, Precision, ScalarType, StoredType};
 
 /// The items of one state that a view shows, by label.
 pub(super) struct Items<'a> {
@@ -34,7 +36,7 @@ impl<'a> Items<'a> {
         let stored = group.stored(precision);
         let mut which: Vec<usize> = (0..population.labels.len()).collect();
         if let Some((field, value)) = view.only {
-            let values = Plane::all(stored[field], &population.fields[field]).lane(0);
+            let values = Plane::all(stored[field], &population.fields[field]).component(0);
             which.retain(|&place| values[place] == value);
         }
         which.sort_unstable_by_key(|&place| population.labels[place]);
@@ -59,29 +61,27 @@ impl<'a> Items<'a> {
         Plane::points(self.which.iter().map(centre).collect())
     }
 
-    /// Header, number of the substate and lane of each column of the table.
-    fn columns(&self) -> Vec<(String, usize, usize)> {
+    /// The columns of the table.
+    fn columns(&self) -> Vec<TableColumn> {
         if !self.view.columns.is_empty() {
             return self.view.columns.clone();
         }
-        let schema = self.group.schema();
-        let mut columns = Vec::new();
-        for field in 0..schema.fields.len() {
-            let headers = schema.columns(field).into_iter().enumerate();
-            columns.extend(headers.map(|(lane, header)| (header, field, lane)));
-        }
-        columns
+        TableColumn::all(self.group.schema())
     }
 
     /// Writes all columns of all items, by label.
     pub(super) fn write_table(&self, path: &Path) -> Result<(), RecordError> {
-        let columns: Vec<(String, Vec<f64>)> = self
-            .columns()
-            .into_iter()
-            .map(|(header, field, lane)| (header, self.plane(field).lane(lane)))
+        let fields = self.group.schema().fields;
+        let columns = self.columns();
+        let values: Vec<(&str, ScalarType, Vec<f64>)> = columns
+            .iter()
+            .map(|TableColumn { header, field, component }| {
+                let scalar = fields[*field].value_type.scalar;
+                (header.as_str(), scalar, self.plane(*field).component(*component))
+            })
             .collect();
         let columns: Vec<(&str, Column<'_>)> =
-            columns.iter().map(|(header, values)| (header.as_str(), Column::F64(values))).collect();
+            values.iter().map(|(header, scalar, values)| (*header, column(*scalar, values))).collect();
         Ok(particle_csv::write(path, &self.labels, &columns)?)
     }
 
@@ -89,21 +89,34 @@ impl<'a> Items<'a> {
     pub(super) fn write_frame(&self, path: &Path, time: f64) -> Result<(), RecordError> {
         let schema = self.group.schema();
         let columns = self.columns();
-        let fields: Vec<(&str, Plane)> = (0..schema.fields.len())
+        let fields: Vec<FrameField> = (0..schema.fields.len())
             .filter(|field| {
-                schema.position != Some(*field) && columns.iter().any(|(_, shown, _)| shown == field)
+                schema.position != Some(*field) && columns.iter().any(|column| column.field == *field)
             })
-            .map(|field| (schema.fields[field].name, self.plane(field)))
+            .map(|field| FrameField::new(&schema.fields[field], self.plane(field)))
             .collect();
         let mut arrays = vec![DataArray::new("label", self.labels.as_slice())];
-        arrays.extend(fields.iter().map(|(name, plane)| DataArray::new(name, plane.as_values())));
+        arrays.extend(fields.iter().map(FrameField::array));
         Ok(write_particles(path, time, self.positions().as_values(), &arrays)?)
     }
 
     /// Where they are, and what colours them.
     pub(super) fn seen(&self) -> Seen {
-        let colour = self.view.colour(self.group.schema());
-        let values = colour.map(|(field, _)| self.plane(field).magnitudes()).unwrap_or_default();
+        let schema = self.group.schema();
+        let colour = self.view.colour(schema);
+        let values = colour.map(|Drawn { part, .. }| {
+            let drawn = DrawnPart::of(schema.fields[part.field].value_type, part.component);
+            self.plane(part.field).drawn(drawn)
+        });
+        let values = values.unwrap_or_default();
         Seen::Items { positions: self.positions().to_points(), values }
+    }
+}
+
+/// Floating numbers keep all their bits, whatever the precision of the run; bool and states have names.
+fn column(scalar: ScalarType, values: &[f64]) -> Column<'_> {
+    match scalar {
+        ScalarType::F32 | ScalarType::F64 | ScalarType::Real => Column::F64(values),
+        scalar => Column::Typed(scalar, values),
     }
 }

@@ -3,7 +3,8 @@
 use super::Recorder;
 use super::drawing::Panel;
 use super::shown::Shown;
-use crate::view::AnyView;
+use crate::components::{DrawnPart, Part, suffixes};
+use crate::view::{AnyView, Drawn};
 use clap::ValueEnum;
 
 /// How a state is drawn.
@@ -74,15 +75,15 @@ impl Recorder {
         }
         match &mut shown.view {
             AnyView::Items(view) => {
-                if let Some((field, name)) = field.filter(|field| !is_named(view.colour.as_ref(), field)) {
-                    view.colour = Some((field, name));
+                if let Some(drawn) = field.filter(|drawn| !is_drawn(view.colour.as_ref(), drawn)) {
+                    view.colour = Some(drawn);
                 }
             }
             AnyView::Cells(view) => {
                 view.block = wanted == ViewKind::Isometric;
-                if let Some((field, name)) = field.filter(|field| !is_named(view.drawn.as_ref(), field)) {
+                if let Some(drawn) = field.filter(|drawn| !is_drawn(view.drawn.as_ref(), drawn)) {
                     // The scale and the kinds are those of another substate.
-                    (view.drawn, view.range, view.map) = (Some((field, name)), None, None);
+                    (view.drawn, view.range, view.map) = (Some(drawn), None, None);
                     view.relief = None;
                     view.kinds.clear();
                 }
@@ -105,8 +106,8 @@ impl Recorder {
         Ok(Panel { shown, range: look.range })
     }
 
-    /// The view that shows what is wanted, and the number and the name of its substate where one is named.
-    fn chosen(&self, look: &Look) -> Result<(&Shown, Option<Named>), LookError> {
+    /// The view that shows what is wanted, and the substate or component that is named.
+    fn chosen(&self, look: &Look) -> Result<(&Shown, Option<Drawn>), LookError> {
         let Some(name) = &look.substate else {
             let of_items = look.view.map(|view| view == ViewKind::Spheres);
             let found =
@@ -114,26 +115,27 @@ impl Recorder {
             let what = if of_items == Some(true) { "items" } else { "cells" };
             return found.map(|shown| (shown, None)).ok_or(LookError::Nothing(what));
         };
-        let fields = |shown: &Shown| {
-            let schema = self.model().groups()[shown.group].schema();
-            schema.fields.iter().map(|field| field.name).collect::<Vec<_>>()
-        };
+        let fields = |shown: &Shown| self.model().groups()[shown.group].schema().fields;
         for shown in &self.shown {
-            if let Some(field) = fields(shown).iter().position(|field| field == name) {
-                return Ok((shown, Some((field, name.clone()))));
+            if let Some(part) = Part::named(fields(shown), name) {
+                let field = &fields(shown)[part.field];
+                let label = DrawnPart::of(field.value_type, part.component).label(field);
+                return Ok((shown, Some(Drawn { part, label })));
             }
         }
-        let known: Vec<&str> = self.shown.iter().flat_map(fields).collect();
-        Err(LookError::NoSubstate { name: name.clone(), known: known.join(", ") })
+        let known =
+            self.shown.iter().flat_map(fields).map(|field| match suffixes(field.value_type).as_slice() {
+                [first, .., last] => format!("{} ({first} to {last})", field.name),
+                _ => field.name.to_owned(),
+            });
+        let known = known.collect::<Vec<_>>().join(", ");
+        Err(LookError::NoSubstate { name: name.clone(), known })
     }
 }
 
-/// The number of a substate, and what it is called.
-type Named = (usize, String);
-
-/// Whether a view shows this substate already, and has words for it.
-fn is_named(shown: Option<&Named>, (field, _): &Named) -> bool {
-    shown.is_some_and(|(shown, _)| shown == field)
+/// Whether a view shows this already, and has words for it.
+fn is_drawn(shown: Option<&Drawn>, wanted: &Drawn) -> bool {
+    shown.is_some_and(|shown| shown.part == wanted.part)
 }
 
 impl ViewKind {

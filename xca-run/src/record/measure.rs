@@ -1,13 +1,15 @@
 //! What is observed of a model that does not say it.
 
+use crate::components::state_names;
 use crate::program::Observable;
 use xca_core::engine::Population;
 use xca_core::model::{Group, GroupKind};
 use xca_core::reduction::{Reduction, reduce_values};
-use xca_core::{GroupSnapshot, Model, Precision, Snapshot};
+use xca_core::{GroupSnapshot, Model, Precision, ScalarType, Snapshot};
 
-/// The least, mean and largest value of each floating substate, the sum, least and largest of each whole-numbered one, the mean of each lane of
-/// a vector; and of a population, how many items it has and how many the fullest cell holds.
+/// Of each substate: minimum, mean and maximum of floats; minimum, sum and maximum of whole numbers; the mean
+/// of each component of a vector or an array of numbers; how many are true; how many are in each state. Of a
+/// population: the number of items, and the number in the fullest cell.
 pub(super) fn measure(model: &Model, precision: Precision, snapshot: &Snapshot) -> Vec<Observable> {
     let mut observables = Vec::new();
     for (group, state) in model.groups().iter().zip(&snapshot.groups) {
@@ -56,11 +58,23 @@ fn of_field(
         results.into_iter().map(|result| result.number().unwrap_or(of_nothing)).collect()
     };
     let name = |what: &str| format!("{prefix}{}_{what}", definition.name);
+    let component_names = definition.value_type.component_names();
+    if let scalar @ (ScalarType::Bool | ScalarType::State(_)) = definition.value_type.scalar {
+        let component = |(index, component): (usize, String)| {
+            let gap = if component.is_empty() { "" } else { "_" };
+            let values = bytes.iter().skip(index).step_by(stored.components());
+            let counted = counts(scalar, values).into_iter();
+            counted
+                .map(|(state, count)| Observable::number(name(&format!("{component}{gap}{state}")), count))
+                .collect::<Vec<_>>()
+        };
+        return component_names.into_iter().enumerate().flat_map(component).collect();
+    }
     let sum = reduced(Reduction::Sum, 0.0);
-    if sum.len() > 1 {
-        let lanes = ["x", "y", "z", "w"].into_iter().zip(sum);
-        return lanes
-            .map(|(lane, sum)| Observable::number(name(&format!("{lane}_mean")), sum / count))
+    if !component_names[0].is_empty() {
+        let components = component_names.into_iter().zip(sum);
+        return components
+            .map(|(component, sum)| Observable::number(name(&format!("{component}_mean")), sum / count))
             .collect();
     }
     let is_float = matches!(stored.scalar, xca_core::StoredScalar::F32 | xca_core::StoredScalar::F64);
@@ -70,4 +84,17 @@ fn of_field(
         Observable::number(name(middle), value),
         Observable::number(name("max"), reduced(Reduction::Maximum, f64::NAN)[0]),
     ]
+}
+
+/// How many values are true, or how many there are of each state.
+fn counts<'a>(scalar: ScalarType, values: impl Iterator<Item = &'a u8>) -> Vec<(String, f64)> {
+    let states = state_names(scalar);
+    let mut counts = vec![0_u64; states.len()];
+    for value in values {
+        if let Some(count) = counts.get_mut(usize::from(*value)) {
+            *count += 1;
+        }
+    }
+    let named = states.into_iter().zip(counts.into_iter().map(|count| count as f64));
+    named.skip(usize::from(scalar == ScalarType::Bool)).collect()
 }

@@ -3,11 +3,12 @@
 use super::seen::{Seen, wider};
 use super::shown::Shown;
 use crate::output::picture::{
-    BlockPicture, ColourMap, Domain, ParticlePicture, Picture, PictureError, Relief, Scalar, SlicePicture,
+    BlockPicture, Category, ColourMap, Domain, ParticlePicture, Picture, PictureError, Relief, Scalar,
+    SlicePicture,
 };
-use crate::view::{AnyCellView, AnyItemView, AnyView};
+use crate::view::{AnyCellView, AnyItemView, AnyView, Drawn};
 use xca_core::model::Group;
-use xca_core::{Geometry, Model};
+use xca_core::{Geometry, Model, Schema};
 
 /// The texts above a picture, its scale and its size.
 #[derive(Clone, Copy)]
@@ -23,6 +24,7 @@ pub(super) struct Frame<'a> {
 /// A substate of cells that is painted.
 pub(super) struct Field<'a> {
     pub(super) view: &'a AnyCellView,
+    pub(super) schema: &'a Schema,
     pub(super) geometry: &'a Geometry,
     pub(super) label: &'a str,
     pub(super) is_float: bool,
@@ -64,9 +66,11 @@ impl Shown {
                 Some(spheres(view, group, geometry, (positions, values), Frame { range, ..frame })?)
             }
             (AnyView::Cells(view), Seen::Cells { is_float, values, heights }) => {
-                let label = view.label(group.schema());
+                let schema = group.schema();
+                let label = view.label(schema);
                 let heights = heights.as_deref();
-                let field = Field { view, geometry, label, is_float: *is_float, values, heights };
+                let field =
+                    Field { view, schema, geometry, label: &label, is_float: *is_float, values, heights };
                 let range = seen.range();
                 Some(if view.block { field.block(frame, range)? } else { field.slice(frame, range)? })
             }
@@ -88,8 +92,11 @@ fn spheres(
     let colour = view.colour(group.schema());
     let radius = view.radius.unwrap_or(side / 4.0);
     let mut picture = ParticlePicture::new(positions, radius, Domain { lower: [0.0; 3], upper });
-    picture.colour =
-        colour.as_ref().map(|(_, label)| Scalar { range: frame.range, ..Scalar::new(label, values) });
+    picture.colour = colour
+        .as_ref()
+        .map(|Drawn { label, .. }| Scalar { range: frame.range, ..Scalar::new(label, values) });
+    let categories = view.categories(group.schema());
+    picture.categories = &categories;
     picture.size = frame.size.unwrap_or(picture.size);
     (picture.title, picture.caption) = (frame.title, frame.caption);
     picture.render()
@@ -146,15 +153,16 @@ impl Field<'_> {
         scalar
     }
 
-    /// The values that are kinds rather than magnitudes, with their names.
-    pub(super) fn kinds(&self, range: Option<[f64; 2]>) -> Vec<(f64, &str)> {
+    /// The values that are kinds or states rather than magnitudes, with their names.
+    pub(super) fn kinds(&self, range: Option<[f64; 2]>) -> Vec<Category> {
         let view = self.view;
-        let is_plain = view.kinds.is_empty() && view.map.is_none() && view.range.is_none();
+        let categories = view.categories(self.schema);
+        let is_plain = categories.is_empty() && view.map.is_none() && view.range.is_none();
         let mut all = self.values.iter().copied().chain(range.into_iter().flatten());
         // Cells that are 0 or 1 need no scale.
         if is_plain && !self.is_float && all.all(|value| [0.0, 1.0].contains(&value)) {
-            return vec![(0.0, "0"), (1.0, "1")];
+            return vec![Category::new(0, 0.0, "0"), Category::new(1, 1.0, "1")];
         }
-        view.kinds.iter().map(|(value, name)| (*value, name.as_str())).collect()
+        categories
     }
 }

@@ -5,8 +5,9 @@ use super::cells;
 use super::seen::Seen;
 use super::shown::Shown;
 use super::values::{Plane, stored_of};
+use crate::components::{DrawnPart, Part, state_names};
 use crate::output::vtk::{ReadArray, ReadVtkError, read_dense, read_particles};
-use crate::view::{AnyCellView, AnyItemView, AnyView};
+use crate::view::{AnyCellView, AnyItemView, AnyView, Drawn};
 use std::path::{Path, PathBuf};
 use xca_core::model::Group;
 use xca_core::{Geometry, GroupSnapshot, Model, Precision, Snapshot};
@@ -73,18 +74,26 @@ fn of_cells(view: &AnyCellView, group: &Group, geometry: &Geometry, path: &Path)
         Ok(cells::drawn(view, geometry, stored_of(array), &array.bytes))
     };
     let heights = view.relief.map(|(field, _)| plane(field)).transpose()?;
-    Ok(cells::seen(plane(view.field())?, heights))
+    let Part { field, component } = view.part();
+    let part = DrawnPart::of(group.schema().fields[field].value_type, component);
+    Ok(cells::seen(&plane(field)?, part, heights))
 }
 
 fn items(view: &AnyItemView, group: &Group, path: &Path) -> Result<Seen, SavedError> {
     let file = read_particles(path)?;
     let arrays = Arrays { path, view: &view.name, group, arrays: &file.arrays };
-    let plane = Plane::of_array;
-    let positions = plane(&file.positions);
-    let values = match view.colour(group.schema()) {
+    let schema = group.schema();
+    let positions = Plane::of_array(&file.positions);
+    let values = match view.colour(schema) {
         None => Vec::new(),
-        Some((field, _)) if group.schema().position == Some(field) => positions.magnitudes(),
-        Some((field, _)) => plane(arrays.of_field(field)?).magnitudes(),
+        Some(Drawn { part: Part { field, component }, .. }) => {
+            let drawn = DrawnPart::of(schema.fields[field].value_type, component);
+            if schema.position == Some(field) {
+                positions.drawn(drawn)
+            } else {
+                Plane::of_array(arrays.of_field(field)?).drawn(drawn)
+            }
+        }
     };
     Ok(Seen::Items { positions: positions.to_points(), values })
 }
@@ -110,11 +119,20 @@ impl<'a> Arrays<'a> {
                 view: self.view.to_owned(),
             }
         })?;
-        let lanes = usize::from(definition.value_type.lanes);
-        if array.components != lanes {
-            let what = format!("`{}` has {} lanes, not {lanes}", array.name, array.components);
+        let components = definition.value_type.components();
+        if array.components != components {
+            let what = format!("`{}` has {} components, not {components}", array.name, array.components);
+            return Err(SavedError::OtherShape { path: self.path.to_owned(), what });
+        }
+        let (states, found) = (state_names(definition.value_type.scalar), &array.states);
+        if *found != states {
+            let what = format!("`{}` has the states {}, not {}", array.name, listed(found), listed(&states));
             return Err(SavedError::OtherShape { path: self.path.to_owned(), what });
         }
         Ok(array)
     }
+}
+
+fn listed(states: &[String]) -> String {
+    if states.is_empty() { "of numbers".to_owned() } else { states.join(", ") }
 }

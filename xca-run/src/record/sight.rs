@@ -5,8 +5,9 @@ use super::look::{Look, LookError};
 use super::painting::Field;
 use super::seen::{Seen, wider};
 use super::{Recorder, Shown};
-use crate::output::picture::{ColourMap, Scalar};
-use crate::view::AnyView;
+use crate::components::{Part, name_of};
+use crate::output::picture::{Category, ColourMap, Scalar};
+use crate::view::{AnyView, Drawn};
 use xca_core::{Model, Precision, Snapshot};
 
 /// What is seen of one state.
@@ -19,8 +20,8 @@ pub(crate) struct Sight {
     pub(crate) substate: String,
     pub(crate) label: String,
     pub(crate) map: ColourMap,
-    /// If not empty, the values are no magnitudes but these kinds, each with its name.
-    pub(crate) kinds: Vec<(f64, String)>,
+    /// If not empty, the values are no magnitudes but these kinds or states.
+    pub(crate) kinds: Vec<Category>,
     /// The ends of the scale; of states so far unless they are fixed. None where no value is finite.
     pub(crate) range: Option<[f64; 2]>,
 }
@@ -83,21 +84,23 @@ impl Panel {
     ) -> Option<Sight> {
         let (group, geometry) = (&model.groups()[self.shown.group], model.geometry());
         let schema = group.schema();
-        let name = |field: usize| schema.fields.get(field).map_or("", |field| field.name).to_owned();
+        let name = |Part { field, component }: Part| {
+            schema.fields.get(field).map_or_else(String::new, |field| name_of(field, component))
+        };
         let seen = self.shown.seen(model, precision, snapshot)?;
         let present = seen.range();
         let range = earlier.map_or(present, |earlier| Some(wider(earlier, present)));
         match (&self.shown.view, seen) {
             (AnyView::Cells(view), Seen::Cells { is_float, values, .. }) => {
                 let label = view.label(schema);
-                let field = Field { view, geometry, label, is_float, values: &values, heights: None };
+                let field =
+                    Field { view, schema, geometry, label: &label, is_float, values: &values, heights: None };
                 let Scalar { map, range, .. } = field.scalar(range, None);
-                let kinds = field.kinds(earlier).into_iter();
-                let kinds = kinds.map(|(value, name)| (value, name.to_owned())).collect();
+                let kinds = field.kinds(earlier);
                 let ([across, down], layers) = field.plane();
                 let (axis, layer) = (view.axis, view.drawn_layer(geometry));
                 let subject = Subject::Layer { cells: [across, down], axis, layer, layers };
-                let (substate, label) = (name(view.field()), label.to_owned());
+                let substate = name(view.part());
                 Some(Sight { subject, values, substate, label, map, kinds, range })
             }
             (AnyView::Items(view), Seen::Items { positions, values }) => {
@@ -110,9 +113,10 @@ impl Panel {
                     radius: view.radius.unwrap_or(side / 4.0) / side,
                     extents: geometry.extents(),
                 };
-                let (field, label) = colour.unwrap_or((usize::MAX, String::new()));
+                let (substate, label) =
+                    colour.map(|Drawn { part, label }| (name(part), label)).unwrap_or_default();
                 let (map, range) = (ColourMap::default(), self.range.or(range));
-                Some(Sight { subject, values, substate: name(field), label, map, kinds: Vec::new(), range })
+                Some(Sight { subject, values, substate, label, map, kinds: view.categories(schema), range })
             }
             _ => None,
         }

@@ -1,9 +1,10 @@
 //! Stored bytes as numbers.
 
+use crate::components::DrawnPart;
 use crate::output::vtk::{NumberType, ReadArray, Values};
 use xca_core::{StoredScalar, StoredType};
 
-/// The type of the numbers of an array; of a substate there are 4 lanes at most.
+/// The type of the numbers of an array. How its components belong together only the model knows.
 pub(super) fn stored_of(array: &ReadArray) -> StoredType {
     let scalar = match array.numbers {
         NumberType::U8 => StoredScalar::U8,
@@ -12,14 +13,14 @@ pub(super) fn stored_of(array: &ReadArray) -> StoredType {
         NumberType::F32 => StoredScalar::F32,
         NumberType::F64 => StoredScalar::F64,
     };
-    StoredType { scalar, lanes: array.components as u8 }
+    StoredType { scalar, lanes: 1, length: u32::try_from(array.components).unwrap_or(u32::MAX) }
 }
 
 /// The values of a substate of cells or items.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Plane {
     numbers: Numbers,
-    lanes: usize,
+    components: usize,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -63,12 +64,12 @@ impl Plane {
             StoredScalar::F32 => Numbers::F32(decoded(bytes, f32::from_ne_bytes)),
             StoredScalar::F64 => Numbers::F64(decoded(bytes, f64::from_ne_bytes)),
         };
-        Self { numbers, lanes: usize::from(stored.lanes) }
+        Self { numbers, components: stored.components() }
     }
 
     /// Points.
     pub(crate) fn points(points: Vec<[f64; 3]>) -> Self {
-        Self { numbers: Numbers::F64(points.into_flattened()), lanes: 3 }
+        Self { numbers: Numbers::F64(points.into_flattened()), components: 3 }
     }
 
     /// For a VTK file.
@@ -80,7 +81,7 @@ impl Plane {
             Numbers::F32(numbers) => Values::from(numbers.as_slice()),
             Numbers::F64(numbers) => Values::from(numbers.as_slice()),
         };
-        Values::interleaved(self.lanes, values)
+        Values::interleaved(self.components, values)
     }
 
     fn number(&self, place: usize) -> f64 {
@@ -105,12 +106,12 @@ impl Plane {
 
     /// How many values there are.
     pub(crate) fn len(&self) -> usize {
-        self.places() / self.lanes
+        self.places() / self.components
     }
 
     /// How many numbers a value has.
-    pub(crate) fn lanes(&self) -> usize {
-        self.lanes
+    pub(crate) fn components(&self) -> usize {
+        self.components
     }
 
     /// Whether the numbers are floating.
@@ -118,28 +119,39 @@ impl Plane {
         matches!(self.numbers, Numbers::F32(_) | Numbers::F64(_))
     }
 
-    /// One lane of each value; each of these types fits into `f64`.
-    pub(crate) fn lane(&self, lane: usize) -> Vec<f64> {
-        (0..self.len()).map(|index| self.number(index * self.lanes + lane)).collect()
+    /// One component of each value; each of these types fits into `f64`.
+    pub(crate) fn component(&self, component: usize) -> Vec<f64> {
+        (0..self.len()).map(|index| self.number(index * self.components + component)).collect()
     }
 
-    /// Each value as one number: scalars as they are, vectors by their length.
-    pub(crate) fn magnitudes(&self) -> Vec<f64> {
-        if self.lanes == 1 {
-            return self.lane(0);
+    /// All components of the value with this number.
+    pub(crate) fn value(&self, index: usize) -> Vec<f64> {
+        (0..self.components).map(|component| self.number(index * self.components + component)).collect()
+    }
+
+    /// Each value as the one number that is drawn of it.
+    pub(crate) fn drawn(&self, part: DrawnPart) -> Vec<f64> {
+        let number = |index: usize, component: usize| self.number(index * self.components + component);
+        let sum = |index: usize, lanes: usize, lane: usize| {
+            (lane..self.components).step_by(lanes).map(|component| number(index, component)).sum::<f64>()
+        };
+        match part {
+            DrawnPart::Component(component) => self.component(component),
+            DrawnPart::Sum => (0..self.len()).map(|index| sum(index, 1, 0)).collect(),
+            DrawnPart::Length { lanes } => {
+                let length = |index| {
+                    let lanes = (0..lanes).map(|lane| sum(index, lanes, lane));
+                    lanes.map(|lane| lane * lane).sum::<f64>().sqrt()
+                };
+                (0..self.len()).map(length).collect()
+            }
         }
-        (0..self.len())
-            .map(|index| {
-                let lanes = (0..self.lanes).map(|lane| self.number(index * self.lanes + lane));
-                lanes.map(|lane| lane * lane).sum::<f64>().sqrt()
-            })
-            .collect()
     }
 
-    /// Values of three lanes as points.
+    /// Values of three components as points.
     pub(crate) fn to_points(&self) -> Vec<[f64; 3]> {
         (0..self.len())
-            .map(|index| std::array::from_fn(|lane| self.number(index * self.lanes + lane)))
+            .map(|index| std::array::from_fn(|lane| self.number(index * self.components + lane)))
             .collect()
     }
 }
@@ -148,7 +160,7 @@ impl Plane {
 mod tests {
     use super::*;
 
-    const VECTOR: StoredType = StoredType { scalar: StoredScalar::F32, lanes: 2 };
+    const VECTOR: StoredType = StoredType { scalar: StoredScalar::F32, lanes: 2, length: 1 };
 
     #[test]
     fn bytes_become_numbers() {
@@ -156,19 +168,29 @@ mod tests {
             [3.0_f32, -4.0, 0.5, 0.0, 1.0, 1.0].iter().flat_map(|x| x.to_ne_bytes()).collect();
         let plane = Plane::all(VECTOR, &bytes);
         assert_eq!((plane.len(), plane.is_float()), (3, true));
-        assert_eq!(plane.lane(1), [-4.0, 0.0, 1.0]);
-        assert_eq!(plane.magnitudes()[..2], [5.0, 0.5]);
+        assert_eq!(plane.component(1), [-4.0, 0.0, 1.0]);
+        assert_eq!(plane.drawn(DrawnPart::Length { lanes: 2 })[..2], [5.0, 0.5]);
+        assert_eq!(plane.drawn(DrawnPart::Sum), [-1.0, 0.5, 2.0]);
         let chosen = Plane::chosen(VECTOR, &bytes, &[2, 0]);
-        assert_eq!(chosen.lane(0), [1.0, 3.0]);
+        assert_eq!(chosen.component(0), [1.0, 3.0]);
         assert_eq!((chosen.as_values().len(), chosen.as_values().components()), (2, 2));
     }
 
     #[test]
     fn whole_numbers_stay_what_they_are() {
-        let stored = StoredType { scalar: StoredScalar::U8, lanes: 1 };
+        let stored = StoredType { scalar: StoredScalar::U8, lanes: 1, length: 1 };
         let plane = Plane::chosen(stored, &[7, 8, 9], &[1, 2]);
         assert!(!plane.is_float());
-        assert_eq!(plane.magnitudes(), [8.0, 9.0]);
-        assert!(Plane::all(stored, &[]).lane(0).is_empty());
+        assert_eq!(plane.drawn(DrawnPart::Component(0)), [8.0, 9.0]);
+        assert!(Plane::all(stored, &[]).component(0).is_empty());
+    }
+
+    #[test]
+    fn an_array_of_vectors_is_as_long_as_their_sum() {
+        let stored = StoredType { scalar: StoredScalar::I32, lanes: 2, length: 3 };
+        let bytes: Vec<u8> = [1, 5, 1, -2, 1, 1].iter().flat_map(|x: &i32| x.to_ne_bytes()).collect();
+        let plane = Plane::all(stored, &bytes);
+        assert_eq!(plane.drawn(DrawnPart::Length { lanes: 2 }), [5.0]);
+        assert_eq!(plane.drawn(DrawnPart::Component(3)), [-2.0]);
     }
 }

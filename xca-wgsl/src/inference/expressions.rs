@@ -297,7 +297,7 @@ pub(crate) fn constant(name: &str, value: &Constant) -> Result<Type, Problem> {
     let unsupported = |reason: &str| Problem::unsupported(format!("the constant `{name}`"), reason);
     Ok(match value {
         Constant::Bool(_) => Type::Bool,
-        Constant::U8(_) => Type::Scalar(ScalarType::U8),
+        Constant::U8(_) | Constant::State(..) => Type::Scalar(ScalarType::U8),
         Constant::I32(_) => Type::Scalar(ScalarType::I32),
         Constant::U32(_) => Type::Scalar(ScalarType::U32),
         Constant::F32(_) => Type::Scalar(ScalarType::F32),

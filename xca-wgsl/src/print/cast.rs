@@ -83,6 +83,10 @@ fn from_integer(text: &Text, from: ScalarType, to: ScalarType) -> Text {
         ScalarType::U32 => as_u32(),
         ScalarType::I32 if from == ScalarType::I32 => text.clone(),
         ScalarType::I32 => call("i32", text),
-        ScalarType::F32 | ScalarType::F64 | ScalarType::Real => call(types::scalar_name(to), text),
+        ScalarType::F32
+        | ScalarType::F64
+        | ScalarType::Real
+        | ScalarType::Bool
+        | ScalarType::State(_) => call(types::scalar_name(to), text),
     }
 }

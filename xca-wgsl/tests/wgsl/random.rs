@@ -88,7 +88,7 @@ impl Source {
                 Expression::Splat(boxed(self.literal(&Type::Scalar(*scalar))), *lanes)
             }
             Type::Array(element, length) => Expression::Repeat(boxed(self.literal(element)), *length),
-            Type::Destination => Expression::Builtin(Builtin::Stay, Vec::new()),
+            Type::State(_) | Type::Destination => Expression::Builtin(Builtin::Stay, Vec::new()),
         }
     }
 

@@ -1,6 +1,6 @@
 //! The last state that a run has saved as frames, where there is no checkpoint to look into.
 
-use super::state::{NamedValue, Place, Statistics, linear};
+use super::state::{Described, NamedValue, Place, Statistics, linear};
 use super::{Inside, InspectArguments, Unable};
 use crate::numbers::Exact;
 use crate::output::particle_csv::LABEL;
@@ -97,20 +97,24 @@ fn statistics(view: &str, array: &ReadArray) -> Vec<Statistics> {
         NumberType::F32 => "f32",
         NumberType::F64 => "f64",
     };
-    let value_type = if array.components > 1 {
-        format!("Vector{}<{scalar}>", array.components)
-    } else {
-        scalar.to_owned()
+    let value_type = match (array.components, array.component_names.first()) {
+        (1, _) => scalar.to_owned(),
+        (components, Some(first)) if first.starts_with('[') => format!("[{scalar}; {components}]"),
+        (components, _) => format!("Vector{components}<{scalar}>"),
     };
-    Statistics::of_plane(&format!("{view}.{}", array.name), &value_type, &Plane::of_array(array))
+    let described = Described {
+        name: format!("{view}.{}", array.name),
+        value_type: &value_type,
+        components: &array.component_names,
+        states: &array.states,
+    };
+    described.statistics(&Plane::of_array(array))
 }
 
 /// The values of the item or the cell with this number.
 fn values(arrays: &[ReadArray], index: usize) -> Vec<NamedValue> {
     let value = |array: &ReadArray| {
-        let plane = Plane::of_array(array);
-        let lanes = (0..array.components).map(|lane| Exact(plane.lane(lane)[index]));
-        NamedValue { name: array.name.clone(), lanes: lanes.collect() }
+        NamedValue::new(array.name.clone(), &array.states, &Plane::of_array(array), index)
     };
     arrays.iter().map(value).collect()
 }
@@ -122,7 +126,7 @@ fn of_cell(view: &str, file: &DenseFile, cell: [usize; 3]) -> Result<Place, Stri
 }
 
 fn of_item(view: &str, arrays: &[ReadArray], label: u32) -> Option<Place> {
-    let labels = Plane::of_array(arrays.iter().find(|array| array.name == LABEL)?).lane(0);
+    let labels = Plane::of_array(arrays.iter().find(|array| array.name == LABEL)?).component(0);
     let index = labels.iter().position(|other| *other == f64::from(label))?;
     Some(Place { of: view.to_owned(), cell: None, label: Some(label), values: values(arrays, index) })
 }

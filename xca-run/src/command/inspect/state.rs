@@ -1,25 +1,48 @@
 //! What a checkpoint says of the state.
 
 use crate::checkpoint::{Checkpoint, GroupShape};
+use crate::components::{state_name, text};
 use crate::numbers::Exact;
 use crate::record::Plane;
 use serde::Serialize;
-use xca_core::{GroupSnapshot, StoredType};
+use std::collections::BTreeMap;
+use std::fmt;
+use xca_core::GroupSnapshot;
 
-/// A substate, or one lane of a vector, over all cells or items.
+/// One component of a substate over all cells or items.
 #[derive(Debug, Serialize)]
 pub(super) struct Statistics {
-    /// `Struct.field`, with `.x` to `.w` of a vector.
+    /// `Struct.field`, with `.x` of a vector, `[3]` of an array, `[3].x` of an array of vectors.
     pub(super) name: String,
     #[serde(rename = "type")]
     pub(super) value_type: String,
     pub(super) count: usize,
-    /// Of those that are numbers.
-    pub(super) least: Option<Exact>,
-    pub(super) mean: Option<Exact>,
-    pub(super) largest: Option<Exact>,
-    /// How many are none.
-    pub(super) not_numbers: usize,
+    #[serde(flatten)]
+    pub(super) values: Spread,
+}
+
+/// How values are spread.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+pub(super) enum Spread {
+    Numbers {
+        /// Of those that are not NaN.
+        least: Option<Exact>,
+        mean: Option<Exact>,
+        largest: Option<Exact>,
+        /// How many are NaN.
+        not_numbers: usize,
+    },
+    States {
+        states: Vec<StateCount>,
+    },
+}
+
+/// How many cells or items are in a state.
+#[derive(Debug, Serialize)]
+pub(super) struct StateCount {
+    pub(super) state: String,
+    pub(super) count: usize,
 }
 
 /// A cell or an item with its values.
@@ -38,10 +61,32 @@ pub(super) struct Place {
 #[derive(Debug, Serialize)]
 pub(super) struct NamedValue {
     pub(super) name: String,
-    pub(super) lanes: Vec<Exact>,
+    pub(super) components: Vec<Component>,
 }
 
-const LANES: [&str; 4] = ["x", "y", "z", "w"];
+/// A number, or the name of a state.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+pub(super) enum Component {
+    Number(Exact),
+    State(String),
+}
+
+impl Component {
+    pub(super) fn new(states: &[String], number: f64) -> Self {
+        let name = state_name(states, number);
+        name.map_or(Self::Number(Exact(number)), |name| Self::State(name.to_owned()))
+    }
+}
+
+impl fmt::Display for Component {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(number) => write!(f, "{:?}", number.0),
+            Self::State(name) => f.write_str(name),
+        }
+    }
+}
 
 /// The groups of a checkpoint, each with the bytes of its fields.
 fn groups(checkpoint: &Checkpoint) -> impl Iterator<Item = (&GroupShape, &GroupSnapshot, &[Vec<u8>])> {
@@ -54,37 +99,65 @@ fn groups(checkpoint: &Checkpoint) -> impl Iterator<Item = (&GroupShape, &GroupS
     })
 }
 
-/// All substates, lane by lane.
+/// All substates, component by component.
 pub(super) fn statistics(checkpoint: &Checkpoint) -> Vec<Statistics> {
     let mut all = Vec::new();
     for (shape, _, fields) in groups(checkpoint) {
         for (substate, bytes) in shape.substates.iter().zip(fields) {
-            let name = format!("{}.{}", shape.name, substate.name);
-            let plane = Plane::all(substate.stored, bytes);
-            all.extend(Statistics::of_plane(&name, &substate.value_type, &plane));
+            let described = Described {
+                name: format!("{}.{}", shape.name, substate.name),
+                value_type: &substate.value_type,
+                components: &substate.components,
+                states: &substate.states,
+            };
+            all.extend(described.statistics(&Plane::all(substate.stored, bytes)));
         }
     }
     all
 }
 
-impl Statistics {
-    /// Of each lane.
-    pub(super) fn of_plane(name: &str, value_type: &str, plane: &Plane) -> Vec<Self> {
-        let lanes = LANES.into_iter().enumerate().take(plane.lanes());
-        let of_lane = |(lane, letter): (usize, &str)| {
-            let name = if plane.lanes() > 1 { format!("{name}.{letter}") } else { name.to_owned() };
-            Self::of(name, value_type.to_owned(), &plane.lane(lane))
+/// What is said of a substate.
+pub(super) struct Described<'a> {
+    pub(super) name: String,
+    pub(super) value_type: &'a str,
+    /// What follows the name for each component.
+    pub(super) components: &'a [String],
+    pub(super) states: &'a [String],
+}
+
+impl Described<'_> {
+    /// Of each component.
+    pub(super) fn statistics(&self, plane: &Plane) -> Vec<Statistics> {
+        let of_component = |component: usize| {
+            let values = plane.component(component);
+            let suffix = self.components.get(component).map_or("", String::as_str);
+            Statistics {
+                name: format!("{}{suffix}", self.name),
+                value_type: self.value_type.to_owned(),
+                count: values.len(),
+                values: if self.states.is_empty() { Spread::of(&values) } else { self.counts(&values) },
+            }
         };
-        lanes.map(of_lane).collect()
+        (0..plane.components()).map(of_component).collect()
     }
 
-    fn of(name: String, value_type: String, values: &[f64]) -> Self {
+    /// How often each state occurs, and each value that is none.
+    fn counts(&self, values: &[f64]) -> Spread {
+        let mut counts: BTreeMap<usize, usize> = (0..self.states.len()).map(|state| (state, 0)).collect();
+        for value in values {
+            *counts.entry(*value as usize).or_default() += 1;
+        }
+        let name = |state: usize| text(self.states, state as f64);
+        let states = counts.into_iter().map(|(state, count)| StateCount { state: name(state), count });
+        Spread::States { states: states.collect() }
+    }
+}
+
+impl Spread {
+    fn of(values: &[f64]) -> Self {
         let numbers = || values.iter().copied().filter(|value| !value.is_nan());
         let found = numbers().count();
-        Self {
-            name,
-            value_type,
-            count: values.len(),
+        Self::Numbers {
             least: numbers().reduce(f64::min).map(Exact),
             mean: (found > 0).then(|| Exact(numbers().sum::<f64>() / found as f64)),
             largest: numbers().reduce(f64::max).map(Exact),
@@ -100,17 +173,21 @@ fn extents(checkpoint: &Checkpoint) -> [usize; 3] {
 }
 
 fn values(shape: &GroupShape, fields: &[Vec<u8>], index: usize) -> Vec<NamedValue> {
-    let value = |stored: StoredType, bytes: &[u8]| -> Vec<Exact> {
-        let plane = Plane::chosen(stored, bytes, &[index]);
-        (0..usize::from(stored.lanes)).flat_map(|lane| plane.lane(lane)).map(Exact).collect()
-    };
     let substates = shape.substates.iter().zip(fields);
     substates
-        .map(|(substate, bytes)| NamedValue {
-            name: substate.name.clone(),
-            lanes: value(substate.stored, bytes),
+        .map(|(substate, bytes)| {
+            let plane = Plane::chosen(substate.stored, bytes, &[index]);
+            NamedValue::new(substate.name.clone(), &substate.states, &plane, 0)
         })
         .collect()
+}
+
+impl NamedValue {
+    /// The value with this number.
+    pub(super) fn new(name: String, states: &[String], plane: &Plane, index: usize) -> Self {
+        let numbers = plane.value(index).into_iter();
+        Self { name, components: numbers.map(|number| Component::new(states, number)).collect() }
+    }
 }
 
 /// The number of a cell, x fastest.

@@ -1,6 +1,6 @@
 //! What was found, as text.
 
-use super::state::{Place, Statistics};
+use super::state::{Place, Spread, Statistics};
 use super::{Findings, Inside};
 use crate::numbers::{Exact, significant};
 use crate::table::table;
@@ -75,18 +75,45 @@ impl fmt::Display for Inside {
 }
 
 fn of_substates(substates: &[Statistics]) -> String {
+    let tables = [of_numbers(substates), of_states(substates)];
+    tables.into_iter().flatten().collect::<Vec<_>>().join("\n\n")
+}
+
+fn of_numbers(substates: &[Statistics]) -> Option<String> {
     let number = |value: &Option<Exact>| {
         value.as_ref().map_or_else(|| "-".to_owned(), |value| significant(value.0, 6))
     };
-    let rows = substates.iter().map(|substate| {
-        let Statistics { name, value_type, count, least, mean, largest, not_numbers } = substate;
-        let none = if *not_numbers > 0 { not_numbers.to_string() } else { String::new() };
-        let (name, value_type) = (name.clone(), value_type.clone());
-        [name, value_type, count.to_string(), number(least), number(mean), number(largest), none]
-    });
-    let has_none = substates.iter().any(|substate| substate.not_numbers > 0);
-    let last = if has_none { "no numbers" } else { "" };
-    table(["substate", "type", "count", "least", "mean", "largest", last], rows, &[2, 3, 4, 5, 6])
+    let row = |substate: &Statistics| match &substate.values {
+        Spread::Numbers { least, mean, largest, not_numbers } => Some([
+            substate.name.clone(),
+            substate.value_type.clone(),
+            substate.count.to_string(),
+            number(least),
+            number(mean),
+            number(largest),
+            if *not_numbers > 0 { not_numbers.to_string() } else { String::new() },
+        ]),
+        Spread::States { .. } => None,
+    };
+    let rows: Vec<_> = substates.iter().filter_map(row).collect();
+    let last = if rows.iter().any(|row| !row[6].is_empty()) { "NaN" } else { "" };
+    let header = ["substate", "type", "count", "least", "mean", "largest", last];
+    (!rows.is_empty()).then(|| table(header, rows, &[2, 3, 4, 5, 6]))
+}
+
+fn of_states(substates: &[Statistics]) -> Option<String> {
+    let mut rows = Vec::new();
+    for Statistics { name, value_type, count, values } in substates {
+        let Spread::States { states } = values else { continue };
+        for (number, state) in states.iter().enumerate() {
+            let share = 100.0 * state.count as f64 / (*count).max(1) as f64;
+            let [name, value_type] =
+                [name, value_type].map(|text| if number == 0 { text.clone() } else { String::new() });
+            let share = format!("{} %", significant(share, 4));
+            rows.push([name, value_type, state.state.clone(), state.count.to_string(), share]);
+        }
+    }
+    (!rows.is_empty()).then(|| table(["substate", "type", "state", "count", "share"], rows, &[3, 4]))
 }
 
 impl fmt::Display for Place {
@@ -101,8 +128,8 @@ impl fmt::Display for Place {
         }
         for value in values {
             // All digits: to look at one value is to want to know it.
-            let lanes: Vec<String> = value.lanes.iter().map(|lane| format!("{:?}", lane.0)).collect();
-            write!(f, "\n  {} = {}", value.name, lanes.join(", "))?;
+            let components: Vec<String> = value.components.iter().map(ToString::to_string).collect();
+            write!(f, "\n  {} = {}", value.name, components.join(", "))?;
         }
         Ok(())
     }

@@ -3,5 +3,5 @@
 use xca_run::prelude::*;
 
 fn main() -> ExitCode {
-    xca_run::main_of("new-model", "An excitable medium", |_given| Ok(SetUp::new(new_model::model()?, 200)))
+    xca_run::main_of!("new-model", "An excitable medium", |_given| Ok(SetUp::new(new_model::model()?, 200)))
 }

@@ -38,7 +38,8 @@ pub(in crate::command) struct RenderArguments {
     #[arg(long, value_name = "N", value_parser = interval)]
     pub(super) every: Option<u64>,
 
-    /// The substate that gives the colours: a number, or the length of a vector
+    /// Substate to draw, or a component of it: outflow, outflow.3, velocity.x. Of a whole vector the length
+    /// is drawn, of an array the sum of its elements
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     substate: Vec<String>,
 

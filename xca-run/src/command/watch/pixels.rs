@@ -2,7 +2,7 @@
 
 use super::blocks::Colours;
 use super::window::Window;
-use crate::output::picture::{DepthBuffer, Disc, Mosaic, Palette, Scalar, Scale};
+use crate::output::picture::{Category, DepthBuffer, Disc, Mosaic, Palette, Scalar, Scale};
 use crate::record::{Sight, Subject};
 
 /// What is behind items, in linear RGB.
@@ -87,7 +87,7 @@ fn of_layer(sight: &Sight, cells: [usize; 2], window: Window, palette: &Palette)
         &sight.values[from..from + columns]
     };
     let values: Vec<f64> = (0..rows).flat_map(row).copied().collect();
-    let kinds: Vec<f64> = sight.kinds.iter().map(|(value, _)| *value).collect();
+    let kinds: Vec<f64> = sight.kinds.iter().map(|kind| kind.value).collect();
     let mosaic = Mosaic::new([columns, rows], &values, &kinds, scale(sight), palette);
     let mut pixels = Pixels::new(window.pixels, [0.0; 3]);
     mosaic.draw(window.pixels, |x, y, colour| pixels.set(x, y, colour));
@@ -130,7 +130,12 @@ fn of_items(
     for y in 0..height {
         for x in 0..width {
             if let Some(owner) = nearest.owner(x, y) {
-                let colour = palette.of(sight.values.get(owner).and_then(|value| scale.place(*value)));
+                let value = sight.values.get(owner).copied().unwrap_or(f64::NAN);
+                let colour = if sight.kinds.is_empty() {
+                    palette.of(scale.place(value))
+                } else {
+                    palette.kind(Category::number_of(&sight.kinds, value))
+                };
                 // With few colours, one that is darker looks like that of another value.
                 let is_lit = colours == Colours::True;
                 let light = if is_lit { light(&discs[owner], depth as f32, x, y) } else { 1.0 };

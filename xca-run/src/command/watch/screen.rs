@@ -243,9 +243,9 @@ impl Screen {
     pub(super) fn palette(&self) -> Option<Palette> {
         let sight = &self.news.as_ref()?.sight;
         Some(match (self.colours, &sight.subject) {
-            (Colours::None, Subject::Items { .. }) => Palette::shades(DARKEST_ITEM, 0),
+            (Colours::None, Subject::Items { .. }) => Palette::shades(DARKEST_ITEM, sight.kinds.len()),
             (Colours::None, Subject::Layer { .. }) => Palette::shades(0.0, sight.kinds.len()),
-            _ => Palette::coloured(sight.map, sight.kinds.len()),
+            _ => Palette::coloured(sight.map, &sight.kinds),
         })
     }
 

@@ -126,8 +126,8 @@ fn seen(screen: &Screen, news: &News) -> Vec<Piece> {
             pieces.push(bar(sight, &palette, screen.colours));
         } else {
             let kinds = sight.kinds.iter().enumerate();
-            pieces.extend(kinds.map(|(number, (_, name))| {
-                vec![swatch(palette.kind(Some(number)), screen.colours), Span::raw(format!(" {name}"))]
+            pieces.extend(kinds.map(|(number, kind)| {
+                vec![swatch(palette.kind(Some(number)), screen.colours), Span::raw(format!(" {}", kind.name))]
             }));
         }
     }

@@ -25,8 +25,8 @@ impl<'a> Numbers<'a> {
         Self { stored, bytes }
     }
 
-    pub(super) fn lanes(&self) -> usize {
-        usize::from(self.stored.lanes)
+    pub(super) fn components(&self) -> usize {
+        self.stored.components()
     }
 
     pub(super) fn is_float(&self) -> bool {

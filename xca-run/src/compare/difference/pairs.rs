@@ -60,12 +60,8 @@ pub(super) fn cells(name: &str, first: &Population, other: &Population, pairs: &
     let [of_first, of_other] = [first, other].map(cell_of_each);
     for (a, b) in pairs.iter().filter(|(a, b)| of_first[*a] != of_other[*b]) {
         difference.different += 1;
-        difference.worst.get_or_insert(Worst {
-            place: Place::Item(first.labels[a]),
-            lane: 0,
-            first: of_first[a] as f64,
-            other: of_other[b] as f64,
-        });
+        let cells = [of_first[a] as f64, of_other[b] as f64];
+        difference.worst.get_or_insert_with(|| Worst::new(Place::Item(first.labels[a]), 0, cells));
     }
     difference
 }

@@ -70,7 +70,7 @@ fn measures_are_those_of_their_definitions() {
     assert!((found.rms - (1.0_f64 / 12.0).sqrt()).abs() < 1e-15);
     assert!((found.identical_share() - 10.0 / 12.0).abs() < 1e-15);
     let worst = found.worst.as_ref().unwrap();
-    assert_eq!((worst.place, worst.lane), (Place::Cell([1, 1, 0]), 0));
+    assert_eq!((worst.place, worst.component.as_str()), (Place::Cell([1, 1, 0]), ".x"));
     assert_eq!((worst.first, worst.other), (4.0, 3.0));
     assert_eq!(differences.verdict(0.124), Verdict::Different);
     assert_eq!(differences.verdict(0.125), Verdict::Rounding);

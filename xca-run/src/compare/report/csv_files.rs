@@ -1,6 +1,7 @@
 //! The tables of a comparison with all digits, for other programs.
 
 use super::ReportError;
+use crate::compare::difference::Difference;
 use crate::compare::result::Comparison;
 use crate::compare::timing::Spread;
 use csv::Writer;
@@ -68,7 +69,7 @@ fn differences(comparison: &Comparison) -> Rows {
     )];
     for engine in &comparison.engines {
         let substates = engine.differences.iter().flat_map(|differences| &differences.substates);
-        rows.extend(substates.map(|difference| {
+        rows.extend(substates.flat_map(Difference::with_components).map(|difference| {
             let worst = difference.worst.as_ref();
             vec![
                 engine.name.clone(),

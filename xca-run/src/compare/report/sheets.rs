@@ -149,7 +149,8 @@ fn differences(comparison: &Comparison) -> Sheet {
     };
     let rows = comparison.engines.iter().flat_map(|engine| {
         let differences = engine.differences.iter().flat_map(|differences| &differences.substates);
-        differences.map(|difference| row(engine, difference)).collect::<Vec<_>>()
+        let all = differences.flat_map(Difference::with_components);
+        all.map(|difference| row(engine, difference)).collect::<Vec<_>>()
     });
     Sheet {
         title: "Differences from the first engine after the last step",
@@ -234,10 +235,14 @@ fn parting(difference: &FirstDifference, first: &str) -> String {
             format!("it was seen to differ from {first} after step {step}, but not when it was run again")
         }
     };
-    let substate = difference.substate.as_ref().map(|substate| format!(", most in {substate}"));
-    let place = difference.place.map(|place| format!(" of {place}"));
-    let values = difference.values.map(|[first, other]| format!(" ({first:?} and {other:?})"));
-    [Some(step), substate, place, values].into_iter().flatten().collect()
+    let component = difference.worst.as_ref().map_or("", |worst| &worst.component);
+    let substate = difference.substate.as_ref().map(|substate| format!(", most in {substate}{component}"));
+    let worst = difference.worst.as_ref().map(|worst| {
+        let numbers = || [worst.first, worst.other].map(|number| format!("{number:?}"));
+        let [first, other] = worst.states.clone().unwrap_or_else(numbers);
+        format!(" of {} ({first} and {other})", worst.place)
+    });
+    [Some(step), substate, worst].into_iter().flatten().collect()
 }
 
 /// What was compared, where and when.

@@ -24,12 +24,12 @@ fn csv_files_have_all_rows_with_all_digits() {
     let rows: Vec<_> = rows.collect();
     let numbers: Vec<(&str, usize)> = rows.iter().map(|(name, rows)| (*name, rows.len())).collect();
     let observables = 3 * comparison.observables.len();
-    // Two engines, 21 states, 5 substates.
+    // Two engines, 21 states, 5 substates, one of them with a component that differs.
     assert_eq!(
         numbers,
         [
             ("engines.csv", 3),
-            ("differences.csv", 10),
+            ("differences.csv", 11),
             ("divergence.csv", 210),
             ("observables.csv", observables)
         ]
@@ -47,7 +47,7 @@ fn json_holds_everything() {
     let json = serde_json::to_value(rounded()).unwrap();
     assert_eq!((&json["program"], &json["verdict"]), (&"plate".into(), &"ROUNDING".into()));
     let harmed = &json["engines"][1];
-    assert_eq!(harmed["first_difference"]["place"], serde_json::json!({ "item": 2 }));
+    assert_eq!(harmed["first_difference"]["worst"]["place"], serde_json::json!({ "item": 2 }));
     assert_eq!(harmed["differences"]["substates"].as_array().unwrap().len(), 5);
     assert_eq!(harmed["history"].as_array().unwrap().len(), 21);
     assert!(harmed["step_seconds"]["median"].as_f64().is_some_and(|seconds| seconds > 0.0));
@@ -76,7 +76,7 @@ fn markdown_tables_have_rows_of_one_length() {
 fn the_terminal_shows_tables_and_verdicts() {
     let text = text(&rounded());
     assert!(text.contains(
-        "harmed is ROUNDING: it differs from reference from step 9 on, most in Grain.position of item 2"
+        "harmed is ROUNDING: it differs from reference from step 9 on, most in Grain.position.x of item 2"
     ));
     assert!(text.contains("cpu:2 is IDENTICAL: the same bits as reference in all of 21 states"), "{text}");
     assert!(text.contains("note: harmed: one <bit> & no more") && text.contains("chaotic"));
@@ -120,7 +120,7 @@ fn the_page_is_sound_and_needs_nothing_but_itself() {
         assert_eq!(texts(&page, &format!("#divergence {width} svg")).len(), 1);
     }
     assert_eq!(texts(&page, "#divergence .legend li"), ["Grain.position"]);
-    assert_eq!(texts(&page, "tbody tr").len(), 3 + 10 + rounded().observables.len());
+    assert_eq!(texts(&page, "tbody tr").len(), 3 + 11 + rounded().observables.len());
     let alike = page::page(&with_harm(SubstateOrFailure::Kind(0), 21, 5)).unwrap();
     assert!(texts(&Html::parse_document(&alike), "#divergence, #verdicts p").is_empty());
 }

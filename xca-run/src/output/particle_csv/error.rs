@@ -137,6 +137,20 @@ pub enum ReadError {
         /// The text of the field.
         text: String,
     },
+    /// A value is not one of its column's type.
+    #[error("{}:{line}: `{text}` in column `{column}` {wanted}", path.display())]
+    Value {
+        /// The file.
+        path: PathBuf,
+        /// The line.
+        line: u64,
+        /// The column.
+        column: String,
+        /// The text of the field.
+        text: String,
+        /// What it must be.
+        wanted: String,
+    },
     /// Two rows have one label.
     #[error("{}:{line}: the label {label} stands on line {first} already", path.display())]
     DuplicateLabel {

@@ -9,6 +9,7 @@ use std::path::Path;
 use super::LABEL;
 use super::error::ReadError;
 use super::lines::MeaningfulLines;
+use xca_core::ScalarType;
 
 /// Particles as they stand in a file, in its order.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,13 +24,15 @@ pub struct ParticleTable {
 
 /// Reads the particles of `path`, whose header must hold `label` and each of `columns` once, in any order.
 ///
-/// Blanks around fields, blank lines and lines that begin with `#` are passed over. Every value is checked to be finite
-/// and every label to be used once; that a value makes sense to the model is for the model to check, which can name
-/// [`ParticleTable::lines`]. A file written in `f32` gives the same `f32` when its values are cast.
+/// Skips blanks around fields, blank lines and lines that begin with `#`. Every value must be one of its
+/// column's type: a finite float, a whole number in range, `true` or `false`, the name of a state (its number
+/// is returned). Every label must be unique. What else the model demands, it checks itself, with
+/// [`ParticleTable::lines`] for its messages. A file written in `f32` gives the same `f32` when its values
+/// are cast.
 ///
 /// # Errors
-/// [`ReadError`], with the path and the line.
-pub fn read(path: &Path, columns: &[&str]) -> Result<ParticleTable, ReadError> {
+/// [`ReadError`], with the path, the line and the column.
+pub fn read(path: &Path, columns: &[(&str, ScalarType)]) -> Result<ParticleTable, ReadError> {
     let file = File::open(path).map_err(|source| ReadError::Open { path: path.to_owned(), source })?;
     let broken = |error: csv::Error| ReadError::Read { path: path.to_owned(), source: error.into() };
     let mut csv = csv::ReaderBuilder::new()
@@ -56,8 +59,8 @@ pub fn read(path: &Path, columns: &[&str]) -> Result<ParticleTable, ReadError> {
         }
         table.labels.push(label);
         table.lines.push(line);
-        for ((values, &place), name) in table.columns.iter_mut().zip(&places[1..]).zip(columns) {
-            values.push(row.number(place, name)?);
+        for ((values, &place), (name, scalar)) in table.columns.iter_mut().zip(&places[1..]).zip(columns) {
+            values.push(row.value(place, name, *scalar)?);
         }
     }
     Ok(table)
@@ -68,9 +71,9 @@ fn header(
     path: &Path,
     line: u64,
     record: &csv::ByteRecord,
-    columns: &[&str],
+    columns: &[(&str, ScalarType)],
 ) -> Result<Vec<usize>, ReadError> {
-    let wanted: Vec<&str> = std::iter::once(LABEL).chain(columns.iter().copied()).collect();
+    let wanted: Vec<&str> = std::iter::once(LABEL).chain(columns.iter().map(|(name, _)| *name)).collect();
     let names: Vec<Cow<'_, str>> = record.iter().map(String::from_utf8_lossy).collect();
     for (place, name) in names.iter().enumerate() {
         let (path, column) = (path.to_owned(), name.to_string());
@@ -121,6 +124,20 @@ impl<'a> Row<'a> {
         })
     }
 
+    fn value(&self, place: usize, column: &str, scalar: ScalarType) -> Result<f64, ReadError> {
+        if matches!(scalar, ScalarType::F32 | ScalarType::F64 | ScalarType::Real) {
+            return self.number(place, column);
+        }
+        let text = self.field(place)?;
+        scalar.parse(&text).ok_or_else(|| ReadError::Value {
+            path: self.path.to_owned(),
+            line: self.line,
+            column: column.to_owned(),
+            text: text.into_owned(),
+            wanted: wanted(scalar),
+        })
+    }
+
     fn number(&self, place: usize, column: &str) -> Result<f64, ReadError> {
         let text = self.field(place)?;
         let (path, line) = (self.path.to_owned(), self.line);
@@ -140,15 +157,77 @@ impl<'a> Row<'a> {
     }
 }
 
+/// What a text must be to be a value of this type.
+fn wanted(scalar: ScalarType) -> String {
+    match scalar {
+        ScalarType::Bool => "must be true or false".to_owned(),
+        ScalarType::State(names) => format!("must be a {}: {}", names.name, names.states.join(", ")),
+        ScalarType::U8 => format!("must be a whole number from 0 to {}", u8::MAX),
+        ScalarType::I32 => format!("must be a whole number from {} to {}", i32::MIN, i32::MAX),
+        ScalarType::U32 => format!("must be a whole number from 0 to {}", u32::MAX),
+        ScalarType::F32 | ScalarType::F64 | ScalarType::Real => "must be a finite number".to_owned(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use super::super::Column;
     use super::*;
+    use xca_core::StateNames;
 
     fn read_text(text: &[u8]) -> Result<ParticleTable, ReadError> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("p.csv");
         std::fs::write(&path, text).unwrap();
-        read(&path, &["x", "y"])
+        read(&path, &[("x", ScalarType::F64), ("y", ScalarType::Real)])
+    }
+
+    const PHASE: ScalarType = ScalarType::State(&StateNames { name: "Phase", states: &["Solid", "Liquid"] });
+
+    #[test]
+    fn values_are_read_by_the_types_of_their_columns() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("p.csv");
+        let columns = [
+            ("phase", PHASE),
+            ("wet", ScalarType::Bool),
+            ("age", ScalarType::U8),
+            ("charge", ScalarType::I32),
+            ("hits", ScalarType::U32),
+        ];
+        let values: [&[f64]; 5] =
+            [&[1.0, 0.0], &[0.0, 1.0], &[255.0, 0.0], &[-2_147_483_648.0, 7.0], &[4_294_967_295.0, 0.0]];
+        let written: Vec<_> = columns
+            .iter()
+            .zip(values)
+            .map(|((name, scalar), values)| (*name, Column::Typed(*scalar, values)))
+            .collect();
+        super::super::write(&path, &[3, 1], &written).unwrap();
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert_eq!(
+            text,
+            "label,phase,wet,age,charge,hits\n\
+             1,Solid,true,0,7,0\n\
+             3,Liquid,false,255,-2147483648,4294967295\n"
+        );
+        let table = read(&path, &columns).unwrap();
+        for (column, values) in table.columns.iter().zip(values) {
+            assert_eq!(*column, [values[1], values[0]]);
+        }
+        for (wrong, message) in [
+            ("Gas,true,0,0,0", "`Gas` in column `phase` must be a Phase: Solid, Liquid"),
+            ("Solid,1,0,0,0", "`1` in column `wet` must be true or false"),
+            ("Solid,true,256,0,0", "`256` in column `age` must be a whole number from 0 to 255"),
+            (
+                "Solid,true,0,1.5,0",
+                "`1.5` in column `charge` must be a whole number from -2147483648 to 2147483647",
+            ),
+            ("Solid,true,0,0,-1", "`-1` in column `hits` must be a whole number from 0 to 4294967295"),
+        ] {
+            std::fs::write(&path, format!("label,phase,wet,age,charge,hits\n\n1,{wrong}\n")).unwrap();
+            let error = read(&path, &columns).unwrap_err().to_string();
+            assert!(error.ends_with(&format!("p.csv:3: {message}")), "{error}");
+        }
     }
 
     /// The message without the folder, which differs from run to run.

@@ -1,7 +1,8 @@
 //! Pictures of dense substates in all three dimensions.
 
 use super::canvas::{Canvas, Strokes};
-use super::colour::{category, encode, mix};
+use super::category::Category;
+use super::colour::{encode, mix};
 use super::legend::{INK, Scalar, draw_bar, draw_categories, draw_title};
 use super::mosaic::GREY;
 use super::{Picture, PictureError, check_size};
@@ -20,8 +21,8 @@ pub struct BlockPicture<'a> {
     pub extents: [usize; 3],
     /// The values, x fastest, then y.
     pub scalar: Scalar<'a>,
-    /// If not empty, the values are no magnitudes but kinds: each with its name. Others are drawn in grey.
-    pub categories: &'a [(f64, &'a str)],
+    /// If not empty, the values are no magnitudes but these kinds or states. Others are drawn in grey.
+    pub categories: &'a [Category],
     /// Cells of this value are not drawn. If there is none, all are drawn but those of the octant that is next to the eye, so that the inside
     /// is seen.
     pub empty: Option<f64>,
@@ -101,7 +102,7 @@ impl<'a> BlockPicture<'a> {
             let Scalar { label, map, .. } = self.scalar;
             draw_bar(&mut canvas, [x, y], [18, h], label, map, self.scalar.scale());
         } else {
-            draw_categories(&mut canvas, [x, 120], self.scalar.label, self.categories);
+            draw_categories(&mut canvas, [x, 120], height - 8, self.scalar.label, self.categories);
         }
         Ok(canvas.into_picture())
     }
@@ -109,11 +110,12 @@ impl<'a> BlockPicture<'a> {
     fn draw_cells(&self, canvas: &mut Canvas, eye: &Eye) {
         const SHARE: f32 = 1.0 / (SAMPLES * SAMPLES) as f32;
         let (table, scale) = (self.scalar.map.table(), self.scalar.scale());
+        let colours: Vec<[f32; 3]> = self.categories.iter().map(Category::linear).collect();
         let colour_of = |value: f64| {
             if self.categories.is_empty() {
                 scale.place(value).map_or(GREY, |place| table[(place * 255.0).round() as usize])
             } else {
-                self.categories.iter().position(|(of, _)| *of == value).map_or(GREY, category)
+                Category::number_of(self.categories, value).map_or(GREY, |number| colours[number])
             }
         };
         let at = |pixel: usize, sample: usize| pixel as f64 + (sample as f64 + 0.5) / SAMPLES as f64;
@@ -324,7 +326,8 @@ mod tests {
         let drawn = |values: &[f64]| {
             let picture =
                 BlockPicture { empty: Some(0.0), ..BlockPicture::new(extents, Scalar::new("t", values)) };
-            BlockPicture { categories: &[(0.0, "0"), (1.0, "1")], ..picture }.render().unwrap()
+            let categories = [Category::new(0, 0.0, "0"), Category::new(1, 1.0, "1")];
+            BlockPicture { categories: &categories, ..picture }.render().unwrap()
         };
         let none = drawn(&values);
         values[62] = 1.0;

@@ -64,21 +64,6 @@ impl ColourMap {
     }
 }
 
-/// Colours that are told apart easily, for the categories of a cell, in linear RGB; after eight they repeat.
-pub(super) fn category(index: usize) -> [f32; 3] {
-    const COLOURS: [[f32; 3]; 8] = [
-        [0.97, 0.005, 250.0],
-        [0.38, 0.090, 265.0],
-        [0.72, 0.150, 60.0],
-        [0.62, 0.130, 155.0],
-        [0.60, 0.180, 25.0],
-        [0.75, 0.100, 220.0],
-        [0.55, 0.150, 310.0],
-        [0.85, 0.150, 95.0],
-    ];
-    linear_of_oklab(oklab(COLOURS[index % COLOURS.len()])).map(|x| x.clamp(0.0, 1.0))
-}
-
 /// `a` and `b` mixed: `b`'s share is `share`.
 pub(super) fn mix(a: [f32; 3], b: [f32; 3], share: f32) -> [f32; 3] {
     std::array::from_fn(|i| a[i] + (b[i] - a[i]) * share)
@@ -108,6 +93,14 @@ pub(crate) fn encode(linear: [f32; 3]) -> [f32; 3] {
     linear.map(|x| {
         let x = x.clamp(0.0, 1.0);
         if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 }
+    })
+}
+
+/// Linear from encoded RGB.
+pub(super) fn decode(encoded: [u8; 3]) -> [f32; 3] {
+    encoded.map(|byte| {
+        let x = f32::from(byte) / 255.0;
+        if x <= 0.040_45 { x / 12.92 } else { ((x + 0.055) / 1.055).powf(2.4) }
     })
 }
 

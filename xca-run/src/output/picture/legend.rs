@@ -2,7 +2,8 @@
 
 use super::PictureError;
 use super::canvas::{Canvas, Strokes};
-use super::colour::{ColourMap, category, encode};
+use super::category::Category;
+use super::colour::{ColourMap, encode};
 use super::text::{self, Anchor, Style};
 use crate::numbers::{significant, ticks};
 
@@ -132,20 +133,33 @@ pub(super) fn draw_bar(
     text::draw(canvas, label, [left, above], Anchor::Left, &text::fitted(label, style, room));
 }
 
-/// Draws a list of kinds with their colours.
+/// Draws a list of categories with their colours, as many as there is room for above `bottom`; says how many
+/// more there are.
 pub(super) fn draw_categories(
     canvas: &mut Canvas,
     [x, y]: [usize; 2],
+    bottom: usize,
     label: &str,
-    categories: &[(f64, &str)],
+    categories: &[Category],
 ) {
+    const LINE: usize = 26;
     let style = Style { height: 11.0, weight: 0.115, colour: INK };
-    text::draw(canvas, label, [x as f32, y as f32 - 10.0], Anchor::Left, &style);
-    for (i, (_, name)) in categories.iter().enumerate() {
-        let top = y + 8 + 26 * i;
-        canvas.fill([x, top], [16, 16], encode(category(i)));
+    let room = canvas.width() as f32 - 14.0 - x as f32;
+    text::draw(canvas, label, [x as f32, y as f32 - 10.0], Anchor::Left, &text::fitted(label, style, room));
+    let lines = (bottom.saturating_sub(y + 8) / LINE).max(1);
+    let shown = if categories.len() > lines { lines - 1 } else { categories.len() };
+    for (i, category) in categories[..shown].iter().enumerate() {
+        let top = y + 8 + LINE * i;
+        canvas.fill([x, top], [16, 16], category.encoded());
         canvas.frame([x, top], [16, 16], INK);
-        text::draw(canvas, name, [x as f32 + 28.0, top as f32 + 13.5], Anchor::Left, &style);
+        let name = &category.name;
+        let fitted = text::fitted(name, style, room - 28.0);
+        text::draw(canvas, name, [x as f32 + 28.0, top as f32 + 13.5], Anchor::Left, &fitted);
+    }
+    if shown < categories.len() {
+        let more = format!("and {} more", categories.len() - shown);
+        let top = (y + 8 + LINE * shown) as f32;
+        text::draw(canvas, &more, [x as f32, top + 13.5], Anchor::Left, &style);
     }
 }
 

@@ -1,7 +1,8 @@
 //! A layer of cells in as many pixels as there is room for.
 
 use super::averaging::Share;
-use super::colour::{ColourMap, category};
+use super::category::Category;
+use super::colour::ColourMap;
 use super::legend::Scale;
 use super::relief::Ground;
 
@@ -17,9 +18,9 @@ pub(crate) struct Palette {
 }
 
 impl Palette {
-    /// The colours of a map, and of so many kinds.
-    pub(crate) fn coloured(map: ColourMap, kinds: usize) -> Self {
-        Self { map: map.table(), kinds: (0..kinds).map(category).collect(), unknown: GREY }
+    /// The colours of a map, and of kinds.
+    pub(crate) fn coloured(map: ColourMap, kinds: &[Category]) -> Self {
+        Self { map: map.table(), kinds: kinds.iter().map(Category::linear).collect(), unknown: GREY }
     }
 
     /// Without colours: ever lighter, from this lightness to 1, for values and for kinds.

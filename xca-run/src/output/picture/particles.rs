@@ -1,7 +1,8 @@
 //! Pictures of particles.
 
 use super::canvas::Canvas;
-use super::legend::{FAINT_INK, Scalar, draw_bar, draw_title};
+use super::category::Category;
+use super::legend::{FAINT_INK, Scalar, draw_bar, draw_categories, draw_title};
 use super::scene::Scene;
 use super::text::{self, Anchor, Style};
 use super::view::{Camera, Viewpoint};
@@ -32,6 +33,9 @@ pub struct ParticlePicture<'a> {
     pub domain: Domain,
     /// The scalar that colours the particles; `None` for one colour.
     pub colour: Option<Scalar<'a>>,
+    /// If not empty, the scalar's values are no magnitudes but these kinds or states. Others are drawn in
+    /// grey.
+    pub categories: &'a [Category],
     /// The text above the picture, such as the model and the case.
     pub title: &'a str,
     /// The smaller text below the title, such as the time and the number of particles.
@@ -53,6 +57,7 @@ impl<'a> ParticlePicture<'a> {
             radius,
             domain,
             colour: None,
+            categories: &[],
             title: "",
             caption: "",
             length_unit: "m",
@@ -102,8 +107,12 @@ impl<'a> ParticlePicture<'a> {
         self.draw_sides(&mut canvas, &scene, sides);
         draw_title(&mut canvas, 36.0, self.title, self.caption);
         if let Some(scalar) = &self.colour {
-            let (y, h) = (height * 3 / 10, height * 9 / 20);
-            draw_bar(&mut canvas, [width - 128, y], [18, h], scalar.label, scalar.map, scalar.scale());
+            if self.categories.is_empty() {
+                let (y, h) = (height * 3 / 10, height * 9 / 20);
+                draw_bar(&mut canvas, [width - 128, y], [18, h], scalar.label, scalar.map, scalar.scale());
+            } else {
+                draw_categories(&mut canvas, [width - 128, 120], height - 8, scalar.label, self.categories);
+            }
         }
         Ok(canvas.into_picture())
     }
@@ -132,9 +141,15 @@ impl<'a> ParticlePicture<'a> {
         let mut palette = self.colour.map(|scalar| scalar.map).unwrap_or_default().table();
         palette.push([0.35, 0.35, 0.35]);
         palette.push([0.10, 0.27, 0.50]);
+        palette.extend(self.categories.iter().map(Category::linear));
         let scale = self.colour.map(|scalar| (scalar.values, scalar.scale()));
         let colour_of = move |i: usize| match scale {
             None => PLAIN,
+            Some((values, _)) if !self.categories.is_empty() => {
+                let number = Category::number_of(self.categories, values[i]);
+                // A state is a byte, so that there are 256 at most.
+                number.and_then(|number| u16::try_from(number).ok()).map_or(GREY, |number| PLAIN + 1 + number)
+            }
             Some((values, scale)) => {
                 scale.place(values[i]).map_or(GREY, |place| (place * 255.0).round() as u16)
             }

@@ -2,6 +2,7 @@
 
 use super::averaging::fitted;
 use super::canvas::{Canvas, Strokes};
+use super::category::Category;
 use super::colour::encode;
 use super::legend::{FAINT_INK, INK, Scalar, draw_bar, draw_categories, draw_title};
 use super::mosaic::{Mosaic, Palette};
@@ -28,8 +29,8 @@ pub struct SlicePicture<'a> {
     pub rows: usize,
     /// The values, `columns * rows` of them, x fastest, the lowest y first.
     pub scalar: Scalar<'a>,
-    /// If not empty, the values are no magnitudes but kinds: each with its name. Others are drawn in grey.
-    pub categories: &'a [(f64, &'a str)],
+    /// If not empty, the values are no magnitudes but these kinds or states. Others are drawn in grey.
+    pub categories: &'a [Category],
     /// What the layer is drawn over, if it is no plain.
     pub relief: Option<Relief<'a>>,
     /// The text above the picture.
@@ -97,7 +98,8 @@ impl<'a> SlicePicture<'a> {
             let (label, map) = (self.scalar.label, self.scalar.map);
             draw_bar(&mut canvas, [x, y], [18, height], label, map, self.scalar.scale());
         } else {
-            draw_categories(&mut canvas, [x, TOP + 24], self.scalar.label, self.categories);
+            let bottom = size[1] - 8;
+            draw_categories(&mut canvas, [x, TOP + 24], bottom, self.scalar.label, self.categories);
         }
         Ok(canvas.into_picture())
     }
@@ -118,8 +120,8 @@ impl<'a> SlicePicture<'a> {
     }
 
     fn draw_cells(&self, canvas: &mut Canvas, [x0, y0]: [usize; 2], size: [usize; 2]) {
-        let kinds: Vec<f64> = self.categories.iter().map(|(value, _)| *value).collect();
-        let palette = Palette::coloured(self.scalar.map, kinds.len());
+        let kinds: Vec<f64> = self.categories.iter().map(|category| category.value).collect();
+        let palette = Palette::coloured(self.scalar.map, self.categories);
         let cells = [self.columns, self.rows];
         let ground = self.relief.map(|relief| Ground::new(relief, cells, self.cell_side));
         let mosaic = Mosaic::new(cells, self.scalar.values, &kinds, self.scalar.scale(), &palette);
@@ -151,7 +153,6 @@ impl<'a> SlicePicture<'a> {
 mod tests {
     use super::*;
     use crate::output::picture::ColourMap;
-    use crate::output::picture::colour::category;
     use crate::output::picture::mosaic::GREY;
 
     fn colour(t: f64) -> [u8; 3] {
@@ -210,12 +211,13 @@ mod tests {
     #[test]
     fn kinds_have_colours_of_their_own_and_others_are_grey() {
         let mut slice = SlicePicture::new(3, 1, Scalar::new("state", &[0.0, 1.0, 7.0]));
-        slice.categories = &[(0.0, "dead"), (1.0, "alive")];
+        let categories = [Category::new(0, 0.0, "dead"), Category::new(1, 1.0, "alive")];
+        slice.categories = &categories;
         slice.pixels = 300;
         let picture = slice.render().unwrap();
         let at = |cell: usize| picture.pixel(LEFT + 10 + 100 * cell + 50, TOP + 70 + 50);
         let bytes = |linear| encode(linear).map(|x| (x * 255.0).round() as u8);
-        assert_eq!([at(0), at(1), at(2)], [bytes(category(0)), bytes(category(1)), bytes(GREY)]);
+        assert_eq!([at(0), at(1), at(2)], [categories[0].colour, categories[1].colour, bytes(GREY)]);
     }
 
     #[test]

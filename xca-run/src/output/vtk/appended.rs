@@ -11,6 +11,11 @@ pub(super) const DATA: &str = "<AppendedData encoding=\"raw\">\n_";
 /// What stands after them.
 pub(super) const END: &str = "\n</AppendedData>\n</VTKFile>\n";
 
+/// How the element begins that holds the names of the states of an array.
+pub(super) const STATES_OF: &str = "<Array type=\"String\" Name=\"states of ";
+/// The attribute with the name of a component, before its number.
+pub(super) const COMPONENT_NAME: &str = "ComponentName";
+
 /// The first lines of a file of this kind.
 pub(super) fn head(kind: &str) -> String {
     let attributes = r#"version="1.0" byte_order="LittleEndian" header_type="UInt64""#;
@@ -27,12 +32,16 @@ pub(super) struct Appended {
 impl Appended {
     /// The element of an array whose values are appended.
     pub(super) fn array(&mut self, array: &DataArray<'_>) -> io::Result<String> {
-        let attributes = format!(
+        let mut attributes = format!(
             r#"type="{}" Name="{}" NumberOfComponents="{}""#,
             array.values.vtk_type(),
             escaped(array.name),
             array.values.components()
         );
+        for (number, name) in array.components.iter().enumerate() {
+            // Writing to a string cannot fail.
+            let _ = write!(attributes, r#" {COMPONENT_NAME}{number}="{}""#, escaped(name));
+        }
         self.append(&attributes, |out| array.values.write_to(out))
     }
 
@@ -51,11 +60,12 @@ impl Appended {
         Ok(format!("<{kind}{scalars}>\n{elements}</{kind}>\n"))
     }
 
-    /// The element that holds the time of the file.
-    pub(super) fn time(&mut self, time: f64) -> io::Result<String> {
+    /// The element that holds the time of the file, and the names of the states of its arrays.
+    pub(super) fn field_data(&mut self, time: f64, arrays: &[DataArray<'_>]) -> io::Result<String> {
         let attributes = r#"type="Float64" Name="TimeValue" NumberOfTuples="1""#;
         let array = self.append(attributes, |out| out.write_all(&time.to_le_bytes()))?;
-        Ok(format!("<FieldData>\n{array}</FieldData>\n"))
+        let states = arrays.iter().filter(|array| !array.states.is_empty()).map(names_of_states);
+        Ok(format!("<FieldData>\n{array}{}</FieldData>\n", states.collect::<String>()))
     }
 
     fn append(
@@ -82,6 +92,26 @@ impl Appended {
         out.write_all(&appended.blocks)?;
         out.write_all(END.as_bytes())
     }
+}
+
+/// An array of strings, which VTK spells as the numbers of their bytes, each string with a 0 behind it.
+fn names_of_states(array: &DataArray<'_>) -> String {
+    let bytes = array.states.iter().flat_map(|name| name.bytes().chain([0]));
+    let numbers: Vec<String> = bytes.map(|byte| byte.to_string()).collect();
+    format!(
+        "{STATES_OF}{}\" NumberOfTuples=\"{}\" format=\"ascii\">{}</Array>\n",
+        escaped(array.name),
+        array.states.len(),
+        numbers.join(" ")
+    )
+}
+
+/// The strings of an element that [`names_of_states`] wrote.
+pub(super) fn read_names(element: &str) -> Option<Vec<String>> {
+    let numbers = element.split_once('>')?.1.strip_suffix("</Array>")?;
+    let bytes = numbers.split(' ').map(|number| number.parse().ok()).collect::<Option<Vec<u8>>>()?;
+    let names = bytes.strip_suffix(&[0])?.split(|byte| *byte == 0);
+    names.map(|name| String::from_utf8(name.to_vec()).ok()).collect()
 }
 
 /// Text as it may stand in an attribute; control characters, which XML cannot hold, become blanks.

@@ -60,7 +60,7 @@ pub fn write_dense(path: &Path, time: f64, grid: &Grid, arrays: &[DataArray<'_>]
          <Piece Extent=\"{extent}\">\n{data}</Piece>\n</ImageData>\n",
             origin = joined(&grid.origin),
             spacing = joined(&grid.spacing),
-            time = appended.time(time)?,
+            time = appended.field_data(time, arrays)?,
             data = appended.data("CellData", arrays)?,
         ))
     };

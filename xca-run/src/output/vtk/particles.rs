@@ -41,7 +41,7 @@ pub fn write_particles(
     if !time.is_finite() {
         return Err(VtkError::Geometry { path: path.to_owned(), what: "the time", value: time });
     }
-    let points = DataArray { name: "Points", values: positions };
+    let points = DataArray::new("Points", positions);
     check_arrays(path, &[points], positions.len())?;
     check_arrays(path, arrays, positions.len())?;
     let n = i32::try_from(positions.len())
@@ -55,7 +55,7 @@ pub fn write_particles(
          <Points>\n{points}</Points>\n\
          <Verts>\n{connectivity}{offsets}</Verts>\n\
          {data}</Piece>\n</PolyData>\n",
-            time = appended.time(time)?,
+            time = appended.field_data(time, arrays)?,
             points = appended.array(&points)?,
             connectivity = appended.count("connectivity", 0, n)?,
             offsets = appended.count("offsets", 1, n)?,

@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::Grid;
-use super::appended::{DATA, END, head, unescaped};
+use super::appended::{COMPONENT_NAME, DATA, END, STATES_OF, escaped, head, read_names, unescaped};
 use super::blocks::{Broken, expanded};
 
 /// A VTK file that cannot be used.
@@ -57,6 +57,11 @@ pub struct ReadArray {
     pub numbers: NumberType,
     /// How many of them a value has.
     pub components: usize,
+    /// What follows the name of the array in the name of each component: nothing for a scalar, else `.x`,
+    /// `[3]`, `[3].x`.
+    pub component_names: Vec<String>,
+    /// What its values are called, by number, if they are states.
+    pub states: Vec<String>,
     /// The numbers, in the byte order of this machine.
     pub bytes: Vec<u8>,
 }
@@ -180,7 +185,8 @@ impl<'a> Parts<'a> {
                 Broken::Short => self.truncated(),
                 Broken::Wrong => self.foreign("its data are not those of its arrays"),
             })?;
-            arrays.push(element.array(bytes));
+            let states = self.states_of(&element.name).ok_or_else(wrong)?;
+            arrays.push(element.array(bytes, states));
             rest = others;
         }
         if rest != END.as_bytes() {
@@ -200,6 +206,13 @@ impl<'a> Parts<'a> {
         }
     }
 
+    /// The names of the states of an array; none where it has numbers.
+    fn states_of(&self, array: &str) -> Option<Vec<String>> {
+        let start = format!("{STATES_OF}{}\" ", escaped(array));
+        let element = self.head.lines().find(|line| line.starts_with(&start));
+        element.map_or(Some(Vec::new()), read_names)
+    }
+
     fn truncated(&self) -> ReadVtkError {
         let found = self.head.len() + DATA.len() + self.data.len();
         ReadVtkError::Truncated { path: self.path.to_owned(), found }
@@ -217,6 +230,7 @@ struct Element {
     name: String,
     numbers: NumberType,
     components: usize,
+    component_names: Vec<String>,
     /// Where its values stand, and how many bytes they are when they are expanded.
     offset: usize,
     length: usize,
@@ -238,13 +252,35 @@ impl Element {
         let count = number("NumberOfTuples").unwrap_or(Ok(count)).ok()?;
         let length = count.checked_mul(components)?.checked_mul(size)?;
         let name = attribute(element, "Name")?;
-        Some(Self { name, numbers, components, offset: number("offset")?.ok()?, length })
+        let component_name = |number: usize| {
+            let given = attribute(element, &format!("{COMPONENT_NAME}{number}"));
+            given.unwrap_or_else(|| default_name(number, components))
+        };
+        let component_names = (0..components).map(component_name).collect();
+        let offset = number("offset")?.ok()?;
+        Some(Self { name, numbers, components, component_names, offset, length })
     }
 
     /// The array with its values.
-    fn array(self, bytes: Vec<u8>) -> ReadArray {
-        let Self { name, numbers, components, .. } = self;
-        ReadArray { name, numbers, components, bytes: numbers.of_this_machine(bytes) }
+    fn array(self, bytes: Vec<u8>, states: Vec<String>) -> ReadArray {
+        let Self { name, numbers, components, component_names, .. } = self;
+        ReadArray {
+            name,
+            numbers,
+            components,
+            component_names,
+            states,
+            bytes: numbers.of_this_machine(bytes),
+        }
+    }
+}
+
+/// What follows the name of an array for a component that the file does not name.
+fn default_name(number: usize, components: usize) -> String {
+    match (components, [".x", ".y", ".z", ".w"].get(number)) {
+        (1, _) => String::new(),
+        (2..=4, Some(lane)) => (*lane).to_owned(),
+        _ => format!("[{number}]"),
     }
 }
 

@@ -128,13 +128,30 @@ pub struct DataArray<'a> {
     pub name: &'a str,
     /// The values.
     pub values: Values<'a>,
+    /// What ParaView calls the components of a value. Without names it takes X, Y and Z, or numbers.
+    pub components: &'a [String],
+    /// What the values of `u8` are called, by number, where they are states. The names become the field data
+    /// `states of NAME`.
+    pub states: &'a [String],
 }
 
 impl<'a> DataArray<'a> {
     /// An array of scalars (from `&[f64]` and the like) or of vectors (from `&[[f64; 3]]` and the like).
     #[must_use]
     pub fn new(name: &'a str, values: impl Into<Values<'a>>) -> Self {
-        Self { name, values: values.into() }
+        Self { name, values: values.into(), components: &[], states: &[] }
+    }
+
+    /// The same array with names for its components.
+    #[must_use]
+    pub fn with_components(self, components: &'a [String]) -> Self {
+        Self { components, ..self }
+    }
+
+    /// The same array, whose values are states with these names.
+    #[must_use]
+    pub fn with_states(self, states: &'a [String]) -> Self {
+        Self { states, ..self }
     }
 }
 

@@ -17,8 +17,8 @@ use xca_core::prelude::*;
 use xca_core::{Reference, RunOptions, Simulation};
 
 /// The colours of a dead and a living cell: Oklab (0.97, 0.005, 250°) and (0.38, 0.09, 265°) in sRGB.
-const DEAD: Color = Color::Rgb(243, 245, 248);
-const ALIVE: Color = Color::Rgb(42, 64, 114);
+const DEAD: Color = Color::Rgb(246, 246, 250);
+const ALIVE: Color = Color::Rgb(26, 52, 98);
 
 #[derive(Substates, Clone, Copy)]
 struct Life {

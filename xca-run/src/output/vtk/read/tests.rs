@@ -32,7 +32,7 @@ fn particles(count: usize) -> (TempDir, PathBuf) {
     let text = b"\n</AppendedData>\n<AppendedData encoding=\"raw\">\n_";
     let components = text.len() / count.max(1);
     let text = Values::interleaved(components, &text[..count * components]);
-    let arrays = [labelled, DataArray { name: "text", values: text }];
+    let arrays = [labelled, DataArray::new("text", text)];
     write_particles(&path, 0.5, positions[..].into(), &arrays).unwrap();
     (folder, path)
 }
@@ -50,6 +50,37 @@ fn what_is_written_of_cells_is_read_back_to_the_last_bit() {
     assert_eq!(file.arrays[0].bytes, [1, 0, 1, 1, 0, 9]);
     assert_eq!(file.arrays[1].bytes, bytes(&[[1.5_f32, f32::NAN]; 6].concat(), |x| x.to_ne_bytes()));
     assert_eq!(file.arrays[2].bytes, bytes(&[-1_i32, 2, i32::MIN, 4, 5, i32::MAX], |x| x.to_ne_bytes()));
+}
+
+#[test]
+fn names_of_components_and_states_are_read_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("d.vti");
+    let names = |names: &[&str]| -> Vec<String> { names.iter().map(|name| (*name).to_owned()).collect() };
+    let (elements, ground) =
+        (names(&["[0].x", "[0].y", "[1].x", "[1].y"]), names(&["Rock", "Öl & <Wasser>"]));
+    let arrays = [
+        DataArray::new("paths", &[[1_i32, 2, 3, 4]; 6][..]).with_components(&elements),
+        DataArray::new("a \"b\"", &[1_u8, 0, 1, 1, 0, 0][..]).with_states(&ground),
+        DataArray::new("flow", &[[0.5_f64; 3]; 6][..]),
+        DataArray::new("many", &[[0_u8; 5]; 6][..]),
+    ];
+    write_dense(&path, 0.0, &GRID, &arrays).unwrap();
+    let file = read_dense(&path).unwrap();
+    let found = |number: usize| &file.arrays[number];
+    assert_eq!((&found(0).component_names, found(0).states.len()), (&elements, 0));
+    assert_eq!((&found(1).component_names, &found(1).states), (&names(&[""]), &ground));
+    assert_eq!(found(2).component_names, [".x", ".y", ".z"]);
+    assert_eq!(found(3).component_names[4], "[4]");
+    // Names that are no text.
+    let text = String::from_utf8_lossy(&fs::read(&path).unwrap()).into_owned();
+    assert!(text.contains(">82 111 99 107 0 195 150 108 "), "{text}");
+    let mut bytes = fs::read(&path).unwrap();
+    let place = bytes.windows(4).position(|window| window == b"195 ").unwrap();
+    bytes[place..place + 3].copy_from_slice(b"300");
+    fs::write(&path, bytes).unwrap();
+    let error = read_dense(&path).unwrap_err().to_string();
+    assert!(error.contains("one of its arrays makes no sense"), "{error}");
 }
 
 #[test]

@@ -128,7 +128,7 @@ fn small_spaces_grow_and_large_ones_shrink() {
     // A quarter of the cells: the mean of two by two colours, in linear light.
     let mut watched = Watched::new(life([8, 8, 1], &[[0, 0], [1, 0], [2, 2], [6, 0]]), None);
     let rows = halves(&watched.drawn(4, 3), Rect::new(0, 1, 4, 2));
-    let (half, quarter) = (Color::Rgb(180, 185, 196), Color::Rgb(214, 218, 224));
+    let (half, quarter) = (Color::Rgb(182, 184, 194), Color::Rgb(217, 218, 224));
     assert_eq!(rows[3], [half, DEAD, DEAD, quarter].map(Some));
     assert_eq!(rows[2], [DEAD, quarter, DEAD, DEAD].map(Some));
     assert_eq!(rows[0], [Some(DEAD); 4]);

@@ -1,7 +1,7 @@
 //! Terminals of any size.
 
 use super::*;
-use crate::output::picture::ColourMap;
+use crate::output::picture::{Category, ColourMap};
 use crate::record::Sight;
 use proptest::prelude::*;
 
@@ -22,8 +22,8 @@ fn any_news() -> impl Strategy<Value = News> {
     });
     (prop_oneof![layer, items], any::<bool>(), any::<bool>()).prop_map(
         |((subject, values), has_kinds, has_ended)| {
-            let kinds =
-                if has_kinds { vec![(0.0, "none".to_owned()), (1.0, "some".to_owned())] } else { Vec::new() };
+            let kinds = [Category::new(0, 0.0, "none"), Category::new(1, 1.0, "some")];
+            let kinds = if has_kinds { kinds.to_vec() } else { Vec::new() };
             News {
                 step: 3,
                 sight: Sight {
