@@ -98,7 +98,7 @@ impl Execution for GpuExecution {
                 .map(|values| reduce_values(reduction, stored, values))
                 .collect()
         };
-        let mut results = vec![Reduced::Nothing; usize::from(stored.lanes)];
+        let mut results = vec![Reduced::Nothing; stored.components()];
         for row in rows {
             for (result, part) in results.iter_mut().zip(row) {
                 *result = result.combine(part, reduction);

@@ -32,7 +32,7 @@ pub(crate) struct Population {
 }
 
 /// One number for each item.
-const NUMBER: StoredType = StoredType { scalar: xca_core::StoredScalar::U32, lanes: 1 };
+const NUMBER: StoredType = StoredType { scalar: xca_core::StoredScalar::U32, lanes: 1, length: 1 };
 
 impl Population {
     /// An empty one.

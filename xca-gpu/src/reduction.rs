@@ -53,7 +53,7 @@ pub(crate) fn is_possible(device: &Device, reduction: &Reduction, stored: Stored
     device.adapter().has_f64 || !(float && sum)
 }
 
-/// Reduces rows of values, lane by lane: the results of the rows in order.
+/// Reduces rows of values, component by component: the results of the rows in order.
 pub(crate) fn reduce(
     device: &Device,
     strict: bool,
@@ -61,7 +61,7 @@ pub(crate) fn reduce(
     values: Binding,
     rows: Rows,
 ) -> Result<Vec<Vec<Reduced>>, DeviceError> {
-    let lanes = usize::from(stored.lanes);
+    let components = stored.components();
     let (source, kind) = text(reduction, stored);
     let code = Code {
         name: format!("the reduction {reduction:?}"),
@@ -80,7 +80,7 @@ pub(crate) fn reduce(
         RowResult::Long | RowResult::Double => 8,
         RowResult::Unsigned | RowResult::Signed | RowResult::Single => 4,
     };
-    let length = (rows.rows as usize * lanes * size) as u64;
+    let length = (rows.rows as usize * components * size) as u64;
     let results = device.buffer("results", length)?;
     let parts = [(&description).into(), values, (&wanted).into(), (&results).into()];
     let bindings = device.bind(&device.pipeline(&code)?, &parts)?;
@@ -89,7 +89,7 @@ pub(crate) fn reduce(
     device.submit(recorder)?;
     let bytes = device.download(&results, 0..length)?;
     let numbers: Vec<Reduced> = bytes.chunks_exact(size).map(|bytes| kind.number(bytes)).collect();
-    Ok(numbers.chunks_exact(lanes).map(<[Reduced]>::to_vec).collect())
+    Ok(numbers.chunks_exact(components).map(<[Reduced]>::to_vec).collect())
 }
 
 impl RowResult {
@@ -141,7 +141,7 @@ fn text(reduction: &Reduction, stored: StoredType) -> (String, RowResult) {
         RowResult::Single => "f32",
         RowResult::Double => "f64",
     };
-    let lanes = stored.lanes;
+    let components = stored.components();
     let functions = if kind == RowResult::Long { LONG } else { "" };
     let source = format!(
         "struct Rows {{
@@ -177,12 +177,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) w
     }}
     let first = rows.first + row % rows.height * rows.row + row / rows.height * rows.layer;
     let end = first + min(rows.width, rows.values - row * rows.width);
-    for (var lane = 0u; lane < {lanes}u; lane += 1u) {{
-        var all = one_of(values[first * {lanes}u + lane]);
+    for (var component = 0u; component < {components}u; component += 1u) {{
+        var all = one_of(values[first * {components}u + component]);
         for (var i = first + 1u; i < end; i += 1u) {{
-            all = both(all, one_of(values[i * {lanes}u + lane]));
+            all = both(all, one_of(values[i * {components}u + component]));
         }}
-        results[row * {lanes}u + lane] = all;
+        results[row * {components}u + component] = all;
     }}
 }}
 "
@@ -223,7 +223,7 @@ mod tests {
         let scalars =
             [StoredScalar::U8, StoredScalar::I32, StoredScalar::U32, StoredScalar::F32, StoredScalar::F64];
         for scalar in scalars {
-            let stored = StoredType { scalar, lanes: 3 };
+            let stored = StoredType { scalar, lanes: 3, length: 2 };
             let mut reductions = vec![
                 Sum,
                 Product,

@@ -26,9 +26,11 @@
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
 mod access;
+mod buffer;
 mod declarations;
 mod entry;
 mod error;
+mod fault;
 mod glossary;
 mod inference;
 mod layout;
@@ -44,5 +46,6 @@ mod types;
 mod visit;
 
 pub use error::{Error, Problem};
+pub use fault::FaultKind;
 pub use layout::{FieldLayout, Layout};
 pub use shader::{Binding, BindingAccess, Content, Dispatch, Options, Shader, State, shader};

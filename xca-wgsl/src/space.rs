@@ -1,6 +1,7 @@
 //! Where things are: cells, neighbours, positions.
 
-use xca_core::kernel::{BEYOND_NEIGHBOURHOOD, NOWHERE, OUTSIDE};
+use crate::fault::FaultKind;
+use xca_core::kernel::{NOWHERE, OUTSIDE};
 use xca_core::{Parity, Precision};
 
 /// The number of a cell among the stored ones, from its indices.
@@ -42,10 +43,11 @@ pub(crate) fn neighbour_at(parity: Parity, neighbours: &str) -> String {
 
 /// The same where the index may be too large: a fault, and the cell itself is read.
 pub(crate) fn checked_neighbour_at(neighbours: &str) -> String {
+    let kind = FaultKind::BeyondNeighbourhood as u32;
     format!(
         "fn checked_neighbour_at(index: u32) -> u32 {{
     if index >= {neighbours} {{
-        report_fault({BEYOND_NEIGHBOURHOOD:#x}u, Real(index));
+        record_fault({kind}u, index, {neighbours}, Real());
         return here;
     }}
     return neighbour_at(index);

@@ -293,6 +293,7 @@ pub(crate) fn constant(name: &str, value: &Constant) -> Result<Type, Problem> {
         Constant::U32(_) => Type::Scalar(ScalarType::U32),
         Constant::F32(_) => Type::Scalar(ScalarType::F32),
         Constant::Real(_) => Type::Scalar(ScalarType::Real),
+        Constant::State(_, names) => Type::State(names),
         Constant::Vector(lanes) => match lanes.first().map(|lane| constant(name, lane)).transpose()? {
             Some(Type::Scalar(scalar)) => Type::Vector(scalar, self::lanes(lanes.len())?),
             _ => return Err(unsupported("vectors are of numbers")),

@@ -25,6 +25,7 @@ pub(crate) fn constant_text(name: &str, value: &Constant, options: &Options) -> 
         Constant::U8(value) => literal::integer(i128::from(*value), ScalarType::U8),
         Constant::I32(value) => literal::integer(i128::from(*value), ScalarType::I32),
         Constant::U32(value) => literal::integer(i128::from(*value), ScalarType::U32),
+        Constant::State(number, _) => Ok(format!("{number}u")),
         Constant::F32(value) => literal::float((*value).into(), ScalarType::F32, options),
         Constant::Real(value) => literal::float(*value, ScalarType::Real, options),
         Constant::Vector(elements) | Constant::Array(elements) => {
