@@ -100,7 +100,7 @@ fn everywhere(check: impl Fn(&State<'_>) -> Result<(), StateError>) -> Result<()
 }
 
 fn lane<V: HostValue>(values: &[V], lane: usize) -> Vec<V::Scalar> {
-    values.iter().map(|value| value.lane(lane)).collect()
+    values.iter().map(|value| value.component(lane)).collect()
 }
 
 /// All reductions of integers, by arithmetic in 128 bits and by counting.
@@ -112,7 +112,7 @@ where
     V::Scalar: Into<i64>,
 {
     let values = state.read(substate)?;
-    for number in 0..V::LANES {
+    for number in 0..V::COMPONENTS {
         let values: Vec<i64> = lane(&values, number).into_iter().map(Into::into).collect();
         let result = |reduction| Ok::<_, StateError>(state.reduce(substate, &reduction)?[number]);
         let sum: i128 = values.iter().map(|value| i128::from(*value)).sum();
@@ -161,7 +161,7 @@ where
     V::Scalar: Into<f64>,
 {
     let values = state.read(substate)?;
-    for number in 0..V::LANES {
+    for number in 0..V::COMPONENTS {
         let values: Vec<f64> = lane(&values, number).into_iter().map(Into::into).collect();
         let result = |reduction| {
             let result = state.reduce(substate, &reduction)?[number];

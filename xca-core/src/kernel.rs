@@ -27,7 +27,7 @@ pub use constants::{KernelConstant, Ordered, constant};
 pub use search::{CellFilter, Found, Scratch, reach};
 pub use space::NativeSpace;
 pub use values::{
-    AroundRead, ArrayCells, ArrayValue, CellsOf, CentreRead, Column, Columns, KernelElement, KernelValue,
+    ArrayCells, ArrayValue, AroundRead, CellsOf, CentreRead, Column, Columns, KernelElement, KernelValue,
     Offset, Planes, load, load_element, store,
 };
 
@@ -334,9 +334,7 @@ impl<'a> Row<'a> {
     #[inline(always)]
     fn planes<T: KernelValue>(&self, number: usize) -> (AroundRead<'_, T>, bool) {
         let entry = self.entry::<T>(number);
-        let MemoryOf::Cells { read_stride: stride, around, .. } = entry.memory.of else {
-            panic!("an entry of items")
-        };
+        let MemoryOf::Cells { read_stride: stride, around, .. } = entry.memory.of else { panic!("an entry of items") };
         assert!(!entry.read.is_null(), "an entry that is written in place");
         (AroundRead { first: entry.read.cast(), stride, row: PhantomData }, around)
     }
@@ -359,9 +357,7 @@ impl<'a> Row<'a> {
     #[inline(always)]
     pub fn write_cells<T: KernelValue>(&self, number: usize) -> T::Cells<'_> {
         let entry = self.entry::<T>(number);
-        let MemoryOf::Cells { write_stride: stride, .. } = entry.memory.of else {
-            panic!("an entry of items")
-        };
+        let MemoryOf::Cells { write_stride: stride, .. } = entry.memory.of else { panic!("an entry of items") };
         self.take(number);
         let planes = Planes { first: entry.write.cast(), stride, cells: self.length };
         // SAFETY: `Row::new`: where it can be written, each plane has `length` elements, aligned, this row's alone. It is, and is asked for
@@ -383,10 +379,7 @@ impl<'a> Row<'a> {
     #[inline(always)]
     pub fn read_items<T: KernelValue>(&self, number: usize) -> &[T::Memory] {
         let entry = self.entry::<T>(number);
-        assert!(
-            entry.memory.of == MemoryOf::Items { all: true },
-            "an entry whose other items cannot be read"
-        );
+        assert!(entry.memory.of == MemoryOf::Items { all: true }, "an entry whose other items cannot be read");
         assert!(!entry.read.is_null(), "an entry that is written in place");
         let count = self.items.map_or(0, |items| items.labels.len());
         // SAFETY: `Row::new`: as many elements as labels, aligned, which no one writes.

@@ -123,8 +123,8 @@ pub use random::{Owner, draw_words, philox};
 pub use reference::Reference;
 pub use schema::{Field, Schema};
 pub use simulation::{GroupSnapshot, Outcome, RunError, RunOptions, Simulation, Snapshot, SnapshotError};
-pub use state::{Item, State, StateError};
 pub use states::{StateNames, States};
+pub use state::{Item, State, StateError};
 pub use steering::{Schedule, SteeringError};
 pub use substates::{HasSubstate, Substate, Substates};
 pub use value::{
@@ -140,7 +140,7 @@ pub mod prelude {
     pub use crate::{
         Boundary, Cell, Destination, Engine, Hexagons, Item, Model, ModelError, Neighbourhood, Other,
         Outcome, ParameterError, Parameters, Precision, Real, Reference, RunError, RunOptions, Schedule,
-        Simulation, Slot, Slots, Space, State, States, SteeringError, Substate, Substates, Vector2, Vector3,
-        Vector4, elementary_process, helper, migration,
+        Simulation, Slot, Slots, Space, State, States, SteeringError, Substate, Substates, Vector2, Vector3, Vector4,
+        elementary_process, helper, migration,
     };
 }

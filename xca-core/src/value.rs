@@ -203,9 +203,9 @@ impl ValueType {
             (None, 1) => vec![String::new()],
             (None, _) => lanes.iter().map(|lane| (*lane).to_owned()).collect(),
             (Some(length), 1) => (0..length).map(|element| element.to_string()).collect(),
-            (Some(length), _) => (0..length)
-                .flat_map(|element| lanes.iter().map(move |lane| format!("{element}_{lane}")))
-                .collect(),
+            (Some(length), _) => {
+                (0..length).flat_map(|element| lanes.iter().map(move |lane| format!("{element}_{lane}"))).collect()
+            }
         }
     }
 

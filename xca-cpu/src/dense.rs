@@ -136,8 +136,7 @@ impl Dense {
     }
 
     pub(crate) fn write_cell(&mut self, layout: &Layout, cell: usize, value: &[u8]) {
-        for (place, element) in self.places(layout, cell).zip(value.chunks_exact(self.stored.element_size()))
-        {
+        for (place, element) in self.places(layout, cell).zip(value.chunks_exact(self.stored.element_size())) {
             self.current.bytes_mut()[place].copy_from_slice(element);
         }
         self.touch();

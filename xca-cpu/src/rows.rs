@@ -15,8 +15,7 @@ use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use xca_core::engine::{Fault, StepContext, SubstateId};
 use xca_core::kernel::{
-    Access, CellFilter, Entry, Frame, Memory, MemoryOf, Of, Row, RowFault, RowItems, RowKernel, STAY,
-    Scratch, StoppedAt,
+    Access, CellFilter, Entry, Frame, Memory, MemoryOf, Of, Row, RowFault, RowItems, RowKernel, STAY, Scratch, StoppedAt,
 };
 use xca_core::{Boundary, Model, Parity, Precision, Process, ProcessKind};
 
@@ -258,7 +257,8 @@ fn shared(
             let plane = &mut planes[substate.field];
             let continued = access.write && plane.read_elsewhere;
             let stride = layout.cells();
-            let of = MemoryOf::Cells { read_stride: stride, write_stride: stride, around: access.others };
+            let of =
+                MemoryOf::Cells { read_stride: stride, write_stride: stride, around: access.others };
             (&mut plane.current, plane.next.as_mut(), plane.stored, of, continued)
         }
         Group::Population(population) => {

@@ -21,8 +21,8 @@ const SCALARS: [&str; 7] = ["bool", "u8", "i32", "u32", "f32", "f64", "Real"];
 
 /// Types that are no enum of states, whatever the user may think.
 const OTHER_TYPES: [&str; 16] = [
-    "usize", "isize", "i8", "i16", "i64", "i128", "u16", "u64", "u128", "char", "str", "String", "Vec",
-    "Option", "Box", "HashMap",
+    "usize", "isize", "i8", "i16", "i64", "i128", "u16", "u64", "u128", "char", "str", "String", "Vec", "Option",
+    "Box", "HashMap",
 ];
 
 /// The number by which the macros find a field of a struct that they cannot see: FNV-1a of its name.
@@ -106,10 +106,7 @@ fn handle(name: &Ident) -> String {
 fn check_type(type_: &Type) -> Result<()> {
     if let Type::Array(array) = type_ {
         if let Type::Array(inner) = &*array.elem {
-            return Err(Error::new_spanned(
-                inner,
-                "an array has one index; multiply the lengths: `[Real; 3 * 4]`",
-            ));
+            return Err(Error::new_spanned(inner, "an array has one index; multiply the lengths: `[Real; 3 * 4]`"));
         }
         return check_type(&array.elem);
     }
@@ -125,18 +122,17 @@ fn check_type(type_: &Type) -> Result<()> {
     let word = segment.ident.to_string();
     match &segment.arguments {
         PathArguments::None if SCALARS.contains(&&*word) || may_be_states(&word) => Ok(()),
-        PathArguments::AngleBracketed(arguments) if VECTORS.contains(&&*word) => {
-            match arguments.args.first() {
-                Some(GenericArgument::Type(Type::Path(lane)))
-                    if lane.path.get_ident().is_some_and(|lane| {
-                        lane != "bool" && SCALARS.iter().any(|scalar| lane == scalar)
-                    }) =>
-                {
-                    Ok(())
-                }
-                _ => Err(unsupported()),
+        PathArguments::AngleBracketed(arguments) if VECTORS.contains(&&*word) => match arguments.args.first() {
+            Some(GenericArgument::Type(Type::Path(lane)))
+                if lane
+                    .path
+                    .get_ident()
+                    .is_some_and(|lane| lane != "bool" && SCALARS.iter().any(|scalar| lane == scalar)) =>
+            {
+                Ok(())
             }
-        }
+            _ => Err(unsupported()),
+        },
         _ => Err(unsupported()),
     }
 }

@@ -229,7 +229,7 @@ pub(crate) fn of_parameters(parameters: &dyn AnyParameters) -> Map<String, Value
             let is_whole =
                 matches!(field.value_type.scalar, ScalarType::U8 | ScalarType::I32 | ScalarType::U32);
             let lane = |lane: &f64| if is_whole { json!(*lane as i64) } else { json!(lane) };
-            let lanes: Vec<Value> = value.lanes().iter().map(lane).collect();
+            let lanes: Vec<Value> = value.components().iter().map(lane).collect();
             let value = if let [lane] = lanes.as_slice() { lane.clone() } else { Value::Array(lanes) };
             (field.name.to_owned(), value)
         })

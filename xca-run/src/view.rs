@@ -85,7 +85,7 @@ impl<S: Substates> ItemView<S> {
         substate: Substate<S, V>,
         headers: [&str; N],
     ) -> Self {
-        const { assert!(N == V::LANES, "one header for each lane of the substate") };
+        const { assert!(N == V::COMPONENTS, "one header for each component of the substate") };
         let columns = headers.iter().enumerate();
         self.view
             .columns

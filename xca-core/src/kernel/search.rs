@@ -3,8 +3,8 @@
 //! The result is defined by the present positions alone: the items of the reached cells that are nearer than the radius, in the order
 //! neighbour index, then label. An engine may therefore leave out cells that are too far away ([`CellFilter`]).
 
-use super::wide::{self, Wide};
 use super::{Column, Row};
+use super::wide::{self, Wide};
 use crate::geometry::{Boundary, Geometry};
 use crate::neighbourhood::Parity;
 use crate::value::{Float, Precision};

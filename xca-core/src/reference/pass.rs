@@ -49,7 +49,8 @@ impl ReferenceExecution {
         for cell in 0..geometry.cells() {
             let indices = geometry.indices(cell);
             let around: Vec<Option<usize>> = neighbourhood(&geometry, indices).collect();
-            let entries: Vec<Entry> = passes.iter_mut().map(|pass| self.entry(pass, cell, &around)).collect();
+            let entries: Vec<Entry> =
+                passes.iter_mut().map(|pass| self.entry(pass, cell, &around)).collect();
             let ranges: Option<(Vec<u32>, Vec<u32>)> =
                 population.map(|group| self.groups[group].ranges(&around));
             let own = population.map_or((0, 0), |group| self.groups[group].range(cell));

@@ -72,9 +72,8 @@ impl Simulation {
                 execution.population(group).map(|items| GroupSnapshot::Population(items, left))
             }
         };
-        let parameter = |field| {
-            self.parameters.value_of(field).components().iter().map(|number| number.to_bits()).collect()
-        };
+        let parameter =
+            |field| self.parameters.value_of(field).components().iter().map(|number| number.to_bits()).collect();
         Ok(Snapshot {
             step: self.step,
             groups: self.model.groups().iter().enumerate().map(of_group).collect::<Result<_, _>>()?,
@@ -207,8 +206,8 @@ impl Snapshot {
                 let numbers = bits.iter().map(|number| f64::from_bits(*number)).collect();
                 ParameterValue::from_components(field.value_type, numbers).is_some()
             };
-            let same =
-                self.parameters.len() == fields.len() && self.parameters.iter().zip(fields).all(are_values);
+            let same = self.parameters.len() == fields.len()
+                && self.parameters.iter().zip(fields).all(are_values);
             (!same).then(|| format!("its parameters are not those of {}", model.parameters().schema().name))
         })
     }

@@ -147,8 +147,7 @@ fn neighbours_show_arrays_from_before_the_process() {
             let right = if x == 4 { outside } else { lane(x + 1) };
             let sums = [left, right].map(|one| 2.0 * one.flows[1]);
             assert_eq!(cell.total, sums[0] + sums[1], "{x}");
-            let wet =
-                [left, right].map(|one| one.states.iter().filter(|state| **state == Ground::Water).count());
+            let wet = [left, right].map(|one| one.states.iter().filter(|state| **state == Ground::Water).count());
             assert_eq!(cell.wet as usize, wet[0] + wet[1], "{x}");
             assert_eq!(cell.first, left.flows, "{x}");
             assert_eq!(cell.flows, [lane(x).flows[0] + 100.0, lane(x).flows[0]], "{x}");
@@ -212,9 +211,7 @@ fn items_hold_arrays_bool_and_states() {
             meetings: [0, label],
         },
     };
-    let items = move || {
-        vec![grain(0, 0.75, Ground::Water), grain(1, 1.25, Ground::Soil), grain(2, 2.75, Ground::Rock)]
-    };
+    let items = move || vec![grain(0, 0.75, Ground::Water), grain(1, 1.25, Ground::Soil), grain(2, 2.75, Ground::Rock)];
     let model = Model::builder("grains")
         .extents([3, 1, 1])
         .neighbourhood(Neighbourhood::custom(vec![[0, 0, 0], [-1, 0, 0], [1, 0, 0]]).unwrap())
@@ -280,15 +277,8 @@ fn too_far_to_write(cell: &mut Cell<Lane>) {
 #[test]
 fn an_element_beyond_an_array_is_a_fault() {
     let before = Lane { wet: 2, ..Lane::default() };
-    for message in
-        [failure(too_far, before), failure(too_far_at_a_neighbour, before), failure(too_far_to_write, before)]
-    {
-        assert!(
-            message.ends_with(
-                "panicked in cell [0, 0, 0]: index out of bounds: the len is 2 but the index is 2"
-            ),
-            "{message}"
-        );
+    for message in [failure(too_far, before), failure(too_far_at_a_neighbour, before), failure(too_far_to_write, before)] {
+        assert!(message.ends_with("panicked in cell [0, 0, 0]: index out of bounds: the len is 2 but the index is 2"), "{message}");
     }
     let fits = Lane { wet: 1, flows: [3.0, 4.0], ..Lane::default() };
     assert_eq!(run(too_far, fits).total, 4.0);
@@ -322,14 +312,8 @@ fn parameters_are_set_by_the_names_of_values() {
         message("turns_to", "Lava"),
         "`Lava` is no value for the parameter `turns_to`, which is a Ground: Rock, Soil, Water"
     );
-    assert_eq!(
-        message("rains", "1"),
-        "`1` is no value for the parameter `rains`, which is a bool: true or false"
-    );
-    assert_eq!(
-        message("shares", "1,2"),
-        "`1,2` is no value for the parameter `shares`, which is a [Real; 3]"
-    );
+    assert_eq!(message("rains", "1"), "`1` is no value for the parameter `rains`, which is a bool: true or false");
+    assert_eq!(message("shares", "1,2"), "`1,2` is no value for the parameter `shares`, which is a [Real; 3]");
     assert_eq!(message("level", "256"), "`256` is no value for the parameter `level`, which is a u8");
 }
 

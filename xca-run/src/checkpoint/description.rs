@@ -147,7 +147,7 @@ impl Parameter {
     /// The parameters of a model that has not been run.
     fn all(parameters: &dyn AnyParameters) -> Vec<Self> {
         let fields = parameters.schema().fields.iter().enumerate();
-        let lanes = |value: ParameterValue| value.lanes().iter().copied().map(Exact).collect();
+        let lanes = |value: ParameterValue| value.components().iter().copied().map(Exact).collect();
         fields
             .map(|(index, field)| Self {
                 name: field.name.to_owned(),

@@ -78,7 +78,7 @@ impl Data<'_> {
 
     fn substates(&mut self, shape: &GroupShape, count: usize) -> Option<Vec<Vec<u8>>> {
         let stored = shape.substates.iter().map(|substate| substate.stored);
-        stored.map(|stored| self.plane(count, usize::from(stored.lanes), stored.scalar.size())).collect()
+        stored.map(|stored| self.plane(count, stored.components(), stored.scalar.size())).collect()
     }
 }
 

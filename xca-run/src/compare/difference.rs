@@ -11,7 +11,7 @@ use pairs::Pairs;
 use serde::Serialize;
 use std::fmt;
 use xca_core::model::Group;
-use xca_core::{GroupSnapshot, Model, Precision, Snapshot};
+use xca_core::{GroupSnapshot, Model, Precision, ScalarType, Snapshot, ValueType};
 
 /// A state with what its `Real` is.
 #[derive(Debug, Clone, Copy)]
@@ -252,8 +252,7 @@ impl Differences {
             if a == b {
                 continue;
             }
-            let stored =
-                xca_core::StoredType { scalar: xca_core::StoredScalar::F64, lanes: field.value_type.lanes };
+            let stored = ValueType { scalar: ScalarType::F64, ..field.value_type }.stored(Precision::F64);
             let bytes =
                 [a, b].map(|lanes| lanes.iter().flat_map(|lane| lane.to_ne_bytes()).collect::<Vec<u8>>());
             let [a, b] = bytes.each_ref().map(|bytes| Numbers::new(stored, bytes));

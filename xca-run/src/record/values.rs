@@ -12,7 +12,7 @@ pub(super) fn stored_of(array: &ReadArray) -> StoredType {
         NumberType::F32 => StoredScalar::F32,
         NumberType::F64 => StoredScalar::F64,
     };
-    StoredType { scalar, lanes: array.components as u8 }
+    StoredType { scalar, lanes: 1, length: u32::try_from(array.components).unwrap_or(u32::MAX) }
 }
 
 /// The values of a substate of cells or items.
@@ -63,7 +63,7 @@ impl Plane {
             StoredScalar::F32 => Numbers::F32(decoded(bytes, f32::from_ne_bytes)),
             StoredScalar::F64 => Numbers::F64(decoded(bytes, f64::from_ne_bytes)),
         };
-        Self { numbers, lanes: usize::from(stored.lanes) }
+        Self { numbers, lanes: stored.components() }
     }
 
     /// Points.
@@ -148,7 +148,7 @@ impl Plane {
 mod tests {
     use super::*;
 
-    const VECTOR: StoredType = StoredType { scalar: StoredScalar::F32, lanes: 2 };
+    const VECTOR: StoredType = StoredType { scalar: StoredScalar::F32, lanes: 2, length: 1 };
 
     #[test]
     fn bytes_become_numbers() {
@@ -165,7 +165,7 @@ mod tests {
 
     #[test]
     fn whole_numbers_stay_what_they_are() {
-        let stored = StoredType { scalar: StoredScalar::U8, lanes: 1 };
+        let stored = StoredType { scalar: StoredScalar::U8, lanes: 1, length: 1 };
         let plane = Plane::chosen(stored, &[7, 8, 9], &[1, 2]);
         assert!(!plane.is_float());
         assert_eq!(plane.magnitudes(), [8.0, 9.0]);

@@ -26,7 +26,7 @@ impl<'a> Numbers<'a> {
     }
 
     pub(super) fn lanes(&self) -> usize {
-        usize::from(self.stored.lanes)
+        self.stored.components()
     }
 
     pub(super) fn is_float(&self) -> bool {
