@@ -198,7 +198,7 @@ impl Writer<'_, '_> {
             })
         };
         // What the place needs stands in statements before.
-        let stops = self.may_stop(value) && indices().count() > 0;
+        let stops = self.may_stop(value) && indices().any(|index| !matches!(index, Expression::Literal(_)));
         if stops || indices().any(|index| self.hoists(index)) && !self.stable(value) {
             let type_ = self.type_of(value);
             return Ok(self.keep("assigned", &type_, &text));

@@ -69,15 +69,15 @@ fn arrays_lie_as_in_wgsl() {
             module.types.iter().find(|(_, type_)| type_.name.as_deref() == Some("Arrays")).unwrap();
         let naga::TypeInner::Struct { members, span } = &type_.inner else { panic!("no struct") };
         assert_eq!(layout.size, *span);
-        let mut arrays = 0;
+        let mut checked = 0;
         for (field, member) in layout.fields.iter().zip(members) {
             assert_eq!(field.offset, member.offset, "{}", field.name);
             if let naga::TypeInner::Array { stride, .. } = module.types[member.ty].inner {
                 assert_eq!(field.stride, stride, "{}", field.name);
-                arrays += 1;
+                checked += 1;
             }
         }
-        assert_eq!(arrays, 5);
+        assert_eq!(checked, 5);
     }
 }
 

@@ -87,7 +87,7 @@ fn states_are_numbers_without_arithmetic() {
     assert!(text.contains("let next: u32 = worse(cell.ground, TABLE);"), "{text}");
     assert!(text.contains("    if next == Rock {\n        number = 3u;\n    } else {\n"), "{text}");
     assert!(shader.source.contains("const Water: u32 = 2u;\n"), "{}", shader.source);
-    assert!(text.contains("cell.wet = (weather.rains != 0u) && (!cell.wet);"), "{text}");
+    assert!(text.contains("cell.wet = (weather.rains != 0u) && !cell.wet;"), "{text}");
     assert!(text.contains("cell.seen[cell.ground]"), "{text}");
     let entry = function(&shader, "process_cell");
     assert!(entry.contains("    cell.wet = (wet_now[here] != 0u);\n"), "{entry}");
@@ -152,7 +152,7 @@ fn elements_are_read_without_the_rest() {
     let text = function(&shader, "elements");
     assert!(text.contains("flows_now[3u * here + 1u]"), "{text}");
     assert!(text.contains("(marks_now[2u * other + 1u] != 0u)"), "{text}");
-    assert!(text.contains("seen_now[4u * (here - 1u) + (n % 4u)]"), "{text}");
+    assert!(text.contains("seen_now[4u * (here - 1u) + n % 4u]"), "{text}");
     assert!(text.contains("paths_element_at((here + 1u), 0u).x"), "{text}");
     assert!(!shader.source.contains("fn flows_at("), "{}", shader.source);
     assert!(!shader.source.contains("cell.flows"), "{}", shader.source);
@@ -239,7 +239,7 @@ fn what_may_stop_a_process_is_checked() {
     );
     assert!(text.contains("TABLE[checked_index(k, 4u)]"), "{text}");
     assert!(
-        text.contains("        if has_fault {\n            break;\n        }\n        n = n + 1u;"),
+        text.contains("        if has_fault {\n            break;\n        }\n        n += 1u;"),
         "{text}"
     );
 }
