@@ -123,6 +123,11 @@ fn by_a_state(cell: &mut Cell<Field>) {
 }
 
 #[elementary_process]
+fn by_a_number_below_zero(cell: &mut Cell<Field>) {
+    cell.total = cell.numbers[(cell.divisor - 1) as usize] as Real;
+}
+
+#[elementary_process]
 fn in_a_helper(cell: &mut Cell<Field>) {
     cell.total = picked(cell.numbers, cell.index) as Real;
 }
@@ -347,6 +352,7 @@ fn an_index_beyond_an_array_of_a_cell() -> Result<(), Box<dyn Error>> {
     at(base(FIRST).process(of_a_parameter), beyond(3, 3))?;
     at(base(FIRST).process(of_a_truth), beyond(2, 3))?;
     at(base(FIRST).process(by_a_state), beyond(2, 2))?;
+    at(base(FIRST).process(by_a_number_below_zero), beyond(3, u32::MAX))?;
     at(base(FIRST).process(in_a_helper), beyond(3, 3))?;
     at(base(FIRST).process(of_a_parameter_in_a_helper), beyond(3, 3))?;
     at(base(FIRST).process(in_a_loop), beyond(3, 3))?;
