@@ -106,8 +106,16 @@ fn every_change_is_found() -> Result<(), Box<dyn Error>> {
     assert_found(Site::PAIR, 4, |pair| Vector2::new(pair.x + 0.25, pair.y))?;
     assert_found(Site::TABLE, 0, |table| [table[0], table[1], table[2] ^ 1, table[3]])?;
     assert_found(Site::PATHS, 2, |paths| [paths[0], Vector2::new(paths[1].x + 0.5, paths[1].y)])?;
-    assert_found(Site::TERRAIN, 3, |terrain| if terrain == Terrain::Soil { Terrain::Rock } else { Terrain::Soil })?;
-    assert_found(Site::TERRAIN, 0, |terrain| if terrain == Terrain::Soil { Terrain::Rock } else { Terrain::Soil })?;
+    assert_found(
+        Site::TERRAIN,
+        3,
+        |terrain| if terrain == Terrain::Soil { Terrain::Rock } else { Terrain::Soil },
+    )?;
+    assert_found(
+        Site::TERRAIN,
+        0,
+        |terrain| if terrain == Terrain::Soil { Terrain::Rock } else { Terrain::Soil },
+    )?;
     assert_found(Site::WET, 3, |wet| [wet[0], !wet[1]])?;
     assert_found(Site::DRY, 2, |dry| !dry)?;
     assert_found(Site::TERRAINS, 1, |mut terrains| {

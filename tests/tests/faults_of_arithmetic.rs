@@ -1,5 +1,5 @@
-//! What Rust stops a process for: an index beyond an array and a division without a result. Every engine stops there with the same fault,
-//! in the same words, whether its machine can panic or not.
+//! What Rust stops a process for: an index beyond an array and a division without a result. Every engine
+//! stops there with the same fault, in the same words, whether its machine can panic or not.
 
 use std::error::Error;
 use xca_core::prelude::*;
@@ -275,7 +275,8 @@ fn moved_by_a_table(me: &Slot<Grain>) -> Destination {
     if TABLE[me.index as usize] == 9 { Destination::Outside } else { Destination::Stay }
 }
 
-/// Of 24 cells those from the place on are faulty: each asks for elements, and divides by numbers, of its own.
+/// Of 24 cells those from the place on are faulty: each asks for elements, and divides by numbers, of its
+/// own.
 fn base(from: usize) -> ModelBuilder {
     let place = |[x, y, z]: [usize; 3]| x + 4 * y + 12 * z;
     Model::builder("faulty")

@@ -404,8 +404,8 @@ impl Fault {
     }
 }
 
-/// The message about an index beyond an array with the 32 bits of the index that every engine has: a number below zero that is taken for an
-/// index has 64 on a processor.
+/// The message about an index beyond an array with the 32 bits of the index that every engine has: a number
+/// below zero that is taken for an index has 64 on a processor.
 fn with_narrow_index(message: String) -> String {
     const WORDS: &str = "but the index is ";
     let wide = message.rsplit_once(WORDS).and_then(|(start, index)| Some((start, index.parse::<u64>().ok()?)));

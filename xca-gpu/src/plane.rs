@@ -4,8 +4,8 @@ use crate::device::{Binding, Buffer, Device, DeviceError};
 use crate::space::{Part, Space};
 use xca_core::{StoredScalar, StoredType};
 
-/// A substate of all cells or of all items: a value for each, element after element, lane beside lane, a `u8`, `bool` or state in the
-/// four bytes of a `u32`.
+/// A substate of all cells or of all items: a value for each, element after element, lane beside lane, a
+/// `u8`, `bool` or state in the four bytes of a `u32`.
 #[derive(Debug)]
 pub(crate) struct Plane {
     stored: StoredType,

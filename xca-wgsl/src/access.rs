@@ -12,7 +12,8 @@ use xca_core::kernel::Of;
 pub(crate) struct Use {
     pub(crate) of: Of,
     pub(crate) field: usize,
-    /// Read as a whole or written at the centre: it is loaded before the process and lies in a variable meanwhile.
+    /// Read as a whole or written at the centre: it is loaded before the process and lies in a variable
+    /// meanwhile.
     pub(crate) centre: bool,
     /// Elements of it are read at the centre.
     pub(crate) elements: bool,

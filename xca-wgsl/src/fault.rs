@@ -4,8 +4,8 @@ use xca_core::ir::FunctionKind;
 
 /// What happened, as the record of a fault tells by its number.
 ///
-/// Rust stops a process by a panic where an index lies beyond an array or a division has no result. A shader cannot: it records the fault,
-/// goes on with a value in range, and an engine throws the step away.
+/// Rust stops a process by a panic where an index lies beyond an array or a division has no result. A shader
+/// cannot: it records the fault, goes on with a value in range, and an engine throws the step away.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[repr(u32)]
 pub enum FaultKind {
@@ -80,7 +80,8 @@ pub(crate) const REPORT: &str = "fn report_fault(code: u32, value: Real) {
 /// Stands at the beginning of a loop that may have no end after a fault.
 const EXIT: &str = "// ends after a fault";
 
-/// The line at the beginning of a loop that might have no end with the values that stand in for those which Rust would have stopped at.
+/// The line at the beginning of a loop that might have no end with the values that stand in for those which
+/// Rust would have stopped at.
 pub(crate) fn exit(indent: usize) -> String {
     format!("{:width$}{EXIT}\n", "", width = 4 * indent)
 }

@@ -25,7 +25,8 @@ pub struct FieldLayout {
 }
 
 impl Layout {
-    /// The layout that WGSL gives to these fields in a storage buffer, and, where none of them is an array, in a uniform buffer too.
+    /// The layout that WGSL gives to these fields in a storage buffer, and, where none of them is an array,
+    /// in a uniform buffer too.
     pub(crate) fn of<'a>(
         fields: impl IntoIterator<Item = (&'a str, ValueType)>,
         precision: Precision,
@@ -84,7 +85,8 @@ pub(crate) const SPACE: [(&str, ValueType); 11] = [
 pub(crate) const MOMENT: [(&str, ValueType); 2] =
     [("step", ValueType::vector(ScalarType::U32, 2)), ("items", NUMBER)];
 
-/// The fields of the record of a fault: where it is, what happened ([`crate::FaultKind`]), and what that kind tells of it.
+/// The fields of the record of a fault: where it is, what happened ([`crate::FaultKind`]), and what that kind
+/// tells of it.
 pub(crate) const FAULT: [(&str, ValueType); 6] = [
     ("cell", NUMBER),
     ("label", NUMBER),

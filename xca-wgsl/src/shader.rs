@@ -109,8 +109,8 @@ pub enum Content {
     /// `i32` for each cell of the neighbourhood: the difference of its number from that of the central cell. Where rows or columns
     /// differ ([`Options::parity`]), first those of even, then those of odd ones.
     NeighbourOffsets,
-    /// A substate of all cells, or of all items: a value for each, element after element, lane beside lane, without padding; a `u8`, a
-    /// `bool` and a state as a `u32`.
+    /// A substate of all cells, or of all items: a value for each, element after element, lane beside lane,
+    /// without padding; a `u8`, a `bool` and a state as a `u32`.
     Substate {
         /// Of the process's subject or of its companion.
         of: Of,
@@ -134,8 +134,9 @@ pub enum Content {
     Destinations,
     /// Faults: at 0 a `u32`, the linear index of the first cell (of a process over items: the first item) with a fault, which is
     /// `u32::MAX` before; at 4 a `u32` that makes the shader do nothing where it is not zero, so that the state at a fault stays;
-    /// from 8 on a record for each workgroup, numbered with x running fastest, which holds the first fault in it: `cell`, `label`, and
-    /// what [`crate::FaultKind`] tells of `kind`, `number`, `limit` and `value`. A record that no fault was written to is not touched.
+    /// from 8 on a record for each workgroup, numbered with x running fastest, which holds the first fault in
+    /// it: `cell`, `label`, and what [`crate::FaultKind`] tells of `kind`, `number`, `limit` and `value`. A
+    /// record that no fault was written to is not touched.
     Faults(Layout),
 }
 

@@ -105,8 +105,8 @@ impl From<&ir::Type> for Type {
     }
 }
 
-/// What WGSL calls a scalar in memory. There are no bytes in WGSL: `u8` is a `u32` that is kept below 256, a state a `u32`, and a `bool`
-/// is 0 or 1 in a `u32`.
+/// What WGSL calls a scalar in memory. There are no bytes in WGSL: `u8` is a `u32` that is kept below 256, a
+/// state a `u32`, and a `bool` is 0 or 1 in a `u32`.
 pub(crate) fn scalar_name(scalar: ScalarType) -> &'static str {
     match scalar {
         ScalarType::Bool | ScalarType::State(_) | ScalarType::U8 | ScalarType::U32 => "u32",

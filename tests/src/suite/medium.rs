@@ -252,7 +252,8 @@ pub fn mark_paths(cell: &mut Cell<Medium>, p: &Tuning) {
     cell.marks[cell.terrain as usize] = p.counts == cell.marks;
 }
 
-/// Elements that the own state names, perhaps beyond the array, at neighbours too; and a division that may have no result.
+/// Elements that the own state names, perhaps beyond the array, at neighbours too; and a division that may
+/// have no result.
 #[elementary_process]
 pub fn overreach(cell: &mut Cell<Medium>, p: &Tuning) {
     let k = mix(cell.bits, p.salt + 3) % (11 + p.greed);

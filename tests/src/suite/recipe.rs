@@ -202,7 +202,8 @@ fn walkers(extents: [usize; 3], side: f64, most: usize, aligned: bool, salt: u32
                 load: salt as i32,
                 warmth: part(7),
                 memory: [8, 9, 10].map(|number| mix(salt, number)),
-                speeds: [11, 14].map(|first| Vector3::new(part(first), part(first + 1), part(first + 2)) * side),
+                speeds: [11, 14]
+                    .map(|first| Vector3::new(part(first), part(first + 1), part(first + 2)) * side),
                 terrain: terrain_of(mix(salt, 17)),
                 awake: mix(salt, 18).is_multiple_of(2),
             };

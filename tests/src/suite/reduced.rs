@@ -65,7 +65,8 @@ pub fn of_cells(state: &State<'_>, which: u32) -> Result<u32, StateError> {
         13 => of(state, Medium::MARKS),
         _ => of(state, Medium::LONG),
     };
-    let counts = mix(state.count(Medium::LIFE, 1)? as u32, state.count(Medium::TERRAIN, Terrain::Water)? as u32);
+    let counts =
+        mix(state.count(Medium::LIFE, 1)? as u32, state.count(Medium::TERRAIN, Terrain::Water)? as u32);
     Ok(mix(result?, mix(counts, state.count(Medium::WET, true)? as u32)))
 }
 

@@ -93,7 +93,9 @@ pub fn meet(me: &mut Slot<Traveller>, p: &Lattice, space: &Space) {
         }
         let last = step.wrapping_sub(1);
         let all = other.memory;
-        if step > 1 && (other.memory[(last % 3) as usize] != mark(other.label(), last, 1) || all[(step % 3) as usize] != 0)
+        if step > 1
+            && (other.memory[(last % 3) as usize] != mark(other.label(), last, 1)
+                || all[(step % 3) as usize] != 0)
         {
             me.fault(WRONG_STATE, other.label() as Real);
         }

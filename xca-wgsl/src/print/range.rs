@@ -67,7 +67,8 @@ impl Range {
         self.contains(0) || signed && self.contains(-1) && dividend.contains(i32::MIN.into())
     }
 
-    /// The remainder keeps the sign of the dividend, and is nearer to zero than the divisor and no further than the dividend.
+    /// The remainder keeps the sign of the dividend, and is nearer to zero than the divisor and no further
+    /// than the dividend.
     fn remainder(self, divisor: Self) -> Self {
         let largest = divisor.least.abs().max(divisor.most.abs()) - 1;
         Self::new(self.least.max(-largest).min(0), self.most.min(largest).max(0))
