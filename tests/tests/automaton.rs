@@ -4,7 +4,7 @@ use std::error::Error;
 use xca_core::HostValue;
 use xca_core::prelude::*;
 use xca_tests::suite::engines::{self, PRECISIONS, assert_same_runs};
-use xca_tests::suite::lattice::Shape;
+use xca_tests::suite::lattice::{Shape, Terrain};
 use xca_tests::suite::site::{self, Site};
 
 use Boundary::{Flat, Reflecting, Toroidal};
@@ -113,5 +113,23 @@ fn every_change_is_found() -> Result<(), Box<dyn Error>> {
     assert_found(Site::LEVEL, 2, |level| -level)?;
     assert_found(Site::FLOW, 2, |flow| Vector3::new(flow.x, flow.y, flow.z + 1.0))?;
     assert_found(Site::PAIR, 4, |pair| Vector2::new(pair.x + 0.25, pair.y))?;
+    assert_found(Site::TABLE, 0, |table| [table[0], table[1], table[2] ^ 1, table[3]])?;
+    assert_found(Site::PATHS, 2, |paths| [paths[0], Vector2::new(paths[1].x + 0.5, paths[1].y)])?;
+    assert_found(
+        Site::TERRAIN,
+        3,
+        |terrain| if terrain == Terrain::Soil { Terrain::Rock } else { Terrain::Soil },
+    )?;
+    assert_found(
+        Site::TERRAIN,
+        0,
+        |terrain| if terrain == Terrain::Soil { Terrain::Rock } else { Terrain::Soil },
+    )?;
+    assert_found(Site::WET, 3, |wet| [wet[0], !wet[1]])?;
+    assert_found(Site::DRY, 2, |dry| !dry)?;
+    assert_found(Site::TERRAINS, 1, |mut terrains| {
+        terrains[8] = Terrain::Water;
+        terrains
+    })?;
     assert_found(Site::STEPS, 0, |steps| Vector4::new(steps.x, 0, 0, steps.w + 1))
 }

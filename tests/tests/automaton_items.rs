@@ -4,7 +4,7 @@ use std::error::Error;
 use xca_core::HostValue;
 use xca_core::prelude::*;
 use xca_tests::suite::engines::{self, PRECISIONS, assert_same_runs};
-use xca_tests::suite::lattice::{Lattice, Shape};
+use xca_tests::suite::lattice::{Lattice, Shape, Terrain};
 use xca_tests::suite::traveller::{self, SIDE, Traveller};
 
 /// A neighbourhood, a space, and how the items of two classes move in a step, in quarters of a cell: always within the neighbourhood.
@@ -110,6 +110,10 @@ fn every_change_is_found() -> Result<(), Box<dyn Error>> {
     assert_found(Traveller::CLASS, 0, |class| (class + 1) % 3)?;
     assert_found(Traveller::STAMP, 0, |stamp| stamp ^ 1)?;
     assert_found(Traveller::STAMP, 1, |stamp| stamp ^ 1)?;
+    assert_found(Traveller::AWAKE, 1, |awake| [awake[0], !awake[1]])?;
+    assert_found(Traveller::TERRAIN, 1, |terrain| {
+        if terrain == Terrain::Water { Terrain::Rock } else { Terrain::Water }
+    })?;
     assert_found(Traveller::WEIGHT, 0, |weight| weight + 1.0)
 }
 

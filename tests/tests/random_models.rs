@@ -8,7 +8,7 @@ use proptest::test_runner::{Config, RngSeed};
 use std::cell::Cell;
 use xca_core::prelude::*;
 use xca_tests::suite::engines::{self, PRECISIONS, assert_same_runs, assert_same_state, outcome_text};
-use xca_tests::suite::lattice::Shape;
+use xca_tests::suite::lattice::{Shape, terrain_of};
 use xca_tests::suite::medium::Tuning;
 use xca_tests::suite::recipe::{PROCESSES, Recipe};
 
@@ -39,7 +39,21 @@ fn tunings() -> impl Strategy<Value = Tuning> {
     (numbers, any::<u16>(), rarity, greed).prop_map(
         |((rate, radius, pace, [x, y, z]), salt, rarity, greed)| {
             let drift = Vector3::new(x, y, z);
-            Tuning { rate, radius, pace, drift, salt: salt.into(), rarity, greed, torus: Vector3::splat(0) }
+            let salt = u32::from(salt);
+            Tuning {
+                rate,
+                radius,
+                pace,
+                drift,
+                salt,
+                rarity,
+                greed,
+                torus: Vector3::splat(0),
+                weights: [rate, -x, 0.25 + y],
+                rains: salt % 2 == 1,
+                turns_to: terrain_of(salt / 2),
+                counts: [8, 9, 10, 11].map(|bit| salt >> bit & 1 == 1),
+            }
         },
     )
 }

@@ -480,7 +480,18 @@ impl Fault {
             .map(|text| (*text).to_owned())
             .or_else(|| panic.downcast_ref::<String>().cloned())
             .unwrap_or_else(|| "without a message".to_owned());
-        let cell = geometry.indices(at.cell as usize);
+        let (cell, message) = (geometry.indices(at.cell as usize), with_narrow_index(message));
         Self::Panicked { process: process.name, cell, label: at.label, message }
+    }
+}
+
+/// The message about an index beyond an array with the 32 bits of the index that every engine has: a number
+/// below zero that is taken for an index has 64 on a processor.
+fn with_narrow_index(message: String) -> String {
+    const WORDS: &str = "but the index is ";
+    let wide = message.rsplit_once(WORDS).and_then(|(start, index)| Some((start, index.parse::<u64>().ok()?)));
+    match wide {
+        Some((start, index)) => format!("{start}{WORDS}{}", index as u32),
+        None => message,
     }
 }

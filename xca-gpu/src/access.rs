@@ -108,7 +108,7 @@ impl Execution for GpuExecution {
             });
             reduced.collect()
         };
-        Ok(combine_rows(reduction, usize::from(stored.lanes), rows.iter().map(Vec::as_slice)))
+        Ok(combine_rows(reduction, stored.components(), rows.iter().map(Vec::as_slice)))
     }
 
     fn memory(&self) -> usize {

@@ -5,7 +5,8 @@ use crate::space::{HaloCell, Part, Shown, Space};
 use std::ops::Range;
 use xca_core::{Faces, StoredScalar, StoredType};
 
-/// A substate of all cells or of all items: a value for each, lane beside lane, a `u8` in the four bytes of a `u32`.
+/// A substate of all cells or of all items: a value for each, element after element, lane beside lane, a
+/// `u8`, `bool` or state in the four bytes of a `u32`.
 #[derive(Debug)]
 pub(crate) struct Plane {
     stored: StoredType,
@@ -136,7 +137,7 @@ impl Plane {
 
 /// The bytes of a value on the device.
 pub(crate) fn size_on_device(stored: StoredType) -> usize {
-    stored.scalar.size().max(4) * usize::from(stored.lanes)
+    stored.scalar.size().max(4) * stored.components()
 }
 
 /// Values as the device stores them.

@@ -124,7 +124,11 @@ impl Program {
         for binding in &shader.bindings {
             match &binding.content {
                 Content::Parameters(layout) => {
-                    let buffer = device.uniform("parameters", &vec![0; layout.size as usize])?;
+                    let size = layout.size as usize;
+                    let buffer = match binding.access {
+                        BindingAccess::Uniform => device.uniform("parameters", &vec![0; size])?,
+                        _ => device.buffer("parameters", size as u64)?,
+                    };
                     parameters = Some((layout.clone(), buffer));
                 }
                 Content::Space(layout) => {

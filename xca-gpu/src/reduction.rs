@@ -58,7 +58,7 @@ pub(crate) fn is_possible(device: &Device, reduction: &Reduction, stored: Stored
     device.adapter().has_f64 || !(float && sum)
 }
 
-/// Reduces rows of values, lane by lane: the results of the rows that have values, in order.
+/// Reduces rows of values, component by component: the results of the rows that have values, in order.
 pub(crate) fn reduce(
     device: &Device,
     strict: bool,
@@ -66,7 +66,7 @@ pub(crate) fn reduce(
     values: Values<'_>,
     rows: Rows,
 ) -> Result<Vec<Vec<Reduced>>, DeviceError> {
-    let lanes = usize::from(stored.lanes);
+    let components = stored.components();
     let of_items = matches!(values, Values::OfItems(..));
     let (source, kind) = text(reduction, stored, of_items);
     let mut buffers = vec![Access::Uniform, Access::Read, Access::Read, Access::Write];
@@ -90,7 +90,7 @@ pub(crate) fn reduce(
         RowResult::Long | RowResult::Double => 8,
         RowResult::Unsigned | RowResult::Signed | RowResult::Single => 4,
     };
-    let length = (rows.rows as usize * lanes * size) as u64;
+    let length = (rows.rows as usize * components * size) as u64;
     let results = device.buffer("results", length)?;
     let counts = device.buffer("counts", u64::from(rows.rows) * 4)?;
     let parts = match values {
@@ -111,7 +111,7 @@ pub(crate) fn reduce(
     device.submit(recorder)?;
     let bytes = device.download(&results, 0..length)?;
     let numbers = |row: &[u8]| row.chunks_exact(size).map(|bytes| kind.number(bytes)).collect();
-    let all = bytes.chunks_exact(lanes * size);
+    let all = bytes.chunks_exact(components * size);
     if !of_items {
         return Ok(all.map(numbers).collect());
     }
@@ -169,7 +169,7 @@ fn text(reduction: &Reduction, stored: StoredType, of_items: bool) -> (String, R
         RowResult::Single => "f32",
         RowResult::Double => "f64",
     };
-    let lanes = stored.lanes;
+    let components = stored.components();
     let functions = if kind == RowResult::Long { LONG } else { "" };
     let (items, range) = if of_items { (ITEMS, RANGE_OF_ITEMS) } else { ("", RANGE_OF_CELLS) };
     let source = format!(
@@ -203,12 +203,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) w
         return;
     }}
     let cell = rows.first + row % rows.height * rows.row + row / rows.height * rows.layer;
-{range}    for (var lane = 0u; lane < {lanes}u; lane += 1u) {{
-        var all = one_of(values[first * {lanes}u + lane]);
+{range}    for (var component = 0u; component < {components}u; component += 1u) {{
+        var all = one_of(values[first * {components}u + component]);
         for (var i = first + 1u; i < end; i += 1u) {{
-            all = both(all, one_of(values[i * {lanes}u + lane]));
+            all = both(all, one_of(values[i * {components}u + component]));
         }}
-        results[row * {lanes}u + lane] = all;
+        results[row * {components}u + component] = all;
     }}
 }}
 "
@@ -265,7 +265,7 @@ mod tests {
         let scalars =
             [StoredScalar::U8, StoredScalar::I32, StoredScalar::U32, StoredScalar::F32, StoredScalar::F64];
         for scalar in scalars {
-            let stored = StoredType { scalar, lanes: 3, length: 1 };
+            let stored = StoredType { scalar, lanes: 3, length: 2 };
             let mut reductions = vec![
                 Sum,
                 Product,

@@ -4,14 +4,14 @@ use crate::device::DeviceError;
 use crate::execution::GpuExecution;
 use crate::program::Program;
 use xca_core::engine::Fault;
-use xca_core::kernel::{NOWHERE, OUTSIDE, RowFault};
+use xca_core::kernel::{BEYOND_NEIGHBOURHOOD, NOWHERE, OUTSIDE, RowFault, StoppedAt};
 use xca_core::{Precision, ProcessKind};
-use xca_wgsl::{Content, Dispatch};
+use xca_wgsl::{Content, Dispatch, FaultKind};
 
 /// How a process stopped a run; the number is what the device notes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Cause {
-    /// It reported a fault.
+    /// It reported a fault, or Rust would have stopped it.
     Reported = 0,
     /// A migration sent an item where it cannot go.
     Aimed = 1,
@@ -81,15 +81,23 @@ impl GpuExecution {
             bytes.get(offset..).unwrap_or_default()
         };
         let word = |name: &str| field(name).first_chunk().map_or(0, |bytes| u32::from_ne_bytes(*bytes));
+        let (kind, cell, number) = (FaultKind::from_number(word("kind")), word("cell"), word("number"));
+        let label = Some(word("label")).filter(|_| program.process.kind != ProcessKind::Cells);
+        let (process, geometry) = (&program.process, self.space.geometry());
+        if let Some(message) = kind.and_then(|kind| kind.panic_message(number, word("limit"))) {
+            return Ok(Fault::panicked(process, StoppedAt { cell, label }, &message, geometry));
+        }
+        if kind == Some(FaultKind::BeyondNeighbourhood) {
+            let fault = RowFault { cell, label, code: BEYOND_NEIGHBOURHOOD, value: number.into() };
+            return Ok(Fault::reported(process, fault, geometry));
+        }
         let value = match self.manner.precision {
             Precision::F32 => {
                 field("value").first_chunk().map_or(0.0, |bytes| f32::from_ne_bytes(*bytes).into())
             }
             Precision::F64 => field("value").first_chunk().map_or(0.0, |bytes| f64::from_ne_bytes(*bytes)),
         };
-        let label = Some(word("label")).filter(|_| program.process.kind != ProcessKind::Cells);
-        let fault = RowFault { cell: word("cell"), label, code: word("code"), value };
-        Ok(Fault::reported(&program.process, fault, self.space.geometry()))
+        Ok(Fault::reported(process, RowFault { cell, label, code: number, value }, geometry))
     }
 
     /// An item that was sent where it cannot go.

@@ -4,13 +4,17 @@ use crate::space::{Part, Space};
 use xca_core::{AnyParameters, Precision, StoredScalar, Stream};
 use xca_wgsl::Layout;
 
-/// Fills a struct, field by field.
+/// Fills a struct, field by field, each with the bytes of its elements one after the other.
 fn filled(layout: &Layout, value: impl Fn(&str) -> Vec<u8>) -> Vec<u8> {
     let mut bytes = vec![0; layout.size as usize];
     for field in &layout.fields {
         let value = value(&field.name);
-        let start = field.offset as usize;
-        bytes[start..start + value.len()].copy_from_slice(&value);
+        let elements = field.value_type.length.unwrap_or(1) as usize;
+        let element = value.len() / elements;
+        for (number, value) in value.chunks_exact(element.max(1)).enumerate() {
+            let start = field.offset as usize + number * field.stride as usize;
+            bytes[start..start + element].copy_from_slice(value);
+        }
     }
     bytes
 }
@@ -60,16 +64,16 @@ pub(crate) fn parameters(layout: &Layout, parameters: &dyn AnyParameters, precis
         let Some((index, field)) = parameters.schema().field(name) else { return Vec::new() };
         let scalar = field.value_type.stored(precision).scalar;
         let value = parameters.value_of(index);
-        value.components().iter().flat_map(|lane| lane_bytes(*lane, scalar)).collect()
+        value.components().iter().flat_map(|component| component_bytes(*component, scalar)).collect()
     })
 }
 
-/// A lane, which fits its type, as the device stores it.
-fn lane_bytes(lane: f64, scalar: StoredScalar) -> Vec<u8> {
+/// A component, which fits its type, as the device stores it.
+fn component_bytes(component: f64, scalar: StoredScalar) -> Vec<u8> {
     match scalar {
-        StoredScalar::U8 | StoredScalar::U32 => (lane as u32).to_ne_bytes().to_vec(),
-        StoredScalar::I32 => (lane as i32).to_ne_bytes().to_vec(),
-        StoredScalar::F32 => (lane as f32).to_ne_bytes().to_vec(),
-        StoredScalar::F64 => lane.to_ne_bytes().to_vec(),
+        StoredScalar::U8 | StoredScalar::U32 => (component as u32).to_ne_bytes().to_vec(),
+        StoredScalar::I32 => (component as i32).to_ne_bytes().to_vec(),
+        StoredScalar::F32 => (component as f32).to_ne_bytes().to_vec(),
+        StoredScalar::F64 => component.to_ne_bytes().to_vec(),
     }
 }

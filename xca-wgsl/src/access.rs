@@ -12,8 +12,11 @@ use xca_core::kernel::Of;
 pub(crate) struct Use {
     pub(crate) of: Of,
     pub(crate) field: usize,
-    /// Read or written at the centre.
+    /// Read as a whole or written at the centre: it is loaded before the process and lies in a variable
+    /// meanwhile.
     pub(crate) centre: bool,
+    /// Elements of it are read at the centre.
+    pub(crate) elements: bool,
     /// Read at neighbours or of other items, as it was before the process.
     pub(crate) others: bool,
     pub(crate) write: bool,
@@ -57,17 +60,43 @@ impl Uses {
         let roles = Roles::of(function);
         let kind = function.kind;
         let mut problem = None;
-        visit::block(&function.body, &mut |node| {
-            let result = match node {
-                Node::Statement(statement) => self.statement(statement, &roles, kind),
-                Node::Expression(expression) => self.expression(expression, &roles, kind),
-            };
-            if let Err(first) = result {
-                problem.get_or_insert(first);
-            }
-            true
-        });
+        visit::block(&function.body, &mut |node| self.see(node, &roles, kind, &mut problem));
         problem.map_or(Ok(()), Err)
+    }
+
+    /// Whether what is inside the node has to be looked at too.
+    fn see(
+        &mut self,
+        node: Node<'_>,
+        roles: &Roles<'_>,
+        kind: FunctionKind,
+        problem: &mut Option<Problem>,
+    ) -> bool {
+        let mut inside = true;
+        let result = match node {
+            Node::Statement(statement) => self.statement(statement, roles, kind),
+            Node::Expression(Expression::Element(array, index)) => {
+                let owner = match &**array {
+                    Expression::Own(name) => Some((Of::Subject, roles.subject, *name)),
+                    Expression::CellOfItem(name) => Some((Of::Companion, roles.companion, *name)),
+                    _ => None,
+                };
+                match owner {
+                    Some((of, group, name)) => {
+                        // The index alone: the array need not be loaded as a whole.
+                        inside = false;
+                        visit::expression(index, &mut |node| self.see(node, roles, kind, problem));
+                        self.entry(of, group, name).map(|used| used.elements = true)
+                    }
+                    None => Ok(()),
+                }
+            }
+            Node::Expression(expression) => self.expression(expression, roles, kind),
+        };
+        if let Err(first) = result {
+            problem.get_or_insert(first);
+        }
+        inside
     }
 
     fn statement(
@@ -167,7 +196,14 @@ impl Uses {
             .ok_or_else(|| Problem::unknown("substate", name))?;
         let known = self.substates.iter().position(|used| used.of == of && used.field == field);
         let index = known.unwrap_or_else(|| {
-            self.substates.push(Use { of, field, centre: false, others: false, write: false });
+            self.substates.push(Use {
+                of,
+                field,
+                centre: false,
+                elements: false,
+                others: false,
+                write: false,
+            });
             self.substates.len() - 1
         });
         Ok(&mut self.substates[index])

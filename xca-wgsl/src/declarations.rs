@@ -61,11 +61,16 @@ impl Writer<'_> {
         mentions(self.body, word)
     }
 
+    /// A struct that lies in a buffer.
     fn structure<'f>(&mut self, name: &str, fields: impl IntoIterator<Item = (&'f str, ValueType)>) {
+        let fields = fields.into_iter().map(|(field, value_type)| (field, types::in_memory(value_type)));
+        self.structure_of(name, fields);
+    }
+
+    fn structure_of<'f>(&mut self, name: &str, fields: impl Iterator<Item = (&'f str, String)>) {
         let _ = writeln!(self.structs, "struct {name} {{");
-        for (field, value_type) in fields {
-            let _ =
-                writeln!(self.structs, "    {}: {},", names::field(field), Type::of_value(value_type).wgsl());
+        for (field, type_) in fields {
+            let _ = writeln!(self.structs, "    {}: {type_},", names::field(field));
         }
         self.structs.push_str("}\n\n");
     }
@@ -116,7 +121,10 @@ impl Writer<'_> {
         let name = names.module(schema.name);
         self.structure(&name, schema.fields.iter().map(|field| (field.name, field.value_type)));
         let layout = Layout::of_schema(schema, self.options.precision);
-        self.buffer(&glossary.parameters, &name, BindingAccess::Uniform, Content::Parameters(layout));
+        // In a uniform buffer the elements of an array would lie 16 bytes apart at least.
+        let arrays = schema.fields.iter().any(|field| field.value_type.length.is_some());
+        let access = if arrays { BindingAccess::Read } else { BindingAccess::Uniform };
+        self.buffer(&glossary.parameters, &name, access, Content::Parameters(layout));
     }
 
     fn substates(&mut self, glossary: &Glossary) {
@@ -168,14 +176,10 @@ impl Writer<'_> {
         ];
         for (of, group, variable) in groups {
             let (Some((_, schema)), Some(variable)) = (group, variable) else { continue };
-            let fields: Vec<_> = glossary
-                .buffers
-                .iter()
-                .filter(|buffer| buffer.used.of == of && buffer.used.centre)
-                .map(|buffer| (buffer.field, buffer.value_type))
-                .collect();
+            let buffers = glossary.buffers.iter().filter(|buffer| buffer.used.of == of && buffer.used.centre);
             let name = names.module(schema.name);
-            self.structure(&name, fields);
+            let fields = buffers.map(|buffer| (buffer.field, Type::of_value(buffer.value_type).wgsl()));
+            self.structure_of(&name, fields);
             let _ = writeln!(self.variables, "var<private> {variable}: {name};");
         }
     }
@@ -198,7 +202,7 @@ impl Writer<'_> {
         );
         let layout = Layout::of(FAULT, self.options.precision);
         self.buffer("faults", "Faults", BindingAccess::ReadWrite, Content::Faults(layout));
-        self.variables.push_str("var<private> reported_fault: Fault;\nvar<private> has_fault: bool;\n");
+        self.variables.push_str("var<private> recorded_fault: Fault;\nvar<private> has_fault: bool;\n");
         self.variables.push_str("var<workgroup> first_fault: atomic<u32>;\n");
     }
 

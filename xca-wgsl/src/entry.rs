@@ -16,21 +16,6 @@ pub(crate) struct Entry<'a> {
     pub(crate) options: &'a Options,
 }
 
-/// How a fault is kept until the process has ended.
-pub(crate) fn report_fault(kind: FunctionKind) -> String {
-    let label = if kind == FunctionKind::Cells { "0xffffffffu" } else { "item_labels[this_item]" };
-    format!(
-        "// The first fault of a cell or item counts.
-fn report_fault(code: u32, value: Real) {{
-    if !has_fault {{
-        has_fault = true;
-        reported_fault = Fault(linear_index(here_index), {label}, code, value);
-    }}
-}}
-"
-    )
-}
-
 impl Entry<'_> {
     pub(crate) fn text(&self) -> String {
         let [x, y, z] = self.options.workgroup_size;
@@ -137,7 +122,7 @@ impl Entry<'_> {
     workgroupBarrier();
     if has_fault && atomicLoad(&first_fault) == {order} {{
         let number: u32 = (workgroup_id.z * workgroups.y + workgroup_id.y) * workgroups.x + workgroup_id.x;
-        faults.records[number] = reported_fault;
+        faults.records[number] = recorded_fault;
         atomicMin(&faults.first, {order});
     }}
 "

@@ -1,6 +1,7 @@
 //! What things are called in a module.
 
-use crate::access::{Use, Uses};
+use crate::access::Uses;
+use crate::buffer::Buffer;
 use crate::error::{Error, Problem};
 use crate::inference::constant_type;
 use crate::names::Names;
@@ -10,7 +11,6 @@ use crate::shader::Options;
 use crate::types::Type;
 use crate::visit::{self, Node};
 use std::collections::HashMap;
-use xca_core::ValueType;
 use xca_core::ir::{Constant, Expression};
 use xca_core::kernel::Of;
 
@@ -31,55 +31,6 @@ pub(crate) struct Glossary {
     /// Statements that fill tables, at the start.
     pub(crate) tables: Vec<String>,
     constants: HashMap<(String, String), String>,
-}
-
-/// A substate in memory.
-pub(crate) struct Buffer {
-    pub(crate) used: Use,
-    pub(crate) field: &'static str,
-    pub(crate) value_type: ValueType,
-    pub(crate) now: String,
-    pub(crate) next: Option<String>,
-    /// The routine that reads a vector.
-    reader: Option<String>,
-}
-
-impl Buffer {
-    /// The value of a cell or item as it was before the process.
-    pub(crate) fn read(&self, number: &str) -> String {
-        match &self.reader {
-            Some(reader) => format!("{reader}({number})"),
-            None => format!("{}[{number}]", self.now),
-        }
-    }
-
-    /// The statements that store a value, indented once.
-    pub(crate) fn store(&self, number: &str, value: &str) -> String {
-        let target = self.next.as_ref().unwrap_or(&self.now);
-        let lanes = self.value_type.lanes;
-        if lanes == 1 {
-            return format!("    {target}[{number}] = {value};\n");
-        }
-        (0..lanes)
-            .map(|lane| {
-                let component = ["x", "y", "z", "w"][usize::from(lane.min(3))];
-                format!("    {target}[{lanes}u * {number} + {lane}u] = {value}.{component};\n")
-            })
-            .collect()
-    }
-
-    /// The routine that reads a vector.
-    pub(crate) fn reader_text(&self) -> Option<String> {
-        let reader = self.reader.as_ref()?;
-        let lanes = self.value_type.lanes;
-        let type_ = Type::of_value(self.value_type).wgsl();
-        let values: Vec<String> =
-            (0..lanes).map(|lane| format!("{}[{lanes}u * number + {lane}u]", self.now)).collect();
-        Some(format!(
-            "fn {reader}(number: u32) -> {type_} {{\n    return {type_}({});\n}}\n",
-            values.join(", ")
-        ))
-    }
 }
 
 impl Glossary {
@@ -109,7 +60,7 @@ impl Glossary {
             constants: HashMap::new(),
         };
         for used in &uses.substates {
-            glossary.add_buffer(*used, &roles, names);
+            glossary.buffers.extend(Buffer::of(*used, &roles, names));
         }
         for (number, function) in program.functions.iter().enumerate() {
             let mut constants = Vec::new();
@@ -126,25 +77,6 @@ impl Glossary {
             }
         }
         Ok(glossary)
-    }
-
-    fn add_buffer(&mut self, used: Use, roles: &Roles<'_>, names: &mut Names) {
-        let group = match used.of {
-            Of::Subject => roles.subject,
-            Of::Companion => roles.companion,
-        };
-        let Some(field) = group.and_then(|(_, schema)| schema.fields.get(used.field)) else { return };
-        let now = names.module(&format!("{}_now", bare(field.name)));
-        let next = used.doubled().then(|| names.module(&format!("{}_next", bare(field.name))));
-        let reader = (field.value_type.lanes > 1).then(|| names.routine(&format!("{}_at", bare(field.name))));
-        self.buffers.push(Buffer {
-            used,
-            field: field.name,
-            value_type: field.value_type,
-            now,
-            next,
-            reader,
-        });
     }
 
     /// Gives a constant a name of its own, except where WGSL does not take its value as a constant.
@@ -178,12 +110,11 @@ impl Glossary {
         Ok(())
     }
 
-    /// The text that reads a substate of another cell or item.
-    pub(crate) fn read(&self, of: Of, field: &str, number: &str) -> Result<String, Problem> {
+    /// The buffer of a substate.
+    pub(crate) fn buffer(&self, of: Of, field: &str) -> Result<&Buffer, Problem> {
         self.buffers
             .iter()
             .find(|buffer| buffer.used.of == of && bare(buffer.field) == bare(field))
-            .map(|buffer| buffer.read(number))
             .ok_or_else(|| Problem::unknown("substate", field))
     }
 

@@ -16,14 +16,17 @@ pub struct Layout {
 pub struct FieldLayout {
     /// Its name in the model.
     pub name: String,
-    /// What it holds. A `u8` takes the four bytes of a `u32`.
+    /// What it holds. A `bool`, a state and a `u8` take the four bytes of a `u32`.
     pub value_type: ValueType,
-    /// Where it begins, in bytes; lanes follow each other.
+    /// Where it begins, in bytes; the lanes of an element follow each other.
     pub offset: u32,
+    /// From one element of an array to the next, in bytes.
+    pub stride: u32,
 }
 
 impl Layout {
-    /// The layout that WGSL gives to these fields.
+    /// The layout that WGSL gives to these fields in a storage buffer, and, where none of them is an array,
+    /// in a uniform buffer too.
     pub(crate) fn of<'a>(
         fields: impl IntoIterator<Item = (&'a str, ValueType)>,
         precision: Precision,
@@ -41,8 +44,9 @@ impl Layout {
             let alignment = scalar * if lanes == 3 { 4 } else { lanes };
             largest = largest.max(alignment);
             let offset = u32::next_multiple_of(end, alignment);
-            layout.fields.push(FieldLayout { name: name.to_owned(), value_type, offset });
-            end = offset + scalar * lanes;
+            let stride = (scalar * lanes).next_multiple_of(alignment);
+            layout.fields.push(FieldLayout { name: name.to_owned(), value_type, offset, stride });
+            end = offset + value_type.length.map_or(scalar * lanes, |length| stride * length);
         }
         layout.size = end.next_multiple_of(largest);
         layout
@@ -59,33 +63,37 @@ impl Layout {
     }
 }
 
+const NUMBER: ValueType = ValueType::scalar(ScalarType::U32);
+const REAL: ValueType = ValueType::scalar(ScalarType::Real);
+
 /// The fields of the description of the space.
 pub(crate) const SPACE: [(&str, ValueType); 13] = [
-    ("extents", ValueType { scalar: ScalarType::I32, lanes: 3, length: None }),
-    ("neighbours", ValueType { scalar: ScalarType::U32, lanes: 1, length: None }),
-    ("halo", ValueType { scalar: ScalarType::U32, lanes: 3, length: None }),
-    ("row", ValueType { scalar: ScalarType::U32, lanes: 1, length: None }),
-    ("first", ValueType { scalar: ScalarType::U32, lanes: 3, length: None }),
-    ("base", ValueType { scalar: ScalarType::U32, lanes: 1, length: None }),
-    ("count", ValueType { scalar: ScalarType::U32, lanes: 3, length: None }),
-    ("layer", ValueType { scalar: ScalarType::U32, lanes: 1, length: None }),
-    ("seed", ValueType { scalar: ScalarType::U32, lanes: 2, length: None }),
-    ("stream", ValueType { scalar: ScalarType::U32, lanes: 1, length: None }),
-    ("side", ValueType { scalar: ScalarType::Real, lanes: 1, length: None }),
-    ("covered", ValueType { scalar: ScalarType::Real, lanes: 1, length: None }),
-    ("zero", ValueType { scalar: ScalarType::Real, lanes: 1, length: None }),
+    ("extents", ValueType::vector(ScalarType::I32, 3)),
+    ("neighbours", NUMBER),
+    ("halo", ValueType::vector(ScalarType::U32, 3)),
+    ("row", NUMBER),
+    ("first", ValueType::vector(ScalarType::U32, 3)),
+    ("base", NUMBER),
+    ("count", ValueType::vector(ScalarType::U32, 3)),
+    ("layer", NUMBER),
+    ("seed", ValueType::vector(ScalarType::U32, 2)),
+    ("stream", NUMBER),
+    ("side", REAL),
+    ("covered", REAL),
+    ("zero", REAL),
 ];
 
 /// The fields of what changes from step to step.
-pub(crate) const MOMENT: [(&str, ValueType); 2] = [
-    ("step", ValueType { scalar: ScalarType::U32, lanes: 2, length: None }),
-    ("items", ValueType { scalar: ScalarType::U32, lanes: 1, length: None }),
-];
+pub(crate) const MOMENT: [(&str, ValueType); 2] =
+    [("step", ValueType::vector(ScalarType::U32, 2)), ("items", NUMBER)];
 
-/// The fields of the record of a fault.
-pub(crate) const FAULT: [(&str, ValueType); 4] = [
-    ("cell", ValueType { scalar: ScalarType::U32, lanes: 1, length: None }),
-    ("label", ValueType { scalar: ScalarType::U32, lanes: 1, length: None }),
-    ("code", ValueType { scalar: ScalarType::U32, lanes: 1, length: None }),
-    ("value", ValueType { scalar: ScalarType::Real, lanes: 1, length: None }),
+/// The fields of the record of a fault: where it is, what happened ([`crate::FaultKind`]), and what that kind
+/// tells of it.
+pub(crate) const FAULT: [(&str, ValueType); 6] = [
+    ("cell", NUMBER),
+    ("label", NUMBER),
+    ("kind", NUMBER),
+    ("number", NUMBER),
+    ("limit", NUMBER),
+    ("value", REAL),
 ];

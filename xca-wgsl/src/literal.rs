@@ -43,13 +43,12 @@ pub(crate) fn integer(value: i128, scalar: ScalarType) -> Result<String, Problem
             Ok(value) => Ok(format!("{value}i")),
             Err(_) => Err(too_large()),
         },
+        ScalarType::Bool | ScalarType::State(_) => {
+            Err(Problem::unsupported(format!("the literal `{value}`"), format!("it is no {scalar}")))
+        }
         ScalarType::F32 | ScalarType::F64 | ScalarType::Real => Err(Problem::unsupported(
             format!("the literal `{value}`"),
             "an integer stands where a float is needed",
-        )),
-        ScalarType::Bool | ScalarType::State(_) => Err(Problem::unsupported(
-            format!("the literal `{value}`"),
-            "an integer stands where bool or a state is needed",
         )),
     }
 }

@@ -2,9 +2,10 @@
 
 use crate::access::Uses;
 use crate::declarations::Declarations;
-use crate::entry::{self, Entry};
+use crate::entry::Entry;
 use crate::error::{Error, Problem};
-use crate::glossary::{Buffer, Glossary};
+use crate::fault;
+use crate::glossary::Glossary;
 use crate::names::Names;
 use crate::print::{self, Shared};
 use crate::program::Program;
@@ -34,7 +35,7 @@ pub(crate) fn write(program: &Program, options: &Options) -> Result<Shader, Erro
         functions.push(text);
     }
     let kind = program.process().kind;
-    uses.faults |= routines.checked_neighbours;
+    uses.faults |= routines.checked_neighbours || routines.checks;
     let tables = uses.neighbourhood || uses.directions;
     uses.index |= uses.faults || (tables && options.parity != Parity::None);
     let over_cells = kind == FunctionKind::Cells;
@@ -42,17 +43,22 @@ pub(crate) fn write(program: &Program, options: &Options) -> Result<Shader, Erro
     let mut body = Vec::new();
     body.extend(glossary.declarations.iter().cloned());
     body.extend(provided(&uses, &routines, &glossary, options, over_cells));
-    body.extend(glossary.buffers.iter().filter_map(Buffer::reader_text));
+    let entry_text = entry.text();
+    let reading = format!("{}{entry_text}", functions.concat());
+    body.extend(glossary.buffers.iter().flat_map(|buffer| buffer.readers(&reading)));
     body.extend(routines.texts().cloned());
     if uses.faults {
-        body.push(entry::report_fault(kind));
+        body.push(fault::record(kind));
+    }
+    if mentions(&reading, "report_fault") {
+        body.push(fault::REPORT.to_owned());
     }
     if uses.random {
         let owner = if over_cells { "linear_index(here_index)" } else { "item_labels[this_item]" };
         body.push(routine::random(owner, options.precision));
     }
-    body.extend(functions);
-    body.push(entry.text());
+    body.extend(functions.iter().map(|text| fault::with_exits(text, routines.checks)));
+    body.push(entry_text);
     let body = body.join("\n");
     let declarations = Declarations::of(program, &uses, &glossary, options, &body, &mut names);
     let mut source = String::new();

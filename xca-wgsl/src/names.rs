@@ -31,15 +31,27 @@ bitcast arrayLength atomicLoad atomicStore atomicMin workgroupBarrier
 /// Names of what the shader itself brings.
 const OWN: &str = "
 Real Destination Space Moment Fault Faults main space moment neighbour_offsets item_starts item_ends item_labels
-item_cells destinations faults here here_index this_item reported_fault first_fault storage_index cell_index linear_index
-neighbour_at valid_neighbour neighbour_direction neighbour_directions neighbour_exists report_fault has_fault multiply_high philox random_words random_bits random_real
+item_cells destinations faults here here_index this_item element recorded_fault first_fault storage_index cell_index linear_index
+neighbour_at valid_neighbour neighbour_direction neighbour_directions neighbour_exists record_fault report_fault has_fault multiply_high philox random_words random_bits random_real
 cell_containing nearest_image shorter_way wrapped wrapped_along
 
 ";
 
 /// The beginnings of the names of routines.
-const PREFIXES: [&str; 9] =
-    ["runtime_", "repeat_", "minimum_", "maximum_", "dot_", "cross_", "length_", "saturate_", "infinity_"];
+const PREFIXES: [&str; 12] = [
+    "runtime_",
+    "repeat_",
+    "minimum_",
+    "maximum_",
+    "dot_",
+    "cross_",
+    "length_",
+    "saturate_",
+    "infinity_",
+    "checked_",
+    "truths_",
+    "equal_",
+];
 
 /// Gives out names.
 #[derive(Debug, Default)]

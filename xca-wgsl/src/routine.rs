@@ -1,5 +1,6 @@
 //! Small functions that a shader brings along where its process needs them.
 
+use crate::fault::FaultKind;
 use crate::literal;
 use crate::types::{self, Type};
 use std::collections::BTreeMap;
@@ -18,6 +19,8 @@ pub(crate) struct Routines {
     /// It is asked whether a neighbour exists.
     pub(crate) neighbour_exists: bool,
     pub(crate) cell_containing: bool,
+    /// Something in the process may stop it.
+    pub(crate) checks: bool,
 }
 
 impl Routines {
@@ -89,6 +92,116 @@ impl Routines {
         self.need(format!("repeat_{word}_{length}"), |name| {
             let array = format!("array<{element}, {length}>");
             format!("fn {name}(value: {element}) -> {array} {{\n    return {array}({values});\n}}\n")
+        })
+    }
+
+    /// The index itself where it lies in the array.
+    pub(crate) fn need_index(&mut self) -> String {
+        self.checks = true;
+        let kind = FaultKind::BeyondArray as u32;
+        self.need("checked_index".to_owned(), |name| {
+            format!(
+                "fn {name}(index: u32, length: u32) -> u32 {{
+    if index >= length {{
+        record_fault({kind}u, index, length, Real());
+        return 0u;
+    }}
+    return index;
+}}
+"
+            )
+        })
+    }
+
+    /// The quotient of integers, or the remainder where it is asked for; of vectors lane by lane.
+    pub(crate) fn need_quotient(&mut self, remainder: bool, type_: &Type) -> String {
+        self.checks = true;
+        let word = if remainder { "remainder" } else { "quotient" };
+        let scalar = Type::Scalar(type_.scalar().unwrap_or(ScalarType::U32));
+        if type_.lanes() > 1 {
+            let routine = self.need_quotient(remainder, &scalar);
+            let lanes = &["x", "y", "z", "w"][..usize::from(type_.lanes().min(4))];
+            let lanes: Vec<String> =
+                lanes.iter().map(|lane| format!("{routine}(a.{lane}, b.{lane})")).collect();
+            let (vector, lanes) = (type_.wgsl(), lanes.join(", "));
+            return self.need(format!("checked_{word}_{}", type_.word()), |name| {
+                format!(
+                    "fn {name}(a: {vector}, b: {vector}) -> {vector} {{\n    return {vector}({lanes});\n}}\n"
+                )
+            });
+        }
+        let (sign, by_zero, overflow) = if remainder {
+            ("%", FaultKind::RemainderByZero, FaultKind::RemainderOverflow)
+        } else {
+            ("/", FaultKind::DivisionByZero, FaultKind::DivisionOverflow)
+        };
+        let (by_zero, overflow) = (by_zero as u32, overflow as u32);
+        let name = scalar.wgsl();
+        let least = if scalar == Type::Scalar(ScalarType::I32) {
+            format!(
+                "    if a == i32(-2147483648) && b == -1i {{
+        record_fault({overflow}u, 0u, 0u, Real());
+        return 0i;
+    }}
+"
+            )
+        } else {
+            String::new()
+        };
+        self.need(format!("checked_{word}_{}", scalar.word()), |routine| {
+            format!(
+                "fn {routine}(a: {name}, b: {name}) -> {name} {{
+    if b == {name}() {{
+        record_fault({by_zero}u, 0u, 0u, Real());
+        return {name}();
+    }}
+{least}    return a {sign} b;
+}}
+"
+            )
+        })
+    }
+
+    /// An array of `bool` from how it lies in memory.
+    pub(crate) fn need_truths(&mut self, length: usize) -> String {
+        self.need(format!("truths_{length}"), |name| {
+            format!(
+                "fn {name}(words: array<u32, {length}>) -> array<bool, {length}> {{
+    var given = words;
+    var truths: array<bool, {length}>;
+    for (var element: u32 = 0u; element < {length}u; element += 1u) {{
+        truths[element] = given[element] != 0u;
+    }}
+    return truths;
+}}
+"
+            )
+        })
+    }
+
+    /// Whether two arrays are equal, element by element.
+    pub(crate) fn need_equal(&mut self, type_: &Type) -> String {
+        let Type::Array(element, length) = type_ else { return String::new() };
+        let same = match &**element {
+            Type::Array(..) => format!("{}(left[element], right[element])", self.need_equal(element)),
+            Type::Vector(..) => "all(left[element] == right[element])".to_owned(),
+            _ => "left[element] == right[element]".to_owned(),
+        };
+        let array = type_.wgsl();
+        self.need(format!("equal_{}", type_.word()), |name| {
+            format!(
+                "fn {name}(a: {array}, b: {array}) -> bool {{
+    var left = a;
+    var right = b;
+    for (var element: u32 = 0u; element < {length}u; element += 1u) {{
+        if !({same}) {{
+            return false;
+        }}
+    }}
+    return true;
+}}
+"
+            )
         })
     }
 

@@ -106,7 +106,7 @@ pub enum Content {
     Space(Layout),
     /// What changes with the step: `step` (low word, high word) and the number of items of the population.
     Moment(Layout),
-    /// The parameters.
+    /// The parameters: in a storage buffer where one of them is an array, else in a uniform buffer.
     Parameters(Layout),
     /// `i32` for each cell of the neighbourhood: the difference of its number from that of the central cell. Where rows or columns
     /// differ ([`Options::parity`]), first those of even, then those of odd ones.
@@ -114,7 +114,8 @@ pub enum Content {
     /// Four `i32` for each cell of the neighbourhood: the displacement along x, y, z and the index of the opposite neighbour. Where rows
     /// or columns differ, as with [`Self::NeighbourOffsets`].
     NeighbourDirections,
-    /// A substate of all cells, or of all items: a value for each, lane beside lane without padding, a `u8` as a `u32`.
+    /// A substate of all cells, or of all items: a value for each, element after element, lane beside lane,
+    /// without padding; a `u8`, a `bool` and a state as a `u32`.
     Substate {
         /// Of the process's subject or of its companion.
         of: Of,
@@ -138,8 +139,9 @@ pub enum Content {
     Destinations,
     /// Faults: at 0 a `u32`, the linear index of the first cell (of a process over items: the first item) with a fault, which is
     /// `u32::MAX` before; at 4 a `u32` that makes the shader do nothing where it is not zero, so that the state at a fault stays;
-    /// from 8 on a record for each workgroup, numbered with x running fastest, which holds the first fault in it. A record
-    /// that no fault was written to is not touched.
+    /// from 8 on a record for each workgroup, numbered with x running fastest, which holds the first fault in
+    /// it: `cell`, `label`, and what [`crate::FaultKind`] tells of `kind`, `number`, `limit` and `value`. A
+    /// record that no fault was written to is not touched.
     Faults(Layout),
 }
 

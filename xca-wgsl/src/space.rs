@@ -1,7 +1,8 @@
 //! Where things are: cells, neighbours, positions.
 
-use xca_core::kernel::{BEYOND_NEIGHBOURHOOD, NOWHERE, OUTSIDE};
-use xca_core::{Boundary, Parity, Precision};
+use crate::fault::FaultKind;
+use xca_core::kernel::{NOWHERE, OUTSIDE};
+use xca_core::{Boundary, Face, Faces, Parity, Precision};
 
 /// The number of a cell among the stored ones, from its indices.
 pub(crate) const STORAGE_INDEX: &str = "fn storage_index(index: vec3<u32>) -> u32 {
@@ -47,10 +48,11 @@ pub(crate) fn neighbour_at(parity: Parity, neighbours: &str) -> String {
 
 /// An index that may be too large: that is a fault, and the cell itself takes the place of the neighbour.
 pub(crate) fn valid_neighbour(neighbours: &str) -> String {
+    let kind = FaultKind::BeyondNeighbourhood as u32;
     format!(
         "fn valid_neighbour(index: u32) -> u32 {{
     if index >= {neighbours} {{
-        report_fault({BEYOND_NEIGHBOURHOOD:#x}u, Real(index));
+        record_fault({kind}u, index, {neighbours}, Real());
         return 0u;
     }}
     return index;
@@ -71,14 +73,16 @@ pub(crate) fn neighbour_direction(parity: Parity, neighbours: &str) -> String {
 }
 
 /// Whether a neighbour is a cell of the space.
-pub(crate) fn neighbour_exists(boundaries: [Boundary; 3]) -> String {
-    // A negative index is a large one.
-    let inside: Vec<String> = ["x", "y", "z"]
-        .into_iter()
-        .zip(boundaries)
-        .filter(|(_, boundary)| *boundary == Boundary::Flat)
-        .map(|(lane, _)| format!("u32(there.{lane}) < u32(space.extents.{lane})"))
-        .collect();
+pub(crate) fn neighbour_exists(boundaries: Faces<Boundary>) -> String {
+    let mut inside = Vec::new();
+    for (lane, [low, high]) in ["x", "y", "z"].into_iter().zip(Face::ALONG) {
+        if boundaries[low] == Boundary::Flat {
+            inside.push(format!("there.{lane} >= 0"));
+        }
+        if boundaries[high] == Boundary::Flat {
+            inside.push(format!("there.{lane} < space.extents.{lane}"));
+        }
+    }
     let result = if inside.is_empty() { "true".to_owned() } else { inside.join(" && ") };
     format!(
         "fn neighbour_exists(index: u32) -> bool {{

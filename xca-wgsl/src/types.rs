@@ -1,6 +1,6 @@
 //! Types as the shader knows them, and what WGSL calls them.
 
-use xca_core::{Precision, ScalarType, ValueType, ir};
+use xca_core::{Precision, ScalarType, StateNames, ValueType, ir};
 
 /// A type, after inference.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -9,6 +9,8 @@ pub(crate) enum Type {
     Bool,
     Scalar(ScalarType),
     Vector(ScalarType, u8),
+    /// A state: a `u32` without arithmetic.
+    State(&'static StateNames),
     Array(Box<Type>, usize),
     Destination,
 }
@@ -17,9 +19,15 @@ impl Type {
     pub(crate) const U32: Self = Self::Scalar(ScalarType::U32);
 
     pub(crate) fn of_value(value_type: ValueType) -> Self {
-        match value_type.lanes {
-            1 => Self::Scalar(value_type.scalar),
-            lanes => Self::Vector(value_type.scalar, lanes),
+        let element = match (value_type.scalar, value_type.lanes) {
+            (ScalarType::Bool, _) => Self::Bool,
+            (ScalarType::State(names), _) => Self::State(names),
+            (scalar, 1) => Self::Scalar(scalar),
+            (scalar, lanes) => Self::Vector(scalar, lanes),
+        };
+        match value_type.length {
+            Some(length) => Self::Array(Box::new(element), length as usize),
+            None => element,
         }
     }
 
@@ -47,6 +55,19 @@ impl Type {
         self.scalar() == Some(ScalarType::U8)
     }
 
+    /// An integer, or something that is compared like one.
+    pub(crate) fn is_discrete(&self) -> bool {
+        matches!(self, Self::Bool | Self::State(_)) || matches!(self, Self::Scalar(_)) && !self.is_float()
+    }
+
+    /// The type of the elements of an array, and how many there are.
+    pub(crate) fn array(&self) -> Option<(&Type, usize)> {
+        match self {
+            Self::Array(element, length) => Some((element, *length)),
+            _ => None,
+        }
+    }
+
     /// What WGSL calls it.
     pub(crate) fn wgsl(&self) -> String {
         match self {
@@ -54,6 +75,7 @@ impl Type {
             Self::Bool => "bool".to_owned(),
             Self::Scalar(scalar) => scalar_name(*scalar).to_owned(),
             Self::Vector(scalar, lanes) => format!("vec{lanes}<{}>", scalar_name(*scalar)),
+            Self::State(_) => "u32".to_owned(),
             Self::Array(element, length) => format!("array<{}, {length}>", element.wgsl()),
             Self::Destination => "Destination".to_owned(),
         }
@@ -75,15 +97,16 @@ impl From<&ir::Type> for Type {
         match written {
             ir::Type::Bool => Self::Bool,
             ir::Type::Scalar(scalar) => Self::Scalar(*scalar),
-            ir::Type::State(names) => Self::Scalar(ScalarType::State(names)),
             ir::Type::Vector(scalar, lanes) => Self::Vector(*scalar, *lanes),
+            ir::Type::State(names) => Self::State(names),
             ir::Type::Array(element, length) => Self::Array(Box::new(Self::from(&**element)), *length),
             ir::Type::Destination => Self::Destination,
         }
     }
 }
 
-/// What WGSL calls a scalar. There are no bytes in WGSL: `u8` is a `u32` that is kept below 256.
+/// What WGSL calls a scalar in memory. There are no bytes in WGSL: `u8` is a `u32` that is kept below 256, a
+/// state a `u32`, and a `bool` is 0 or 1 in a `u32`.
 pub(crate) fn scalar_name(scalar: ScalarType) -> &'static str {
     match scalar {
         ScalarType::Bool | ScalarType::State(_) | ScalarType::U8 | ScalarType::U32 => "u32",
@@ -92,6 +115,20 @@ pub(crate) fn scalar_name(scalar: ScalarType) -> &'static str {
         ScalarType::F64 => "f64",
         ScalarType::Real => "Real",
     }
+}
+
+/// What WGSL calls the type of a value where it lies in a buffer that the host fills.
+pub(crate) fn in_memory(value_type: ValueType) -> String {
+    match (Type::of_value(value_type), value_type.scalar) {
+        (Type::Array(_, length), ScalarType::Bool) => format!("array<u32, {length}>"),
+        (_, ScalarType::Bool) => "u32".to_owned(),
+        (type_, _) => type_.wgsl(),
+    }
+}
+
+/// A component that was read from memory, as a value.
+pub(crate) fn loaded(scalar: ScalarType, text: &str) -> String {
+    if scalar == ScalarType::Bool { format!("({text} != 0u)") } else { text.to_owned() }
 }
 
 pub(crate) fn is_float(scalar: ScalarType) -> bool {

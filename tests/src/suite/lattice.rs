@@ -104,6 +104,25 @@ impl Shape {
     }
 }
 
+/// A state, of cells, of items and of parameters.
+#[derive(States, Clone, Copy, Debug, PartialEq)]
+#[expect(missing_docs, reason = "they mean nothing")]
+pub enum Terrain {
+    Rock,
+    Soil,
+    Water,
+}
+
+/// The state that some bits stand for.
+#[helper]
+pub fn terrain_of(bits: u32) -> Terrain {
+    match bits % 3 {
+        0 => Terrain::Rock,
+        1 => Terrain::Soil,
+        _ => Terrain::Water,
+    }
+}
+
 /// What the automata are told of the model that they stand in.
 #[derive(Parameters, Clone, Copy, Debug, PartialEq)]
 pub struct Lattice {

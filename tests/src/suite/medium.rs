@@ -2,7 +2,7 @@
 //!
 //! Their values stay bounded, so that no run ends in infinities that hide differences.
 
-use super::lattice::mix;
+use super::lattice::{Terrain, mix, terrain_of};
 use xca_core::prelude::*;
 
 /// The fault that [`tire`] reports.
@@ -21,6 +21,12 @@ pub struct Medium {
     pub flow: Vector3<Real>,
     pub pair: Vector2<i32>,
     pub blend: Vector4<f32>,
+    pub terrain: Terrain,
+    pub wet: bool,
+    pub flows: [Real; 3],
+    pub paths: [Vector2<i32>; 2],
+    pub marks: [bool; 4],
+    pub long: [u8; 11],
 }
 
 /// What the processes are told, those over items too.
@@ -42,6 +48,14 @@ pub struct Tuning {
     pub greed: u32,
     /// 1 for each toroidal axis, else 0.
     pub torus: Vector3<i32>,
+    /// A weight for each element.
+    pub weights: [Real; 3],
+    /// Whether it rains.
+    pub rains: bool,
+    /// What soil turns into.
+    pub turns_to: Terrain,
+    /// Which marks count.
+    pub counts: [bool; 4],
 }
 
 /// A number of this size or smaller.
@@ -174,4 +188,83 @@ pub fn peek(cell: &mut Cell<Medium>, p: &Tuning) {
     let n = mix(cell.bits, p.salt) as usize % (cell.neighbour_count() + p.greed as usize);
     cell.pair.x = cell.neighbour(n).charge;
     cell.energy = cell.neighbour(n).energy * 0.5;
+}
+
+/// An array that is read elsewhere and written, element by element and as a whole.
+#[elementary_process]
+pub fn percolate(cell: &mut Cell<Medium>, p: &Tuning) {
+    let mut sum = 0.0;
+    for n in 1..cell.neighbours() {
+        let other = cell.neighbour(n);
+        for k in 0..3 {
+            sum += p.weights[k] * other.flows[2 - k];
+        }
+        if other.terrain == Terrain::Water && n % 3 == 1 {
+            cell.flows = other.flows;
+        }
+    }
+    cell.flows[(cell.bits % 3) as usize] = bounded(sum * 0.25, 50.0);
+    if cell.flows == cell.neighbour(0).flows {
+        cell.wet = !cell.wet;
+    }
+}
+
+/// States by neighbours, in a match without a rest.
+#[elementary_process]
+pub fn erode(cell: &mut Cell<Medium>, p: &Tuning) {
+    let mut waters = 0;
+    for n in 1..cell.neighbours() {
+        if cell.neighbour(n).terrain == Terrain::Water || cell.neighbour(n).wet {
+            waters += 1;
+        }
+    }
+    cell.terrain = match cell.terrain {
+        Terrain::Rock if waters > 2 => Terrain::Soil,
+        Terrain::Rock => Terrain::Rock,
+        Terrain::Soil => {
+            if p.rains {
+                p.turns_to
+            } else {
+                Terrain::Rock
+            }
+        }
+        Terrain::Water => terrain_of(waters),
+    };
+    cell.wet = cell.wet != p.rains;
+}
+
+/// Arrays in place: of vectors, of truth values and a long one.
+#[elementary_process]
+pub fn mark_paths(cell: &mut Cell<Medium>, p: &Tuning) {
+    let turn = (cell.bits >> 3) & 1;
+    cell.paths[turn as usize].x = cell.paths[1 - turn as usize].y.wrapping_add(cell.charge);
+    cell.paths[1] = Vector2::new(cell.paths[0].y, cell.paths[1].x / (1 + turn as i32));
+    let mut counted = 0;
+    for k in 0..4 {
+        cell.marks[k] = cell.marks[k] != p.counts[k];
+        if cell.marks[3 - k] {
+            counted += 1;
+        }
+    }
+    for k in 0..11 {
+        cell.long[k] = cell.long[10 - k].wrapping_add(counted);
+    }
+    cell.marks[cell.terrain as usize] = p.counts == cell.marks;
+}
+
+/// Elements that the own state names, perhaps beyond the array, at neighbours too; and a division that may
+/// have no result.
+#[elementary_process]
+pub fn overreach(cell: &mut Cell<Medium>, p: &Tuning) {
+    let k = mix(cell.bits, p.salt + 3) % (11 + p.greed);
+    let beyond = k / 11;
+    cell.life = cell.long[k as usize];
+    if cell.neighbours() > 1 {
+        cell.level = bounded(cell.neighbour(1).flows[(2 * beyond + k % 2) as usize], 100.0);
+    }
+    if p.greed > 0 && cell.bits % 7 == 0 {
+        cell.charge = cell.charge / (cell.bits as i32 % 5);
+    } else {
+        cell.charge = cell.charge % (k as i32 + 1);
+    }
 }

@@ -1,7 +1,7 @@
 //! Models put together from what chance says.
 
 use super::cover::covered;
-use super::lattice::mix;
+use super::lattice::{mix, terrain_of};
 use super::medium::{self, Medium, Tuning};
 use super::reduced;
 use super::walker::{self, Walker};
@@ -41,9 +41,9 @@ pub struct Recipe {
 }
 
 /// How many processes over cells alone [`add`] knows.
-pub const OVER_CELLS: usize = 10;
+pub const OVER_CELLS: usize = 14;
 /// How many processes [`add`] knows.
-pub const PROCESSES: usize = 20;
+pub const PROCESSES: usize = 28;
 
 /// Adds the process with this number.
 pub fn add(builder: ModelBuilder, number: usize) -> ModelBuilder {
@@ -58,16 +58,24 @@ pub fn add(builder: ModelBuilder, number: usize) -> ModelBuilder {
         7 => builder.process(medium::blend),
         8 => builder.process(medium::tire),
         9 => builder.process(medium::peek),
-        10 => builder.process(walker::attract),
-        11 => builder.process(walker::share),
-        12 => builder.process(walker::remember),
-        13 => builder.process(walker::follow_first),
-        14 => builder.process(walker::feel),
-        15 => builder.process(walker::weigh),
-        16 => builder.process(walker::crowd),
+        10 => builder.process(medium::percolate),
+        11 => builder.process(medium::erode),
+        12 => builder.process(medium::mark_paths),
+        13 => builder.process(medium::overreach),
+        14 => builder.process(walker::attract),
+        15 => builder.process(walker::share),
+        16 => builder.process(walker::remember),
+        17 => builder.process(walker::follow_first),
+        18 => builder.process(walker::feel),
+        19 => builder.process(walker::weigh),
+        20 => builder.process(walker::crowd),
+        21 => builder.process(walker::recall),
+        22 => builder.process(walker::look_down),
+        23 => builder.process(walker::listen),
+        24 => builder.process(walker::forget),
         // A walk that is not settled ends in a fault soon, so both come together.
-        17 => builder.process(walker::walk).process(walker::settle),
-        18 => builder.process(walker::walk).process(walker::wander),
+        25 => builder.process(walker::walk).process(walker::settle),
+        26 => builder.process(walker::walk).process(walker::wander),
         _ => builder.process(walker::stumble),
     }
 }
@@ -181,6 +189,12 @@ fn medium_of(salt: u32) -> Medium {
         flow: Vector3::new(part(6), part(7), part(8)),
         pair: Vector2::new(mix(salt, 9) as i32 >> 4, mix(salt, 10) as i32),
         blend: Vector4::new(part(11) as f32, part(12) as f32, part(13) as f32, 0.5),
+        terrain: terrain_of(mix(salt, 14)),
+        wet: mix(salt, 15).is_multiple_of(2),
+        flows: [16, 17, 18].map(part),
+        paths: [19, 20].map(|number| Vector2::new(mix(salt, number) as i32, number as i32)),
+        marks: [21, 22, 23, 24].map(|number| mix(salt, number).is_multiple_of(3)),
+        long: std::array::from_fn(|element| mix(salt, 25 + element as u32) as u8),
     }
 }
 
@@ -212,6 +226,11 @@ fn walkers(extents: [usize; 3], side: f64, most: usize, aligned: bool, salt: u32
                 seen: salt,
                 load: salt as i32,
                 warmth: part(7),
+                memory: [8, 9, 10].map(|number| mix(salt, number)),
+                speeds: [11, 14]
+                    .map(|first| Vector3::new(part(first), part(first + 1), part(first + 2)) * side),
+                terrain: terrain_of(mix(salt, 17)),
+                awake: mix(salt, 18).is_multiple_of(2),
             };
             // Odd multiples of an odd number: all different, and in no order.
             let label = ((number * most + slot) as u32).wrapping_mul(0x9E37_79B1);
@@ -237,6 +256,15 @@ fn steer(state: &mut State<'_>) -> Result<(), SteeringError> {
     tuning.rate = state.maximum(Medium::LEVEL)?.unwrap_or(0.0).abs().min(0.5);
     state.set_parameters(tuning)?;
     state.set_parameter("drift", "0.125, -0.25, 0.5")?;
+    state.set_parameter("weights", "0.25, -0.5, 0.125")?;
+    state.set_parameter("turns_to", "Soil")?;
+    let rains = !state.get(Medium::WET, [0; 3])?;
+    state.set_parameter("rains", if rains { "true" } else { "false" })?;
+    let mut flows = state.read(Medium::FLOWS)?;
+    flows.rotate_left(1);
+    state.write(Medium::FLOWS, &flows)?;
+    state.set(Medium::MARKS, [0; 3], [rains, true, false, !rains])?;
+    state.set(Medium::TERRAIN, extents.map(|extent| extent - 1), terrain_of(which))?;
     Ok(())
 }
 

@@ -1,6 +1,6 @@
 //! All reductions of a substate, in one number.
 
-use super::lattice::mix;
+use super::lattice::{Terrain, mix};
 use super::medium::Medium;
 use super::walker::Walker;
 use xca_core::prelude::*;
@@ -48,7 +48,7 @@ fn of<S: Substates, V: HostValue>(state: &State<'_>, substate: Substate<S, V>) -
 /// # Errors
 /// Where the model does not have it.
 pub fn of_cells(state: &State<'_>, which: u32) -> Result<u32, StateError> {
-    let result = match which % 9 {
+    let result = match which % 15 {
         0 => of(state, Medium::LIFE),
         1 => of(state, Medium::CHARGE),
         2 => of(state, Medium::BITS),
@@ -57,9 +57,17 @@ pub fn of_cells(state: &State<'_>, which: u32) -> Result<u32, StateError> {
         5 => of(state, Medium::LEVEL),
         6 => of(state, Medium::FLOW),
         7 => of(state, Medium::PAIR),
-        _ => of(state, Medium::BLEND),
+        8 => of(state, Medium::BLEND),
+        9 => of(state, Medium::TERRAIN),
+        10 => of(state, Medium::WET),
+        11 => of(state, Medium::FLOWS),
+        12 => of(state, Medium::PATHS),
+        13 => of(state, Medium::MARKS),
+        _ => of(state, Medium::LONG),
     };
-    Ok(mix(result?, state.count(Medium::LIFE, 1)? as u32))
+    let counts =
+        mix(state.count(Medium::LIFE, 1)? as u32, state.count(Medium::TERRAIN, Terrain::Water)? as u32);
+    Ok(mix(result?, mix(counts, state.count(Medium::WET, true)? as u32)))
 }
 
 /// All reductions of the substate of items that the number says.
@@ -67,14 +75,18 @@ pub fn of_cells(state: &State<'_>, which: u32) -> Result<u32, StateError> {
 /// # Errors
 /// Where the model does not have it.
 pub fn of_items(state: &State<'_>, which: u32) -> Result<u32, StateError> {
-    let result = match which % 7 {
+    let result = match which % 11 {
         0 => of(state, Walker::POSITION),
         1 => of(state, Walker::VELOCITY),
         2 => of(state, Walker::MASS),
         3 => of(state, Walker::WARMTH),
         4 => of(state, Walker::KIND),
         5 => of(state, Walker::SEEN),
-        _ => of(state, Walker::LOAD),
+        6 => of(state, Walker::LOAD),
+        7 => of(state, Walker::MEMORY),
+        8 => of(state, Walker::SPEEDS),
+        9 => of(state, Walker::TERRAIN),
+        _ => of(state, Walker::AWAKE),
     };
     let counts = mix(state.count(Walker::KIND, 2)? as u32, state.count_items::<Walker>()? as u32);
     let occupied = mix(state.largest_occupancy::<Walker>()?, state.count_left::<Walker>()? as u32);

@@ -6,7 +6,7 @@
 //! that another process wrote too early. No physics is needed to test an engine.
 
 use super::around;
-use super::lattice::{Lattice, NOWHERE, Shape, mix, neighbour_place, outside_place};
+use super::lattice::{Lattice, NOWHERE, Shape, Terrain, mix, neighbour_place, outside_place, terrain_of};
 use xca_core::prelude::*;
 
 /// The fault of a cell that is told other indices than its own.
@@ -51,6 +51,18 @@ pub struct Site {
     pub pair: Vector2<f32>,
     /// Written by [`fifth`]; the steps done.
     pub steps: Vector4<u32>,
+    /// Written by [`first`], which reads it at neighbours too.
+    pub table: [i32; 4],
+    /// Written by [`second`] in place, element by element.
+    pub paths: [Vector2<Real>; 2],
+    /// Written by [`third`], which reads it at neighbours too.
+    pub terrain: Terrain,
+    /// Written by [`third`] as a whole.
+    pub wet: [bool; 2],
+    /// Written by [`second`].
+    pub dry: bool,
+    /// Written by [`fourth`], one element of many.
+    pub terrains: [Terrain; 9],
 }
 
 /// What a cell holds after a process, in 32 bits from which all its substates are made. Beyond a face it is always the same.
@@ -81,6 +93,18 @@ pub fn real_of(mark: u32) -> Real {
     (mark & 0xFFFF) as Real * 0.5 - 1024.0
 }
 
+/// An element of a table.
+#[helper]
+pub fn entry_of(mark: u32, element: u32) -> i32 {
+    mix(mark, element) as i32
+}
+
+/// The element that [`fourth`] writes.
+#[helper]
+pub fn turn_of(step: u32) -> u32 {
+    step % 9
+}
+
 /// Whether two places are the same.
 #[helper]
 pub fn same_place(a: Vector3<i32>, b: Vector3<i32>) -> bool {
@@ -106,6 +130,13 @@ pub fn first(cell: &mut Cell<Site>, p: &Lattice, space: &Space) {
     }
     // Written first: neighbours must show the old state all the same, and the cell itself the new one.
     cell.stamp = mark(here, step, 1);
+    let before = mark(here, step.wrapping_sub(1), 1);
+    for k in 0..4 {
+        if cell.table[k] != entry_of(before, k as u32) {
+            cell.fault(WRONG_SELF, k as Real);
+        }
+        cell.table[k] = entry_of(cell.stamp, k as u32);
+    }
     for n in 0..cell.neighbour_count() {
         let there = neighbour_place(p, here, space.extents(), n);
         let other = cell.neighbour(n);
@@ -117,6 +148,12 @@ pub fn first(cell: &mut Cell<Site>, p: &Lattice, space: &Space) {
             || other.count != stale as i32
             || other.tag != (stale & 255) as u8
         {
+            cell.fault(WRONG_NEIGHBOUR, n as Real);
+        }
+        let earlier = mark(there, step.wrapping_sub(1), 1);
+        let chosen = (n + step) % 4;
+        let all = other.table;
+        if other.table[chosen as usize] != entry_of(earlier, chosen) || all[3] != entry_of(earlier, 3) {
             cell.fault(WRONG_NEIGHBOUR, n as Real);
         }
     }
@@ -141,6 +178,13 @@ pub fn second(cell: &mut Cell<Site>, space: &Space) {
     cell.stamp = mark(here, step, 2);
     cell.level = real_of(cell.stamp);
     cell.flow = Vector3::new(cell.level, -cell.level, here.x as Real);
+    let mut last = 1;
+    while last > 0 {
+        cell.paths[last].x = real_of(cell.stamp) + last as Real;
+        last -= 1;
+    }
+    cell.paths[0] = Vector2::new(cell.level, 2.0);
+    cell.dry = cell.stamp & 1 == 0;
 }
 
 /// Reads neighbours; writes one substate that it reads there, and one that it does not.
@@ -165,8 +209,23 @@ pub fn third(cell: &mut Cell<Site>, p: &Lattice, space: &Space) {
         if other.count != mark(there, step.wrapping_sub(1), 3) as i32 {
             cell.fault(WRONG_NEIGHBOUR, n as Real);
         }
+        let stale = mark(there, step.wrapping_sub(1), 3);
+        let terrain: Terrain = terrain_of(stale);
+        if other.terrain != terrain || other.wet[(n % 2) as usize] != ((stale >> (n % 2)) & 1 == 1) {
+            cell.fault(WRONG_NEIGHBOUR, n as Real);
+        }
+        let paths = other.paths;
+        if paths[0].x != real_of(now) || paths[0].y != 2.0 || other.paths[1].x != real_of(now) + 1.0 {
+            cell.fault(WRONG_NEIGHBOUR, n as Real);
+        }
+        if other.dry != (now & 1 == 0) {
+            cell.fault(WRONG_NEIGHBOUR, n as Real);
+        }
     }
     let now = mark(here, step, 3);
+    let terrain: Terrain = terrain_of(now);
+    cell.terrain = terrain;
+    cell.wet = [now & 1 == 1, now & 2 == 2];
     cell.count = now as i32;
     cell.tag = (now & 255) as u8;
 }
@@ -182,7 +241,14 @@ pub fn fourth(cell: &mut Cell<Site>, p: &Lattice, space: &Space) {
         if cell.neighbour(n).tag != (now & 255) as u8 || cell.neighbour(n).count != now as i32 {
             cell.fault(WRONG_NEIGHBOUR, n as Real);
         }
+        let terrain: Terrain = terrain_of(now);
+        if cell.neighbour(n).terrain != terrain || cell.neighbour(n).wet != [now & 1 == 1, now & 2 == 2] {
+            cell.fault(WRONG_NEIGHBOUR, n as Real);
+        }
     }
+    // A new state for each turn of nine steps.
+    let terrain: Terrain = terrain_of(step / 9 + 1);
+    cell.terrains[turn_of(step) as usize] = terrain;
     cell.pair = Vector2::new(single_of(mark(here, step, FOURTH)), 1.5);
     cell.stamp = mark(here, step.wrapping_add(1), 0);
 }
@@ -201,6 +267,13 @@ pub fn fifth(cell: &mut Cell<Site>, space: &Space) {
     }
     cell.steps.w += 1;
     cell.steps.x += 1;
+    for k in 0..9 {
+        let turns = if k <= turn_of(step) { step / 9 + 1 } else { step / 9 };
+        let terrain: Terrain = terrain_of(turns);
+        if cell.terrains[k as usize] != terrain {
+            cell.fault(WRONG_SELF, k as Real);
+        }
+    }
 }
 
 /// The state of a cell before the first step, or beyond a flat face (its [`outside_place`]).
@@ -219,6 +292,12 @@ fn at_start(place: Vector3<i32>) -> Site {
         flow: Vector3::new(level, -level, f64::from(place.x)),
         pair: Vector2::new(0.0, 0.0),
         steps: Vector4::new(3, 0, 0, 0),
+        table: std::array::from_fn(|element| entry_of(before(1), element as u32)),
+        paths: [Vector2::new(level, 2.0), Vector2::new(level + 1.0, 0.0)],
+        terrain: terrain_of(before(3)),
+        wet: [before(3) & 1 == 1, before(3) & 2 == 2],
+        dry: before(2) & 1 == 0,
+        terrains: [Terrain::Rock; 9],
     }
 }
 

@@ -4,7 +4,7 @@
 //! What it holds after each process is a function of its label, the step and the process, so that it can verify the substates of all others
 //! too. Items rest, go on and go back, across toroidal faces and out through flat ones.
 
-use super::lattice::{Lattice, Shape, linear, mix, neighbour_place};
+use super::lattice::{Lattice, Shape, Terrain, linear, mix, neighbour_place, terrain_of};
 use super::path::{
     ALL, follow, follow_cell, follow_neighbours, is_taken, label_of, motion, place_of, quarters_of, residents,
 };
@@ -38,6 +38,12 @@ pub struct Traveller {
     pub stamp: u32,
     /// Written by [`look_around`].
     pub weight: f64,
+    /// Written by [`meet`], which reads it of others too.
+    pub memory: [u32; 3],
+    /// Written by [`look_around`].
+    pub terrain: Terrain,
+    /// Written by [`look_around`], which reads it of others too.
+    pub awake: [bool; 2],
 }
 
 /// What belongs to a cell.
@@ -78,13 +84,23 @@ pub fn meet(me: &mut Slot<Traveller>, p: &Lattice, space: &Space) {
     }
     // Written first: others must be seen as they were all the same.
     me.stamp = mark(label, step, 1);
+    me.memory[(step % 3) as usize] = me.stamp;
     let mut found = 0;
     for other in me.others() {
         found = follow(found, other.label());
         if other.stamp != mark(other.label(), step, 0) || other.class != (other.label() % 3) as u8 {
             me.fault(WRONG_STATE, other.label() as Real);
         }
+        let last = step.wrapping_sub(1);
+        let all = other.memory;
+        if step > 1
+            && (other.memory[(last % 3) as usize] != mark(other.label(), last, 1)
+                || all[(step % 3) as usize] != 0)
+        {
+            me.fault(WRONG_STATE, other.label() as Real);
+        }
     }
+    me.memory[((step + 1) % 3) as usize] = 0;
     let mut in_cell = 0;
     for other in me.others_in_cell() {
         in_cell = follow(in_cell, other.label());
@@ -124,6 +140,11 @@ pub fn look_around(me: &mut Slot<Traveller>, p: &Lattice, space: &Space) {
         if other.stamp != mark(other.label(), step, 1) {
             me.fault(WRONG_STATE, other.label() as Real);
         }
+        let last = mark(other.label(), step.wrapping_sub(1), 2);
+        let terrain: Terrain = terrain_of(last);
+        if other.terrain != terrain || other.awake != [last & 1 == 1, last & 2 == 2] {
+            me.fault(WRONG_STATE, other.label() as Real);
+        }
         let quarters = quarters_of(p, other.label(), extents, step);
         if other.position.x != quarters.x as Real * (0.25 * space.side()) {
             me.fault(WRONG_STATE, other.position.x);
@@ -146,7 +167,12 @@ pub fn look_around(me: &mut Slot<Traveller>, p: &Lattice, space: &Space) {
     if p.covered == 1 && in_neighbours != follow_neighbours(p, 0, label, here, extents, step, step) {
         me.fault(WRONG_OTHERS, 6.0);
     }
-    me.weight = (mark(label, step, 2) & 0xFFFF) as f64;
+    let now = mark(label, step, 2);
+    me.weight = (now & 0xFFFF) as f64;
+    let terrain: Terrain = terrain_of(now);
+    me.terrain = terrain;
+    me.awake[0] = now & 1 == 1;
+    me.awake[1] = now & 2 == 2;
 }
 
 /// The same when all have moved but none has changed its cell: a search goes by the cells of now and the positions of now.
@@ -263,6 +289,9 @@ pub fn at_start(p: &Lattice, extents: [usize; 3]) -> Vec<Item<Traveller>> {
             class: class as u8,
             stamp: mark(label, 0, 0),
             weight: f64::from(mark(label, u32::MAX, 2) & 0xFFFF),
+            memory: [0; 3],
+            terrain: terrain_of(mark(label, u32::MAX, 2)),
+            awake: [1, 2].map(|bit| mark(label, u32::MAX, 2) & bit == bit),
         };
         items.push(Item { label, cell: [home.x as usize, home.y as usize, home.z as usize], state });
     }

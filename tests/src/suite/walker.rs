@@ -1,6 +1,6 @@
 //! Elementary processes over items, and between items and their cells, from which random models are put together.
 
-use super::lattice::mix;
+use super::lattice::{Terrain, mix};
 use super::medium::{Medium, Tuning, bounded};
 use xca_core::prelude::*;
 
@@ -19,6 +19,10 @@ pub struct Walker {
     pub seen: u32,
     pub load: i32,
     pub warmth: f64,
+    pub memory: [u32; 3],
+    pub speeds: [Vector3<Real>; 2],
+    pub terrain: Terrain,
+    pub awake: bool,
 }
 
 /// A search within a radius; writes in place what is not read of others.
@@ -164,4 +168,47 @@ pub fn stumble(me: &mut Slot<Walker>, p: &Tuning) {
     if p.rarity > 0 && me.random_bits(p.salt as usize) % p.rarity == 0 {
         me.fault(STUMBLED, me.mass);
     }
+}
+
+/// Arrays and states of others, and of the item itself, written where they are read.
+#[elementary_process]
+pub fn recall(me: &mut Slot<Walker>, p: &Tuning) {
+    for other in me.others_within(p.radius) {
+        me.memory[(other.label() % 3) as usize] = mix(other.memory[2], other.memory[0]);
+        if other.awake && other.terrain != me.terrain {
+            me.speeds[1] += other.speeds[0] * 0.125;
+        }
+    }
+    me.speeds[0] = me.velocity;
+    me.awake = me.memory[1] & 1 == 1;
+    me.velocity += me.speeds[1] * (0.01 * p.weights[2]);
+}
+
+/// An item and its cell's arrays and states.
+#[elementary_process]
+pub fn look_down(me: &mut Slot<Walker>, cell: &Cell<Medium>, p: &Tuning) {
+    me.terrain = if cell.wet { p.turns_to } else { cell.terrain };
+    me.memory[0] = me.memory[0] ^ cell.long[(me.seen % 11) as usize] as u32;
+    me.awake = me.awake != cell.marks[me.terrain as usize];
+    me.warmth = me.warmth * 0.5 + cell.flows[1] as f64;
+}
+
+/// A cell and its items' arrays and states.
+#[elementary_process]
+pub fn listen(cell: &mut Cell<Medium>, slots: &Slots<Walker>) {
+    for item in slots {
+        cell.paths[0].y = cell.paths[0].y ^ item.memory[1] as i32;
+        if item.awake {
+            cell.terrain = item.terrain;
+        }
+        cell.flows[2] = bounded(cell.flows[2] + item.speeds[0].x, 50.0);
+    }
+}
+
+/// An element of the item's memory that may lie beyond it.
+#[elementary_process]
+pub fn forget(me: &mut Slot<Walker>, p: &Tuning) {
+    let k = mix(me.seen, p.salt) % (3 + p.greed);
+    me.memory[k as usize] = 0;
+    me.load = me.load / (me.memory[2] as i32 % 3 + 3);
 }

@@ -112,7 +112,9 @@ impl Device {
         }];
         // SAFETY: the words are valid SPIR-V: naga wrote them from a module that it had checked, and only decorations were added. They
         // are of the version that Vulkan 1.1 takes. Arrays in a process are indexed within their bounds; buffers are indexed by
-        // the engine's own numbers of cells and items, which lie in the buffers that it binds. Loops end where they end on the CPU.
+        // the engine's own numbers of cells and items, which lie in the buffers that it binds, and within
+        // these by elements of their arrays, which the text of the process proves or checks. Loops end where
+        // they end on the CPU, or at a fault.
         unsafe {
             self.device.create_shader_module_passthrough(wgpu::ShaderModuleDescriptorPassthrough {
                 label: Some(&code.name),

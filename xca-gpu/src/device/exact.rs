@@ -26,7 +26,8 @@ pub(super) fn spirv(source: &str) -> Result<Vec<u32>, String> {
     let options = spv::Options {
         lang_version: (1, 3),
         flags: spv::WriterFlags::empty(),
-        // Arrays of a process are indexed by its numbers, which may be anything; buffers by the engine's own, which lie in them.
+        // Buffers are indexed by the engine's own numbers, which lie in them, and by elements that the text
+        // proves or checks. Arrays in variables are guarded here once more.
         bounds_check_policies: BoundsCheckPolicies {
             index: BoundsCheckPolicy::Restrict,
             buffer: BoundsCheckPolicy::Unchecked,

@@ -297,11 +297,12 @@ pub(crate) fn constant(name: &str, value: &Constant) -> Result<Type, Problem> {
     let unsupported = |reason: &str| Problem::unsupported(format!("the constant `{name}`"), reason);
     Ok(match value {
         Constant::Bool(_) => Type::Bool,
-        Constant::U8(_) | Constant::State(..) => Type::Scalar(ScalarType::U8),
+        Constant::U8(_) => Type::Scalar(ScalarType::U8),
         Constant::I32(_) => Type::Scalar(ScalarType::I32),
         Constant::U32(_) => Type::Scalar(ScalarType::U32),
         Constant::F32(_) => Type::Scalar(ScalarType::F32),
         Constant::Real(_) => Type::Scalar(ScalarType::Real),
+        Constant::State(_, names) => Type::State(names),
         Constant::Vector(lanes) => match lanes.first().map(|lane| constant(name, lane)).transpose()? {
             Some(Type::Scalar(scalar)) => Type::Vector(scalar, self::lanes(lanes.len())?),
             _ => return Err(unsupported("vectors are of numbers")),

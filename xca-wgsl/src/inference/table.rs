@@ -2,7 +2,7 @@
 
 use crate::error::Problem;
 use crate::types::{Type, is_float};
-use xca_core::ScalarType;
+use xca_core::{ScalarType, StateNames};
 
 /// A type that may still be unknown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,6 +21,7 @@ pub(super) enum Term {
     Bool,
     Scalar(ScalarType),
     Vector(Variable, u8),
+    State(&'static StateNames),
     Array(Variable, usize),
     Destination,
 }
@@ -58,6 +59,7 @@ impl Table {
                 let scalar = self.variable(Term::Scalar(*scalar));
                 Term::Vector(scalar, *lanes)
             }
+            Type::State(names) => Term::State(names),
             Type::Array(element, length) => {
                 let element = self.known(element);
                 Term::Array(element, *length)
@@ -134,6 +136,7 @@ impl Table {
             Term::Bool => "bool".to_owned(),
             Term::Scalar(scalar) => scalar.to_string(),
             Term::Vector(scalar, lanes) => format!("Vector{lanes}<{}>", self.describe(scalar)),
+            Term::State(names) => names.name.to_owned(),
             Term::Array(element, length) => format!("[{}; {length}]", self.describe(element)),
             Term::Destination => "Destination".to_owned(),
         }
@@ -151,6 +154,7 @@ impl Table {
                 Type::Scalar(scalar) => Type::Vector(scalar, lanes),
                 other => other,
             },
+            Term::State(names) => Type::State(names),
             Term::Array(element, length) => Type::Array(Box::new(self.resolve(element)), length),
             Term::Destination => Type::Destination,
         }

@@ -14,7 +14,7 @@ impl Writer<'_, '_> {
         let source = self.type_of(operand);
         let unsupported = || {
             let construct = format!("a cast from {} to {}", source.wgsl(), target.wgsl());
-            Problem::unsupported(construct, "only numbers and bool can be cast, to numbers")
+            Problem::unsupported(construct, "only numbers, bool and states can be cast, to numbers")
         };
         let Type::Scalar(to) = *target else { return Err(unsupported()) };
         match source {
@@ -26,6 +26,11 @@ impl Writer<'_, '_> {
             Type::Scalar(from) => {
                 let text = self.expression(operand)?;
                 Ok(from_integer(&text, from, to))
+            }
+            // Its number.
+            Type::State(_) => {
+                let text = self.expression(operand)?;
+                Ok(from_integer(&text, ScalarType::U8, to))
             }
             _ => Err(unsupported()),
         }
@@ -83,10 +88,8 @@ fn from_integer(text: &Text, from: ScalarType, to: ScalarType) -> Text {
         ScalarType::U32 => as_u32(),
         ScalarType::I32 if from == ScalarType::I32 => text.clone(),
         ScalarType::I32 => call("i32", text),
-        ScalarType::F32
-        | ScalarType::F64
-        | ScalarType::Real
-        | ScalarType::Bool
-        | ScalarType::State(_) => call(types::scalar_name(to), text),
+        ScalarType::F32 | ScalarType::F64 | ScalarType::Real => call(types::scalar_name(to), text),
+        // No cast has these as its target.
+        ScalarType::Bool | ScalarType::State(_) => text.clone(),
     }
 }

@@ -22,9 +22,10 @@ impl Writer<'_, '_> {
 pub(crate) fn constant_text(name: &str, value: &Constant, options: &Options) -> Result<String, Problem> {
     match value {
         Constant::Bool(value) => Ok(value.to_string()),
-        Constant::U8(value) | Constant::State(value, _) => literal::integer(i128::from(*value), ScalarType::U8),
+        Constant::U8(value) => literal::integer(i128::from(*value), ScalarType::U8),
         Constant::I32(value) => literal::integer(i128::from(*value), ScalarType::I32),
         Constant::U32(value) => literal::integer(i128::from(*value), ScalarType::U32),
+        Constant::State(number, _) => Ok(format!("{number}u")),
         Constant::F32(value) => literal::float((*value).into(), ScalarType::F32, options),
         Constant::Real(value) => literal::float(*value, ScalarType::Real, options),
         Constant::Vector(elements) | Constant::Array(elements) => {

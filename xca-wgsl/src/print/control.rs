@@ -1,6 +1,7 @@
 //! Branches and loops. `match` becomes a chain of `if`: in a `switch`, WGSL's `break` would mean the switch.
 
 use super::expression::is_simple;
+use super::range::Range;
 use super::text::{Level, Text};
 use super::{Target, Writer};
 use crate::error::Problem;
@@ -70,8 +71,8 @@ impl Writer<'_, '_> {
         target: Target<'_>,
     ) -> Result<(), Problem> {
         let type_ = self.type_of(value);
-        if type_ != Type::Bool && (type_.is_float() || !matches!(type_, Type::Scalar(_))) {
-            return Err(Problem::unsupported("`match`", "only integers and bool are matched"));
+        if !type_.is_discrete() {
+            return Err(Problem::unsupported("`match`", "only integers, bool and states are matched"));
         }
         let text = self.expression(value)?;
         let guards_change_it =
@@ -180,6 +181,7 @@ impl Writer<'_, '_> {
         if self.hoists(condition) {
             self.line("loop {");
             self.inside(|writer| {
+                writer.end_after_fault();
                 let text = writer.expression(condition)?;
                 writer.line(&format!("if {} {{", text.inverted("!").plain()));
                 writer.line("    break;");
@@ -192,7 +194,7 @@ impl Writer<'_, '_> {
         } else {
             let text = self.expression(condition)?;
             self.line(&format!("while {} {{", text.plain()));
-            self.loop_body(None, body)?;
+            self.long_body(true, body)?;
         }
         self.line("}");
         Ok(())
@@ -217,6 +219,17 @@ impl Writer<'_, '_> {
         .then_some(first..offsets.len())
     }
 
+    /// The body of a loop that may be a long one.
+    pub(super) fn long_body(&mut self, long: bool, body: &Block) -> Result<(), Problem> {
+        if long {
+            self.inside(|writer| {
+                writer.end_after_fault();
+                Ok(())
+            })?;
+        }
+        self.loop_body(None, body)
+    }
+
     pub(super) fn for_range(
         &mut self,
         statement: &Statement,
@@ -235,6 +248,7 @@ impl Writer<'_, '_> {
                 let local = self.shared.names.local(variable);
                 self.locals.insert(number, local.clone());
                 self.counted.insert(number, index);
+                self.note_range(number, Range::only(index as i64));
                 self.line(&format!("    let {local}: {} = {index}u;", type_.wgsl()));
                 self.loop_body(None, body)?;
                 self.shared.names.close();
@@ -245,6 +259,9 @@ impl Writer<'_, '_> {
         }
         let one = self.one(&type_)?;
         let texts = self.operands(&[from, to])?;
+        let long = self.may_take_long(from, to);
+        let range = self.counted_range(from, to, inclusive);
+        self.note_range(number, range);
         let [from, to_text] = [texts[0].clone(), texts[1].clone()];
         let end = self.end(to, to_text);
         self.note_neighbour(statement, to, inclusive)?;
@@ -260,7 +277,7 @@ impl Writer<'_, '_> {
             self.line(&format!("    if !{more} {{"));
             self.line("        break;");
             self.line("    }");
-            self.loop_body(None, body)?;
+            self.long_body(long, body)?;
             self.line("    continuing {");
             self.line(&format!("        {more} = {local} != {end};"));
             self.line(&format!("        {local} += {one};"));
@@ -274,7 +291,7 @@ impl Writer<'_, '_> {
             self.line(&format!(
                 "for (var {local}: {name} = {from}; {local} {sign} {end}; {local} += {one}) {{"
             ));
-            self.loop_body(None, body)?;
+            self.long_body(long, body)?;
             self.shared.names.close();
         }
         self.line("}");

@@ -3,9 +3,10 @@
 use super::text::{Level, Text};
 use super::{Target, Writer};
 use crate::error::Problem;
-use crate::types::Type;
+use crate::types::{self, Type};
 use crate::visit::{self, Node};
 use crate::{literal, names};
+use xca_core::ScalarType;
 use xca_core::ir::{BinaryOperator, Block, Builtin, Expression, Role, UnaryOperator};
 use xca_core::kernel::{OUTSIDE, Of, STAY};
 
@@ -32,25 +33,31 @@ impl Writer<'_, '_> {
             }
             Expression::Neighbour { index, field } => {
                 let number = self.neighbour(index)?;
-                self.element_of(Of::Subject, field, number.plain())
+                self.value_of(Of::Subject, field, number.plain())
             }
             Expression::NamedNeighbour { field, .. } => {
                 let name = self.local(self.analysis.local(value)?)?;
-                self.element_of(Of::Subject, field, &name)
+                self.value_of(Of::Subject, field, &name)
             }
             Expression::Other { field, .. } => {
                 let name = self.local(self.analysis.local(value)?)?;
                 // In a process over cells the other items are those of the cell.
                 let of = if self.over_cells() { Of::Companion } else { Of::Subject };
-                self.element_of(of, field, &name)
+                self.value_of(of, field, &name)
             }
             Expression::OtherLabel(_) => {
                 let name = self.local(self.analysis.local(value)?)?;
                 Ok(Text::primary(format!("item_labels[{name}]")))
             }
             Expression::Parameter(name) => {
-                let variable = &self.shared.glossary.parameters;
-                Ok(Text::primary(format!("{variable}.{}", names::field(name))))
+                let text = format!("{}.{}", self.shared.glossary.parameters, names::field(name));
+                Ok(Text::primary(match self.type_of(value) {
+                    Type::Bool => types::loaded(ScalarType::Bool, &text),
+                    Type::Array(element, length) if *element == Type::Bool => {
+                        format!("{}({text})", self.shared.routines.need_truths(length))
+                    }
+                    _ => text,
+                }))
             }
             Expression::Parameters | Expression::Space => Err(Problem::unsupported(
                 "the parameters or the space as a value",
@@ -82,10 +89,7 @@ impl Writer<'_, '_> {
                 let operand = self.expression(operand)?.at_least(Level::Primary);
                 Ok(Text::primary(format!("{operand}.{}", self.lane(*lane)?)))
             }
-            Expression::Element(array, index) => {
-                let texts = self.operands(&[&**array, &**index])?;
-                Ok(Text::primary(format!("{}[{}]", texts[0].at_least(Level::Primary), texts[1].plain())))
-            }
+            Expression::Element(array, index) => self.element(array, index),
             Expression::Array(elements) => {
                 let values: Vec<&Expression> = elements.iter().collect();
                 self.constructor(value, &values)
@@ -127,7 +131,7 @@ impl Writer<'_, '_> {
         for (position, value) in values.iter().enumerate() {
             let mut text = self.expression(value)?;
             let hoists = values[position + 1..].iter().any(|later| self.hoists(later));
-            if hoists && !self.stable(value) {
+            if hoists && (!self.stable(value) || self.may_stop(value)) {
                 let type_ = self.type_of(value);
                 text = self.keep("operand", &type_, &text);
             }
@@ -180,7 +184,8 @@ impl Writer<'_, '_> {
         then: &'e Block,
         otherwise: &'e Block,
     ) -> Option<(&'e Expression, &'e Expression)> {
-        if !matches!(self.analysis.type_of(whole), Type::Bool | Type::Scalar(_) | Type::Vector(..)) {
+        let of = self.analysis.type_of(whole);
+        if !matches!(of, Type::Bool | Type::Scalar(_) | Type::Vector(..) | Type::State(_)) {
             return None;
         }
         let simple = |block: &'e Block| match &block.value {
@@ -202,9 +207,8 @@ impl Writer<'_, '_> {
     }
 
     /// A substate of the cell or item with this number, as it was before the process.
-    pub(super) fn element_of(&self, of: Of, field: &str, number: &str) -> Result<Text, Problem> {
-        let text = self.shared.glossary.read(of, field, number)?;
-        Ok(Text::primary(text))
+    pub(super) fn value_of(&self, of: Of, field: &str, number: &str) -> Result<Text, Problem> {
+        Ok(Text::primary(self.shared.glossary.buffer(of, field)?.read(number)))
     }
 
     fn unary(&mut self, operator: UnaryOperator, operand: &Expression) -> Result<Text, Problem> {

@@ -3,14 +3,17 @@
 mod cast;
 mod constant;
 mod control;
+mod element;
 mod expression;
 mod method;
 mod operator;
+mod range;
 mod search;
 mod statement;
 mod text;
 
 use crate::error::Problem;
+use crate::fault;
 use crate::glossary::Glossary;
 use crate::inference::{Analysis, LocalNumber};
 use crate::names::Names;
@@ -18,6 +21,7 @@ use crate::program::{Program, Roles};
 use crate::routine::Routines;
 use crate::shader::Options;
 use crate::types::Type;
+use range::Range;
 use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
 use text::Text;
@@ -46,6 +50,8 @@ struct Writer<'a, 's> {
     locals: HashMap<LocalNumber, String>,
     /// Variables that are the index of a neighbour that exists.
     neighbours: HashSet<LocalNumber>,
+    /// The numbers that variables can be which never change, where these are not all of their type.
+    ranges: HashMap<LocalNumber, Range>,
     /// Variables of loops that are written out, with their present value.
     counted: HashMap<LocalNumber, usize>,
     /// The loops around the present place. Of a search in several cells, the flag that ends it.
@@ -75,6 +81,7 @@ pub(crate) fn function(shared: &mut Shared<'_>, number: usize) -> Result<String,
         indent: 0,
         locals: HashMap::new(),
         neighbours: HashSet::new(),
+        ranges: HashMap::new(),
         counted: HashMap::new(),
         loops: Vec::new(),
     };
@@ -114,6 +121,11 @@ impl Writer<'_, '_> {
 
     fn line(&mut self, text: &str) {
         let _ = writeln!(self.out, "{:width$}{text}", "", width = 4 * self.indent);
+    }
+
+    /// At the beginning of a loop that has an end only with the right values.
+    fn end_after_fault(&mut self) {
+        self.out.push_str(&fault::exit(self.indent));
     }
 
     /// Writes something in braces; the caller has written the opening one.

@@ -1,6 +1,7 @@
 //! Operators, with the results that Rust gives.
 
 use super::Writer;
+use super::element::is_division;
 use super::text::{Level, Text};
 use crate::error::Problem;
 use crate::types::{self, Type};
@@ -19,6 +20,10 @@ impl Writer<'_, '_> {
         let (left_type, right_type) = (self.type_of(left), self.type_of(right));
         if self.overflows(operator, left, right) {
             texts[0] = self.at_run_time(&left_type, &texts[0]);
+        }
+        if is_division(operator) && !left_type.is_float() {
+            let dividend = (&texts[0], &left_type, self.range(left));
+            return self.quotient(operator, dividend, (&texts[1], &right_type, self.range(right)));
         }
         self.combined(operator, (&texts[0], &left_type), (&texts[1], &right_type))
     }
@@ -56,6 +61,13 @@ impl Writer<'_, '_> {
                 self.wrapped(shift(left, "<<", right, left_type, right_type), left_type)
             }
             BinaryOperator::ShiftRight => shift(left, ">>", right, left_type, right_type),
+            BinaryOperator::Equal if matches!(type_, Type::Array(..)) => {
+                let routine = self.shared.routines.need_equal(type_);
+                Text::primary(format!("{routine}({}, {})", left.argument(), right.argument()))
+            }
+            BinaryOperator::NotEqual if matches!(type_, Type::Array(..)) => {
+                self.combined(BinaryOperator::Equal, (left, left_type), (right, right_type))?.inverted("!")
+            }
             BinaryOperator::Equal if type_.lanes() > 1 => {
                 Text::primary(format!("all({})", Text::joined(left, "==", right, Level::Relational).plain()))
             }
@@ -66,17 +78,17 @@ impl Writer<'_, '_> {
             BinaryOperator::NotEqual if type_.lanes() > 1 => {
                 Text::primary(format!("any({})", Text::joined(left, "!=", right, Level::Relational).plain()))
             }
-            BinaryOperator::Equal | BinaryOperator::NotEqual if matches!(type_, Type::Array(..)) => {
-                return Err(Problem::unsupported("a comparison of arrays", "compare their elements"));
-            }
             BinaryOperator::Equal => Text::joined(left, "==", right, Level::Relational),
             BinaryOperator::NotEqual => Text::joined(left, "!=", right, Level::Relational),
             BinaryOperator::Less
             | BinaryOperator::LessEqual
             | BinaryOperator::Greater
             | BinaryOperator::GreaterEqual => {
-                if !matches!(type_, Type::Scalar(_)) {
-                    return Err(Problem::unsupported("an order comparison", "only numbers have an order"));
+                if !matches!(type_, Type::Scalar(_) | Type::State(_)) {
+                    return Err(Problem::unsupported(
+                        "an order comparison",
+                        "only numbers and states have an order",
+                    ));
                 }
                 let sign = match operator {
                     BinaryOperator::Less => "<",

@@ -75,7 +75,7 @@ impl Writer<'_, '_> {
         self.line("}");
         let limit = self.shared.names.local("limit");
         self.line(&format!("let {limit}: Real = {radius} * {radius};"));
-        let position = self.element_of(Of::Subject, field, "this_item")?;
+        let position = self.value_of(Of::Subject, field, "this_item")?;
         let centre = self.shared.names.local("centre");
         self.line(&format!("let {centre}: vec3<Real> = {};", position.plain()));
         let dot = self.shared.routines.need_dot(&crate::types::Type::Vector(xca_core::ScalarType::Real, 3));
@@ -103,7 +103,7 @@ impl Writer<'_, '_> {
             writer.line("    continue;");
             writer.line("}");
             if let Some(near) = near {
-                let position = writer.element_of(Of::Subject, near.field, &item)?;
+                let position = writer.value_of(Of::Subject, near.field, &item)?;
                 let difference = format!("{} - {}", near.centre, position.plain());
                 let separation = writer.shared.names.local("separation");
                 let image = if near.toroidal { format!("nearest_image({difference})") } else { difference };

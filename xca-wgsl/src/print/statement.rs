@@ -1,6 +1,8 @@
 //! Statements.
 
+use super::element::is_division;
 use super::expression::is_simple;
+use super::range::Range;
 use super::text::{Level, Text};
 use super::{Target, Writer};
 use crate::error::Problem;
@@ -10,6 +12,7 @@ use xca_core::ScalarType;
 use xca_core::ir::{
     BinaryOperator, Block, Builtin, Constant, Expression, Literal, Place, PlaceRoot, Projection, Statement,
 };
+use xca_core::kernel::Of;
 
 impl Writer<'_, '_> {
     /// Writes the statements of a block, and its value to where it belongs.
@@ -67,7 +70,7 @@ impl Writer<'_, '_> {
             Statement::While { condition, body } => self.while_(condition, body),
             Statement::Loop { body } => {
                 self.line("loop {");
-                self.loop_body(None, body)?;
+                self.long_body(true, body)?;
                 self.line("}");
                 Ok(())
             }
@@ -134,6 +137,8 @@ impl Writer<'_, '_> {
             self.line(&format!("{keyword} {local}: {} = {};", type_.wgsl(), text.plain()));
         }
         self.locals.insert(number, local);
+        let range = self.range(value);
+        self.note_range(number, range);
         Ok(())
     }
 
@@ -153,13 +158,12 @@ impl Writer<'_, '_> {
                 let target = self.place(place)?;
                 return self.value_into(value, Target::Variable(&target));
             }
-            let text = self.expression(value)?;
+            let text = self.assigned(place, value)?;
             let target = self.place(place)?;
             self.line(&format!("{target} = {};", text.plain()));
             return Ok(());
         };
-        // As in Rust the right-hand side comes first.
-        let text = self.expression(value)?;
+        let text = self.assigned(place, value)?;
         let target = self.place(place)?;
         let before = Text::primary(target.clone());
         let value_type = self.type_of(value);
@@ -170,6 +174,12 @@ impl Writer<'_, '_> {
             BinaryOperator::Divide => Some("/="),
             _ => None,
         };
+        if is_division(operator) && !type_.is_float() {
+            let dividend = (&before, &type_, Range::of_type(&type_));
+            let result = self.quotient(operator, dividend, (&text, &value_type, self.range(value)))?;
+            self.line(&format!("{target} = {};", result.plain()));
+            return Ok(());
+        }
         let result = self.combined(operator, (&before, &type_), (&text, &value_type))?;
         match short {
             Some(short) if !type_.is_u8() => {
@@ -180,10 +190,34 @@ impl Writer<'_, '_> {
         Ok(())
     }
 
+    /// The right-hand side of an assignment, which comes first in Rust.
+    fn assigned(&mut self, place: &Place, value: &Expression) -> Result<Text, Problem> {
+        let text = self.expression(value)?;
+        let indices = || {
+            place.path.iter().filter_map(|projection| match projection {
+                Projection::Element(index) => Some(index),
+                Projection::Component(_) => None,
+            })
+        };
+        // What the place needs stands in statements before.
+        let stops = self.may_stop(value) && indices().any(|index| !matches!(index, Expression::Literal(_)));
+        if stops || indices().any(|index| self.hoists(index)) && !self.stable(value) {
+            let type_ = self.type_of(value);
+            return Ok(self.keep("assigned", &type_, &text));
+        }
+        Ok(text)
+    }
+
     fn place(&mut self, place: &Place) -> Result<String, Problem> {
-        let mut text = match &place.root {
-            PlaceRoot::Local(_) => self.local(self.analysis.place_root(place)?)?,
-            PlaceRoot::Own(name) => self.own(name)?,
+        let (mut text, mut type_) = match &place.root {
+            PlaceRoot::Local(_) => {
+                let number = self.analysis.place_root(place)?;
+                (self.local(number)?, self.analysis.locals[number.0].type_.clone())
+            }
+            PlaceRoot::Own(name) => {
+                let value_type = self.shared.glossary.buffer(Of::Subject, name)?.value_type;
+                (self.own(name)?, Type::of_value(value_type))
+            }
         };
         for projection in &place.path {
             match projection {
@@ -192,12 +226,14 @@ impl Writer<'_, '_> {
                     text.push_str(self.lane(*lane)?);
                 }
                 Projection::Element(index) => {
-                    let mut number = self.expression(index)?;
-                    if !is_simple(index) {
-                        let type_ = self.type_of(index);
-                        number = self.keep("index", &type_, &number);
+                    let length = type_.array().map_or(0, |(_, length)| length);
+                    let mut number = self.index(index, length)?;
+                    // A check stands once in the text, as it is one fault.
+                    if !is_simple(index) || !self.is_within(index, length) {
+                        number = self.keep("index", &Type::U32, &number);
                     }
                     text = format!("{text}[{}]", number.plain());
+                    type_ = type_.array().map_or(Type::Unit, |(element, _)| element.clone());
                 }
             }
         }
@@ -211,7 +247,7 @@ impl Writer<'_, '_> {
                 0 => Text::primary("here".to_owned()),
                 _ => {
                     let sign = if offset < 0 { '-' } else { '+' };
-                    Text::primary(format!("here {sign} {}u", offset.unsigned_abs()))
+                    Text::new(format!("here {sign} {}u", offset.unsigned_abs()), Level::Additive)
                 }
             });
         }

@@ -21,11 +21,63 @@ struct Mixed {
     end: i32,
 }
 
+#[derive(States, Clone, Copy, Debug, PartialEq)]
+enum Ground {
+    Rock,
+    Soil,
+}
+
+#[derive(Parameters, Clone, Debug)]
+struct Arrays {
+    wet: bool,
+    shares: [Real; 3],
+    ground: Ground,
+    directions: [Vector3<Real>; 2],
+    marks: [bool; 5],
+    pairs: [Vector2<u8>; 3],
+    grounds: [Ground; 2],
+    end: Real,
+}
+
 #[elementary_process]
 fn everything(cell: &mut Cell<State>, p: &Mixed, space: &Space) {
     cell.value = p.direction.x * p.r#loop * cell.random(space.step() as usize) + space.side();
     if p.end == 3 {
         cell.fault(1, cell.value);
+    }
+}
+
+#[elementary_process]
+fn arrays(cell: &mut Cell<State>, p: &Arrays) {
+    if p.wet && p.ground == Ground::Rock {
+        cell.value = p.shares[1] + p.end;
+    }
+}
+
+/// The elements of arrays lie as far apart as WGSL has them.
+#[test]
+fn arrays_lie_as_in_wgsl() {
+    for precision in [Precision::F32, Precision::F64] {
+        let shader = written::<arrays>(precision);
+        let module = validate(&shader);
+        let layout = shader.bindings.iter().find_map(|binding| match &binding.content {
+            Content::Parameters(layout) => Some(layout),
+            _ => None,
+        });
+        let layout = layout.unwrap();
+        let (_, type_) =
+            module.types.iter().find(|(_, type_)| type_.name.as_deref() == Some("Arrays")).unwrap();
+        let naga::TypeInner::Struct { members, span } = &type_.inner else { panic!("no struct") };
+        assert_eq!(layout.size, *span);
+        let mut checked = 0;
+        for (field, member) in layout.fields.iter().zip(members) {
+            assert_eq!(field.offset, member.offset, "{}", field.name);
+            if let naga::TypeInner::Array { stride, .. } = module.types[member.ty].inner {
+                assert_eq!(field.stride, stride, "{}", field.name);
+                checked += 1;
+            }
+        }
+        assert_eq!(checked, 5);
     }
 }
 

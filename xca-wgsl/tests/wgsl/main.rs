@@ -10,3 +10,4 @@ mod random;
 mod refusals;
 mod subset;
 mod texts;
+mod values;

@@ -5,15 +5,26 @@
 
 use crate::common::validate;
 use xca_core::ir::{
-    Argument, Arm, BinaryOperator, Block, Builtin, Expression, Function, FunctionKind, Literal, Method,
-    Pattern, Place, PlaceRoot, Projection, Role, Statement, Type, UnaryOperator,
+    Argument, Arm, BinaryOperator, Block, Builtin, Constant, Expression, Function, FunctionKind, Literal,
+    Method, Pattern, Place, PlaceRoot, Projection, Role, Statement, Type, UnaryOperator,
 };
 use xca_core::prelude::*;
 use xca_core::{ScalarType, Schema};
 use xca_wgsl::{Options, shader};
 
+#[derive(States, Clone, Copy, Debug, PartialEq)]
+enum Ground {
+    Rock,
+    Soil,
+    Water,
+}
+
 #[derive(Substates, Clone, Copy, Debug, PartialEq)]
 struct State {
+    truth: bool,
+    ground: Ground,
+    table: [i32; 3],
+    path: [Vector2<Real>; 2],
     byte: u8,
     signed: i32,
     unsigned: u32,
@@ -34,6 +45,16 @@ const SCALARS: [(ScalarType, &str); 6] = [
     (ScalarType::Real, "real"),
 ];
 const PLACE: Type = Type::Vector(ScalarType::Real, 3);
+const PAIR: Type = Type::Vector(ScalarType::Real, 2);
+const GROUND: Type = Type::State(Ground::NAMES);
+
+fn table() -> Type {
+    Type::Array(Box::new(Type::Scalar(ScalarType::I32)), 3)
+}
+
+fn path() -> Type {
+    Type::Array(Box::new(PAIR), 2)
+}
 
 struct Source {
     state: u64,
@@ -57,10 +78,12 @@ impl Source {
     }
 
     fn any_type(&mut self) -> Type {
-        match self.below(9) {
+        match self.below(12) {
             0 => Type::Bool,
             1 => PLACE,
-            2 => Type::Array(Box::new(Type::Scalar(ScalarType::I32)), 3),
+            2 => table(),
+            3 => GROUND,
+            4 => path(),
             _ => self.scalar(),
         }
     }
@@ -88,7 +111,44 @@ impl Source {
                 Expression::Splat(boxed(self.literal(&Type::Scalar(*scalar))), *lanes)
             }
             Type::Array(element, length) => Expression::Repeat(boxed(self.literal(element)), *length),
-            Type::State(_) | Type::Destination => Expression::Builtin(Builtin::Stay, Vec::new()),
+            Type::State(names) => {
+                let number = self.below(names.states.len());
+                let value = Constant::State(number as u8, names);
+                Expression::Constant {
+                    name: ["Ground::Rock", "Ground::Soil", "Ground::Water"][number],
+                    value,
+                }
+            }
+            Type::Destination => Expression::Builtin(Builtin::Stay, Vec::new()),
+        }
+    }
+
+    /// A substate of this type, if there is one.
+    fn field(type_: &Type) -> Option<&'static str> {
+        match type_ {
+            Type::Bool => Some("truth"),
+            Type::State(_) => Some("ground"),
+            Type::Scalar(scalar) => {
+                SCALARS.iter().find(|(known, _)| known == scalar).map(|(_, field)| *field)
+            }
+            Type::Vector(..) if *type_ == PLACE => Some("place"),
+            Type::Array(..) if *type_ == table() => Some("table"),
+            Type::Array(..) if *type_ == path() => Some("path"),
+            _ => None,
+        }
+    }
+
+    /// An index that may be anything.
+    fn index(&mut self, depth: usize) -> Expression {
+        let number = boxed(self.expression(&Type::Scalar(ScalarType::U32), depth));
+        match self.below(3) {
+            0 => Expression::Literal(Literal::Integer(self.below(2) as u64, None)),
+            1 => Expression::Binary(
+                BinaryOperator::Remainder,
+                number,
+                boxed(Expression::Literal(Literal::Integer(2, None))),
+            ),
+            _ => *number,
         }
     }
 
@@ -115,18 +175,11 @@ impl Source {
     }
 
     fn own(&mut self, type_: &Type) -> Expression {
-        match type_ {
-            Type::Scalar(scalar) => {
-                let field =
-                    SCALARS.iter().find(|(known, _)| known == scalar).map_or("byte", |(_, field)| field);
-                let index = Box::new(Expression::Literal(Literal::Integer(self.below(9) as u64, None)));
-                match self.below(3) {
-                    0 => Expression::Neighbour { index, field },
-                    _ => Expression::Own(field),
-                }
-            }
-            Type::Vector(..) => Expression::Own("place"),
-            other => self.literal(other),
+        let Some(field) = Self::field(type_) else { return self.literal(type_) };
+        let index = Box::new(Expression::Literal(Literal::Integer(self.below(9) as u64, None)));
+        match self.below(3) {
+            0 => Expression::Neighbour { index, field },
+            _ => Expression::Own(field),
         }
     }
 
@@ -145,6 +198,12 @@ impl Source {
             (1, _) => Expression::Block(self.block(Some(type_), next)),
             (2, _) => self.match_(Some(type_), next),
             (_, Type::Bool) => self.truth(next),
+            (_, Type::State(_)) => self.own(type_),
+            (_, Type::Vector(..)) if *type_ == PAIR => {
+                let array = boxed(self.expression(&path(), next));
+                Expression::Element(array, boxed(self.index(next)))
+            }
+            (3, Type::Array(..)) => self.own(type_),
             (_, Type::Vector(scalar, lanes)) => self.vector(*scalar, *lanes, next),
             (_, Type::Array(element, length)) => {
                 Expression::Array((0..*length).map(|_| self.expression(element, next)).collect())
@@ -157,17 +216,8 @@ impl Source {
                 Expression::Component(boxed(self.expression(&PLACE, next)), self.below(3) as u8)
             }
             (4, Type::Scalar(ScalarType::I32)) => {
-                let table = Type::Array(Box::new(type_.clone()), 3);
-                let index = Expression::Cast(
-                    boxed(self.expression(&Type::Scalar(ScalarType::U8), next)),
-                    Type::Scalar(ScalarType::U32),
-                );
-                let index = Expression::Binary(
-                    BinaryOperator::Remainder,
-                    boxed(index),
-                    boxed(Expression::Literal(Literal::Integer(3, None))),
-                );
-                Expression::Element(boxed(self.expression(&table, next)), boxed(index))
+                let array = boxed(self.expression(&table(), next));
+                Expression::Element(array, boxed(self.index(next)))
             }
             (5, _) => self.method(type_, next),
             (6, _) if *type_ == Type::Scalar(ScalarType::I32) || is_float(type_) => {
@@ -192,6 +242,7 @@ impl Source {
                 [self.below(10)];
         let right = match operator {
             // Rust itself refuses a division by a literal 0.
+            Divide | Remainder if self.below(2) == 0 => self.own(type_),
             Divide | Remainder => Expression::Method {
                 method: Method::Max,
                 receiver: boxed(self.own(type_)),
@@ -239,7 +290,9 @@ impl Source {
 
     fn truth(&mut self, depth: usize) -> Expression {
         use BinaryOperator::{And, BitAnd, BitXor, Equal, Greater, Less, NotEqual, Or};
-        let (operator, of) = match self.below(4) {
+        let (operator, of) = match self.below(6) {
+            3 => ([Equal, NotEqual][self.below(2)], [table(), path()][self.below(2)].clone()),
+            4 => ([Equal, NotEqual, Less][self.below(3)], GROUND),
             0 => ([And, Or, BitAnd, BitXor][self.below(4)], Type::Bool),
             1 => ([Equal, NotEqual][self.below(2)], PLACE),
             2 => return Expression::Unary(UnaryOperator::Not, boxed(self.expression(&Type::Bool, depth))),
@@ -374,23 +427,17 @@ impl Source {
 
     fn assignment(&mut self, depth: usize) -> Statement {
         let type_ = self.any_type();
-        let root = match (self.variable(&type_, true), &type_) {
-            (Some(name), _) => PlaceRoot::Local(name),
-            (None, Type::Scalar(scalar)) => PlaceRoot::Own(
-                SCALARS.iter().find(|(known, _)| known == scalar).map_or("byte", |(_, field)| field),
-            ),
-            (None, _) => PlaceRoot::Own("place"),
+        let root = match self.variable(&type_, true) {
+            Some(name) => PlaceRoot::Local(name),
+            None => PlaceRoot::Own(Self::field(&type_).unwrap_or("place")),
         };
         let (mut type_, mut path) = (type_, Vec::new());
-        if matches!(root, PlaceRoot::Own("place")) {
-            type_ = PLACE;
-        }
         if type_ == PLACE && self.below(2) == 0 {
             path.push(Projection::Component(self.below(3) as u8));
             type_ = Type::Scalar(ScalarType::Real);
         } else if let Type::Array(element, _) = &type_ {
             type_ = (**element).clone();
-            path.push(Projection::Element(Expression::Literal(Literal::Integer(self.below(3) as u64, None))));
+            path.push(Projection::Element(self.index(depth)));
         }
         let numeric = matches!(type_, Type::Scalar(_));
         let operator = (numeric && self.below(2) == 0).then(|| {

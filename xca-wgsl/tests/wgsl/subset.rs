@@ -480,7 +480,7 @@ fn neighbours(cell: &mut Cell<State>) {
 fn neighbours_beyond_the_neighbourhood_are_faults() {
     accepted::<neighbours>();
     let shader = written::<neighbours>(Precision::F64);
-    assert!(shader.source.contains("report_fault(0xffffffffu, Real(index));"));
+    assert!(shader.source.contains("record_fault(1u, index, space.neighbours, Real());"));
     assert!(shader.source.contains("velocity_next[3u * here + 2u] = cell.velocity.z;"));
 }
 
