@@ -23,8 +23,8 @@ const JOURNEYS: [Journey; 10] = [
     (Shape::WideMoore, [6, 5, 5], [7, 0, -1], [-1, 8, 3]),
 ];
 
-/// The largest radius for the items of these spaces, in quarters of a cell. Crosses and hexagons lack cells that
-/// touch at a corner.
+/// The largest radius for the items of these spaces, in quarters of a cell. Crosses and hexagons lack cells
+/// that touch at a corner.
 fn covered(shape: Shape) -> i32 {
     match shape {
         Shape::Moore | Shape::Moore2D | Shape::Paired => 4,

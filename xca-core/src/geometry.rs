@@ -110,11 +110,11 @@ impl Geometry {
     /// The largest radius of a search for other items, in metres, as a run of this precision computes it. A
     /// search with a larger one is a fault.
     ///
-    /// It is the distance from a cell to the nearest cell of the space that is not in its neighbourhood, cells
-    /// being boxes: within it, an item that is inside its cell finds all others that are inside theirs. A Moore
-    /// neighbourhood of radius `r` covers `r` sides of a cell; von Neumann and hexagonal neighbourhoods of
-    /// radius 1 cover 0, as they lack cells that touch at an edge or a corner. It is infinite where the
-    /// neighbourhood holds the whole space.
+    /// It is the distance from a cell to the nearest cell of the space that is not in its neighbourhood,
+    /// cells being boxes: within it, an item that is inside its cell finds all others that are inside theirs.
+    /// A Moore neighbourhood of radius `r` covers `r` sides of a cell; von Neumann and hexagonal
+    /// neighbourhoods of radius 1 cover 0, as they lack cells that touch at an edge or a corner. It is
+    /// infinite where the neighbourhood holds the whole space.
     #[inline]
     pub fn covered_radius(&self, precision: Precision) -> f64 {
         match precision {

@@ -201,8 +201,8 @@ impl Neighbourhood {
     }
 }
 
-/// For each index that under which the neighbour sees the cell: its displacement, turned round, is in the list
-/// of the neighbour's row or column.
+/// For each index that under which the neighbour sees the cell: its displacement, turned round, is in the
+/// list of the neighbour's row or column.
 fn opposites(displacements: &[Vec<[i32; 3]>; 2], parity: Parity) -> Vec<Option<usize>> {
     let indices = displacements
         .each_ref()

@@ -33,22 +33,24 @@ impl<S: 'static> Cell<S> {
         match self.never {}
     }
 
-    /// The index of the neighbour in the opposite direction, 0 for 0: seen from neighbour `index`, this cell has
-    /// the index `cell.opposite(index)`. A custom neighbourhood must hold the opposite of each displacement, or
-    /// `build` refuses the process. An index beyond the neighbourhood is a fault, as in [`Self::neighbour`].
+    /// The index of the neighbour in the opposite direction, 0 for 0: seen from neighbour `index`, this cell
+    /// has the index `cell.opposite(index)`. A custom neighbourhood must hold the opposite of each
+    /// displacement, or `build` refuses the process. An index beyond the neighbourhood is a fault, as in
+    /// [`Self::neighbour`].
     pub fn opposite(&self, _index: usize) -> usize {
         match self.never {}
     }
 
-    /// The displacement from this cell to a neighbour, in cells along x, y, z. With hexagons it depends on the row
-    /// or column of the cell. An index beyond the neighbourhood is a fault, as in [`Self::neighbour`].
+    /// The displacement from this cell to a neighbour, in cells along x, y, z. With hexagons it depends on
+    /// the row or column of the cell. An index beyond the neighbourhood is a fault, as in
+    /// [`Self::neighbour`].
     pub fn displacement(&self, _index: usize) -> Vector3<i32> {
         match self.never {}
     }
 
-    /// Whether a neighbour is a cell of the space: `false` beyond a flat face, where [`Self::neighbour`] shows the
-    /// outside values. Beyond toroidal and reflecting faces there is always a cell. An index beyond the
-    /// neighbourhood is a fault, as in [`Self::neighbour`].
+    /// Whether a neighbour is a cell of the space: `false` beyond a flat face, where [`Self::neighbour`]
+    /// shows the outside values. Beyond toroidal and reflecting faces there is always a cell. An index beyond
+    /// the neighbourhood is a fault, as in [`Self::neighbour`].
     pub fn exists(&self, _index: usize) -> bool {
         match self.never {}
     }
@@ -158,8 +160,8 @@ impl<S: 'static> Slot<S> {
         match self.never {}
     }
 
-    /// Of [`Self::others_in_neighbours`] those whose position is nearer than the radius. Radii are limited as in
-    /// [`Self::others_within`].
+    /// Of [`Self::others_in_neighbours`] those whose position is nearer than the radius. Radii are limited as
+    /// in [`Self::others_within`].
     pub fn others_in_neighbours_within(&self, _radius: Real) -> Others<S>
     where
         S: HasPosition,

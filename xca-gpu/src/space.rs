@@ -165,8 +165,8 @@ impl Space {
             .collect()
     }
 
-    /// The displacements of the neighbours, each with the index of its opposite, for cells in even and in odd rows or columns. Where there
-    /// is no opposite no process asks for it.
+    /// The displacements of the neighbours, each with the index of its opposite, for cells in even and in odd
+    /// rows or columns. Where there is no opposite no process asks for it.
     pub(crate) fn directions(&self) -> Vec<[i32; 4]> {
         let neighbourhood = self.geometry.neighbourhood();
         let of = |cell| neighbourhood.displacements(cell).iter().enumerate();

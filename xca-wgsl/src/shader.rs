@@ -21,8 +21,8 @@ pub struct Options {
     pub neighbour_offsets: Option<Vec<i32>>,
     /// The size of a workgroup along x, y and z; of a process over items the product.
     pub workgroup_size: [u32; 3],
-    /// What lies beyond the faces: round toroidal axes searches for near items go the shorter way, beyond flat faces no neighbour
-    /// exists.
+    /// What lies beyond the faces: round toroidal axes searches for near items go the shorter way, beyond
+    /// flat faces no neighbour exists.
     pub boundaries: [Boundary; 3],
     /// Whether cells in odd rows or columns have another neighbourhood than those in even ones.
     pub parity: Parity,
@@ -98,11 +98,13 @@ pub enum BindingAccess {
 /// `(x + halo.x) + (y + halo.y) * row + (z + halo.z) * layer`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Content {
-    /// What is known of the space: `extents`, the number of cells of the neighbourhood, `halo`, `row`, `layer`, `seed` (low word, high
-    /// word), the number of the `stream` of random numbers; where they are used, `side`, `covered`, the largest radius of
-    /// a search, and `zero`, which is 0. A process over cells can be run for a part of them: the `first` cell, by its
-    /// indices, the `count` of cells along each axis, and the number `base` of the stored cell with which the bound
-    /// buffers begin. For all cells these are 0, the extents, and 0.
+    /// What is known of the space: `extents`, the number of cells of the neighbourhood, `halo`, `row`,
+    /// `layer`, `seed` (low word, high word), the number of the `stream` of random numbers; where they are
+    /// used, `side`, `covered`, the largest radius of a search, and `zero`, which is 0. A process over cells
+    /// can be run for a part of them: the `first` cell, by its indices, the `count` of cells along each axis,
+    /// and the number `base` of the stored cell with which the bound buffers begin. For all cells these are 0,
+    /// the extents, and 0.
+
     Space(Layout),
     /// What changes with the step: `step` (low word, high word) and the number of items of the population.
     Moment(Layout),
@@ -111,8 +113,8 @@ pub enum Content {
     /// `i32` for each cell of the neighbourhood: the difference of its number from that of the central cell. Where rows or columns
     /// differ ([`Options::parity`]), first those of even, then those of odd ones.
     NeighbourOffsets,
-    /// Four `i32` for each cell of the neighbourhood: the displacement along x, y, z and the index of the opposite neighbour. Where rows
-    /// or columns differ, as with [`Self::NeighbourOffsets`].
+    /// Four `i32` for each cell of the neighbourhood: the displacement along x, y, z and the index of the
+    /// opposite neighbour. Where rows or columns differ, as with [`Self::NeighbourOffsets`].
     NeighbourDirections,
     /// A substate of all cells, or of all items: a value for each, element after element, lane beside lane,
     /// without padding; a `u8`, a `bool` and a state as a `u32`.

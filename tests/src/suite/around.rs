@@ -1,7 +1,7 @@
 //! What a cell of the self-checking automaton is told of where its neighbours lie.
 //!
-//! The words are asked in several orders: in loops over all neighbours, up and down, and one by one by numbers that
-//! chance makes.
+//! The words are asked in several orders: in loops over all neighbours, up and down, and one by one by
+//! numbers that chance makes.
 
 use super::lattice::{Lattice, NOWHERE, displacement, mix, neighbour_place, opposite};
 use super::site::{Site, WRONG_DISPLACEMENT, WRONG_EXISTENCE, WRONG_OPPOSITE, same_place};

@@ -2,8 +2,8 @@
 
 use xca_core::prelude::*;
 
-/// The least distance, in sides of a cell, between the boxes of two cells of which one does not have the other in
-/// its neighbourhood; infinite where there are no such cells.
+/// The least distance, in sides of a cell, between the boxes of two cells of which one does not have the
+/// other in its neighbourhood; infinite where there are no such cells.
 pub fn covered(neighbourhood: &Neighbourhood, extents: [usize; 3], boundaries: [Boundary; 3]) -> f64 {
     let cells = || {
         let [width, height, depth] = extents;

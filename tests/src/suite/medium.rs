@@ -44,7 +44,8 @@ pub struct Tuning {
     pub salt: u32,
     /// One draw in so many is a fault; 0 for never.
     pub rarity: u32,
-    /// How far beyond the neighbourhood a cell looks at most. Where it is 0, searches stay within what is covered.
+    /// How far beyond the neighbourhood a cell looks at most. Where it is 0, searches stay within what is
+    /// covered.
     pub greed: u32,
     /// 1 for each toroidal axis, else 0.
     pub torus: Vector3<i32>,

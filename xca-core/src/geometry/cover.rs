@@ -3,12 +3,12 @@
 use super::Geometry;
 use std::collections::HashSet;
 
-/// The distance from a cell to the nearest cell of the space that its neighbourhood does not hold, in sides of a
-/// cell; infinite where it holds all.
+/// The distance from a cell to the nearest cell of the space that its neighbourhood does not hold, in sides
+/// of a cell; infinite where it holds all.
 ///
 /// Cells are closed boxes, so cells that touch have no distance. A displacement counts where some cell of the
-/// space has a cell there: not across the flat faces of a thin space, and round a torus by the shorter way. With
-/// hexagons the rows or columns that see less decide.
+/// space has a cell there: not across the flat faces of a thin space, and round a torus by the shorter way.
+/// With hexagons the rows or columns that see less decide.
 pub(super) fn covered(geometry: &Geometry) -> f64 {
     let alternating = [[0; 3], [1, 1, 0]];
     alternating.map(|cell| covered_from(geometry, cell)).into_iter().fold(f64::INFINITY, f64::min)
@@ -18,8 +18,8 @@ fn covered_from(geometry: &Geometry, cell: [usize; 3]) -> f64 {
     let displacements = geometry.neighbourhood.displacements(cell);
     let held: HashSet<[i32; 3]> =
         displacements.iter().map(|at| [0, 1, 2].map(|axis| canonical(geometry, axis, at[axis]))).collect();
-    // The displacements that the space has along an axis, no further than one cell beyond the reach: what lies
-    // further is missing too, and no nearer.
+    // The displacements that the space has along an axis, no further than one cell beyond the reach: what
+    // lies further is missing too, and no nearer.
     let steps = |axis: usize| {
         let extent = extent(geometry, axis);
         let (low, high) = if geometry.toroidal()[axis] {

@@ -5,7 +5,8 @@ use crate::geometry::{Boundary, Faces};
 use crate::vector::Vector3;
 
 /// The neighbourhood of a row's cells as directions: `K` cells known to the compiler by number, or any number
-/// where `K` is 0. An index beyond it is the same fault as for a neighbour's substate, and means the cell itself.
+/// where `K` is 0. An index beyond it is the same fault as for a neighbour's substate, and means the cell
+/// itself.
 #[derive(Debug, Clone, Copy)]
 pub struct Directions<'a, const K: usize> {
     fixed: Listed<[[i32; 3]; K], [Option<usize>; K]>,

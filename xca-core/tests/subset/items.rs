@@ -127,7 +127,8 @@ fn searches_within_a_radius_are_strict() {
     // From 4 at 0.75 to 2 it is 0.5, to 5 0.25, to 3 exactly 0.75; from 3 to 5 and to 1 it is 0.5.
     assert_eq!(found(row().process(all_within)), [(2, 104), (4, 25), (3, 51), (5, 34), (1, 103), (6, 100)]);
     let after = after_step(row().process(both_within));
-    // 4 finds 2 in its cell, and with it 3 and 5; 3 finds 5, and with it 1 and 4, but not 2 at a distance of 1.25.
+    // 4 finds 2 in its cell, and with it 3 and 5; 3 finds 5, and with it 1 and 4, but not 2 at a distance of
+    // 1.25.
     let four = after.iter().find(|item| item.label == 4).expect("it is there");
     assert_eq!(four.state.found, 2325);
     assert_eq!(four.state.speed, 1.0 + 1.25 + 0.75);
