@@ -120,53 +120,12 @@ pub enum Statement {
     },
     /// An expression for its effects: `if`, `match`, a block, a call.
     Expression(Expression),
-    /// `while condition { body }`
-    While {
-        /// The condition.
-        condition: Expression,
-        /// The body.
-        body: Block,
-    },
-    /// `loop { body }`
-    Loop {
-        /// The body.
-        body: Block,
-    },
-    /// `for variable in from..to { body }`, and with `..=` where `inclusive`.
-    ForRange {
-        /// The variable.
-        variable: &'static str,
-        /// The first value.
-        from: Expression,
-        /// The end.
-        to: Expression,
-        /// Whether the end belongs to the range.
-        inclusive: bool,
-        /// The body.
-        body: Block,
-    },
-    /// `for variable in me.others…() { body }`: over other items, in the order neighbour index, then label.
-    ForOthers {
-        /// The variable that stands for the other item.
-        variable: &'static str,
-        /// Where the items are looked for.
-        reach: Reach,
-        /// With a radius, only items whose position is nearer than this (strictly).
-        radius: Option<Expression>,
-        /// The body.
-        body: Block,
-    },
-    /// `for variable in slots { body }` in a process over cells: the items of the central cell, by label.
-    ForItems {
-        /// The variable that stands for the item.
-        variable: &'static str,
-        /// The body.
-        body: Block,
-    },
-    /// `break;`
-    Break,
-    /// `continue;`
-    Continue,
+    /// `while`, `loop` and `for`.
+    Loop(Loop),
+    /// `break;` or `break 'label;`
+    Break(Option<&'static str>),
+    /// `continue;` or `continue 'label;`
+    Continue(Option<&'static str>),
     /// `return;` or `return value;`
     Return(Option<Expression>),
     /// `cell.fault(code, value);`
@@ -176,6 +135,69 @@ pub enum Statement {
         /// A value to report, `Real`.
         value: Expression,
     },
+}
+
+/// A loop.
+#[derive(Debug, Clone)]
+pub struct Loop {
+    /// Its label, without the apostrophe. No loop around it has the same.
+    pub label: Option<&'static str>,
+    /// What it runs over.
+    pub kind: LoopKind,
+    /// The body.
+    pub body: Block,
+}
+
+/// What a loop runs over.
+#[derive(Debug, Clone)]
+pub enum LoopKind {
+    /// `while condition`
+    While(Expression),
+    /// `loop`
+    Forever,
+    /// `for variable in range`
+    Range {
+        /// The variable.
+        variable: &'static str,
+        /// The range.
+        range: Range,
+    },
+    /// `for variable in array`
+    Elements {
+        /// The variable, a copy of the element.
+        variable: &'static str,
+        /// The array.
+        array: Expression,
+    },
+    /// `for variable in me.others…()`: over other items, in the order neighbour index, then label.
+    Others {
+        /// The variable that stands for the other item.
+        variable: &'static str,
+        /// Where the items are looked for.
+        reach: Reach,
+        /// With a radius, only items whose position is nearer than this (strictly).
+        radius: Option<Expression>,
+    },
+    /// `for variable in slots` in a process over cells: the items of the central cell, by label.
+    Items {
+        /// The variable that stands for the item.
+        variable: &'static str,
+    },
+}
+
+/// `from..to`, and with `..=` where `inclusive`.
+#[derive(Debug, Clone)]
+pub struct Range {
+    /// The first value.
+    pub from: Expression,
+    /// The end.
+    pub to: Expression,
+    /// Whether the end belongs to the range.
+    pub inclusive: bool,
+    /// `.rev()`: from the end to the first value.
+    pub reversed: bool,
+    /// `.step_by(step)`, of what `reversed` gives: every so many values, `usize`, at least 1.
+    pub step: Option<Expression>,
 }
 
 /// Where a search for other items looks.
@@ -248,7 +270,7 @@ pub enum Expression {
         /// The substate.
         field: &'static str,
     },
-    /// `name.field` where `name` is the variable of [`Statement::ForOthers`] or [`Statement::ForItems`].
+    /// `name.field` where `name` is the variable of [`LoopKind::Others`] or [`LoopKind::Items`].
     Other {
         /// The variable.
         name: &'static str,

@@ -1,7 +1,7 @@
 //! Which substates a body reads and writes, and where.
 
 use crate::ast::{
-    Block, Expression, Function, FunctionKind, Place, PlaceRoot, Projection, Reach, Role, Statement,
+    Block, Expression, Function, FunctionKind, LoopKind, Place, PlaceRoot, Projection, Reach, Role, Statement,
 };
 use syn::{Ident, Type};
 
@@ -73,28 +73,11 @@ impl Uses {
                 self.expression(value, over_cells);
                 self.place(place, operator.is_some(), over_cells);
             }
-            Statement::While { condition, body } => {
-                self.expression(condition, over_cells);
-                self.block(body, over_cells);
+            Statement::Loop(loop_) => {
+                self.loop_kind(&loop_.kind, over_cells);
+                self.block(&loop_.body, over_cells);
             }
-            Statement::Loop { body } | Statement::ForItems { body, .. } => self.block(body, over_cells),
-            Statement::ForRange { from, to, body, .. } => {
-                self.expression(from, over_cells);
-                self.expression(to, over_cells);
-                self.block(body, over_cells);
-            }
-            Statement::ForOthers { variable, reach, radius, body } => {
-                self.neighbours |= *reach != Reach::Cell;
-                if let Some(radius) = radius {
-                    self.expression(radius, over_cells);
-                    let position = Ident::new("position", variable.span());
-                    let access = self.entry(&position, GroupOf::Position);
-                    access.centre = true;
-                    access.others = true;
-                }
-                self.block(body, over_cells);
-            }
-            Statement::Break(_) | Statement::Continue(_) => {}
+            Statement::Break(..) | Statement::Continue(..) => {}
             Statement::Return(value, _) => {
                 if let Some(value) = value {
                     self.expression(value, over_cells);
@@ -104,6 +87,31 @@ impl Uses {
                 self.expression(code, over_cells);
                 self.expression(value, over_cells);
             }
+        }
+    }
+
+    fn loop_kind(&mut self, kind: &LoopKind, over_cells: bool) {
+        match kind {
+            LoopKind::While(condition) => self.expression(condition, over_cells),
+            LoopKind::Range { range, .. } => {
+                self.expression(&range.from, over_cells);
+                self.expression(&range.to, over_cells);
+                if let Some(step) = &range.step {
+                    self.expression(step, over_cells);
+                }
+            }
+            LoopKind::Elements { array, .. } => self.expression(array, over_cells),
+            LoopKind::Others { variable, reach, radius } => {
+                self.neighbours |= *reach != Reach::Cell;
+                if let Some(radius) = radius {
+                    self.expression(radius, over_cells);
+                    let position = Ident::new("position", variable.span());
+                    let access = self.entry(&position, GroupOf::Position);
+                    access.centre = true;
+                    access.others = true;
+                }
+            }
+            LoopKind::Forever | LoopKind::Items { .. } => {}
         }
     }
 

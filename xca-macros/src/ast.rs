@@ -4,7 +4,7 @@
 //! The shape is that of `xca_core::ir`.
 
 use proc_macro2::Span;
-use syn::{Ident, Lit, LitFloat, LitInt, Path, Type};
+use syn::{Expr, Ident, Lifetime, Lit, LitFloat, LitInt, Path, Type};
 
 /// The whole function.
 pub(crate) struct Function {
@@ -79,15 +79,36 @@ pub(crate) enum Statement {
     LetNeighbour { name: Ident, index: Expression },
     Assign { place: Place, operator: Option<syn::BinOp>, value: Expression, span: Span },
     Expression(Expression),
-    While { condition: Expression, body: Block },
-    Loop { body: Block },
-    ForRange { variable: Ident, from: Expression, to: Expression, inclusive: bool, body: Block },
-    ForOthers { variable: Ident, reach: Reach, radius: Option<Expression>, body: Block },
-    ForItems { variable: Ident, body: Block },
-    Break(Span),
-    Continue(Span),
+    Loop(Loop),
+    Break(Option<Lifetime>, Span),
+    Continue(Option<Lifetime>, Span),
     Return(Option<Expression>, Span),
     Fault { code: Expression, value: Expression },
+}
+
+/// A loop of any kind.
+pub(crate) struct Loop {
+    pub(crate) label: Option<Lifetime>,
+    pub(crate) kind: LoopKind,
+    pub(crate) body: Block,
+}
+
+pub(crate) enum LoopKind {
+    While(Expression),
+    Forever,
+    Range { variable: Ident, range: Range },
+    Elements { variable: Ident, array: Expression },
+    Others { variable: Ident, reach: Reach, radius: Option<Expression> },
+    Items { variable: Ident },
+}
+
+/// `from..to` or `from..=to`, perhaps with `.rev()`, then with `.step_by(step)`.
+pub(crate) struct Range {
+    pub(crate) from: Expression,
+    pub(crate) to: Expression,
+    pub(crate) inclusive: bool,
+    pub(crate) reversed: bool,
+    pub(crate) step: Option<Expression>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -158,8 +179,8 @@ pub(crate) enum Expression {
     Component(Box<Expression>, Ident),
     Element(Box<Expression>, Box<Expression>),
     Array(Vec<Expression>, Span),
-    /// The length is an integer literal.
-    Repeat(Box<Expression>, LitInt),
+    /// The length is made of integer literals and constants.
+    Repeat(Box<Expression>, Box<Expr>),
     /// `Vector3::new(a, b, c)`: the path's type segment (`Vector3`) and the components.
     Vector(Ident, Vec<Expression>),
     /// `Vector3::splat(a)`: the path's type segment and the value.

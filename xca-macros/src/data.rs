@@ -1,11 +1,12 @@
 //! The body of a function as data: an expression that builds the `::xca_core::ir::Function`, one to one from the
 //! checked function.
 
+mod loops;
 mod words;
 
 use crate::ast::{
-    Argument, Arm, Block, Expression, Function, FunctionKind, Pattern, Place, PlaceRoot, Projection, Reach,
-    Role, Statement,
+    Argument, Arm, Block, Expression, Function, FunctionKind, Pattern, Place, PlaceRoot, Projection, Role,
+    Statement,
 };
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote, quote_spanned};
@@ -85,42 +86,18 @@ fn statement(statement: &Statement) -> Result<TokenStream> {
             let value = expression(value)?;
             quote!(Expression(#value))
         }
-        Statement::While { condition, body } => {
-            let condition = expression(condition)?;
-            let body = block(body)?;
-            quote!(While { condition: #condition, body: #body })
+        Statement::Loop(loop_) => {
+            let loop_ = loops::loop_(loop_)?;
+            quote!(Loop(#loop_))
         }
-        Statement::Loop { body } => {
-            let body = block(body)?;
-            quote!(Loop { body: #body })
+        Statement::Break(label, _) => {
+            let label = loops::label(label.as_ref());
+            quote!(Break(#label))
         }
-        Statement::ForRange { variable, from, to, inclusive, body } => {
-            let variable = text(variable);
-            let from = expression(from)?;
-            let to = expression(to)?;
-            let body = block(body)?;
-            quote!(ForRange { variable: #variable, from: #from, to: #to, inclusive: #inclusive, body: #body })
+        Statement::Continue(label, _) => {
+            let label = loops::label(label.as_ref());
+            quote!(Continue(#label))
         }
-        Statement::ForOthers { variable, reach, radius, body } => {
-            let variable = text(variable);
-            let reach = match reach {
-                Reach::Cell => quote!(Cell),
-                Reach::Neighbours => quote!(Neighbours),
-                Reach::All => quote!(All),
-            };
-            let radius = optional(radius.as_ref(), expression)?;
-            let body = block(body)?;
-            quote! {
-                ForOthers { variable: #variable, reach: ::xca_core::ir::Reach::#reach, radius: #radius, body: #body }
-            }
-        }
-        Statement::ForItems { variable, body } => {
-            let variable = text(variable);
-            let body = block(body)?;
-            quote!(ForItems { variable: #variable, body: #body })
-        }
-        Statement::Break(_) => quote!(Break),
-        Statement::Continue(_) => quote!(Continue),
         Statement::Return(value, _) => {
             let value = optional(value.as_ref(), expression)?;
             quote!(Return(#value))
@@ -256,7 +233,6 @@ fn expression(value: &Expression) -> Result<TokenStream> {
         }
         Expression::Repeat(element, length) => {
             let element = boxed(element)?;
-            let length = length.base10_parse::<usize>()?;
             quote!(Repeat(#element, #length))
         }
         Expression::Vector(name, components) => {

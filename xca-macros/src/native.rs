@@ -5,6 +5,7 @@ mod check;
 mod expressions;
 mod helper;
 mod kernels;
+mod loops;
 
 use crate::access::{Access, GroupOf, Uses, groups};
 use crate::ast::{Function, FunctionKind, Role};

@@ -67,16 +67,8 @@ impl Scope {
                 Ok(Expression::Array(elements, array.span()))
             }
             Expr::Repeat(repeat) => {
-                let value = self.expression(&repeat.expr)?;
-                match strip(&repeat.len) {
-                    Expr::Lit(literal) if let Lit::Int(length) = &literal.lit => {
-                        Ok(Expression::Repeat(Box::new(value), length.clone()))
-                    }
-                    other => Err(Error::new_spanned(
-                        other,
-                        "write the length of the array as a number: `[0.0; 4]`",
-                    )),
-                }
+                let (value, length) = both(self.expression(&repeat.expr), self.length(&repeat.len))?;
+                Ok(Expression::Repeat(Box::new(value), Box::new(length)))
             }
             Expr::If(if_) => self.if_expression(if_),
             Expr::Match(match_) => self.match_expression(match_),
@@ -166,6 +158,30 @@ impl Scope {
             None => format!("there is no variable `{name}` here; constants are written in capitals"),
         };
         Error::new_spanned(name, message)
+    }
+
+    /// The length of an array.
+    fn length(&mut self, length: &Expr) -> Result<Expr> {
+        if !self.is_known(length) {
+            return Err(Error::new_spanned(
+                length,
+                "the length of an array is a number or a constant: `[0.0; 4]`, `[0.0; SIDES]`",
+            ));
+        }
+        Ok(length.clone())
+    }
+
+    /// Whether an expression is made of integers and constants.
+    fn is_known(&self, expression: &Expr) -> bool {
+        match strip(expression) {
+            Expr::Lit(literal) => matches!(literal.lit, Lit::Int(_)),
+            Expr::Path(path) => {
+                let last = path.path.segments.last();
+                last.is_some_and(|last| is_constant(&last.ident)) && self.named(expression).is_none()
+            }
+            Expr::Binary(binary) => self.is_known(&binary.left) && self.is_known(&binary.right),
+            _ => false,
+        }
     }
 
     /// What the expression stands for, where it is a plain name.

@@ -39,7 +39,7 @@ pub(super) fn refused(expression: &Expr) -> Error {
             "this has no value; write it as a statement of its own"
         }
         Expr::Block(block) if block.label.is_some() => {
-            "blocks have no labels in a process; use `if`, or a function marked #[helper] with `return`"
+            "only loops have labels in a process; use `if`, or a function marked #[helper] with `return`"
         }
         Expr::Infer(_) => "give the value; `_` stands only in patterns and in `for _ in 0..n`",
         _ => "this is not part of the Rust that a process can use",
@@ -93,15 +93,6 @@ pub(super) fn cannot_write(binding: Binding, kind: FunctionKind) -> &'static str
         }
         Binding::Subject | Binding::Value | Binding::Argument => "this cannot be written in a process",
     }
-}
-
-pub(super) fn refuse_label(label: Option<&syn::Label>) -> Result<()> {
-    label.map_or(Ok(()), |label| {
-        Err(Error::new_spanned(
-            label,
-            "loops have no labels in a process; use a `bool` variable that ends the outer loop",
-        ))
-    })
 }
 
 /// Attributes that only speak to the compiler or to tools are harmless; others would be lost.

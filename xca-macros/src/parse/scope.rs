@@ -6,7 +6,7 @@ use quote::{format_ident, quote};
 use std::collections::HashMap;
 use syn::ext::IdentExt;
 use syn::spanned::Spanned;
-use syn::{Error, Ident, Path, Result};
+use syn::{Error, Ident, Lifetime, Path, Result};
 
 /// What a name stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -44,7 +44,8 @@ pub(super) struct Scope {
     pub(super) function: Ident,
     pub(super) mentions: Mentions,
     levels: Vec<HashMap<String, Binding>>,
-    loops: usize,
+    /// The loops around the present place, with their labels.
+    loops: Vec<Option<String>>,
     errors: Option<Error>,
 }
 
@@ -66,7 +67,7 @@ impl Scope {
             function,
             mentions: Mentions::default(),
             levels: vec![names.collect()],
-            loops: 0,
+            loops: Vec::new(),
             errors: None,
         }
     }
@@ -100,16 +101,21 @@ impl Scope {
         result
     }
 
-    /// Reads the body of a loop.
-    pub(super) fn in_loop<T>(&mut self, read: impl FnOnce(&mut Self) -> T) -> T {
-        self.loops += 1;
+    /// Reads the body of a loop with this label.
+    pub(super) fn in_loop<T>(&mut self, label: Option<&Lifetime>, read: impl FnOnce(&mut Self) -> T) -> T {
+        self.loops.push(label.map(|label| label.ident.to_string()));
         let result = read(self);
-        self.loops -= 1;
+        self.loops.pop();
         result
     }
 
     pub(super) fn inside_loop(&self) -> bool {
-        self.loops > 0
+        !self.loops.is_empty()
+    }
+
+    /// The labels of the loops around the present place, from outside.
+    pub(super) fn labels(&self) -> impl Iterator<Item = &str> {
+        self.loops.iter().flatten().map(String::as_str)
     }
 
     /// The alias of a helper that is called.

@@ -1,9 +1,8 @@
 //! Blocks and statements.
 
-use super::refusals::{macro_call, refuse_attributes, refuse_label};
+use super::refusals::{macro_call, refuse_attributes};
 use super::scope::{Binding, Scope};
-use crate::ast::{Block, Expression, FunctionKind, Statement};
-use proc_macro2::Span;
+use crate::ast::{Block, Expression, FunctionKind, LoopKind, Statement};
 use syn::spanned::Spanned;
 use syn::{Error, Expr, Pat, Result, Stmt};
 
@@ -109,32 +108,22 @@ impl Scope {
             Expr::Binary(binary) if let Some(operator) = super::plain_operator(&binary.op) => {
                 self.assignment(&binary.left, Some(operator), &binary.right, binary.op.span())?
             }
-            Expr::While(while_) => {
-                refuse_label(while_.label.as_ref())?;
-                let condition = self.expression(&while_.cond)?;
-                let body = self.in_loop(|scope| scope.block(&while_.body))?;
-                Statement::While { condition, body }
-            }
-            Expr::Loop(loop_) => {
-                refuse_label(loop_.label.as_ref())?;
-                Statement::Loop { body: self.in_loop(|scope| scope.block(&loop_.body))? }
-            }
+            Expr::While(while_) => self.while_loop(while_)?,
+            Expr::Loop(loop_) => self.endless_loop(loop_)?,
             Expr::ForLoop(for_) => self.for_loop(for_)?,
             Expr::Break(break_) => {
-                refuse_lifetime(break_.label.as_ref())?;
                 if let Some(value) = &break_.expr {
                     return Err(Error::new_spanned(
                         value,
                         "`break` carries no value in a process; assign it to a variable before",
                     ));
                 }
-                self.check_in_loop(break_.span())?;
-                Statement::Break(break_.span())
+                self.check_in_loop(break_.label.as_ref(), break_.span())?;
+                Statement::Break(break_.label.clone(), break_.span())
             }
             Expr::Continue(continue_) => {
-                refuse_lifetime(continue_.label.as_ref())?;
-                self.check_in_loop(continue_.span())?;
-                Statement::Continue(continue_.span())
+                self.check_in_loop(continue_.label.as_ref(), continue_.span())?;
+                Statement::Continue(continue_.label.clone(), continue_.span())
             }
             Expr::Return(return_) => {
                 let value = return_.expr.as_deref().map(|value| self.expression(value)).transpose()?;
@@ -162,10 +151,6 @@ impl Scope {
         };
         Ok(Item::Statement(statement))
     }
-
-    fn check_in_loop(&self, span: Span) -> Result<()> {
-        if self.inside_loop() { Ok(()) } else { Err(Error::new(span, "there is no loop around this")) }
-    }
 }
 
 /// What a variable starts with.
@@ -173,15 +158,6 @@ enum Initial {
     /// A neighbour with this index.
     Neighbour(Expression),
     Value(Expression),
-}
-
-fn refuse_lifetime(label: Option<&syn::Lifetime>) -> Result<()> {
-    label.map_or(Ok(()), |label| {
-        Err(Error::new_spanned(
-            label,
-            "loops have no labels in a process; use a `bool` variable that ends the outer loop",
-        ))
-    })
 }
 
 /// Whether an expression that may stand for statements has a value.
@@ -199,7 +175,8 @@ fn has_value(expression: &Expression) -> bool {
 /// Whether the last statement leaves the function on every path.
 pub(super) fn ends_in_return(block: &Block) -> bool {
     match block.statements.last() {
-        Some(Statement::Return(..) | Statement::Loop { .. }) => true,
+        Some(Statement::Return(..)) => true,
+        Some(Statement::Loop(loop_)) => matches!(loop_.kind, LoopKind::Forever),
         Some(Statement::Expression(Expression::If { then, otherwise: Some(otherwise), .. })) => {
             ends_in_return(then) && ends_in_return(otherwise)
         }

@@ -4,6 +4,7 @@ mod cast;
 mod constant;
 mod control;
 mod expression;
+mod loops;
 mod method;
 mod operator;
 mod search;
@@ -48,8 +49,8 @@ struct Writer<'a, 's> {
     neighbours: HashSet<LocalNumber>,
     /// Variables of loops that are written out, with their present value.
     counted: HashMap<LocalNumber, usize>,
-    /// The loops around the present place. Of a search in several cells, the flag that ends it.
-    loops: Vec<Option<String>>,
+    /// The loops around the present place.
+    loops: Vec<loops::Frame>,
 }
 
 /// Where a value goes.

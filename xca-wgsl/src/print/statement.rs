@@ -7,7 +7,7 @@ use crate::error::Problem;
 use crate::types::Type;
 use crate::visit;
 use xca_core::ScalarType;
-use xca_core::ir::{BinaryOperator, Block, Builtin, Expression, Place, PlaceRoot, Projection, Statement};
+use xca_core::ir::{BinaryOperator, Block, Expression, Place, PlaceRoot, Projection, Statement};
 
 impl Writer<'_, '_> {
     /// Writes the statements of a block, and its value to where it belongs.
@@ -62,30 +62,13 @@ impl Writer<'_, '_> {
             }
             Statement::Assign { place, operator, value } => self.assign(place, *operator, value),
             Statement::Expression(value) => self.value_into(value, Target::Nowhere),
-            Statement::While { condition, body } => self.while_(condition, body),
-            Statement::Loop { body } => {
-                self.line("loop {");
-                self.loop_body(None, body)?;
-                self.line("}");
+            Statement::Loop(loop_) => self.loop_(statement, loop_),
+            Statement::Break(label) => {
+                self.jump(true, *label);
                 Ok(())
             }
-            Statement::ForRange { from, to, inclusive, body, .. } => {
-                self.for_range(statement, from, to, *inclusive, body)
-            }
-            Statement::ForOthers { reach, radius, body, .. } => {
-                self.for_others(statement, *reach, radius.as_ref(), body)
-            }
-            Statement::ForItems { body, .. } => self.for_items(statement, body),
-            Statement::Break => {
-                if let Some(Some(flag)) = self.loops.last() {
-                    let ended = format!("{flag} = true;");
-                    self.line(&ended);
-                }
-                self.line("break;");
-                Ok(())
-            }
-            Statement::Continue => {
-                self.line("continue;");
+            Statement::Continue(label) => {
+                self.jump(false, *label);
                 Ok(())
             }
             Statement::Return(None) => {
@@ -258,19 +241,6 @@ impl Writer<'_, '_> {
             Type::Scalar(ScalarType::U8 | ScalarType::U32) => Ok("1u"),
             _ => Err(Problem::unsupported("a range", "its ends are integers")),
         }
-    }
-
-    /// Remembers that a variable is the index of an existing neighbour.
-    pub(super) fn note_neighbour(
-        &mut self,
-        statement: &Statement,
-        to: &Expression,
-        inclusive: bool,
-    ) -> Result<(), Problem> {
-        if !inclusive && matches!(to, Expression::Builtin(Builtin::Neighbours, _)) {
-            self.neighbours.insert(self.analysis.bound(statement)?);
-        }
-        Ok(())
     }
 }
 
