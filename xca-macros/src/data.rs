@@ -13,8 +13,8 @@ use quote::{ToTokens, quote, quote_spanned};
 use syn::spanned::Spanned;
 use syn::{Error, Lit, Path, Result};
 use words::{
-    binary_operator, bool_literal, builtin, each, float_literal, integer_literal, lane, lanes, method,
-    optional, text, type_, unary_operator,
+    binary_operator, bool_literal, builtin, each, float_literal, integer_literal, known_length, lane, lanes,
+    method, optional, text, type_, unary_operator,
 };
 
 /// An expression of type `::xca_core::ir::Function`.
@@ -233,6 +233,7 @@ fn expression(value: &Expression) -> Result<TokenStream> {
         }
         Expression::Repeat(element, length) => {
             let element = boxed(element)?;
+            let length = known_length(length);
             quote!(Repeat(#element, #length))
         }
         Expression::Vector(name, components) => {

@@ -35,7 +35,7 @@ pub(crate) fn checked(type_: &impl ToTokens) -> Type {
 }
 
 /// A value of the user, likewise.
-fn checked_value(value: &TokenStream) -> TokenStream {
+pub(crate) fn checked_value(value: &TokenStream) -> TokenStream {
     let check = check::name();
     quote!(<::xca_core::checks::Checked<#check> as ::xca_core::checks::Then<_>>::pass(#value))
 }

@@ -5,7 +5,7 @@ use proc_macro2::{Span, TokenStream};
 use quote::quote;
 use syn::ext::IdentExt;
 use syn::spanned::Spanned;
-use syn::{BinOp, Error, GenericArgument, Ident, LitFloat, LitInt, PathArguments, Result, Type, UnOp};
+use syn::{BinOp, Error, Expr, GenericArgument, Ident, LitFloat, LitInt, PathArguments, Result, Type, UnOp};
 
 /// The types that a process can use, for messages.
 const SUPPORTED: &str = "a process can use bool, u8, i32, u32, f32, f64, Real, \
@@ -88,7 +88,7 @@ pub(super) fn type_(written: &Type) -> Result<TokenStream> {
         Type::Paren(inner) => type_(&inner.elem),
         Type::Array(array) => {
             let element = type_(&array.elem)?;
-            let length = &array.len;
+            let length = known_length(&array.len);
             Ok(quote!(::xca_core::ir::Type::Array(::std::boxed::Box::new(#element), #length)))
         }
         Type::Path(path) if path.qself.is_none() => match path.path.segments.last() {
@@ -96,6 +96,15 @@ pub(super) fn type_(written: &Type) -> Result<TokenStream> {
             None => Err(unsupported(written)),
         },
         _ => Err(unsupported(written)),
+    }
+}
+
+/// The length of an array.
+pub(super) fn known_length(length: &Expr) -> TokenStream {
+    match length {
+        Expr::Lit(literal) => quote!(#literal),
+        // Where it is no `usize`, the check of the function says so.
+        other => crate::native::checked_value(&quote!(#other)),
     }
 }
 

@@ -66,7 +66,8 @@ impl Scope {
                 (Err(Error::new_spanned(reference, advice)), Binding::Value)
             }
             Expr::Lit(literal) => {
-                let advice = "a `for` runs over a range (`for i in 0..n`) or an array (`for value in values`)";
+                let advice =
+                    "a `for` runs over a range (`for i in 0..n`) or an array (`for value in values`)";
                 (Err(Error::new_spanned(literal, advice)), Binding::Value)
             }
             array => {
@@ -137,7 +138,9 @@ impl Scope {
         }
         let message = match super::similar::similar(&name, self.labels()) {
             Some(similar) => format!("no loop around this is `'{name}`; did you mean `'{similar}`?"),
-            None => format!("no loop around this is `'{name}`; write `'{name}: for …` where that loop begins"),
+            None => {
+                format!("no loop around this is `'{name}`; write `'{name}: for …` where that loop begins")
+            }
         };
         Err(Error::new_spanned(label, message))
     }

@@ -1,7 +1,7 @@
 //! The types in statements.
 
-use super::table::{Term, Variable};
 use super::Inference;
+use super::table::{Term, Variable};
 use crate::error::Problem;
 use crate::types::Type;
 use crate::visit;

@@ -262,7 +262,9 @@ impl Writer<'_, '_> {
             let turns = writer.shared.names.local("turns");
             let distance = format!("u32({last}) - u32({first})");
             let (count, places) = match &step {
-                Some(step) => (format!("({distance}) / {}", step.plain()), format!("{name}({})", step.plain())),
+                Some(step) => {
+                    (format!("({distance}) / {}", step.plain()), format!("{name}({})", step.plain()))
+                }
                 None => (distance, one.to_owned()),
             };
             writer.line(&format!("var {turns}: u32 = {count};"));
@@ -271,10 +273,9 @@ impl Writer<'_, '_> {
             writer.line("    continuing {");
             let operator = if range.reversed { "-=" } else { "+=" };
             writer.line(&format!("        {local} {operator} {places};"));
-            let more = writer.shared.names.local("more");
-            writer.line(&format!("        let {more}: bool = {turns} > 0u;"));
+            // From 0 the number of turns wraps.
             writer.line(&format!("        {turns} -= 1u;"));
-            writer.line(&format!("        break if !{more};"));
+            writer.line(&format!("        break if {turns} == 0xffffffffu;"));
             writer.line("    }");
             writer.line("}");
             Ok(())

@@ -5,8 +5,8 @@
 
 use crate::common::validate;
 use xca_core::ir::{
-    Argument, Arm, BinaryOperator, Block, Builtin, Expression, Function, FunctionKind, Literal, Method,
-    Pattern, Place, PlaceRoot, Projection, Role, Statement, Type, UnaryOperator,
+    Argument, Arm, BinaryOperator, Block, Builtin, Expression, Function, FunctionKind, Literal, Loop,
+    LoopKind, Method, Pattern, Place, PlaceRoot, Projection, Range, Role, Statement, Type, UnaryOperator,
 };
 use xca_core::prelude::*;
 use xca_core::{ScalarType, Schema};
@@ -38,11 +38,16 @@ const PLACE: Type = Type::Vector(ScalarType::Real, 3);
 struct Source {
     state: u64,
     scopes: Vec<Vec<(&'static str, Type, bool)>>,
-    loops: usize,
+    /// The loops around the present place, with their labels.
+    loops: Vec<Option<&'static str>>,
 }
 
 fn is_float(type_: &Type) -> bool {
     matches!(type_, Type::Scalar(ScalarType::F32 | ScalarType::F64 | ScalarType::Real))
+}
+
+fn boxed_type(type_: &Type) -> Box<Type> {
+    Box::new(type_.clone())
 }
 
 fn boxed(value: Expression) -> Box<Expression> {
@@ -305,7 +310,7 @@ impl Source {
         let value = match value {
             Some(_) if may_leave && self.below(8) == 0 => {
                 // Control may leave instead of giving a value.
-                let leave = if self.loops > 0 { Statement::Break } else { Statement::Return(None) };
+                let leave = self.leave();
                 self.scopes.pop();
                 let mut statements: Vec<Statement> = statements;
                 statements.push(leave);
@@ -346,16 +351,28 @@ impl Source {
                 let loops = std::mem::take(&mut self.loops);
                 let condition = self.expression(&Type::Bool, next);
                 self.loops = loops;
-                Statement::While { condition, body: self.loop_body(next) }
+                self.loop_(LoopKind::While(condition), next)
             }
             6 => {
                 let counter = self.integer();
                 let (from, to) = (self.expression(&counter, next), self.expression(&counter, next));
                 let (variable, inclusive) = (NAMES[self.below(NAMES.len())], self.below(2) == 0);
+                let step = (self.below(3) == 0).then(|| self.expression(&Type::Scalar(ScalarType::U32), 0));
                 self.scopes.push(vec![(variable, counter, false)]);
-                let body = self.loop_body(next);
+                let reversed = self.below(3) == 0;
+                let range = Range { from, to, inclusive, reversed, step };
+                let loop_ = self.loop_(LoopKind::Range { variable, range }, next);
                 self.scopes.pop();
-                Statement::ForRange { variable, from, to, inclusive, body }
+                loop_
+            }
+            7 if self.below(2) == 0 => {
+                let element = self.scalar();
+                let array = self.expression(&Type::Array(boxed_type(&element), 3), next);
+                let variable = NAMES[self.below(NAMES.len())];
+                self.scopes.push(vec![(variable, element, false)]);
+                let loop_ = self.loop_(LoopKind::Elements { variable, array }, next);
+                self.scopes.pop();
+                loop_
             }
             7 => Statement::Fault {
                 code: self.expression(&Type::Scalar(ScalarType::U32), next),
@@ -365,11 +382,26 @@ impl Source {
         }
     }
 
-    fn loop_body(&mut self, depth: usize) -> Block {
-        self.loops += 1;
+    fn loop_(&mut self, kind: LoopKind, depth: usize) -> Statement {
+        const LABELS: [&str; 6] = ["outer", "second", "third", "fourth", "fifth", "sixth"];
+        let label = LABELS.get(self.loops.len()).copied().filter(|_| self.below(2) == 0);
+        self.loops.push(label);
         let body = self.block(None, depth);
-        self.loops -= 1;
-        body
+        self.loops.pop();
+        Statement::Loop(Loop { label, kind, body })
+    }
+
+    /// Leaves a block: for a loop around it, or the function.
+    fn leave(&mut self) -> Statement {
+        if self.loops.is_empty() {
+            return Statement::Return(None);
+        }
+        let labels: Vec<&'static str> = self.loops.iter().flatten().copied().collect();
+        let label = match labels.len() {
+            0 => None,
+            count => Some(labels[self.below(count)]).filter(|_| self.below(3) > 0),
+        };
+        if self.below(2) == 0 { Statement::Break(label) } else { Statement::Continue(label) }
     }
 
     fn assignment(&mut self, depth: usize) -> Statement {
@@ -404,7 +436,7 @@ impl Source {
 #[test]
 fn whatever_is_written_is_valid() {
     for seed in 0..std::env::var("SEEDS").map_or(300, |text| text.parse().unwrap()) {
-        let mut source = Source { state: seed, scopes: vec![Vec::new()], loops: 0 };
+        let mut source = Source { state: seed, scopes: vec![Vec::new()], loops: Vec::new() };
         let body = source.block(None, 5);
         let process = Function {
             name: "senseless",
