@@ -6,6 +6,13 @@
 
 use crate::ir::Function;
 
+/// The name of a process that is generic in constants, with their values: `update<0>`.
+pub fn name_of<T>(name: &'static str) -> &'static str {
+    let path = std::any::type_name::<T>();
+    // Constants have no `::` in them, so that the last one stands before the name.
+    path.rsplit("::").next().filter(|last| last.starts_with(name)).unwrap_or(name)
+}
+
 /// The result of the check of a process or helper.
 #[derive(Debug, Clone, Copy)]
 pub struct Checked<const PASSED: bool>;

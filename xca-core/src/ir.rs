@@ -7,6 +7,7 @@
 pub use crate::ir_constant::ConstantValue;
 use crate::schema::Schema;
 use crate::value::ScalarType;
+pub use xca_methods::Operation;
 
 /// A parsed function.
 #[derive(Debug, Clone)]
@@ -75,6 +76,8 @@ pub enum Type {
     Vector(ScalarType, u8),
     /// `[T; N]`
     Array(Box<Type>, usize),
+    /// `(A, B, …)`
+    Tuple(Vec<Type>),
     /// `Destination`, the result of a migration.
     Destination,
 }
@@ -100,6 +103,15 @@ pub enum Statement {
         /// The type, where it is written.
         type_: Option<Type>,
         /// The first value.
+        value: Expression,
+    },
+    /// `let (a, b) = value;`
+    LetTuple {
+        /// The variables.
+        parts: Vec<TuplePart>,
+        /// The type, where it is written.
+        type_: Option<Type>,
+        /// The tuple.
         value: Expression,
     },
     /// `let name = cell.neighbour(index);`
@@ -135,6 +147,15 @@ pub enum Statement {
         /// A value to report, `Real`.
         value: Expression,
     },
+}
+
+/// A variable that takes a part of a tuple.
+#[derive(Debug, Clone)]
+pub struct TuplePart {
+    /// Its name, nothing where it is `_`.
+    pub name: Option<&'static str>,
+    /// Whether it is `mut`.
+    pub mutable: bool,
 }
 
 /// A loop.
@@ -300,10 +321,10 @@ pub enum Expression {
         /// The arguments.
         arguments: Vec<Expression>,
     },
-    /// A method of a number or vector.
+    /// A method of a number, vector or array that is an operation; others are calls of helpers.
     Method {
         /// Which.
-        method: Method,
+        method: Operation,
         /// The receiver.
         receiver: Box<Expression>,
         /// The further arguments.
@@ -315,6 +336,8 @@ pub enum Expression {
     Element(Box<Expression>, Box<Expression>),
     /// `[a, b, c]`
     Array(Vec<Expression>),
+    /// `(a, b, …)`, two or more.
+    Tuple(Vec<Expression>),
     /// `[value; length]`
     Repeat(Box<Expression>, usize),
     /// `Vector3::new(a, b, c)`: as many components as lanes.
@@ -457,41 +480,4 @@ pub enum BinaryOperator {
     LessEqual,
     Greater,
     GreaterEqual,
-}
-
-/// The methods that numbers and vectors have in a process.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Method {
-    /// `a.min(b)`: `if b < a { b } else { a }`
-    Min,
-    /// `a.max(b)`: `if a < b { b } else { a }`
-    Max,
-    /// `a.clamp(low, high)`: `a.max(low).min(high)`
-    Clamp,
-    /// `a.abs()` of floats and `i32`.
-    Abs,
-    /// `a.sqrt()`
-    SquareRoot,
-    /// `a.floor()`
-    Floor,
-    /// `a.ceil()`
-    Ceiling,
-    /// `a.trunc()`
-    Truncate,
-    /// `a.wrapping_add(b)` of integers.
-    WrappingAdd,
-    /// `a.wrapping_sub(b)` of integers.
-    WrappingSubtract,
-    /// `a.wrapping_mul(b)` of integers.
-    WrappingMultiply,
-    /// `a.count_ones()` of integers, `u32`.
-    CountOnes,
-    /// `a.dot(b)`: `a.x * b.x + a.y * b.y + …`, added from the left.
-    Dot,
-    /// `a.cross(b)` of three lanes.
-    Cross,
-    /// `a.length_squared()`: `a.dot(a)`
-    LengthSquared,
-    /// `a.length()`: `a.dot(a).sqrt()`
-    Length,
 }

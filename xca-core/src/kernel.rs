@@ -23,7 +23,7 @@ mod search;
 mod space;
 mod wide;
 
-pub use constants::{KernelConstant, Ordered, constant};
+pub use constants::{KernelConstant, constant};
 pub use search::{CellFilter, Found, Scratch, reach};
 pub use space::NativeSpace;
 

@@ -64,7 +64,9 @@ impl Uses {
 
     fn statement(&mut self, statement: &Statement, over_cells: bool) {
         match statement {
-            Statement::Let { value, .. } | Statement::Expression(value) => self.expression(value, over_cells),
+            Statement::Let { value, .. }
+            | Statement::LetTuple { value, .. }
+            | Statement::Expression(value) => self.expression(value, over_cells),
             Statement::LetNeighbour { index, .. } => {
                 self.neighbours = true;
                 self.expression(index, over_cells);
@@ -160,6 +162,7 @@ impl Uses {
             }
             Expression::Call { arguments, .. }
             | Expression::Array(arguments, _)
+            | Expression::Tuple(arguments, _)
             | Expression::Vector(_, arguments) => {
                 arguments.iter().for_each(|argument| self.expression(argument, over_cells));
             }

@@ -4,7 +4,7 @@
 //! The shape is that of `xca_core::ir`.
 
 use proc_macro2::Span;
-use syn::{Expr, Ident, Lifetime, Lit, LitFloat, LitInt, Path, Type};
+use syn::{AngleBracketedGenericArguments, Expr, Ident, Lifetime, Lit, LitFloat, LitInt, Path, Type};
 
 /// The whole function.
 pub(crate) struct Function {
@@ -12,6 +12,8 @@ pub(crate) struct Function {
     pub(crate) visibility: syn::Visibility,
     pub(crate) attributes: Vec<syn::Attribute>,
     pub(crate) kind: FunctionKind,
+    /// `const N: usize` and its kin.
+    pub(crate) constants: Vec<syn::ConstParam>,
     pub(crate) arguments: Vec<Argument>,
     /// The type of the result as written; `None` for processes.
     pub(crate) result: Option<Type>,
@@ -33,7 +35,7 @@ pub(crate) struct Mentions {
 
 /// A helper that is called.
 pub(crate) struct Call {
-    /// The path that the user wrote.
+    /// The path that the user wrote, without constants.
     pub(crate) function: Path,
     /// The name by which it is imported.
     pub(crate) import: Ident,
@@ -76,6 +78,8 @@ pub(crate) struct Block {
 
 pub(crate) enum Statement {
     Let { name: Ident, mutable: bool, type_: Option<Type>, value: Expression },
+    /// `let (a, mut b) = value;`
+    LetTuple { parts: Vec<TuplePart>, type_: Option<Type>, value: Expression },
     LetNeighbour { name: Ident, index: Expression },
     Assign { place: Place, operator: Option<syn::BinOp>, value: Expression, span: Span },
     Expression(Expression),
@@ -84,6 +88,12 @@ pub(crate) enum Statement {
     Continue(Option<Lifetime>, Span),
     Return(Option<Expression>, Span),
     Fault { code: Expression, value: Expression },
+}
+
+/// A variable that takes a part of a tuple; no name where it is `_`.
+pub(crate) struct TuplePart {
+    pub(crate) name: Option<Ident>,
+    pub(crate) mutable: bool,
 }
 
 /// A loop of any kind.
@@ -168,17 +178,21 @@ pub(crate) enum Expression {
     /// The function is the alias of one of [`Mentions::calls`].
     Call {
         function: Path,
+        /// `::<N>`
+        constants: Option<AngleBracketedGenericArguments>,
         arguments: Vec<Expression>,
     },
-    /// The method's name is one that `parse` knows.
+    /// With the name as it stands in the source.
     Method {
-        method: Ident,
+        method: &'static xca_methods::Method,
+        name: Ident,
         receiver: Box<Expression>,
         arguments: Vec<Expression>,
     },
     Component(Box<Expression>, Ident),
     Element(Box<Expression>, Box<Expression>),
     Array(Vec<Expression>, Span),
+    Tuple(Vec<Expression>, Span),
     /// The length is made of integer literals and constants.
     Repeat(Box<Expression>, Box<Expr>),
     /// `Vector3::new(a, b, c)`: the path's type segment (`Vector3`) and the components.

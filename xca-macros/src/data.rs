@@ -11,11 +11,12 @@ use crate::ast::{
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote, quote_spanned};
 use syn::spanned::Spanned;
-use syn::{Error, Lit, Path, Result};
+use syn::{Error, Ident, Lit, Path, Result};
 use words::{
     binary_operator, bool_literal, builtin, each, float_literal, integer_literal, known_length, lane, lanes,
-    method, optional, text, type_, unary_operator,
+    optional, text, type_, unary_operator,
 };
+use xca_methods::Meaning;
 
 /// An expression of type `::xca_core::ir::Function`.
 pub(crate) fn function(function: &Function) -> Result<TokenStream> {
@@ -70,6 +71,19 @@ fn statement(statement: &Statement) -> Result<TokenStream> {
             let written = optional(written.as_ref(), type_)?;
             let value = expression(value)?;
             quote!(Let { name: #name, mutable: #mutable, type_: #written, value: #value })
+        }
+        Statement::LetTuple { parts, type_: written, value } => {
+            let parts = each(parts, |part| {
+                let mutable = part.mutable;
+                let name = optional(part.name.as_ref(), |name| {
+                    let name = text(name);
+                    Ok(quote!(#name))
+                })?;
+                Ok(quote!(::xca_core::ir::TuplePart { name: #name, mutable: #mutable }))
+            })?;
+            let written = optional(written.as_ref(), type_)?;
+            let value = expression(value)?;
+            quote!(LetTuple { parts: #parts, type_: #written, value: #value })
         }
         Statement::LetNeighbour { name, index } => {
             let name = text(name);
@@ -208,16 +222,34 @@ fn expression(value: &Expression) -> Result<TokenStream> {
             let target = type_(target)?;
             quote!(Cast(#operand, #target))
         }
-        Expression::Call { function, arguments } => {
+        Expression::Call { function, constants, arguments } => {
             let arguments = each(arguments, expression)?;
-            quote!(Call { function: #function::body, arguments: #arguments })
+            quote!(Call { function: #function::body #constants, arguments: #arguments })
         }
-        Expression::Method { method: name, receiver, arguments } => {
-            let method = method(name)?;
-            let receiver = boxed(receiver)?;
-            let arguments = each(arguments, expression)?;
-            quote!(Method { method: ::xca_core::ir::Method::#method, receiver: #receiver, arguments: #arguments })
-        }
+        Expression::Method { method, name, receiver, arguments } => match method.meaning {
+            Meaning::Operation(operation) => {
+                let operation = Ident::new(&format!("{operation:?}"), name.span());
+                let receiver = boxed(receiver)?;
+                let arguments = each(arguments, expression)?;
+                quote! {
+                    Method {
+                        method: ::xca_core::ir::Operation::#operation,
+                        receiver: #receiver,
+                        arguments: #arguments,
+                    }
+                }
+            }
+            Meaning::Function(function) => {
+                let function = Ident::new(function, name.span());
+                let mut values = vec![expression(receiver)?];
+                for argument in arguments {
+                    values.push(expression(argument)?);
+                }
+                quote! {
+                    Call { function: ::xca_core::math::#function::body, arguments: ::std::vec![#(#values),*] }
+                }
+            }
+        },
         Expression::Component(operand, name) => {
             let operand = boxed(operand)?;
             let lane = lane(name)?;
@@ -230,6 +262,10 @@ fn expression(value: &Expression) -> Result<TokenStream> {
         Expression::Array(elements, _) => {
             let elements = each(elements, expression)?;
             quote!(Array(#elements))
+        }
+        Expression::Tuple(parts, _) => {
+            let parts = each(parts, expression)?;
+            quote!(Tuple(#parts))
         }
         Expression::Repeat(element, length) => {
             let element = boxed(element)?;

@@ -21,7 +21,7 @@
 //! An index beyond an array ends the run in Rust; here it reads or writes some element of the array.
 //!
 //! # What is refused
-//! `%` of floats, NaN as a constant, empty arrays, comparisons of whole arrays, order comparisons of `bool`, recursion.
+//! NaN as a constant, empty arrays, comparisons of whole arrays, order comparisons of `bool`, recursion.
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
@@ -35,6 +35,7 @@ mod layout;
 mod literal;
 mod module;
 mod names;
+mod numbers;
 mod print;
 mod program;
 mod routine;

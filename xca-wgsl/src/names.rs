@@ -38,8 +38,31 @@ cell_containing nearest_image shorter_way wrapped wrapped_along
 ";
 
 /// The beginnings of the names of routines.
-const PREFIXES: [&str; 9] =
-    ["runtime_", "repeat_", "minimum_", "maximum_", "dot_", "cross_", "length_", "saturate_", "infinity_"];
+const PREFIXES: [&str; 23] = [
+    "tuple_",
+    "runtime_",
+    "repeat_",
+    "minimum_",
+    "maximum_",
+    "dot_",
+    "cross_",
+    "length_",
+    "distance_",
+    "normalize_",
+    "saturate_",
+    "infinity_",
+    "copysign_",
+    "signum_",
+    "round_",
+    "fraction_",
+    "is_nan_",
+    "is_finite_",
+    "is_infinite_",
+    "is_negative_",
+    "remainder_",
+    "rem_euclid_",
+    "div_euclid_",
+];
 
 /// Gives out names.
 #[derive(Debug, Default)]

@@ -10,6 +10,7 @@ pub(crate) enum Type {
     Scalar(ScalarType),
     Vector(ScalarType, u8),
     Array(Box<Type>, usize),
+    Tuple(Vec<Type>),
     Destination,
 }
 
@@ -55,6 +56,7 @@ impl Type {
             Self::Scalar(scalar) => scalar_name(*scalar).to_owned(),
             Self::Vector(scalar, lanes) => format!("vec{lanes}<{}>", scalar_name(*scalar)),
             Self::Array(element, length) => format!("array<{}, {length}>", element.wgsl()),
+            Self::Tuple(_) => self.word(),
             Self::Destination => "Destination".to_owned(),
         }
     }
@@ -65,6 +67,11 @@ impl Type {
             Self::Scalar(scalar) => scalar_name(*scalar).to_lowercase(),
             Self::Vector(scalar, lanes) => format!("vec{lanes}_{}", scalar_name(*scalar).to_lowercase()),
             Self::Array(element, length) => format!("array_{}_{length}", element.word()),
+            // With the number of parts, so that tuples in tuples stay apart.
+            Self::Tuple(parts) => {
+                let words: Vec<String> = parts.iter().map(Self::word).collect();
+                format!("tuple_{}_{}", parts.len(), words.join("_"))
+            }
             other => other.wgsl(),
         }
     }
@@ -77,6 +84,7 @@ impl From<&ir::Type> for Type {
             ir::Type::Scalar(scalar) => Self::Scalar(*scalar),
             ir::Type::Vector(scalar, lanes) => Self::Vector(*scalar, *lanes),
             ir::Type::Array(element, length) => Self::Array(Box::new(Self::from(&**element)), *length),
+            ir::Type::Tuple(parts) => Self::Tuple(parts.iter().map(Self::from).collect()),
             ir::Type::Destination => Self::Destination,
         }
     }

@@ -24,7 +24,9 @@ fn statement<'a>(statement: &'a Statement, see: &mut dyn FnMut(Node<'a>) -> bool
         return;
     }
     match statement {
-        Statement::Let { value, .. } | Statement::Expression(value) => expression(value, see),
+        Statement::Let { value, .. }
+        | Statement::LetTuple { value, .. }
+        | Statement::Expression(value) => expression(value, see),
         Statement::LetNeighbour { index, .. } => expression(index, see),
         Statement::Assign { place, value, .. } => {
             self::place(place, see);
@@ -84,6 +86,7 @@ pub(crate) fn expression<'a>(value: &'a Expression, see: &mut dyn FnMut(Node<'a>
         }
         Expression::Builtin(_, operands)
         | Expression::Array(operands)
+        | Expression::Tuple(operands)
         | Expression::Vector(operands)
         | Expression::Call { arguments: operands, .. } => {
             for operand in operands {

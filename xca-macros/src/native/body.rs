@@ -80,6 +80,21 @@ impl<'a> Writer<'a> {
                 });
                 quote!(let #mutable #name #type_ = #value;)
             }
+            Statement::LetTuple { parts, type_, value } => {
+                let value = self.expression(value);
+                let parts = parts.iter().map(|part| match &part.name {
+                    Some(name) => {
+                        let mutable = part.mutable.then(|| quote!(mut));
+                        quote!(#mutable #name)
+                    }
+                    None => quote!(_),
+                });
+                let type_ = type_.as_ref().map(|type_| {
+                    let type_ = with_real(type_, &self.real);
+                    quote!(: #type_)
+                });
+                quote!(let (#(#parts),*) #type_ = #value;)
+            }
             Statement::LetNeighbour { name, index } => {
                 let offset = self.offset(index);
                 quote!(let #name: isize = #offset;)

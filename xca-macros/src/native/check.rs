@@ -7,6 +7,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{quote, quote_spanned};
 use syn::spanned::Spanned;
 use syn::visit_mut::VisitMut;
+use xca_methods::{Meaning, Method};
 
 /// The name of the constant.
 pub(super) fn name() -> Ident {
@@ -33,8 +34,10 @@ pub(super) fn check(function: &Function, original: &syn::ItemFn) -> TokenStream 
         .iter()
         .map(|type_| quote_spanned!(type_.span()=> let _ = <#type_ as ::xca_core::Parameters>::SCHEMA;));
     let copy = copy(function, original);
+    let generic: TokenStream = function.constants.iter().map(representative).collect();
     quote! {
         const #name: bool = {
+            #generic
             let _ = || {
                 #(#substates)*
                 #(#parameters)*
@@ -44,6 +47,16 @@ pub(super) fn check(function: &Function, original: &syn::ItemFn) -> TokenStream 
             #copy
             true
         };
+    }
+}
+
+/// A constant that the function is generic in, with a value for the check: any that is no length of an array by chance.
+fn representative(constant: &syn::ConstParam) -> TokenStream {
+    let (name, type_) = (&constant.ident, &constant.ty);
+    let value = if quote!(#type_).to_string() == "bool" { quote!(false) } else { quote!(61) };
+    quote! {
+        #[allow(dead_code)]
+        const #name: #type_ = #value;
     }
 }
 
@@ -57,15 +70,20 @@ fn copy(function: &Function, original: &syn::ItemFn) -> TokenStream {
         written @ syn::ReturnType::Type(..) => quote!(#written),
     };
     let lints = super::lints(&original.attrs);
+    // A constant that the function is generic in has another value here.
+    let generic = (!function.constants.is_empty())
+        .then(|| quote!(#[allow(arithmetic_overflow, unconditional_panic)]));
     quote! {
         #(#lints)*
+        #generic
         #[allow(clippy::all, clippy::pedantic, clippy::nursery, clippy::restriction)]
         let _ = |#inputs| #output #block;
     }
 }
 
 /// Writes `a += b` as `a = a + b`: the fields of a cell are reached through `DerefMut`, and in a compound assignment of vectors that
-/// would borrow the cell while the right-hand side reads it. And has each call of a function check that it is a helper.
+/// would borrow the cell while the right-hand side reads it. Methods become the functions that they mean, which take literals of any type. And
+/// each call of a function checks that it is a helper.
 struct SpellOut<'a>(&'a [Call]);
 
 impl VisitMut for SpellOut<'_> {
@@ -80,7 +98,11 @@ impl VisitMut for SpellOut<'_> {
                 *expression = syn::Expr::Verbatim(quote_spanned!(span=> #left = #sum));
             }
             syn::Expr::Call(call) => {
-                let function = &call.func;
+                let syn::Expr::Path(path) = &*call.func else { return };
+                let mut function = path.path.clone();
+                if let Some(last) = function.segments.last_mut() {
+                    last.arguments = syn::PathArguments::None;
+                }
                 let text = quote!(#function).to_string();
                 let helper = self.0.iter().find(|call| {
                     let function = &call.function;
@@ -92,6 +114,26 @@ impl VisitMut for SpellOut<'_> {
                         quote_spanned!(function.span()=> <#import as ::xca_core::checks::Callable<_>>::result(#call)),
                     );
                 }
+            }
+            syn::Expr::MethodCall(call) => {
+                let Some(method) = Method::named(&call.method.to_string()) else { return };
+                // As an argument it needs no parentheses.
+                let receiver = match &*call.receiver {
+                    syn::Expr::Paren(paren) => &paren.expr,
+                    receiver => receiver,
+                };
+                let (arguments, span) = (&call.args, call.method.span());
+                *expression = syn::Expr::Verbatim(match method.meaning {
+                    Meaning::Operation(_) => {
+                        let function = super::operation(&call.method);
+                        quote!(#function(#receiver, #arguments))
+                    }
+                    Meaning::Function(function) => {
+                        let function = Ident::new(function, span);
+                        let receiver = quote_spanned!(span=> ::xca_core::methods::real(#receiver));
+                        quote_spanned!(span=> ::xca_core::math::#function(#receiver, #arguments))
+                    }
+                });
             }
             _ => {}
         }

@@ -70,6 +70,10 @@ impl Scope {
                 let (value, length) = both(self.expression(&repeat.expr), self.length(&repeat.len))?;
                 Ok(Expression::Repeat(Box::new(value), Box::new(length)))
             }
+            Expr::Tuple(tuple) if tuple.elems.len() > 1 => {
+                let parts = tuple.elems.iter().map(|part| self.expression(part)).collect::<Result<_>>()?;
+                Ok(Expression::Tuple(parts, tuple.span()))
+            }
             Expr::If(if_) => self.if_expression(if_),
             Expr::Match(match_) => self.match_expression(match_),
             Expr::Block(block) if block.label.is_none() => Ok(Expression::Block(self.block(&block.block)?)),
@@ -200,7 +204,7 @@ impl Scope {
         let Member::Named(member) = &field.member else {
             return Err(Error::new_spanned(
                 &field.member,
-                "tuples are not part of a process; use single variables or a small vector",
+                "take the tuple apart: `let (a, b) = pair;`",
             ));
         };
         let member = member.clone();

@@ -6,7 +6,7 @@ use quote::{format_ident, quote};
 use std::collections::HashMap;
 use syn::ext::IdentExt;
 use syn::spanned::Spanned;
-use syn::{Error, Ident, Lifetime, Path, Result};
+use syn::{ConstParam, Error, Ident, Lifetime, Path, Result};
 
 /// What a name stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -43,6 +43,8 @@ pub(super) struct Scope {
     /// The name of the function.
     pub(super) function: Ident,
     pub(super) mentions: Mentions,
+    /// The constants that the function is generic in.
+    constants: Vec<Ident>,
     levels: Vec<HashMap<String, Binding>>,
     /// The loops around the present place, with their labels.
     loops: Vec<Option<String>>,
@@ -50,7 +52,12 @@ pub(super) struct Scope {
 }
 
 impl Scope {
-    pub(super) fn new(kind: FunctionKind, function: Ident, arguments: &[Argument]) -> Self {
+    pub(super) fn new(
+        kind: FunctionKind,
+        function: Ident,
+        arguments: &[Argument],
+        constants: &[ConstParam],
+    ) -> Self {
         let names = arguments.iter().enumerate().map(|(position, argument)| {
             let binding = match argument.role {
                 Role::Cell(_) | Role::Slot(_) if position == 0 => Binding::Subject,
@@ -66,6 +73,7 @@ impl Scope {
             kind,
             function,
             mentions: Mentions::default(),
+            constants: constants.iter().map(|constant| constant.ident.clone()).collect(),
             levels: vec![names.collect()],
             loops: Vec::new(),
             errors: None,
@@ -85,6 +93,11 @@ impl Scope {
     pub(super) fn binding(&self, name: &Ident) -> Option<Binding> {
         let name = name.unraw().to_string();
         self.levels.iter().rev().find_map(|level| level.get(&name).copied())
+    }
+
+    /// Whether the function is generic in the constant.
+    pub(super) fn is_generic_constant(&self, path: &Path) -> bool {
+        path.get_ident().is_some_and(|name| self.constants.contains(name))
     }
 
     /// A name that is bound and much like this one.

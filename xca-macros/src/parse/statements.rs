@@ -2,9 +2,9 @@
 
 use super::refusals::{macro_call, refuse_attributes};
 use super::scope::{Binding, Scope};
-use crate::ast::{Block, Expression, FunctionKind, LoopKind, Statement};
+use crate::ast::{Block, Expression, FunctionKind, LoopKind, Statement, TuplePart};
 use syn::spanned::Spanned;
-use syn::{Error, Expr, Pat, Result, Stmt};
+use syn::{Error, Expr, Pat, PatTuple, Result, Stmt, Type};
 
 /// What an expression in the place of a statement turned out to be.
 #[expect(clippy::large_enum_variant, reason = "made one at a time, and taken apart at once")]
@@ -58,25 +58,20 @@ impl Scope {
             Pat::Type(typed) => (&*typed.pat, Some((*typed.ty).clone())),
             other => (other, None),
         };
+        if let Pat::Tuple(pattern) = pattern {
+            return self.local_tuple(local, pattern, type_);
+        }
         let Pat::Ident(pattern) = pattern else {
-            return Err(Error::new_spanned(pattern, "bind one name at a time: `let name = value;`"));
+            return Err(Error::new_spanned(
+                pattern,
+                "bind names: `let name = value;`, or `let (a, b) = pair;`",
+            ));
         };
         if pattern.by_ref.is_some() || pattern.subpat.is_some() {
             return Err(Error::new_spanned(pattern, "bind a plain name: `let name = value;`"));
         }
         let name = pattern.ident.clone();
-        let value = match &local.init {
-            None => Err(Error::new_spanned(
-                local,
-                "give the variable a value: `let mut name = value;`, or `let name = if … { a } else { b };`",
-            )),
-            Some(init) => match &init.diverge {
-                Some((token, _)) => {
-                    Err(Error::new_spanned(token, "`let … else` is not part of a process; compare with `if`"))
-                }
-                None => self.initial_value(&init.expr),
-            },
-        };
+        let value = self.initial(local);
         // Bound even after an error, so that one mistake does not make others of its uses.
         let is_neighbour = matches!(value, Ok(Initial::Neighbour(_)));
         self.bind(&name, if is_neighbour { Binding::Neighbour } else { Binding::Value });
@@ -87,6 +82,57 @@ impl Scope {
                 Statement::Let { name, mutable: pattern.mutability.is_some(), type_, value }
             }
         })
+    }
+
+    /// What a variable starts with.
+    fn initial(&mut self, local: &syn::Local) -> Result<Initial> {
+        match &local.init {
+            None => Err(Error::new_spanned(
+                local,
+                "give the variable a value: `let mut name = value;`, or `let name = if … { a } else { b };`",
+            )),
+            Some(init) => match &init.diverge {
+                Some((token, _)) => {
+                    Err(Error::new_spanned(token, "`let … else` is not part of a process; compare with `if`"))
+                }
+                None => self.initial_value(&init.expr),
+            },
+        }
+    }
+
+    /// `let (a, b) = value;`
+    fn local_tuple(
+        &mut self,
+        local: &syn::Local,
+        pattern: &PatTuple,
+        type_: Option<Type>,
+    ) -> Result<Statement> {
+        let value = self.initial(local);
+        let mut parts = Vec::new();
+        for part in &pattern.elems {
+            match part {
+                Pat::Wild(_) => parts.push(TuplePart { name: None, mutable: false }),
+                Pat::Ident(part) if part.by_ref.is_none() && part.subpat.is_none() => {
+                    self.bind(&part.ident, Binding::Value);
+                    parts.push(TuplePart {
+                        name: Some(part.ident.clone()),
+                        mutable: part.mutability.is_some(),
+                    });
+                }
+                other => {
+                    return Err(Error::new_spanned(
+                        other,
+                        "the parts of a tuple are bound to plain names: `let (a, mut b, _) = value;`",
+                    ));
+                }
+            }
+        }
+        match value? {
+            Initial::Value(value) => Ok(Statement::LetTuple { parts, type_, value }),
+            Initial::Neighbour(_) => {
+                Err(Error::new_spanned(pattern, "a neighbour is no tuple: `let other = cell.neighbour(n);`"))
+            }
+        }
     }
 
     fn initial_value(&mut self, value: &Expr) -> Result<Initial> {

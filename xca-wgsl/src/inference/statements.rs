@@ -38,6 +38,23 @@ impl<'a> Inference<'a> {
                 let number = self.bind(name, variable, *mutable);
                 self.bindings.insert(&raw const *statement, number);
             }
+            Statement::LetTuple { parts, type_, value } => {
+                let found = self.expression(value)?;
+                let variables: Vec<Variable> =
+                    parts.iter().map(|_| self.table.variable(Term::Any)).collect();
+                let tuple = self.table.tuple(&variables);
+                self.table.unify(tuple, found, "`let` with a tuple")?;
+                if let Some(written) = type_ {
+                    let written = self.table.known(&Type::from(written));
+                    self.table.unify(written, tuple, "`let` with a tuple")?;
+                }
+                for (part, variable) in parts.iter().zip(variables) {
+                    if let Some(name) = part.name {
+                        let number = self.bind(name, variable, part.mutable);
+                        self.parts.insert(&raw const *part, number);
+                    }
+                }
+            }
             Statement::LetNeighbour { name, index } => {
                 self.expect(index, ScalarType::U32, "the index of a neighbour")?;
                 self.bind_number(statement, name);

@@ -149,8 +149,13 @@ impl Writer<'_, '_> {
             .ok_or_else(|| Problem::unsupported("a variable", "it has no name here"))
     }
 
-    fn check_type(&self, type_: &Type) -> Result<(), Problem> {
+    /// Whether WGSL has the type; a tuple gets a struct.
+    fn check_type(&mut self, type_: &Type) -> Result<(), Problem> {
         match type_ {
+            Type::Tuple(parts) => {
+                self.shared.routines.need_tuple(type_, parts);
+                parts.iter().try_for_each(|part| self.check_type(part))
+            }
             Type::Array(_, 0) => Err(Problem::unsupported("an empty array", "WGSL has none")),
             Type::Array(element, _) => self.check_type(element),
             _ => Ok(()),

@@ -7,7 +7,7 @@ use crate::error::Problem;
 use crate::types::Type;
 use crate::visit;
 use xca_core::ScalarType;
-use xca_core::ir::{BinaryOperator, Block, Expression, Place, PlaceRoot, Projection, Statement};
+use xca_core::ir::{BinaryOperator, Block, Expression, Place, PlaceRoot, Projection, Statement, TuplePart};
 
 impl Writer<'_, '_> {
     /// Writes the statements of a block, and its value to where it belongs.
@@ -53,6 +53,7 @@ impl Writer<'_, '_> {
     fn statement(&mut self, statement: &Statement) -> Result<(), Problem> {
         match statement {
             Statement::Let { name, mutable, value, .. } => self.let_(statement, name, *mutable, value),
+            Statement::LetTuple { parts, value, .. } => self.let_tuple(parts, value),
             Statement::LetNeighbour { name, index } => {
                 let number = self.neighbour(index)?;
                 let local = self.shared.names.local(name);
@@ -115,6 +116,24 @@ impl Writer<'_, '_> {
             self.line(&format!("{keyword} {local}: {} = {};", type_.wgsl(), text.plain()));
         }
         self.locals.insert(number, local);
+        Ok(())
+    }
+
+    fn let_tuple(&mut self, parts: &[TuplePart], value: &Expression) -> Result<(), Problem> {
+        let type_ = self.type_of(value);
+        self.check_type(&type_)?;
+        let Type::Tuple(types) = &type_ else {
+            return Err(Problem::unsupported("`let` with a tuple", "the value is none"));
+        };
+        let text = self.expression(value)?;
+        let tuple = self.keep("parts", &type_, &text);
+        for (place, (part, type_)) in parts.iter().zip(types).enumerate() {
+            let Some(name) = part.name else { continue };
+            let keyword = if part.mutable || matches!(type_, Type::Array(..)) { "var" } else { "let" };
+            let local = self.shared.names.local(name);
+            self.line(&format!("{keyword} {local}: {} = {}.part_{place};", type_.wgsl(), tuple.plain()));
+            self.locals.insert(self.analysis.part(part)?, local);
+        }
         Ok(())
     }
 
