@@ -4,10 +4,12 @@
 //! every engine gives. Which methods there are is the list of `xca_methods`.
 
 mod floats;
+mod functions;
 mod numbers;
 mod vectors;
 
 pub use floats::Floating;
+pub use functions::*;
 pub use numbers::{Comparable, Euclidean, Integer, Magnitude, Sign};
 pub use vectors::{FloatVector, Lanes};
 
@@ -38,34 +40,6 @@ impl IsReal for Real {
     fn real(self) -> Real {
         self
     }
-}
-
-macro_rules! functions {
-    ($($trait:ident: $($name:ident($($argument:ident),*) $(-> $result:ty)?),+;)+) => {$($(
-        functions!(@ $trait $name ($($argument),*) $($result)?);
-    )+)+};
-    (@ $trait:ident $name:ident ($($argument:ident),*)) => {
-        functions!(@ $trait $name ($($argument),*) T);
-    };
-    (@ $trait:ident $name:ident ($($argument:ident),*) $result:ty) => {
-        #[doc = concat!("`value.", stringify!($name), "(…)`")]
-        #[inline(always)]
-        pub fn $name<T: $trait>(value: T $(, $argument: T)*) -> $result {
-            $trait::$name(value $(, $argument)*)
-        }
-    };
-}
-
-functions! {
-    Comparable: min(other), max(other), clamp(low, high);
-    Magnitude: abs();
-    Sign: signum();
-    Euclidean: rem_euclid(divisor), div_euclid(divisor);
-    Integer: wrapping_add(other), wrapping_sub(other), wrapping_mul(other), count_ones() -> u32;
-    Floating: sqrt(), floor(), ceil(), trunc(), round(), fract(), recip(), copysign(sign),
-        is_nan() -> bool, is_finite() -> bool, is_infinite() -> bool, is_sign_negative() -> bool;
-    Lanes: dot(other) -> T::Lane, length_squared() -> T::Lane;
-    FloatVector: length() -> T::Lane, distance(other) -> T::Lane, normalize();
 }
 
 /// `value.cross(other)`

@@ -3,7 +3,7 @@
 //! One front end (`parse`) makes it; the native kernel (`native`) and the data of the body (`data`) are made from it.
 //! The shape is that of `xca_core::ir`.
 
-use proc_macro2::Span;
+use proc_macro2::{Span, TokenStream};
 use syn::{AngleBracketedGenericArguments, Expr, Ident, Lifetime, Lit, LitFloat, LitInt, Path, Type};
 
 /// The whole function.
@@ -26,11 +26,20 @@ pub(crate) struct Function {
 pub(crate) struct Mentions {
     pub(crate) calls: Vec<Call>,
     pub(crate) constants: Vec<Path>,
+    /// The arrays `[value; length]`, each with what it takes.
+    pub(crate) arrays: Vec<ArraySize>,
     /// Constants in patterns.
     pub(crate) patterns: Vec<Path>,
     /// The structs of substates and of parameters.
     pub(crate) substates: Vec<Type>,
     pub(crate) parameters: Vec<Type>,
+}
+
+/// An array in a body.
+pub(crate) struct ArraySize {
+    /// An expression of type `usize`.
+    pub(crate) bytes: TokenStream,
+    pub(crate) span: Span,
 }
 
 /// A helper that is called.

@@ -224,7 +224,9 @@ fn expression(value: &Expression) -> Result<TokenStream> {
         }
         Expression::Call { function, constants, arguments } => {
             let arguments = each(arguments, expression)?;
-            quote!(Call { function: #function::body #constants, arguments: #arguments })
+            // With the span of the call, where constants are missing that the helper is generic in.
+            let body = quote_spanned!(function.span()=> #function::body #constants);
+            quote!(Call { function: #body, arguments: #arguments })
         }
         Expression::Method { method, name, receiver, arguments } => match method.meaning {
             Meaning::Operation(operation) => {

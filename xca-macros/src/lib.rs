@@ -8,6 +8,7 @@ mod data;
 mod fields;
 mod native;
 mod parse;
+mod size;
 
 use parse::Wanted;
 use proc_macro::TokenStream;

@@ -24,12 +24,15 @@ pub trait Lanes: Copy {
     message = "`{Self}` has no such method in a process: vectors of floats have",
     label = "this is no vector of floats"
 )]
-pub trait FloatVector: Lanes {
+pub trait FloatVector: Copy {
+    /// The type of a lane.
+    type Scalar;
+
     /// The square root of the scalar product with itself.
-    fn length(self) -> Self::Lane;
+    fn length(self) -> Self::Scalar;
 
     /// The length of the difference.
-    fn distance(self, other: Self) -> Self::Lane;
+    fn distance(self, other: Self) -> Self::Scalar;
 
     /// Divided by its length.
     fn normalize(self) -> Self;
@@ -58,6 +61,8 @@ macro_rules! vectors {
     (@ $vector:ident $scalar:ident) => {
         #[diagnostic::do_not_recommend]
         impl FloatVector for $vector<$scalar> {
+            type Scalar = $scalar;
+
             #[inline(always)]
             fn length(self) -> $scalar {
                 $vector::<$scalar>::length(self)

@@ -34,10 +34,16 @@ pub(super) fn check(function: &Function, original: &syn::ItemFn) -> TokenStream 
         .iter()
         .map(|type_| quote_spanned!(type_.span()=> let _ = <#type_ as ::xca_core::Parameters>::SCHEMA;));
     let copy = copy(function, original);
+    // Of a generic function each of its kernels checks them.
+    let arrays = mentions.arrays.iter().enumerate().filter(|_| function.constants.is_empty()).map(|(last, array)| {
+        let sizes = mentions.arrays[..=last].iter().map(|array| &array.bytes);
+        quote_spanned!(array.span=> ::xca_core::checks::arrays_fit(0 #(+ #sizes)*);)
+    });
     let generic: TokenStream = function.constants.iter().map(representative).collect();
     quote! {
         const #name: bool = {
             #generic
+            #(#arrays)*
             let _ = || {
                 #(#substates)*
                 #(#parameters)*
@@ -126,7 +132,7 @@ impl VisitMut for SpellOut<'_> {
                 *expression = syn::Expr::Verbatim(match method.meaning {
                     Meaning::Operation(_) => {
                         let function = super::operation(&call.method);
-                        quote!(#function(#receiver, #arguments))
+                        quote_spanned!(span=> #function(#receiver, #arguments))
                     }
                     Meaning::Function(function) => {
                         let function = Ident::new(function, span);

@@ -7,6 +7,7 @@ use crate::ast::{Arm, Builtin, Expression, FunctionKind, Pattern};
 use crate::fields::with_real;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
+use syn::spanned::Spanned;
 use xca_methods::Meaning;
 
 impl Writer<'_> {
@@ -120,8 +121,12 @@ impl Writer<'_> {
                 quote_spanned!(*span=> (#(#parts),*))
             }
             Expression::Repeat(value, length) => {
+                let check = (!self.function.constants.is_empty()).then(|| {
+                    let bytes = crate::size::bytes(expression);
+                    quote_spanned!(length.span()=> const { ::xca_core::checks::arrays_fit(#bytes) };)
+                });
                 let value = self.expression(value);
-                quote!([#value; #length])
+                quote!({ #check [#value; #length] })
             }
             Expression::Vector(type_, components) => {
                 let components = self.expressions(components);

@@ -5,7 +5,8 @@ use super::matches::is_constant;
 use super::refusals::{is_component, no_component, refused};
 use super::scope::{Binding, Scope};
 use super::statements::Item;
-use crate::ast::{Block, Builtin, Expression, FunctionKind};
+use crate::ast::{ArraySize, Block, Builtin, Expression, FunctionKind};
+use crate::size::bytes;
 use syn::spanned::Spanned;
 use syn::{BinOp, Error, Expr, ExprMethodCall, Ident, Lit, Member, Path, Result, UnOp};
 
@@ -67,8 +68,13 @@ impl Scope {
                 Ok(Expression::Array(elements, array.span()))
             }
             Expr::Repeat(repeat) => {
+                let outside = self.mentions.arrays.len();
                 let (value, length) = both(self.expression(&repeat.expr), self.length(&repeat.len))?;
-                Ok(Expression::Repeat(Box::new(value), Box::new(length)))
+                let array = Expression::Repeat(Box::new(value), Box::new(length));
+                // What it is made of is counted with it.
+                self.mentions.arrays.truncate(outside);
+                self.mentions.arrays.push(ArraySize { bytes: bytes(&array), span: repeat.span() });
+                Ok(array)
             }
             Expr::Tuple(tuple) if tuple.elems.len() > 1 => {
                 let parts = tuple.elems.iter().map(|part| self.expression(part)).collect::<Result<_>>()?;
