@@ -270,7 +270,9 @@ pub fn sweep(function: Function, step: usize) -> Result<Worst, Box<dyn std::erro
         Function::Acos => (f64::acos, f64::MAX),
         Function::Sinh => (f64::sinh, f64::MAX),
         Function::Cosh => (f64::cosh, f64::MAX),
-        Function::Pow | Function::Atan2 | Function::Hypot => return Err("this function has two arguments".into()),
+        Function::Pow | Function::Atan2 | Function::Hypot => {
+            return Err("this function has two arguments".into());
+        }
     };
     let numbers: Vec<u32> = (0..=u32::MAX).step_by(step).collect();
     let mut worst = Worst::default();

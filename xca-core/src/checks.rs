@@ -29,7 +29,8 @@ pub const fn arrays_fit(bytes: usize) {
         length += 1;
         unit /= 10;
     }
-    let more = b" bytes, at 8 a number; there are 65536 for them: make them shorter, or keep values in substates";
+    let more =
+        b" bytes, at 8 a number; there are 65536 for them: make them shorter, or keep values in substates";
     length = append(&mut text, length, more);
     match std::str::from_utf8(text.split_at(length).0) {
         Ok(text) => panic!("{}", text),

@@ -44,7 +44,10 @@ impl IsReal for Real {
 
 /// `value.cross(other)`
 #[inline(always)]
-pub fn cross<T: Copy + Mul<Output = T> + Sub<Output = T>>(value: Vector3<T>, other: Vector3<T>) -> Vector3<T> {
+pub fn cross<T: Copy + Mul<Output = T> + Sub<Output = T>>(
+    value: Vector3<T>,
+    other: Vector3<T>,
+) -> Vector3<T> {
     value.cross(other)
 }
 

@@ -85,18 +85,39 @@ pub(crate) struct Block {
     pub(crate) value: Option<Box<Expression>>,
 }
 
+#[expect(clippy::large_enum_variant, reason = "trees are small and short-lived")]
 pub(crate) enum Statement {
-    Let { name: Ident, mutable: bool, type_: Option<Type>, value: Expression },
+    Let {
+        name: Ident,
+        mutable: bool,
+        type_: Option<Type>,
+        value: Expression,
+    },
     /// `let (a, mut b) = value;`
-    LetTuple { parts: Vec<TuplePart>, type_: Option<Type>, value: Expression },
-    LetNeighbour { name: Ident, index: Expression },
-    Assign { place: Place, operator: Option<syn::BinOp>, value: Expression, span: Span },
+    LetTuple {
+        parts: Vec<TuplePart>,
+        type_: Option<Type>,
+        value: Expression,
+    },
+    LetNeighbour {
+        name: Ident,
+        index: Expression,
+    },
+    Assign {
+        place: Place,
+        operator: Option<syn::BinOp>,
+        value: Expression,
+        span: Span,
+    },
     Expression(Expression),
     Loop(Loop),
     Break(Option<Lifetime>, Span),
     Continue(Option<Lifetime>, Span),
     Return(Option<Expression>, Span),
-    Fault { code: Expression, value: Expression },
+    Fault {
+        code: Expression,
+        value: Expression,
+    },
 }
 
 /// A variable that takes a part of a tuple; no name where it is `_`.
@@ -112,6 +133,7 @@ pub(crate) struct Loop {
     pub(crate) body: Block,
 }
 
+#[expect(clippy::large_enum_variant, reason = "trees are small and short-lived")]
 pub(crate) enum LoopKind {
     While(Expression),
     Forever,

@@ -141,7 +141,8 @@ impl Generics {
         if function.constants.is_empty() {
             return Self { declared: TokenStream::new(), given: TokenStream::new() };
         }
-        let (constants, names) = (&function.constants, function.constants.iter().map(|constant| &constant.ident));
+        let (constants, names) =
+            (&function.constants, function.constants.iter().map(|constant| &constant.ident));
         Self { declared: quote!(<#(#constants),*>), given: quote!(<#(#names),*>) }
     }
 }

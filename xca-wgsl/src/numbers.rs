@@ -12,7 +12,11 @@ impl Routines {
         match operation {
             Operation::CopySign => {
                 let negative = self.need_number(Operation::IsSignNegative, type_, wide);
-                self.need_of_two("copysign", type_, &[&format!("return select(abs(a), -abs(a), {negative}(b));")])
+                self.need_of_two(
+                    "copysign",
+                    type_,
+                    &[&format!("return select(abs(a), -abs(a), {negative}(b));")],
+                )
             }
             Operation::Signum => {
                 let negative = self.need_number(Operation::IsSignNegative, type_, wide);
@@ -27,7 +31,9 @@ impl Routines {
             Operation::Round => {
                 let lines = [
                     &*format!("let whole: {name} = trunc(a);"),
-                    &format!("let away: {name} = whole + select({name}(1.0), {name}(-1.0), a < {name}(0.0));"),
+                    &format!(
+                        "let away: {name} = whole + select({name}(1.0), {name}(-1.0), a < {name}(0.0));"
+                    ),
                     &format!("return select(whole, away, abs(a - whole) >= {name}(0.5));"),
                 ];
                 self.need_of_one("round", type_, &name, &lines)
@@ -56,7 +62,10 @@ impl Routines {
                 self.need_of_two("div_euclid", type_, &lines)
             }
             Operation::DivideEuclid => {
-                let lines = ["let away: i32 = a / b - select(1i, -1i, b < 0i);", "return select(a / b, away, a % b < 0i);"];
+                let lines = [
+                    "let away: i32 = a / b - select(1i, -1i, b < 0i);",
+                    "return select(a / b, away, a % b < 0i);",
+                ];
                 self.need_of_two("div_euclid", type_, &lines)
             }
             _ if type_.is_float() => {

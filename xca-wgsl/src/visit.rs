@@ -24,9 +24,9 @@ fn statement<'a>(statement: &'a Statement, see: &mut dyn FnMut(Node<'a>) -> bool
         return;
     }
     match statement {
-        Statement::Let { value, .. }
-        | Statement::LetTuple { value, .. }
-        | Statement::Expression(value) => expression(value, see),
+        Statement::Let { value, .. } | Statement::LetTuple { value, .. } | Statement::Expression(value) => {
+            expression(value, see);
+        }
         Statement::LetNeighbour { index, .. } => expression(index, see),
         Statement::Assign { place, value, .. } => {
             self::place(place, see);

@@ -159,7 +159,9 @@ fn arguments(
             let near = random.between(0.98, 1.02) * bound;
             one(random.signed(near))
         }
-        (Function::Atan2 | Function::Hypot, Family::Usual) => [random.between(-1.0, 1.0), random.between(-1.0, 1.0)],
+        (Function::Atan2 | Function::Hypot, Family::Usual) => {
+            [random.between(-1.0, 1.0), random.between(-1.0, 1.0)]
+        }
         (Function::Atan2 | Function::Hypot, Family::Wide) => [any(random), any(random)],
         (Function::Atan2 | Function::Hypot, Family::Hard) => {
             let size = random.magnitude(limits.least_exponent / 2.0, limits.greatest_exponent / 2.0);
@@ -185,7 +187,12 @@ fn arguments(
         (Function::Sinh | Function::Cosh | Function::ExpM1, Family::Usual) => one(random.between(-5.0, 5.0)),
         // Small ones, and, every other time, those of an ordinary size or the largest ones.
         (
-            Function::Asin | Function::Acos | Function::Log1p | Function::Sinh | Function::Cosh | Function::ExpM1,
+            Function::Asin
+            | Function::Acos
+            | Function::Log1p
+            | Function::Sinh
+            | Function::Cosh
+            | Function::ExpM1,
             Family::Wide,
         ) => {
             let large = match function {

@@ -1,8 +1,8 @@
 //! Processes and helpers that are generic in constants.
 
 use crate::{TestResult, on_all_engines};
-use xca_core::prelude::*;
 use xca_core::ElementaryProcess;
+use xca_core::prelude::*;
 use xca_tests::suite::engines::PRECISIONS;
 
 const SMALL: usize = 3;

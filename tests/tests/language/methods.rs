@@ -128,7 +128,11 @@ fn methods_of_floats_are_those_of_rust() -> TestResult {
                 for (wanted, substate) in values.into_iter().zip(results) {
                     let found = state.get(substate, [x, y, 0])?;
                     let same = wanted.to_bits() == found.to_bits() || wanted.is_nan() && found.is_nan();
-                    assert!(same, "{precision} {substate:?} of {} {}: {wanted} {found}", FLOATS[x], FLOATS[y]);
+                    assert!(
+                        same,
+                        "{precision} {substate:?} of {} {}: {wanted} {found}",
+                        FLOATS[x], FLOATS[y]
+                    );
                 }
                 assert_eq!(state.get(Floats::CLASSES, [x, y, 0])?, classes, "{}", FLOATS[x]);
             }
@@ -252,6 +256,15 @@ struct Angle {
     power: Real,
     degrees: Real,
     radians: Real,
+    wave: Real,
+}
+
+/// As ordinary code it computes the same.
+#[helper]
+fn wave(x: Real) -> Real {
+    let two = 2.0;
+    let v = Vector3::new(x, -1.0, x * x);
+    two.sqrt() * x.sin() + v.abs().normalize().distance(v.min(-v)) + (0.5).exp().min(x)
 }
 
 #[elementary_process]
@@ -259,6 +272,7 @@ fn of_functions(cell: &mut Cell<Angle>) {
     cell.power = cell.x.powi(13) + cell.x.powi(-2) + cell.x.powi(0);
     cell.degrees = cell.x.to_degrees();
     cell.radians = cell.x.to_radians();
+    cell.wave = wave(cell.x);
 }
 
 #[test]
@@ -279,6 +293,9 @@ fn whole_powers_and_angles() -> TestResult {
                 assert!((state.get(Angle::POWER, [i, 0, 0])? / power - 1.0).abs() < close, "{x}");
                 assert!((state.get(Angle::DEGREES, [i, 0, 0])? / x.to_degrees() - 1.0).abs() < close);
                 assert!((state.get(Angle::RADIANS, [i, 0, 0])? / x.to_radians() - 1.0).abs() < close);
+                if precision == Precision::F64 {
+                    assert_eq!(state.get(Angle::WAVE, [i, 0, 0])?.to_bits(), wave(x).to_bits());
+                }
             }
             Ok(())
         })?;

@@ -9,5 +9,6 @@ mod floats;
 mod helpers;
 mod integers;
 mod items;
+mod loops;
 mod names;
 mod vectors;

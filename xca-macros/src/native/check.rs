@@ -35,10 +35,11 @@ pub(super) fn check(function: &Function, original: &syn::ItemFn) -> TokenStream 
         .map(|type_| quote_spanned!(type_.span()=> let _ = <#type_ as ::xca_core::Parameters>::SCHEMA;));
     let copy = copy(function, original);
     // Of a generic function each of its kernels checks them.
-    let arrays = mentions.arrays.iter().enumerate().filter(|_| function.constants.is_empty()).map(|(last, array)| {
-        let sizes = mentions.arrays[..=last].iter().map(|array| &array.bytes);
-        quote_spanned!(array.span=> ::xca_core::checks::arrays_fit(0 #(+ #sizes)*);)
-    });
+    let arrays =
+        mentions.arrays.iter().enumerate().filter(|_| function.constants.is_empty()).map(|(last, array)| {
+            let sizes = mentions.arrays[..=last].iter().map(|array| &array.bytes);
+            quote_spanned!(array.span=> ::xca_core::checks::arrays_fit(0 #(+ #sizes)*);)
+        });
     let generic: TokenStream = function.constants.iter().map(representative).collect();
     quote! {
         const #name: bool = {
@@ -77,8 +78,8 @@ fn copy(function: &Function, original: &syn::ItemFn) -> TokenStream {
     };
     let lints = super::lints(&original.attrs);
     // A constant that the function is generic in has another value here.
-    let generic = (!function.constants.is_empty())
-        .then(|| quote!(#[allow(arithmetic_overflow, unconditional_panic)]));
+    let generic =
+        (!function.constants.is_empty()).then(|| quote!(#[allow(arithmetic_overflow, unconditional_panic)]));
     quote! {
         #(#lints)*
         #generic
@@ -122,28 +123,58 @@ impl VisitMut for SpellOut<'_> {
                 }
             }
             syn::Expr::MethodCall(call) => {
-                let Some(method) = Method::named(&call.method.to_string()) else { return };
-                // As an argument it needs no parentheses.
-                let receiver = match &*call.receiver {
-                    syn::Expr::Paren(paren) => &paren.expr,
-                    receiver => receiver,
-                };
-                let (arguments, span) = (&call.args, call.method.span());
-                *expression = syn::Expr::Verbatim(match method.meaning {
-                    Meaning::Operation(_) => {
-                        let function = super::operation(&call.method);
-                        quote_spanned!(span=> #function(#receiver, #arguments))
-                    }
-                    Meaning::Function(function) => {
-                        let function = Ident::new(function, span);
-                        let receiver = quote_spanned!(span=> ::xca_core::methods::real(#receiver));
-                        quote_spanned!(span=> ::xca_core::math::#function(#receiver, #arguments))
-                    }
-                });
+                if let Some(function) = as_function(call) {
+                    *expression = function;
+                }
             }
             _ => {}
         }
     }
+}
+
+/// A helper as ordinary code: its methods are those of a process, so that it computes the same everywhere. In a constant function they are those
+/// of Rust.
+pub(super) fn ordinary(original: &syn::ItemFn) -> syn::ItemFn {
+    let mut ordinary = original.clone();
+    if original.sig.constness.is_none() {
+        Methods.visit_block_mut(&mut ordinary.block);
+    }
+    ordinary
+}
+
+struct Methods;
+
+impl VisitMut for Methods {
+    fn visit_expr_mut(&mut self, expression: &mut syn::Expr) {
+        syn::visit_mut::visit_expr_mut(self, expression);
+        if let syn::Expr::MethodCall(call) = expression
+            && let Some(function) = as_function(call)
+        {
+            *expression = function;
+        }
+    }
+}
+
+/// The call of the function that a method means.
+fn as_function(call: &syn::ExprMethodCall) -> Option<syn::Expr> {
+    let method = Method::named(&call.method.to_string())?;
+    // As an argument it needs no parentheses.
+    let receiver = match &*call.receiver {
+        syn::Expr::Paren(paren) => &paren.expr,
+        receiver => receiver,
+    };
+    let (arguments, span) = (&call.args, call.method.span());
+    Some(syn::Expr::Verbatim(match method.meaning {
+        Meaning::Operation(_) => {
+            let function = super::operation(&call.method);
+            quote_spanned!(span=> #function(#receiver, #arguments))
+        }
+        Meaning::Function(function) => {
+            let function = Ident::new(function, span);
+            let receiver = quote_spanned!(span=> ::xca_core::methods::real(#receiver));
+            quote_spanned!(span=> ::xca_core::math::#function(#receiver, #arguments))
+        }
+    }))
 }
 
 /// Names for the helpers that are called: of the helper's own type, or, where the function is no helper and has no such type,

@@ -11,12 +11,13 @@ use syn::Result;
 pub(super) fn expand(function: &Function, original: &syn::ItemFn) -> Result<TokenStream> {
     let data = crate::data::function(function)?;
     let (name, visibility) = (&function.name, &function.visibility);
+    let ordinary = check::ordinary(original);
     let natives = [quote!(f32), quote!(f64)].map(|real| native(function, &real));
     let (check, aliases) = (check::check(function, original), check::aliases(function));
     let conditions: Vec<_> = conditions(function).collect();
     let Generics { declared, .. } = Generics::of(function);
     Ok(quote! {
-        #original
+        #ordinary
 
         #(#conditions)*
         #[doc(hidden)]

@@ -56,7 +56,8 @@ pub(super) fn row(function: &Function, uses: &Uses, real: &TokenStream) -> Token
     let constants = &function.constants;
     let names: Vec<&Ident> = constants.iter().map(|constant| &constant.ident).collect();
     let call = if unrolled {
-        let arms = UNROLLED.iter().map(|size| quote!(#size => #inner::<#size, #(#names),*>(#row, #(#values),*),));
+        let arms =
+            UNROLLED.iter().map(|size| quote!(#size => #inner::<#size, #(#names),*>(#row, #(#values),*),));
         quote! {
             match #row.neighbours() {
                 #(#arms)*

@@ -208,10 +208,7 @@ impl Scope {
 
     fn field(&mut self, field: &syn::ExprField) -> Result<Expression> {
         let Member::Named(member) = &field.member else {
-            return Err(Error::new_spanned(
-                &field.member,
-                "take the tuple apart: `let (a, b) = pair;`",
-            ));
+            return Err(Error::new_spanned(&field.member, "take the tuple apart: `let (a, b) = pair;`"));
         };
         let member = member.clone();
         if let Expr::Path(path) = strip(&field.base)

@@ -43,9 +43,7 @@ impl Scope {
                 name,
                 "a pattern binds no name; leave out the `name @` and use the matched value itself",
             )),
-            Pat::Ident(name) if is_constant(&name.ident) => {
-                self.constant_pattern(&name.ident.clone().into())
-            }
+            Pat::Ident(name) if is_constant(&name.ident) => self.constant_pattern(&name.ident.clone().into()),
             Pat::Ident(name) => Err(Error::new_spanned(
                 name,
                 "a pattern binds no name; write `_`, and use the matched value itself",
@@ -72,7 +70,9 @@ impl Scope {
             let name = path.get_ident().map(ToString::to_string).unwrap_or_default();
             return Err(Error::new_spanned(
                 path,
-                format!("a constant that the function is generic in is no pattern; compare: `if value == {name}`"),
+                format!(
+                    "a constant that the function is generic in is no pattern; compare: `if value == {name}`"
+                ),
             ));
         }
         self.mentions.patterns.push(path.clone());

@@ -18,9 +18,7 @@ pub(super) fn refused(expression: &Expr) -> Error {
         Expr::Tuple(tuple) if tuple.elems.is_empty() => {
             "`()` is not part of a process; write an empty block, `{}`"
         }
-        Expr::Tuple(_) => {
-            "a tuple has two parts or more: leave out the comma"
-        }
+        Expr::Tuple(_) => "a tuple has two parts or more: leave out the comma",
         Expr::Struct(_) => {
             "structs cannot be made in a process; assign the substates one by one: `cell.substate = …`"
         }
@@ -124,7 +122,9 @@ pub(super) fn no_component(name: &Ident) -> Error {
 /// What to write for a method that Rust has and a process has not.
 pub(super) fn no_method(name: &str) -> Option<String> {
     let instead = match name {
-        "mul_add" => return Some("`mul_add` rounds once and differs between engines; write `a * b + c`".to_owned()),
+        "mul_add" => {
+            return Some("`mul_add` rounds once and differs between engines; write `a * b + c`".to_owned());
+        }
         "log" => "x.ln() / base.ln()",
         "sin_cos" => "x.sin()` and `x.cos()",
         "asinh" => "(x + (x * x + 1.0).sqrt()).ln()",
@@ -137,12 +137,10 @@ pub(super) fn no_method(name: &str) -> Option<String> {
         "is_negative" => "x < 0",
         "abs_diff" => "a.max(b) - a.min(b)",
         "is_empty" => "values.len() == 0",
-        "pow2" | "square" | "squared" => "x * x",
         "total_cmp" | "partial_cmp" | "cmp" => "a < b",
         "normalized" | "normalise" => "vector.normalize()",
         "norm" | "magnitude" => "vector.length()",
         "norm_squared" | "magnitude_squared" => "vector.length_squared()",
-        "log_e" => "x.ln()",
         _ => return None,
     };
     Some(format!("`{name}` is not part of a process; write `{instead}`"))
@@ -170,7 +168,10 @@ pub(super) fn method(method: &Ident) -> Error {
                 Some(similar) => format!("there is no method `{name}`; did you mean `{similar}`?"),
                 None => {
                     let all: Vec<&str> = known.collect();
-                    format!("`{name}` is not part of a process; numbers, vectors and arrays have {}", all.join(", "))
+                    format!(
+                        "`{name}` is not part of a process; numbers, vectors and arrays have {}",
+                        all.join(", ")
+                    )
                 }
             }
         }

@@ -3,7 +3,8 @@
 use super::Wanted;
 use crate::ast::{Argument, FunctionKind, Role};
 use syn::{
-    ConstParam, Error, FnArg, GenericArgument, GenericParam, Ident, ItemFn, Pat, PathArguments, PathSegment, Result, ReturnType, Type,
+    ConstParam, Error, FnArg, GenericArgument, GenericParam, Ident, ItemFn, Pat, PathArguments, PathSegment,
+    Result, ReturnType, Type,
 };
 
 pub(super) struct Signature {
@@ -71,10 +72,7 @@ fn constants(item: &ItemFn, wanted: Wanted) -> Result<Vec<ConstParam>> {
         };
         let type_ = last_segment(&constant.ty).map(|segment| segment.ident.to_string()).unwrap_or_default();
         if !["bool", "u8", "i32", "u32", "usize"].contains(&type_.as_str()) {
-            return Err(Error::new_spanned(
-                &constant.ty,
-                "such a constant is a bool, u8, i32, u32 or usize",
-            ));
+            return Err(Error::new_spanned(&constant.ty, "such a constant is a bool, u8, i32, u32 or usize"));
         }
         if !super::matches::is_constant(&constant.ident) {
             let capitals = constant.ident.to_string().to_uppercase();

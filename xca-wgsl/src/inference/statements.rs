@@ -40,8 +40,7 @@ impl<'a> Inference<'a> {
             }
             Statement::LetTuple { parts, type_, value } => {
                 let found = self.expression(value)?;
-                let variables: Vec<Variable> =
-                    parts.iter().map(|_| self.table.variable(Term::Any)).collect();
+                let variables: Vec<Variable> = parts.iter().map(|_| self.table.variable(Term::Any)).collect();
                 let tuple = self.table.tuple(&variables);
                 self.table.unify(tuple, found, "`let` with a tuple")?;
                 if let Some(written) = type_ {

@@ -167,7 +167,8 @@ impl Table {
             Term::Vector(scalar, lanes) => format!("Vector{lanes}<{}>", self.describe(scalar)),
             Term::Array(element, length) => format!("[{}; {length}]", self.describe(element)),
             Term::Tuple(parts) => {
-                let parts: Vec<String> = self.parts(parts).into_iter().map(|part| self.describe(part)).collect();
+                let parts: Vec<String> =
+                    self.parts(parts).into_iter().map(|part| self.describe(part)).collect();
                 format!("({})", parts.join(", "))
             }
             Term::Destination => "Destination".to_owned(),

@@ -84,9 +84,8 @@ impl Writer<'_, '_> {
             | Operation::IsSignNegative
             | Operation::RemainderEuclid
             | Operation::DivideEuclid => {
-                let wide = type_
-                    .scalar()
-                    .is_some_and(|scalar| types::is_f64(scalar, self.shared.options.precision));
+                let wide =
+                    type_.scalar().is_some_and(|scalar| types::is_f64(scalar, self.shared.options.precision));
                 let routine = self.shared.routines.need_number(operation, &type_, wide);
                 Text::primary(format!("{routine}({})", list(&texts)))
             }
@@ -138,8 +137,5 @@ fn check_receiver(method: &Method, type_: &Type) -> Result<(), Problem> {
 }
 
 fn no_method(method: &Method, type_: &Type) -> Problem {
-    Problem::unsupported(
-        format!("`{}` of {}", method.name, type_.wgsl()),
-        "this type has no such method",
-    )
+    Problem::unsupported(format!("`{}` of {}", method.name, type_.wgsl()), "this type has no such method")
 }

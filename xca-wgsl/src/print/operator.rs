@@ -69,7 +69,10 @@ impl Writer<'_, '_> {
             BinaryOperator::Equal | BinaryOperator::NotEqual
                 if matches!(type_, Type::Array(..) | Type::Tuple(_)) =>
             {
-                return Err(Problem::unsupported("a comparison of arrays or tuples", "compare their elements"));
+                return Err(Problem::unsupported(
+                    "a comparison of arrays or tuples",
+                    "compare their elements",
+                ));
             }
             BinaryOperator::Equal => Text::joined(left, "==", right, Level::Relational),
             BinaryOperator::NotEqual => Text::joined(left, "!=", right, Level::Relational),
