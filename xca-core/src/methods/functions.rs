@@ -154,13 +154,13 @@ pub fn length_squared<T: Lanes>(value: T) -> T::Lane {
 
 /// `value.length()`
 #[inline(always)]
-pub fn length<T: FloatVector>(value: T) -> T::Scalar {
+pub fn length<T: FloatVector>(value: T) -> T::Lane {
     FloatVector::length(value)
 }
 
 /// `value.distance(other)`
 #[inline(always)]
-pub fn distance<T: FloatVector>(value: T, other: T) -> T::Scalar {
+pub fn distance<T: FloatVector>(value: T, other: T) -> T::Lane {
     FloatVector::distance(value, other)
 }
 

@@ -24,15 +24,12 @@ pub trait Lanes: Copy {
     message = "`{Self}` has no such method in a process: vectors of floats have",
     label = "this is no vector of floats"
 )]
-pub trait FloatVector: Copy {
-    /// The type of a lane.
-    type Scalar;
-
+pub trait FloatVector: Lanes {
     /// The square root of the scalar product with itself.
-    fn length(self) -> Self::Scalar;
+    fn length(self) -> Self::Lane;
 
     /// The length of the difference.
-    fn distance(self, other: Self) -> Self::Scalar;
+    fn distance(self, other: Self) -> Self::Lane;
 
     /// Divided by its length.
     fn normalize(self) -> Self;
@@ -61,8 +58,6 @@ macro_rules! vectors {
     (@ $vector:ident $scalar:ident) => {
         #[diagnostic::do_not_recommend]
         impl FloatVector for $vector<$scalar> {
-            type Scalar = $scalar;
-
             #[inline(always)]
             fn length(self) -> $scalar {
                 $vector::<$scalar>::length(self)

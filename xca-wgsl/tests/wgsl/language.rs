@@ -73,7 +73,9 @@ fn methods_are_routines() {
     accepted::<compute>();
     for precision in [Precision::F32, Precision::F64] {
         let text = function(&written::<compute>(precision), "compute");
-        for part in ["exp_2(", "round_real(", "rem_euclid_real(", "remainder_real(", "powi(", "rem_euclid_i32("] {
+        for part in
+            ["exp_2(", "round_real(", "rem_euclid_real(", "remainder_real(", "powi(", "rem_euclid_i32("]
+        {
             assert!(text.contains(part), "{part}\n{text}");
         }
         assert!(!text.contains(" exp(") && !text.contains(" round("), "{text}");

@@ -6,7 +6,7 @@
 use crate::common::validate;
 use xca_core::ir::{
     Argument, Arm, BinaryOperator, Block, Builtin, Expression, Function, FunctionKind, Literal, Loop,
-    LoopKind, Method, Pattern, Place, PlaceRoot, Projection, Range, Role, Statement, Type, UnaryOperator,
+    LoopKind, Operation, Pattern, Place, PlaceRoot, Projection, Range, Role, Statement, Type, UnaryOperator,
 };
 use xca_core::prelude::*;
 use xca_core::{ScalarType, Schema};
@@ -92,6 +92,7 @@ impl Source {
             Type::Vector(scalar, lanes) => {
                 Expression::Splat(boxed(self.literal(&Type::Scalar(*scalar))), *lanes)
             }
+            Type::Tuple(parts) => Expression::Tuple(parts.iter().map(|part| self.literal(part)).collect()),
             Type::Array(element, length) => Expression::Repeat(boxed(self.literal(element)), *length),
             Type::Destination => Expression::Builtin(Builtin::Stay, Vec::new()),
         }
@@ -189,7 +190,7 @@ impl Source {
         };
         let left = boxed(self.expression(type_, depth));
         if is_float(type_) {
-            let operator = [Add, Subtract, Multiply, Divide][self.below(4)];
+            let operator = [Add, Subtract, Multiply, Divide, Remainder][self.below(5)];
             return Expression::Binary(operator, left, boxed(self.expression(type_, depth)));
         }
         let operator =
@@ -198,7 +199,7 @@ impl Source {
         let right = match operator {
             // Rust itself refuses a division by a literal 0.
             Divide | Remainder => Expression::Method {
-                method: Method::Max,
+                method: Operation::Max,
                 receiver: boxed(self.own(type_)),
                 arguments: vec![Expression::Literal(Literal::Integer(1, None))],
             },
@@ -212,28 +213,41 @@ impl Source {
     }
 
     fn method(&mut self, type_: &Type, depth: usize) -> Expression {
-        use Method::{
-            Abs, Ceiling, Clamp, Dot, Floor, Max, Min, SquareRoot, Truncate, WrappingAdd, WrappingMultiply,
+        use Operation::{
+            Abs, Ceiling, Clamp, CopySign, DivideEuclid, Dot, Floor, Fraction, Max, Min, Reciprocal,
+            RemainderEuclid, Round, Signum, SquareRoot, Truncate, WrappingAdd, WrappingMultiply,
         };
         if *type_ == Type::Scalar(ScalarType::Real) && self.below(2) == 0 {
             let (receiver, argument) =
                 (boxed(self.expression(&PLACE, depth)), self.expression(&PLACE, depth));
             return match self.below(3) {
                 0 => Expression::Method { method: Dot, receiver, arguments: vec![argument] },
-                1 => Expression::Method { method: Method::Length, receiver, arguments: Vec::new() },
-                _ => Expression::Method { method: Method::LengthSquared, receiver, arguments: Vec::new() },
+                1 => Expression::Method { method: Operation::Length, receiver, arguments: Vec::new() },
+                _ => Expression::Method { method: Operation::LengthSquared, receiver, arguments: Vec::new() },
             };
         }
         let method = if is_float(type_) {
-            [Min, Max, Clamp, Abs, SquareRoot, Floor, Ceiling, Truncate][self.below(8)]
+            [
+                Min,
+                Max,
+                Clamp,
+                Abs,
+                SquareRoot,
+                Floor,
+                Ceiling,
+                Truncate,
+                Round,
+                Fraction,
+                Signum,
+                CopySign,
+                Reciprocal,
+                RemainderEuclid,
+                DivideEuclid,
+            ][self.below(15)]
         } else {
             [Min, Max, Clamp, WrappingAdd, WrappingMultiply][self.below(5)]
         };
-        let count = match method {
-            Clamp => 2,
-            Min | Max | WrappingAdd | WrappingMultiply => 1,
-            _ => 0,
-        };
+        let count = method.method().map_or(0, |method| method.arguments.len());
         let receiver = boxed(self.expression(type_, depth));
         Expression::Method {
             method,
@@ -269,7 +283,7 @@ impl Source {
                 boxed(self.expression(&single, depth)),
             ),
             3 => Expression::Method {
-                method: Method::Cross,
+                method: Operation::Cross,
                 receiver: boxed(self.expression(&vector, depth)),
                 arguments: vec![self.expression(&vector, depth)],
             },
