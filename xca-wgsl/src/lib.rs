@@ -21,7 +21,7 @@
 //! An index beyond an array ends the run in Rust; here it reads or writes some element of the array.
 //!
 //! # What is refused
-//! NaN as a constant, empty arrays, comparisons of whole arrays, order comparisons of `bool`, recursion.
+//! NaN as a constant, empty arrays, comparisons of whole arrays and tuples, order comparisons of `bool`, recursion.
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
