@@ -60,7 +60,7 @@ fn relax<const COLOUR: i32>(cell: &mut Cell<Board>) {
     cell.all = all(cell.index().x);
     if (cell.index().x + cell.index().y) % 2 == COLOUR {
         let mut sum = 0.0;
-        for n in 1..cell.neighbours() {
+        for n in 1..cell.neighbour_count() {
             sum += cell.neighbour(n).value;
         }
         cell.value = 0.25 * sum + COLOUR as Real;
@@ -76,7 +76,10 @@ fn one_process_for_both_colours() -> TestResult {
         .substates::<Board>()
         .process(relax::<0>)
         .process(relax::<1>)
-        .fill(|[x, y, _]| Board { all: 0, value: ((5 * x + 3 * y) % 8) as f64 })
+        .fill(|site| {
+            let [x, y, _] = site.cell();
+            Board { all: 0, value: ((5 * x + 3 * y) % 8) as f64 }
+        })
         .build()?;
     assert_eq!(relax::<1>::process().name, "relax<1>");
     for precision in PRECISIONS {

@@ -161,7 +161,10 @@ fn loops_are_those_of_rust() -> TestResult {
         .extents([24, 1, 1])
         .substates::<Numbers>()
         .process(compute)
-        .fill(|[x, ..]| Numbers { n: x as i32 - 4, ..Numbers::default() })
+        .fill(|site| {
+            let [x, ..] = site.cell();
+            Numbers { n: x as i32 - 4, ..Numbers::default() }
+        })
         .build()?;
     for precision in PRECISIONS {
         on_all_engines(&model, precision, |simulation| {
@@ -189,7 +192,7 @@ struct Height {
 /// The neighbours from the last to the first, up to one that is lower.
 #[elementary_process]
 fn look_back(cell: &mut Cell<Height>) {
-    'search: for n in (1..cell.neighbours()).rev() {
+    'search: for n in (1..cell.neighbour_count()).rev() {
         for step in 0..3 {
             if cell.neighbour(n).height + step < cell.height {
                 cell.low = n as i32;
@@ -207,7 +210,10 @@ fn neighbours_backwards() -> TestResult {
         .boundary(Boundary::Reflecting)
         .substates::<Height>()
         .process(look_back)
-        .fill(|[x, y, _]| Height { height: ((x * 5 + y * 3) % 7) as i32, low: 0 })
+        .fill(|site| {
+            let [x, y, _] = site.cell();
+            Height { height: ((x * 5 + y * 3) % 7) as i32, low: 0 }
+        })
         .build()?;
     on_all_engines(&model, Precision::F32, |simulation| {
         // Height 6 at (5, 3); below to the right of it, the last neighbour, 4 * 3 + 6 * 5 = 42, which is 0.

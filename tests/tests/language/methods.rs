@@ -105,7 +105,10 @@ fn methods_of_floats_are_those_of_rust() -> TestResult {
         .extents([size, size, 1])
         .substates::<Floats>()
         .process(of_floats)
-        .fill(|[x, y, _]| Floats { x: FLOATS[x], y: FLOATS[y], ..Floats::default() })
+        .fill(|site| {
+            let [x, y, _] = site.cell();
+            Floats { x: FLOATS[x], y: FLOATS[y], ..Floats::default() }
+        })
         .build()?;
     for precision in PRECISIONS {
         on_all_engines(&model, precision, |simulation| {
@@ -170,7 +173,10 @@ fn methods_of_integers_are_those_of_rust() -> TestResult {
         .extents([10, 10, 1])
         .substates::<Integers>()
         .process(of_integers)
-        .fill(move |[x, y, _]| Integers { a: number(x), b: number(y), ..Integers::default() })
+        .fill(move |site| {
+            let [x, y, _] = site.cell();
+            Integers { a: number(x), b: number(y), ..Integers::default() }
+        })
         .build()?;
     on_all_engines(&model, Precision::F64, |simulation| {
         let state = simulation.state();
@@ -220,10 +226,13 @@ fn methods_of_vectors() -> TestResult {
         .extents([12, 1, 1])
         .substates::<Vectors>()
         .process(of_vectors)
-        .fill(move |[x, ..]| Vectors {
+        .fill(move |site| {
+            let [x, ..] = site.cell();
+            Vectors {
             v: Vector3::new(value(x), 1.0, -value(x + 2)),
             w: Vector3::new(0.5, value(x), -1.0),
             ..Vectors::default()
+        }
         })
         .build()?;
     for precision in PRECISIONS {
@@ -281,7 +290,10 @@ fn whole_powers_and_angles() -> TestResult {
         .extents([9, 1, 1])
         .substates::<Angle>()
         .process(of_functions)
-        .fill(|[x, ..]| Angle { x: 0.25 * (x as f64 + 1.0), ..Angle::default() })
+        .fill(|site| {
+            let [x, ..] = site.cell();
+            Angle { x: 0.25 * (x as f64 + 1.0), ..Angle::default() }
+        })
         .build()?;
     for precision in PRECISIONS {
         on_all_engines(&model, precision, |simulation| {

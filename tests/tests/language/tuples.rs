@@ -81,7 +81,10 @@ fn tuples_are_those_of_rust() -> TestResult {
         .extents([16, 1, 1])
         .substates::<Numbers>()
         .process(compute)
-        .fill(|[x, ..]| Numbers { n: x as i32 - 5, ..Numbers::default() })
+        .fill(|site| {
+            let [x, ..] = site.cell();
+            Numbers { n: x as i32 - 5, ..Numbers::default() }
+        })
         .build()?;
     for precision in PRECISIONS {
         on_all_engines(&model, precision, |simulation| {
