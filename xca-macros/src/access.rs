@@ -1,8 +1,8 @@
 //! Which substates a body reads and writes, and where.
 
 use crate::ast::{
-    ArgumentNumber, Block, Builtin, Expression, Function, LoopKind, Place, PlaceRoot, Projection, Reach, Role,
-    Statement,
+    ArgumentNumber, Block, Builtin, Expression, Function, LoopKind, Place, PlaceRoot, Projection, Reach,
+    Role, Statement,
 };
 use syn::Ident;
 

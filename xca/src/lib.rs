@@ -33,7 +33,7 @@
 //!     .boundary(Boundary::Toroidal)
 //!     .substates::<Heat>()
 //!     .process(conduct)
-//!     .fill(|[x, ..]| Heat { temperature: if x < 16 { 1.0 } else { 0.0 } })
+//!     .fill(|site| Heat { temperature: if site.cell()[0] < 16 { 1.0 } else { 0.0 } })
 //!     .build()?;
 //! let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
 //! simulation.run(1000)?;

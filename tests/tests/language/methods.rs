@@ -229,10 +229,10 @@ fn methods_of_vectors() -> TestResult {
         .fill(move |site| {
             let [x, ..] = site.cell();
             Vectors {
-            v: Vector3::new(value(x), 1.0, -value(x + 2)),
-            w: Vector3::new(0.5, value(x), -1.0),
-            ..Vectors::default()
-        }
+                v: Vector3::new(value(x), 1.0, -value(x + 2)),
+                w: Vector3::new(0.5, value(x), -1.0),
+                ..Vectors::default()
+            }
         })
         .build()?;
     for precision in PRECISIONS {

@@ -23,7 +23,8 @@ mod aliases {
     #[elementary_process]
     fn lift(cell: &mut Cell<Land>) {
         let number: i32 = 1.0;
-        cell.height = number as f32;
+        let (pair, _): (i32, u32) = (2.0, 3);
+        cell.height = (number + pair) as f32;
     }
 }
 

@@ -13,5 +13,6 @@ mod items;
 mod loops;
 mod names;
 mod ranges;
+mod together;
 mod values;
 mod vectors;

@@ -89,6 +89,10 @@ pub(crate) fn meant(type_: &Type) -> TokenStream {
             let (element, length) = (meant(&array.elem), &array.len);
             quote!([#element; #length])
         }
+        Type::Tuple(tuple) => {
+            let parts = tuple.elems.iter().map(meant);
+            quote!((#(#parts,)*))
+        }
         Type::Group(group) => meant(&group.elem),
         Type::Paren(paren) => meant(&paren.elem),
         Type::Path(path) => {

@@ -5,8 +5,9 @@
 
 use crate::common::validate;
 use xca_core::ir::{
-    Argument, Arm, BinaryOperator, Block, Builtin, Constant, Expression, Function, FunctionKind, Literal, Loop,
-    LoopKind, Operation, Pattern, Place, PlaceRoot, Projection, Range, Role, Statement, Type, UnaryOperator,
+    Argument, Arm, BinaryOperator, Block, Builtin, Constant, Expression, Function, FunctionKind, Literal,
+    Loop, LoopKind, Operation, Pattern, Place, PlaceRoot, Projection, Range, Role, Statement, Type,
+    UnaryOperator,
 };
 use xca_core::prelude::*;
 use xca_core::{ScalarType, Schema};
