@@ -104,6 +104,7 @@ pub enum Content {
     /// can be run for a part of them: the `first` cell, by its indices, the `count` of cells along each axis,
     /// and the number `base` of the stored cell with which the bound buffers begin. For all cells these are 0,
     /// the extents, and 0.
+
     Space(Layout),
     /// What changes with the step: `step` (low word, high word) and the number of items of the population.
     Moment(Layout),

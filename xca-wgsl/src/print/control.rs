@@ -1,11 +1,9 @@
 //! Branches. `match` becomes a chain of `if`: in a `switch`, WGSL's `break` would mean the switch.
 
 use super::expression::is_simple;
-use super::range::Range;
 use super::text::{Level, Text};
 use super::{Target, Writer};
 use crate::error::Problem;
-use crate::types::Type;
 use xca_core::ir::{Arm, Block, Expression, Literal, Pattern, Statement};
 
 impl Writer<'_, '_> {

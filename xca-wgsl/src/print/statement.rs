@@ -10,7 +10,8 @@ use crate::types::Type;
 use crate::visit;
 use xca_core::ScalarType;
 use xca_core::ir::{
-    BinaryOperator, Block, Constant, Expression, Literal, Place, PlaceRoot, Projection, Statement, TuplePart,
+    BinaryOperator, Block, Builtin, Constant, Expression, Literal, Place, PlaceRoot, Projection, Statement,
+    TuplePart,
 };
 use xca_core::kernel::Of;
 
