@@ -98,10 +98,14 @@ impl Writer<'_, '_> {
             Expression::Literal(Literal::Bool(truth)) => Range::only(i64::from(*truth)),
             Expression::Constant { value, .. } => constant_range(value)?,
             Expression::Local(_) => *self.ranges.get(&self.analysis.local(value).ok()?)?,
-            Expression::Builtin(Builtin::Neighbours, _) => match self.shared.options.neighbourhood_size {
+            Expression::Builtin(Builtin::NeighbourCount, _) => match self.shared.options.neighbourhood_size {
                 Some(size) => Range::only(size.into()),
                 None => Range::new(1, u32::MAX.into()),
             },
+            Expression::Builtin(Builtin::Opposite, _) => {
+                let size = self.shared.options.neighbourhood_size?;
+                Range::new(0, i64::from(size) - 1)
+            }
             Expression::Unary(UnaryOperator::Negate, operand) => {
                 let range = self.range(operand);
                 Range::new(-range.most, -range.least)
@@ -206,7 +210,7 @@ impl Writer<'_, '_> {
 
     /// Whether a range may have more turns than a device has time for, as no loop over neighbours has.
     pub(super) fn may_take_long(&self, from: &Expression, to: &Expression) -> bool {
-        let over_neighbours = matches!(to, Expression::Builtin(Builtin::Neighbours, _));
+        let over_neighbours = matches!(to, Expression::Builtin(Builtin::NeighbourCount, _));
         !over_neighbours && self.range(to).most - self.range(from).least > MANY_TURNS
     }
 }
