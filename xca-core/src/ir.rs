@@ -8,6 +8,7 @@ pub use crate::ir_constant::ConstantValue;
 use crate::schema::Schema;
 use crate::states::StateNames;
 use crate::value::ScalarType;
+pub use xca_methods::Operation;
 
 /// A parsed function.
 #[derive(Debug, Clone)]
@@ -79,6 +80,8 @@ pub enum Type {
     State(&'static StateNames),
     /// `[T; N]`
     Array(Box<Type>, usize),
+    /// `(A, B, …)`
+    Tuple(Vec<Type>),
     /// `Destination`, the result of a migration.
     Destination,
 }
@@ -106,6 +109,15 @@ pub enum Statement {
         /// The first value.
         value: Expression,
     },
+    /// `let (a, b) = value;`
+    LetTuple {
+        /// The variables.
+        parts: Vec<TuplePart>,
+        /// The type, where it is written.
+        type_: Option<Type>,
+        /// The tuple.
+        value: Expression,
+    },
     /// `let name = cell.neighbour(index);`
     LetNeighbour {
         /// The variable that stands for the neighbour.
@@ -124,53 +136,12 @@ pub enum Statement {
     },
     /// An expression for its effects: `if`, `match`, a block, a call.
     Expression(Expression),
-    /// `while condition { body }`
-    While {
-        /// The condition.
-        condition: Expression,
-        /// The body.
-        body: Block,
-    },
-    /// `loop { body }`
-    Loop {
-        /// The body.
-        body: Block,
-    },
-    /// `for variable in from..to { body }`, and with `..=` where `inclusive`.
-    ForRange {
-        /// The variable.
-        variable: &'static str,
-        /// The first value.
-        from: Expression,
-        /// The end.
-        to: Expression,
-        /// Whether the end belongs to the range.
-        inclusive: bool,
-        /// The body.
-        body: Block,
-    },
-    /// `for variable in me.others…() { body }`: over other items, in the order neighbour index, then label.
-    ForOthers {
-        /// The variable that stands for the other item.
-        variable: &'static str,
-        /// Where the items are looked for.
-        reach: Reach,
-        /// With a radius, only items whose position is nearer than this (strictly).
-        radius: Option<Expression>,
-        /// The body.
-        body: Block,
-    },
-    /// `for variable in slots { body }` in a process over cells: the items of the central cell, by label.
-    ForItems {
-        /// The variable that stands for the item.
-        variable: &'static str,
-        /// The body.
-        body: Block,
-    },
-    /// `break;`
-    Break,
-    /// `continue;`
-    Continue,
+    /// `while`, `loop` and `for`.
+    Loop(Loop),
+    /// `break;` or `break 'label;`
+    Break(Option<&'static str>),
+    /// `continue;` or `continue 'label;`
+    Continue(Option<&'static str>),
     /// `return;` or `return value;`
     Return(Option<Expression>),
     /// `cell.fault(code, value);`
@@ -180,6 +151,78 @@ pub enum Statement {
         /// A value to report, `Real`.
         value: Expression,
     },
+}
+
+/// A variable that takes a part of a tuple.
+#[derive(Debug, Clone)]
+pub struct TuplePart {
+    /// Its name, nothing where it is `_`.
+    pub name: Option<&'static str>,
+    /// Whether it is `mut`.
+    pub mutable: bool,
+}
+
+/// A loop.
+#[derive(Debug, Clone)]
+pub struct Loop {
+    /// Its label, without the apostrophe. No loop around it has the same.
+    pub label: Option<&'static str>,
+    /// What it runs over.
+    pub kind: LoopKind,
+    /// The body.
+    pub body: Block,
+}
+
+/// What a loop runs over.
+#[derive(Debug, Clone)]
+pub enum LoopKind {
+    /// `while condition`
+    While(Expression),
+    /// `loop`
+    Forever,
+    /// `for variable in range`
+    Range {
+        /// The variable.
+        variable: &'static str,
+        /// The range.
+        range: Range,
+    },
+    /// `for variable in array`
+    Elements {
+        /// The variable, a copy of the element.
+        variable: &'static str,
+        /// The array.
+        array: Expression,
+    },
+    /// `for variable in me.others…()`: over other items, in the order neighbour index, then label.
+    Others {
+        /// The variable that stands for the other item.
+        variable: &'static str,
+        /// Where the items are looked for.
+        reach: Reach,
+        /// With a radius, only items whose position is nearer than this (strictly).
+        radius: Option<Expression>,
+    },
+    /// `for variable in slots` in a process over cells: the items of the central cell, by label.
+    Items {
+        /// The variable that stands for the item.
+        variable: &'static str,
+    },
+}
+
+/// `from..to`, and with `..=` where `inclusive`.
+#[derive(Debug, Clone)]
+pub struct Range {
+    /// The first value.
+    pub from: Expression,
+    /// The end.
+    pub to: Expression,
+    /// Whether the end belongs to the range.
+    pub inclusive: bool,
+    /// `.rev()`: from the end to the first value.
+    pub reversed: bool,
+    /// `.step_by(step)`, of what `reversed` gives: every so many values, `usize`, at least 1.
+    pub step: Option<Expression>,
 }
 
 /// Where a search for other items looks.
@@ -261,7 +304,7 @@ pub enum Expression {
         /// The substate.
         field: &'static str,
     },
-    /// `name.field` where `name` is the variable of [`Statement::ForOthers`] or [`Statement::ForItems`].
+    /// `name.field` where `name` is the variable of [`LoopKind::Others`] or [`LoopKind::Items`].
     Other {
         /// The number of the struct.
         argument: usize,
@@ -298,10 +341,10 @@ pub enum Expression {
         /// The arguments.
         arguments: Vec<Expression>,
     },
-    /// A method of a number or vector.
+    /// A method of a number, vector or array that is an operation; others are calls of helpers.
     Method {
         /// Which.
-        method: Method,
+        method: Operation,
         /// The receiver.
         receiver: Box<Expression>,
         /// The further arguments.
@@ -313,6 +356,8 @@ pub enum Expression {
     Element(Box<Expression>, Box<Expression>),
     /// `[a, b, c]`
     Array(Vec<Expression>),
+    /// `(a, b, …)`, two or more.
+    Tuple(Vec<Expression>),
     /// `[value; length]`
     Repeat(Box<Expression>, usize),
     /// `Vector3::new(a, b, c)`: as many components as lanes.
@@ -463,41 +508,4 @@ pub enum BinaryOperator {
     LessEqual,
     Greater,
     GreaterEqual,
-}
-
-/// The methods that numbers and vectors have in a process.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Method {
-    /// `a.min(b)`: `if b < a { b } else { a }`
-    Min,
-    /// `a.max(b)`: `if a < b { b } else { a }`
-    Max,
-    /// `a.clamp(low, high)`: `a.max(low).min(high)`
-    Clamp,
-    /// `a.abs()` of floats and `i32`.
-    Abs,
-    /// `a.sqrt()`
-    SquareRoot,
-    /// `a.floor()`
-    Floor,
-    /// `a.ceil()`
-    Ceiling,
-    /// `a.trunc()`
-    Truncate,
-    /// `a.wrapping_add(b)` of integers.
-    WrappingAdd,
-    /// `a.wrapping_sub(b)` of integers.
-    WrappingSubtract,
-    /// `a.wrapping_mul(b)` of integers.
-    WrappingMultiply,
-    /// `a.count_ones()` of integers, `u32`.
-    CountOnes,
-    /// `a.dot(b)`: `a.x * b.x + a.y * b.y + …`, added from the left.
-    Dot,
-    /// `a.cross(b)` of three lanes.
-    Cross,
-    /// `a.length_squared()`: `a.dot(a)`
-    LengthSquared,
-    /// `a.length()`: `a.dot(a).sqrt()`
-    Length,
 }

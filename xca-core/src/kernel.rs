@@ -28,7 +28,7 @@ mod values;
 mod wide;
 
 pub use cells::{AroundRead, CentreRead, Column, Columns, Offset};
-pub use constants::{KernelConstant, Ordered, constant};
+pub use constants::{KernelConstant, constant};
 pub use entries::{Entry, Memory, MemoryOf};
 pub use neighbours::Directions;
 pub use search::{CellFilter, Found, Scratch, reach};

@@ -97,6 +97,8 @@ pub mod ir;
 mod ir_constant;
 pub mod kernel;
 pub mod math;
+#[doc(hidden)]
+pub mod methods;
 pub mod model;
 mod neighbourhood;
 mod parameter_set;

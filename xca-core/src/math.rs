@@ -1,10 +1,9 @@
 //! Mathematical functions with the same bits on every engine.
 //!
-//! They are made of + - * /, comparisons and whole numbers alone, which are the same everywhere; the platform's own `x.exp()` is not, and
-//! a process cannot use it. In a process they compute in the precision of the run, in ordinary code in `f64`.
+//! They are made of + - * /, comparisons and whole numbers alone, which are the same everywhere; the platform's own functions are not. In a
+//! process `x.exp()` is [`exp`] here, computed in the precision of the run. In ordinary code these functions compute in `f64`.
 //!
 //! ```
-//! use xca_core::math::{atan2, exp};
 //! use xca_core::prelude::*;
 //!
 //! #[derive(Substates, Clone, Copy)]
@@ -17,11 +16,11 @@
 //!
 //! #[elementary_process]
 //! fn stiffen(cell: &mut Cell<Lava>) {
-//!     cell.viscosity = exp(20.0 - 0.013 * cell.temperature);
-//!     cell.direction = atan2(cell.flow.y, cell.flow.x);
+//!     cell.viscosity = (20.0 - 0.013 * cell.temperature).exp();
+//!     cell.direction = cell.flow.y.atan2(cell.flow.x);
 //! }
 //!
-//! assert_eq!(exp(0.0), 1.0);
+//! assert_eq!(xca_core::math::exp(0.0), 1.0);
 //! ```
 //!
 //! The errors stated with each function are the largest that were found in hundreds of thousands of values of each precision, in units of the
@@ -30,8 +29,10 @@
 
 mod exact;
 mod exponential;
+mod powers;
 mod series;
 mod trigonometry;
 
 pub use exponential::{exp, log, pow, tanh};
-pub use trigonometry::{atan, atan2, cos, sin, tan};
+pub use powers::{cbrt, cosh, exp_m1, exp2, hypot, log_1p, log2, log10, powi, sinh};
+pub use trigonometry::{acos, asin, atan, atan2, cos, sin, tan, to_degrees, to_radians};

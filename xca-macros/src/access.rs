@@ -1,7 +1,7 @@
 //! Which substates a body reads and writes, and where.
 
 use crate::ast::{
-    ArgumentNumber, Block, Builtin, Expression, Function, Place, PlaceRoot, Projection, Reach, Role,
+    ArgumentNumber, Block, Builtin, Expression, Function, LoopKind, Place, PlaceRoot, Projection, Reach, Role,
     Statement,
 };
 use syn::Ident;
@@ -81,7 +81,9 @@ impl Uses {
 
     fn statement(&mut self, statement: &Statement) {
         match statement {
-            Statement::Let { value, .. } | Statement::Expression(value) => self.expression(value),
+            Statement::Let { value, .. }
+            | Statement::LetTuple { value, .. }
+            | Statement::Expression(value) => self.expression(value),
             Statement::LetNeighbour { index, .. } => {
                 self.neighbours = true;
                 self.expression(index);
@@ -90,28 +92,11 @@ impl Uses {
                 self.expression(value);
                 self.place(place, operator.is_some());
             }
-            Statement::While { condition, body } => {
-                self.expression(condition);
-                self.block(body);
+            Statement::Loop(loop_) => {
+                self.loop_kind(&loop_.kind);
+                self.block(&loop_.body);
             }
-            Statement::Loop { body } | Statement::ForItems { body, .. } => self.block(body),
-            Statement::ForRange { from, to, body, .. } => {
-                self.expression(from);
-                self.expression(to);
-                self.block(body);
-            }
-            Statement::ForOthers { variable, reach, radius, body } => {
-                self.neighbours |= *reach != Reach::Cell;
-                if let Some(radius) = radius {
-                    self.expression(radius);
-                    let position = Ident::new("position", variable.span());
-                    let access = self.entry(&position, GroupOf::Position);
-                    access.centre = true;
-                    access.others = true;
-                }
-                self.block(body);
-            }
-            Statement::Break(_) | Statement::Continue(_) => {}
+            Statement::Break(..) | Statement::Continue(..) => {}
             Statement::Return(value, _) => {
                 if let Some(value) = value {
                     self.expression(value);
@@ -121,6 +106,31 @@ impl Uses {
                 self.expression(code);
                 self.expression(value);
             }
+        }
+    }
+
+    fn loop_kind(&mut self, kind: &LoopKind) {
+        match kind {
+            LoopKind::While(condition) => self.expression(condition),
+            LoopKind::Range { range, .. } => {
+                self.expression(&range.from);
+                self.expression(&range.to);
+                if let Some(step) = &range.step {
+                    self.expression(step);
+                }
+            }
+            LoopKind::Elements { array, .. } => self.expression(array),
+            LoopKind::Others { variable, reach, radius } => {
+                self.neighbours |= *reach != Reach::Cell;
+                if let Some(radius) = radius {
+                    self.expression(radius);
+                    let position = Ident::new("position", variable.span());
+                    let access = self.entry(&position, GroupOf::Position);
+                    access.centre = true;
+                    access.others = true;
+                }
+            }
+            LoopKind::Forever | LoopKind::Items { .. } => {}
         }
     }
 
@@ -172,6 +182,7 @@ impl Uses {
             }
             Expression::Call { arguments, .. }
             | Expression::Array(arguments, _)
+            | Expression::Tuple(arguments, _)
             | Expression::Vector(_, arguments) => {
                 arguments.iter().for_each(|argument| self.expression(argument));
             }

@@ -3,8 +3,8 @@
 //! One front end (`parse`) makes it; the native kernel (`native`) and the data of the body (`data`) are made from it.
 //! The shape is that of `xca_core::ir`.
 
-use proc_macro2::Span;
-use syn::{Ident, Lit, LitFloat, LitInt, Path, Type};
+use proc_macro2::{Span, TokenStream};
+use syn::{AngleBracketedGenericArguments, Expr, Ident, Lifetime, Lit, LitFloat, LitInt, Path, Type};
 
 /// The whole function.
 pub(crate) struct Function {
@@ -12,6 +12,8 @@ pub(crate) struct Function {
     pub(crate) visibility: syn::Visibility,
     pub(crate) attributes: Vec<syn::Attribute>,
     pub(crate) kind: FunctionKind,
+    /// `const N: usize` and its kin.
+    pub(crate) constants: Vec<syn::ConstParam>,
     pub(crate) arguments: Vec<Argument>,
     /// The type of the result as written; `None` for processes.
     pub(crate) result: Option<Type>,
@@ -24,6 +26,8 @@ pub(crate) struct Function {
 pub(crate) struct Mentions {
     pub(crate) calls: Vec<Call>,
     pub(crate) constants: Vec<Path>,
+    /// The arrays `[value; length]`, each with what it takes.
+    pub(crate) arrays: Vec<ArraySize>,
     /// Constants in patterns.
     pub(crate) patterns: Vec<Path>,
     /// The structs of substates and of parameters.
@@ -33,9 +37,16 @@ pub(crate) struct Mentions {
     pub(crate) types: Vec<Type>,
 }
 
+/// An array in a body.
+pub(crate) struct ArraySize {
+    /// An expression of type `usize`.
+    pub(crate) bytes: TokenStream,
+    pub(crate) span: Span,
+}
+
 /// A helper that is called.
 pub(crate) struct Call {
-    /// The path that the user wrote.
+    /// The path that the user wrote, without constants.
     pub(crate) function: Path,
     /// The name by which it is imported.
     pub(crate) import: Ident,
@@ -85,20 +96,71 @@ pub(crate) struct Block {
     pub(crate) value: Option<Box<Expression>>,
 }
 
+#[expect(clippy::large_enum_variant, reason = "trees are small and short-lived")]
 pub(crate) enum Statement {
-    Let { name: Ident, mutable: bool, type_: Option<Type>, value: Expression },
-    LetNeighbour { name: Ident, index: Expression },
-    Assign { place: Place, operator: Option<syn::BinOp>, value: Expression, span: Span },
+    Let {
+        name: Ident,
+        mutable: bool,
+        type_: Option<Type>,
+        value: Expression,
+    },
+    /// `let (a, mut b) = value;`
+    LetTuple {
+        parts: Vec<TuplePart>,
+        type_: Option<Type>,
+        value: Expression,
+    },
+    LetNeighbour {
+        name: Ident,
+        index: Expression,
+    },
+    Assign {
+        place: Place,
+        operator: Option<syn::BinOp>,
+        value: Expression,
+        span: Span,
+    },
     Expression(Expression),
-    While { condition: Expression, body: Block },
-    Loop { body: Block },
-    ForRange { variable: Ident, from: Expression, to: Expression, inclusive: bool, body: Block },
-    ForOthers { variable: Ident, reach: Reach, radius: Option<Expression>, body: Block },
-    ForItems { variable: Ident, body: Block },
-    Break(Span),
-    Continue(Span),
+    Loop(Loop),
+    Break(Option<Lifetime>, Span),
+    Continue(Option<Lifetime>, Span),
     Return(Option<Expression>, Span),
-    Fault { code: Expression, value: Expression },
+    Fault {
+        code: Expression,
+        value: Expression,
+    },
+}
+
+/// A variable that takes a part of a tuple; no name where it is `_`.
+pub(crate) struct TuplePart {
+    pub(crate) name: Option<Ident>,
+    pub(crate) mutable: bool,
+}
+
+/// A loop of any kind.
+pub(crate) struct Loop {
+    pub(crate) label: Option<Lifetime>,
+    pub(crate) kind: LoopKind,
+    pub(crate) body: Block,
+}
+
+#[expect(clippy::large_enum_variant, reason = "trees are small and short-lived")]
+pub(crate) enum LoopKind {
+    While(Expression),
+    Forever,
+    Range { variable: Ident, range: Range },
+    Elements { variable: Ident, array: Expression },
+    Others { variable: Ident, reach: Reach, radius: Option<Expression> },
+    Items { variable: Ident },
+}
+
+/// `from..to` or `from..=to`, perhaps with `.rev()`, then with `.step_by(step)`.
+pub(crate) struct Range {
+    pub(crate) from: Expression,
+    pub(crate) to: Expression,
+    pub(crate) inclusive: bool,
+    pub(crate) reversed: bool,
+    pub(crate) step: Option<Expression>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -169,19 +231,23 @@ pub(crate) enum Expression {
     /// The function is the alias of one of [`Mentions::calls`].
     Call {
         function: Path,
+        /// `::<N>`
+        constants: Option<AngleBracketedGenericArguments>,
         arguments: Vec<Expression>,
     },
-    /// The method's name is one that `parse` knows.
+    /// With the name as it stands in the source.
     Method {
-        method: Ident,
+        method: &'static xca_methods::Method,
+        name: Ident,
         receiver: Box<Expression>,
         arguments: Vec<Expression>,
     },
     Component(Box<Expression>, Ident),
     Element(Box<Expression>, Box<Expression>),
     Array(Vec<Expression>, Span),
-    /// The length is an integer literal.
-    Repeat(Box<Expression>, LitInt),
+    Tuple(Vec<Expression>, Span),
+    /// The length is made of integer literals and constants.
+    Repeat(Box<Expression>, Box<Expr>),
     /// `Vector3::new(a, b, c)`: the path's type segment (`Vector3`) and the components.
     Vector(Ident, Vec<Expression>),
     /// `Vector3::splat(a)`: the path's type segment and the value.

@@ -1,20 +1,22 @@
 //! The body of a function as data: an expression that builds the `::xca_core::ir::Function`, one to one from the
 //! checked function.
 
+mod loops;
 mod words;
 
 use crate::ast::{
     Argument, ArgumentNumber, Arm, Block, Expression, Function, FunctionKind, Pattern, Place, PlaceRoot,
-    Projection, Reach, Role, Statement,
+    Projection, Role, Statement,
 };
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote, quote_spanned};
 use syn::spanned::Spanned;
-use syn::{Error, Lit, Path, Result};
+use syn::{Error, Ident, Lit, Path, Result};
 use words::{
-    binary_operator, bool_literal, builtin, each, float_literal, integer_literal, lane, lanes, method,
+    binary_operator, bool_literal, builtin, each, float_literal, integer_literal, known_length, lane, lanes,
     optional, text, type_, unary_operator,
 };
+use xca_methods::Meaning;
 
 /// An expression of type `::xca_core::ir::Function`.
 pub(crate) fn function(function: &Function) -> Result<TokenStream> {
@@ -70,6 +72,19 @@ fn statement(statement: &Statement) -> Result<TokenStream> {
             let value = expression(value)?;
             quote!(Let { name: #name, mutable: #mutable, type_: #written, value: #value })
         }
+        Statement::LetTuple { parts, type_: written, value } => {
+            let parts = each(parts, |part| {
+                let mutable = part.mutable;
+                let name = optional(part.name.as_ref(), |name| {
+                    let name = text(name);
+                    Ok(quote!(#name))
+                })?;
+                Ok(quote!(::xca_core::ir::TuplePart { name: #name, mutable: #mutable }))
+            })?;
+            let written = optional(written.as_ref(), type_)?;
+            let value = expression(value)?;
+            quote!(LetTuple { parts: #parts, type_: #written, value: #value })
+        }
         Statement::LetNeighbour { name, index } => {
             let name = text(name);
             let index = expression(index)?;
@@ -85,42 +100,18 @@ fn statement(statement: &Statement) -> Result<TokenStream> {
             let value = expression(value)?;
             quote!(Expression(#value))
         }
-        Statement::While { condition, body } => {
-            let condition = expression(condition)?;
-            let body = block(body)?;
-            quote!(While { condition: #condition, body: #body })
+        Statement::Loop(loop_) => {
+            let loop_ = loops::loop_(loop_)?;
+            quote!(Loop(#loop_))
         }
-        Statement::Loop { body } => {
-            let body = block(body)?;
-            quote!(Loop { body: #body })
+        Statement::Break(label, _) => {
+            let label = loops::label(label.as_ref());
+            quote!(Break(#label))
         }
-        Statement::ForRange { variable, from, to, inclusive, body } => {
-            let variable = text(variable);
-            let from = expression(from)?;
-            let to = expression(to)?;
-            let body = block(body)?;
-            quote!(ForRange { variable: #variable, from: #from, to: #to, inclusive: #inclusive, body: #body })
+        Statement::Continue(label, _) => {
+            let label = loops::label(label.as_ref());
+            quote!(Continue(#label))
         }
-        Statement::ForOthers { variable, reach, radius, body } => {
-            let variable = text(variable);
-            let reach = match reach {
-                Reach::Cell => quote!(Cell),
-                Reach::Neighbours => quote!(Neighbours),
-                Reach::All => quote!(All),
-            };
-            let radius = optional(radius.as_ref(), expression)?;
-            let body = block(body)?;
-            quote! {
-                ForOthers { variable: #variable, reach: ::xca_core::ir::Reach::#reach, radius: #radius, body: #body }
-            }
-        }
-        Statement::ForItems { variable, body } => {
-            let variable = text(variable);
-            let body = block(body)?;
-            quote!(ForItems { variable: #variable, body: #body })
-        }
-        Statement::Break(_) => quote!(Break),
-        Statement::Continue(_) => quote!(Continue),
         Statement::Return(value, _) => {
             let value = optional(value.as_ref(), expression)?;
             quote!(Return(#value))
@@ -234,16 +225,36 @@ fn expression(value: &Expression) -> Result<TokenStream> {
             let target = type_(target)?;
             quote!(Cast(#operand, #target))
         }
-        Expression::Call { function, arguments } => {
+        Expression::Call { function, constants, arguments } => {
             let arguments = each(arguments, expression)?;
-            quote!(Call { function: #function::body, arguments: #arguments })
+            // With the span of the call, where constants are missing that the helper is generic in.
+            let body = quote_spanned!(function.span()=> #function::body #constants);
+            quote!(Call { function: #body, arguments: #arguments })
         }
-        Expression::Method { method: name, receiver, arguments } => {
-            let method = method(name)?;
-            let receiver = boxed(receiver)?;
-            let arguments = each(arguments, expression)?;
-            quote!(Method { method: ::xca_core::ir::Method::#method, receiver: #receiver, arguments: #arguments })
-        }
+        Expression::Method { method, name, receiver, arguments } => match method.meaning {
+            Meaning::Operation(operation) => {
+                let operation = Ident::new(&format!("{operation:?}"), name.span());
+                let receiver = boxed(receiver)?;
+                let arguments = each(arguments, expression)?;
+                quote! {
+                    Method {
+                        method: ::xca_core::ir::Operation::#operation,
+                        receiver: #receiver,
+                        arguments: #arguments,
+                    }
+                }
+            }
+            Meaning::Function(function) => {
+                let function = Ident::new(function, name.span());
+                let mut values = vec![expression(receiver)?];
+                for argument in arguments {
+                    values.push(expression(argument)?);
+                }
+                quote! {
+                    Call { function: ::xca_core::math::#function::body, arguments: ::std::vec![#(#values),*] }
+                }
+            }
+        },
         Expression::Component(operand, name) => {
             let operand = boxed(operand)?;
             let lane = lane(name)?;
@@ -257,9 +268,13 @@ fn expression(value: &Expression) -> Result<TokenStream> {
             let elements = each(elements, expression)?;
             quote!(Array(#elements))
         }
+        Expression::Tuple(parts, _) => {
+            let parts = each(parts, expression)?;
+            quote!(Tuple(#parts))
+        }
         Expression::Repeat(element, length) => {
             let element = boxed(element)?;
-            let length = length.base10_parse::<usize>()?;
+            let length = known_length(length);
             quote!(Repeat(#element, #length))
         }
         Expression::Vector(name, components) => {

@@ -9,6 +9,7 @@ mod fields;
 mod library;
 mod native;
 mod parse;
+mod size;
 mod states;
 
 use parse::Wanted;
@@ -98,14 +99,22 @@ fn fallback(error: &syn::Error, function: &syn::ItemFn, wanted: Wanted) -> proc_
             #visibility type #name = <::xca_core::checks::Checked<{ #messages true }> as ::xca_core::checks::Then<()>>::Type;
         };
     }
+    // A process can be generic in constants; what else is generic has a message.
+    let mut generics = function.sig.generics.clone();
+    generics.params = generics
+        .params
+        .into_iter()
+        .filter(|parameter| matches!(parameter, syn::GenericParam::Const(_)))
+        .collect();
+    let (declared, given, _) = generics.split_for_impl();
     quote::quote! {
         #messages
 
         #[allow(non_camel_case_types, missing_docs)]
-        #visibility struct #name;
+        #visibility struct #name #declared;
 
         #[automatically_derived]
-        impl ::xca_core::ElementaryProcess for #name {
+        impl #declared ::xca_core::ElementaryProcess for #name #given {
             fn process() -> ::xca_core::Process {
                 ::core::unreachable!()
             }

@@ -5,6 +5,7 @@ mod check;
 mod expressions;
 mod helper;
 mod kernels;
+mod loops;
 
 use crate::access::{GroupOf, Uses, structs};
 use crate::ast::{Function, FunctionKind, Role};
@@ -45,6 +46,11 @@ pub(crate) fn checked_value(value: &TokenStream) -> TokenStream {
 /// The name of the constant that has a value only where all is right.
 pub(crate) fn check_name() -> Ident {
     check::name()
+}
+
+/// The function behind a method that is an operation.
+fn operation(name: &Ident) -> TokenStream {
+    quote_spanned!(name.span()=> ::xca_core::methods::#name)
 }
 
 /// The attributes that everything made from the function needs.
@@ -112,13 +118,14 @@ fn process(function: &Function, original: &syn::ItemFn) -> Result<TokenStream> {
     let deprecated = function.attributes.iter().any(|attribute| attribute.path().is_ident("deprecated"));
     let allow = deprecated.then(|| quote!(#[allow(deprecated)]));
     let description = description(function, &uses, &data);
+    let Generics { declared, given } = Generics::of(function);
     let (check, aliases) = (check::check(function, original), check::aliases(function));
     Ok(quote! {
         #(#kept)*
         #(#lints)*
         #[allow(non_camel_case_types)]
         #[derive(Clone, Copy, Debug)]
-        #visibility struct #name;
+        #visibility struct #name #declared;
 
         #(#conditions)*
         #allow
@@ -126,7 +133,7 @@ fn process(function: &Function, original: &syn::ItemFn) -> Result<TokenStream> {
             #check
 
             #[automatically_derived]
-            impl ::xca_core::ElementaryProcess for #name {
+            impl #declared ::xca_core::ElementaryProcess for #name #given {
                 fn process() -> ::xca_core::Process {
                     #description
                 }
@@ -137,9 +144,38 @@ fn process(function: &Function, original: &syn::ItemFn) -> Result<TokenStream> {
     })
 }
 
+/// The constants that a function is generic in.
+struct Generics {
+    /// `<const N: usize>`
+    declared: TokenStream,
+    /// `<N>`
+    given: TokenStream,
+}
+
+impl Generics {
+    fn of(function: &Function) -> Self {
+        if function.constants.is_empty() {
+            return Self { declared: TokenStream::new(), given: TokenStream::new() };
+        }
+        let (constants, names) =
+            (&function.constants, function.constants.iter().map(|constant| &constant.ident));
+        Self { declared: quote!(<#(#constants),*>), given: quote!(<#(#names),*>) }
+    }
+}
+
+/// What the process is called, `update<0>` where it is generic.
+fn process_name(function: &Function) -> TokenStream {
+    let name = function.name.unraw().to_string();
+    if function.constants.is_empty() {
+        quote!(#name)
+    } else {
+        quote!(::xca_core::checks::name_of::<Self>(#name))
+    }
+}
+
 /// The `xca_core::Process`.
 fn description(function: &Function, uses: &Uses, data: &TokenStream) -> TokenStream {
-    let name = function.name.unraw().to_string();
+    let name = process_name(function);
     let kind = match function.kind {
         FunctionKind::Cells => quote!(Cells),
         FunctionKind::Items => quote!(Items),

@@ -22,7 +22,8 @@ use syn::{Error, Result};
 /// Parses and checks a function of the given kind; for processes the kind (cells or items) follows from the first argument.
 pub(crate) fn function(item: &syn::ItemFn, wanted: Wanted) -> Result<Function> {
     let signature = signature::parse(item, wanted)?;
-    let mut scope = Scope::new(signature.kind, item.sig.ident.clone(), &signature.arguments);
+    let mut scope =
+        Scope::new(signature.kind, item.sig.ident.clone(), &signature.arguments, &signature.constants);
     let body = scope.block(&item.block);
     scope.finish()?;
     let body = body?;
@@ -62,6 +63,7 @@ pub(crate) fn function(item: &syn::ItemFn, wanted: Wanted) -> Result<Function> {
         visibility: item.vis.clone(),
         attributes: item.attrs.clone(),
         kind: signature.kind,
+        constants: signature.constants,
         arguments,
         result: signature.result,
         body,

@@ -4,7 +4,8 @@ use crate::error::Problem;
 use crate::program::{Program, Roles, field_number};
 use crate::visit::{self, Node};
 use xca_core::Schema;
-use xca_core::ir::{Builtin, Expression, Function, FunctionKind, PlaceRoot, Reach, Statement};
+use xca_core::ir::{Builtin, Expression, Function, FunctionKind, LoopKind, PlaceRoot, Reach, Statement};
+
 
 /// How a process uses one substate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -121,7 +122,16 @@ impl Uses {
                     used.write = true;
                 }
             }
-            Statement::ForOthers { reach, radius, .. } => {
+            Statement::Loop(loop_) => self.loop_(&loop_.kind, roles, kind)?,
+            Statement::Fault { .. } => self.faults = true,
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn loop_(&mut self, loop_: &LoopKind, roles: &Roles<'_>, kind: FunctionKind) -> Result<(), Problem> {
+        match loop_ {
+            LoopKind::Others { reach, radius, .. } => {
                 if kind != FunctionKind::Items {
                     let reason = "it belongs in a process over items";
                     return Err(Problem::unsupported("a search for other items", reason));
@@ -136,8 +146,7 @@ impl Uses {
                     self.entry(0, roles, name)?.others = true;
                 }
             }
-            Statement::ForItems { .. } => self.ranges = true,
-            Statement::Fault { .. } => self.faults = true,
+            LoopKind::Items { .. } => self.ranges = true,
             _ => {}
         }
         Ok(())

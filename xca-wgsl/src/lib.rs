@@ -27,7 +27,8 @@
 //! computed of these. A process without anything to check, and without faults of its own, needs no record.
 //!
 //! # What is refused
-//! `%` of floats, NaN as a constant, empty arrays, order comparisons of `bool`, recursion.
+//! NaN as a constant, empty arrays, comparisons of tuples and of arrays of them, order comparisons of `bool`,
+//! recursion.
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
@@ -43,6 +44,7 @@ mod layout;
 mod literal;
 mod module;
 mod names;
+mod numbers;
 mod print;
 mod program;
 mod routine;

@@ -38,7 +38,8 @@ cell_containing nearest_image shorter_way wrapped wrapped_along
 ";
 
 /// The beginnings of the names of routines.
-const PREFIXES: [&str; 12] = [
+const PREFIXES: [&str; 26] = [
+    "tuple_",
     "runtime_",
     "repeat_",
     "minimum_",
@@ -46,8 +47,21 @@ const PREFIXES: [&str; 12] = [
     "dot_",
     "cross_",
     "length_",
+    "distance_",
+    "normalize_",
     "saturate_",
     "infinity_",
+    "copysign_",
+    "signum_",
+    "round_",
+    "fraction_",
+    "is_nan_",
+    "is_finite_",
+    "is_infinite_",
+    "is_negative_",
+    "remainder_",
+    "rem_euclid_",
+    "div_euclid_",
     "checked_",
     "truths_",
     "equal_",

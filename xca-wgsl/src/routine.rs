@@ -4,6 +4,7 @@ use crate::fault::FaultKind;
 use crate::literal;
 use crate::types::{self, Type};
 use std::collections::BTreeMap;
+use xca_core::ir::Operation;
 use xca_core::{Precision, ScalarType};
 
 /// The routines of a module, by name.
@@ -28,9 +29,21 @@ impl Routines {
         self.texts.values()
     }
 
-    fn need(&mut self, name: String, text: impl FnOnce(&str) -> String) -> String {
+    pub(crate) fn need(&mut self, name: String, text: impl FnOnce(&str) -> String) -> String {
         self.texts.entry(name.clone()).or_insert_with(|| text(&name));
         name
+    }
+
+    /// The struct of a tuple.
+    pub(crate) fn need_tuple(&mut self, type_: &Type, parts: &[Type]) {
+        self.need(type_.wgsl(), |name| {
+            let fields: Vec<String> = parts
+                .iter()
+                .enumerate()
+                .map(|(place, part)| format!("    part_{place}: {},\n", part.wgsl()))
+                .collect();
+            format!("struct {name} {{\n{}}}\n", fields.concat())
+        });
     }
 
     /// The routines behind infinite numbers in the text, which WGSL cannot write down.
@@ -67,7 +80,7 @@ impl Routines {
         })
     }
 
-    pub(crate) fn need_length_squared(&mut self, type_: &Type) -> String {
+    fn need_length_squared(&mut self, type_: &Type) -> String {
         let dot = self.need_dot(type_);
         let scalar = type_.scalar().map_or("u32", types::scalar_name);
         let vector = type_.wgsl();
@@ -205,7 +218,35 @@ impl Routines {
         })
     }
 
-    pub(crate) fn need_cross(&mut self, type_: &Type) -> String {
+    /// An operation of vectors.
+    pub(crate) fn need_vector(&mut self, operation: Operation, type_: &Type) -> String {
+        match operation {
+            Operation::Cross => self.need_cross(type_),
+            Operation::LengthSquared => self.need_length_squared(type_),
+            Operation::Length => self.need_length(type_),
+            Operation::Distance => self.need_distance(type_),
+            Operation::Normalize => self.need_normalize(type_),
+            _ => self.need_dot(type_),
+        }
+    }
+
+    fn need_distance(&mut self, type_: &Type) -> String {
+        let length = self.need_length(type_);
+        let (vector, scalar) = (type_.wgsl(), type_.scalar().map_or("f32", types::scalar_name));
+        self.need(format!("distance_{}", type_.word()), |name| {
+            format!("fn {name}(a: {vector}, b: {vector}) -> {scalar} {{\n    return {length}(a - b);\n}}\n")
+        })
+    }
+
+    fn need_normalize(&mut self, type_: &Type) -> String {
+        let length = self.need_length(type_);
+        let vector = type_.wgsl();
+        self.need(format!("normalize_{}", type_.word()), |name| {
+            format!("fn {name}(a: {vector}) -> {vector} {{\n    return a / {length}(a);\n}}\n")
+        })
+    }
+
+    fn need_cross(&mut self, type_: &Type) -> String {
         let lanes = ["a.y * b.z - a.z * b.y", "a.z * b.x - a.x * b.z", "a.x * b.y - a.y * b.x"];
         let lanes = lanes.map(|lane| masked(lane, type_)).join(", ");
         let vector = type_.wgsl();
@@ -214,7 +255,7 @@ impl Routines {
         })
     }
 
-    pub(crate) fn need_length(&mut self, type_: &Type) -> String {
+    fn need_length(&mut self, type_: &Type) -> String {
         let dot = self.need_dot(type_);
         let scalar = type_.scalar().map_or("f32", types::scalar_name);
         let vector = type_.wgsl();

@@ -12,6 +12,7 @@ pub(crate) enum Type {
     /// A state: a `u32` without arithmetic.
     State(&'static StateNames),
     Array(Box<Type>, usize),
+    Tuple(Vec<Type>),
     Destination,
 }
 
@@ -77,6 +78,7 @@ impl Type {
             Self::Vector(scalar, lanes) => format!("vec{lanes}<{}>", scalar_name(*scalar)),
             Self::State(_) => "u32".to_owned(),
             Self::Array(element, length) => format!("array<{}, {length}>", element.wgsl()),
+            Self::Tuple(_) => self.word(),
             Self::Destination => "Destination".to_owned(),
         }
     }
@@ -87,6 +89,11 @@ impl Type {
             Self::Scalar(scalar) => scalar_name(*scalar).to_lowercase(),
             Self::Vector(scalar, lanes) => format!("vec{lanes}_{}", scalar_name(*scalar).to_lowercase()),
             Self::Array(element, length) => format!("array_{}_{length}", element.word()),
+            // With the number of parts, so that tuples in tuples stay apart.
+            Self::Tuple(parts) => {
+                let words: Vec<String> = parts.iter().map(Self::word).collect();
+                format!("tuple_{}_{}", parts.len(), words.join("_"))
+            }
             other => other.wgsl(),
         }
     }
@@ -100,6 +107,7 @@ impl From<&ir::Type> for Type {
             ir::Type::Vector(scalar, lanes) => Self::Vector(*scalar, *lanes),
             ir::Type::State(names) => Self::State(names),
             ir::Type::Array(element, length) => Self::Array(Box::new(Self::from(&**element)), *length),
+            ir::Type::Tuple(parts) => Self::Tuple(parts.iter().map(Self::from).collect()),
             ir::Type::Destination => Self::Destination,
         }
     }

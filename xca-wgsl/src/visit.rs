@@ -1,6 +1,6 @@
 //! Goes through all statements and expressions of a body.
 
-use xca_core::ir::{Block, Expression, Pattern, Place, Projection, Statement};
+use xca_core::ir::{Block, Expression, Loop, LoopKind, Pattern, Place, Projection, Statement};
 
 /// Something met on the way.
 pub(crate) enum Node<'a> {
@@ -24,27 +24,28 @@ fn statement<'a>(statement: &'a Statement, see: &mut dyn FnMut(Node<'a>) -> bool
         return;
     }
     match statement {
-        Statement::Let { value, .. } | Statement::Expression(value) => expression(value, see),
+        Statement::Let { value, .. } | Statement::LetTuple { value, .. } | Statement::Expression(value) => {
+            expression(value, see);
+        }
         Statement::LetNeighbour { index, .. } => expression(index, see),
         Statement::Assign { place, value, .. } => {
             self::place(place, see);
             expression(value, see);
         }
-        Statement::While { condition, body } => {
-            expression(condition, see);
-            block(body, see);
-        }
-        Statement::Loop { body } | Statement::ForItems { body, .. } => block(body, see),
-        Statement::ForRange { from, to, body, .. } => {
-            expression(from, see);
-            expression(to, see);
-            block(body, see);
-        }
-        Statement::ForOthers { radius, body, .. } => {
-            if let Some(radius) = radius {
-                expression(radius, see);
+        Statement::Loop(loop_) => {
+            match &loop_.kind {
+                LoopKind::While(value) | LoopKind::Elements { array: value, .. } => expression(value, see),
+                LoopKind::Range { range, .. } => {
+                    expression(&range.from, see);
+                    expression(&range.to, see);
+                    if let Some(step) = &range.step {
+                        expression(step, see);
+                    }
+                }
+                LoopKind::Others { radius: Some(radius), .. } => expression(radius, see),
+                LoopKind::Others { radius: None, .. } | LoopKind::Forever | LoopKind::Items { .. } => {}
             }
-            block(body, see);
+            block(&loop_.body, see);
         }
         Statement::Return(value) => {
             if let Some(value) = value {
@@ -55,7 +56,7 @@ fn statement<'a>(statement: &'a Statement, see: &mut dyn FnMut(Node<'a>) -> bool
             expression(code, see);
             expression(value, see);
         }
-        Statement::Break | Statement::Continue => {}
+        Statement::Break(_) | Statement::Continue(_) => {}
     }
 }
 
@@ -85,6 +86,7 @@ pub(crate) fn expression<'a>(value: &'a Expression, see: &mut dyn FnMut(Node<'a>
         }
         Expression::Builtin(_, operands)
         | Expression::Array(operands)
+        | Expression::Tuple(operands)
         | Expression::Vector(operands)
         | Expression::Call { arguments: operands, .. } => {
             for operand in operands {
@@ -145,9 +147,9 @@ pub(crate) fn diverges(block: &Block) -> bool {
 
 fn statement_diverges(statement: &Statement) -> bool {
     match statement {
-        Statement::Break | Statement::Continue | Statement::Return(_) => true,
+        Statement::Break(_) | Statement::Continue(_) | Statement::Return(_) => true,
         Statement::Expression(value) => expression_diverges(value),
-        Statement::Loop { body } => !breaks(body),
+        Statement::Loop(loop_) => matches!(loop_.kind, LoopKind::Forever) && !breaks(loop_),
         _ => false,
     }
 }
@@ -162,30 +164,68 @@ pub(crate) fn expression_diverges(value: &Expression) -> bool {
     }
 }
 
-/// Whether the block has a `break` that ends the loop whose body it is.
-pub(crate) fn breaks(block: &Block) -> bool {
-    has_of_this_loop(block, |statement| matches!(statement, Statement::Break))
+/// Whether a `break` ends the loop, from within the loops in its body too.
+pub(crate) fn breaks(loop_: &Loop) -> bool {
+    let own = has_of_this_loop(&loop_.body, |statement| matches!(statement, Statement::Break(None)));
+    own || labelled(&loop_.body).any(|jump| jump.is_break && Some(jump.label) == loop_.label)
 }
 
-/// Whether the block has a `continue` of the loop whose body it is.
-pub(crate) fn continues(block: &Block) -> bool {
-    has_of_this_loop(block, |statement| matches!(statement, Statement::Continue))
+/// Whether something leaves a turn of the loop early: for the next turn, for what follows the loop, or for a loop around it.
+pub(crate) fn turns_end_early(loop_: &Loop) -> bool {
+    let own = |statement: &Statement| matches!(statement, Statement::Break(None) | Statement::Continue(None));
+    has_of_this_loop(&loop_.body, own) || labelled(&loop_.body).any(|jump| !jump.stays)
+}
+
+/// Whether something in the body ends the loop: a `break`, or a jump to a loop around it.
+pub(crate) fn ends_early(loop_: &Loop) -> bool {
+    breaks(loop_) || labelled(&loop_.body).any(|jump| !jump.stays && Some(jump.label) != loop_.label)
+}
+
+/// Whether a loop in the body has a `break` that ends this loop, or a `continue` with its next turn.
+pub(crate) fn jumps_from_within(loop_: &Loop, is_break: bool) -> bool {
+    let mut found = false;
+    block(&loop_.body, &mut |node| {
+        if let Node::Statement(Statement::Loop(inner)) = node {
+            found |= labelled(&inner.body)
+                .any(|jump| jump.is_break == is_break && Some(jump.label) == loop_.label);
+        }
+        true
+    });
+    found
+}
+
+/// A `break` or `continue` with a label.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Jump {
+    pub(crate) label: &'static str,
+    pub(crate) is_break: bool,
+    /// Whether the loop that it goes to is in the block.
+    pub(crate) stays: bool,
+}
+
+/// The jumps in a block that have a label.
+pub(crate) fn labelled(block: &Block) -> impl Iterator<Item = Jump> {
+    let mut labels = Vec::new();
+    let mut jumps = Vec::new();
+    self::block(block, &mut |node| {
+        if let Node::Statement(statement) = node {
+            match statement {
+                Statement::Loop(loop_) => labels.extend(loop_.label),
+                Statement::Break(Some(label)) => jumps.push((*label, true)),
+                Statement::Continue(Some(label)) => jumps.push((*label, false)),
+                _ => {}
+            }
+        }
+        true
+    });
+    jumps.into_iter().map(move |(label, is_break)| Jump { label, is_break, stays: labels.contains(&label) })
 }
 
 fn has_of_this_loop(block: &Block, wanted: impl Fn(&Statement) -> bool) -> bool {
     let mut found = false;
     self::block(block, &mut |node| {
         found |= matches!(&node, Node::Statement(statement) if wanted(statement));
-        !matches!(
-            node,
-            Node::Statement(
-                Statement::While { .. }
-                    | Statement::Loop { .. }
-                    | Statement::ForRange { .. }
-                    | Statement::ForOthers { .. }
-                    | Statement::ForItems { .. }
-            )
-        )
+        !matches!(node, Node::Statement(Statement::Loop(_)))
     });
     found
 }

@@ -117,9 +117,9 @@ fn arguments(
             let turns = random.between(-100.0, 100.0).floor() + 0.5;
             one(random.nudged(turns * std::f64::consts::LN_2, precision))
         }
-        (Function::Log, Family::Usual) => one(random.between(0.01, 100.0)),
-        (Function::Log, Family::Wide) => one(any(random).abs()),
-        (Function::Log, Family::Hard) => {
+        (Function::Log | Function::Log2 | Function::Log10, Family::Usual) => one(random.between(0.01, 100.0)),
+        (Function::Log | Function::Log2 | Function::Log10, Family::Wide) => one(any(random).abs()),
+        (Function::Log | Function::Log2 | Function::Log10, Family::Hard) => {
             let distance = random.magnitude(-60.0, -1.0);
             one(1.0 + random.signed(distance))
         }
@@ -159,19 +159,64 @@ fn arguments(
             let near = random.between(0.98, 1.02) * bound;
             one(random.signed(near))
         }
-        (Function::Atan2, Family::Usual) => [random.between(-1.0, 1.0), random.between(-1.0, 1.0)],
-        (Function::Atan2, Family::Wide) => [any(random), any(random)],
-        (Function::Atan2, Family::Hard) => {
+        (Function::Atan2 | Function::Hypot, Family::Usual) => {
+            [random.between(-1.0, 1.0), random.between(-1.0, 1.0)]
+        }
+        (Function::Atan2 | Function::Hypot, Family::Wide) => [any(random), any(random)],
+        (Function::Atan2 | Function::Hypot, Family::Hard) => {
             let size = random.magnitude(limits.least_exponent / 2.0, limits.greatest_exponent / 2.0);
             let ratio = random.magnitude(-4.0, 4.0);
             [random.signed(size * ratio), random.signed(size)]
+        }
+        (Function::Exp2, Family::Usual) => one(random.between(-30.0, 30.0)),
+        (Function::Exp2, Family::Wide) => {
+            one(random.between(-1.1 * limits.greatest_exponent, limits.greatest_exponent))
+        }
+        (Function::Exp2, Family::Hard) => {
+            let halves = random.between(-100.0, 100.0).floor() + 0.5;
+            one(random.nudged(halves, precision))
+        }
+        (Function::Cbrt, Family::Usual) => one(random.between(-30.0, 30.0)),
+        (Function::Cbrt, Family::Wide) => one(any(random)),
+        (Function::Cbrt, Family::Hard) => {
+            let cube = random.between(1.0, 100.0).floor().powi(3);
+            one(random.nudged(cube, precision))
+        }
+        (Function::Asin | Function::Acos, Family::Usual) => one(random.between(-1.0, 1.0)),
+        (Function::Log1p, Family::Usual) => one(random.between(-0.99, 10.0)),
+        (Function::Sinh | Function::Cosh | Function::ExpM1, Family::Usual) => one(random.between(-5.0, 5.0)),
+        // Small ones, and, every other time, those of an ordinary size or the largest ones.
+        (
+            Function::Asin
+            | Function::Acos
+            | Function::Log1p
+            | Function::Sinh
+            | Function::Cosh
+            | Function::ExpM1,
+            Family::Wide,
+        ) => {
+            let large = match function {
+                Function::Asin | Function::Acos => random.between(-1.0, 1.0),
+                Function::Log1p => any(random).abs(),
+                _ => random.between(-0.69, 0.69) * limits.greatest_exponent,
+            };
+            let value = random.magnitude(limits.least_exponent, -1.0);
+            if random.next() < 0.5 { one(large) } else { one(random.signed(value)) }
+        }
+        (Function::Asin | Function::Acos, Family::Hard) => {
+            let near = 1.0 - random.magnitude(-24.0, -1.0);
+            one(random.signed(near))
+        }
+        (Function::Log1p, Family::Hard) => {
+            let near = random.magnitude(-60.0, -1.0);
+            one(random.signed(near))
         }
         (Function::Tanh, Family::Usual) => one(random.between(-3.0, 3.0)),
         (Function::Tanh, Family::Wide) => {
             let value = random.magnitude(limits.least_exponent, 5.0);
             one(random.signed(value))
         }
-        (Function::Tanh, Family::Hard) => {
+        (Function::Tanh | Function::Sinh | Function::Cosh | Function::ExpM1, Family::Hard) => {
             let near = random.between(0.5, 0.6);
             one(random.signed(near))
         }

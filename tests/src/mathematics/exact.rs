@@ -80,6 +80,30 @@ impl Oracle {
                 angle.add(&half_turn, DIGITS, ROUNDING)
             }
             Function::Tanh => big_x.tanh(DIGITS, ROUNDING, constants),
+            // Smaller numbers are their own value, to more digits than are kept.
+            Function::ExpM1 | Function::Log1p | Function::Sinh | Function::Asin if x.abs() < 1e-30 => big_x,
+            Function::Exp2 => {
+                let product = big_x.mul(&constants.ln_2(DIGITS, ROUNDING), DIGITS, ROUNDING);
+                product.exp(DIGITS, ROUNDING, constants)
+            }
+            Function::ExpM1 => big_x.exp(DIGITS, ROUNDING, constants).sub(&number(1.0), DIGITS, ROUNDING),
+            Function::Log2 => {
+                big_x.ln(DIGITS, ROUNDING, constants).div(&constants.ln_2(DIGITS, ROUNDING), DIGITS, ROUNDING)
+            }
+            Function::Log10 => {
+                let base = number(10.0).ln(DIGITS, ROUNDING, constants);
+                big_x.ln(DIGITS, ROUNDING, constants).div(&base, DIGITS, ROUNDING)
+            }
+            Function::Log1p => big_x.add(&number(1.0), DIGITS, ROUNDING).ln(DIGITS, ROUNDING, constants),
+            Function::Cbrt => big_x.cbrt(DIGITS, ROUNDING),
+            Function::Hypot => {
+                let [x, y] = [big_x, big_y].map(|side| side.mul(&side, DIGITS, ROUNDING));
+                x.add(&y, DIGITS, ROUNDING).sqrt(DIGITS, ROUNDING)
+            }
+            Function::Asin => big_x.asin(DIGITS, ROUNDING, constants),
+            Function::Acos => big_x.acos(DIGITS, ROUNDING, constants),
+            Function::Sinh => big_x.sinh(DIGITS, ROUNDING, constants),
+            Function::Cosh => big_x.cosh(DIGITS, ROUNDING, constants),
         }
     }
 }

@@ -1,30 +1,7 @@
-//! Comparisons and constants as kernels have them.
+//! Constants as kernels have them.
 
 use crate::states::States;
 use crate::value::Float;
-
-/// Comparisons that give the same bits on every engine, whatever a processor's own minimum does with NaN and signed zeros.
-pub trait Ordered: Copy + PartialOrd {
-    /// `if other < self { other } else { self }`
-    #[inline(always)]
-    fn ordered_min(self, other: Self) -> Self {
-        if other < self { other } else { self }
-    }
-
-    /// `if self < other { other } else { self }`
-    #[inline(always)]
-    fn ordered_max(self, other: Self) -> Self {
-        if self < other { other } else { self }
-    }
-
-    /// `self.max(low).min(high)`
-    #[inline(always)]
-    fn ordered_clamp(self, low: Self, high: Self) -> Self {
-        self.ordered_max(low).ordered_min(high)
-    }
-}
-
-impl<T: Copy + PartialOrd> Ordered for T {}
 
 /// A constant of the user's code as a kernel of precision `R` sees it: `f64`, which is `Real` there, becomes `R`.
 pub trait KernelConstant<R> {

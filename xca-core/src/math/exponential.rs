@@ -24,7 +24,7 @@ const THIRD_REST_DOUBLE: Real = 1.850371707708594e-17;
 const LARGE_EXPONENT: Real = 73_786_976_294_838_206_464.0;
 
 /// `tanh` is 1/2 here.
-const HALF_WAY: Real = 0.549_306_144_334_054_8;
+pub(super) const HALF_WAY: Real = 0.549_306_144_334_054_8;
 
 /// e^x.
 ///
@@ -105,7 +105,7 @@ pub fn tanh(x: Real) -> Real {
 
 /// e^(x + rest), the rest being small beside x.
 #[helper]
-fn exp_of_sum(x: Real, rest: Real) -> Real {
+pub(super) fn exp_of_sum(x: Real, rest: Real) -> Real {
     // Beyond this all is 0 or infinite in `f64`. In `f32` the power of two below becomes so earlier.
     if x > 710.0 {
         return INFINITE;
@@ -135,7 +135,7 @@ fn exp_of_sum(x: Real, rest: Real) -> Real {
 
 /// The logarithm of a positive finite number, as the rounded value and what it lacks, with some ten digits more than the type has.
 #[helper]
-fn log_in_parts(x: Real) -> Vector2<Real> {
+pub(super) fn log_in_parts(x: Real) -> Vector2<Real> {
     // First x = m * 2^n with m from 1 to 2^32. The loop is bounded, should a processor take tiny numbers for zero.
     let mut m = x;
     let mut n: Real = 0.0;

@@ -7,6 +7,8 @@ use super::series::{THIRD, even_factorials, odd_factorials, odd_numbers};
 use crate::{Real, Vector2, Vector3, helper};
 
 const TWO_OVER_PI: Real = core::f64::consts::FRAC_2_PI;
+const RADIANS_IN_A_DEGREE: Real = core::f64::consts::PI / 180.0;
+const DEGREES_IN_A_RADIAN: Real = 180.0 / core::f64::consts::PI;
 const QUARTER_OF_PI: Real = core::f64::consts::FRAC_PI_4;
 
 // pi/2, pi and the angle with tangent 1/2, each as a number of `f32` and the rest.
@@ -109,6 +111,34 @@ pub fn atan2(y: Real, x: Real) -> Real {
         angle = difference(PI, PI_REST, Vector2::splat(0.0));
     }
     if is_negative(y) { -angle } else { angle }
+}
+
+/// The angle in radians, between -pi/2 and pi/2, that has this sine.
+///
+/// The error is below 1.60 units of the last digit. Beyond 1 and -1 it is NaN; -0.0 gives -0.0.
+#[helper]
+pub fn asin(x: Real) -> Real {
+    atan2(x, ((1.0 - x) * (1.0 + x)).sqrt())
+}
+
+/// The angle in radians, between 0 and pi, that has this cosine.
+///
+/// The error is below 1.60 units of the last digit. Beyond 1 and -1 it is NaN.
+#[helper]
+pub fn acos(x: Real) -> Real {
+    atan2(((1.0 - x) * (1.0 + x)).sqrt(), x)
+}
+
+/// An angle in degrees, in radians: a product with the rounded pi/180.
+#[helper]
+pub fn to_radians(x: Real) -> Real {
+    x * RADIANS_IN_A_DEGREE
+}
+
+/// An angle in radians, in degrees: a product with the rounded 180/pi.
+#[helper]
+pub fn to_degrees(x: Real) -> Real {
+    x * DEGREES_IN_A_RADIAN
 }
 
 /// `first + rest - angle`, the angle being in two parts.

@@ -1,4 +1,4 @@
-// A process and a helper are generic.
+// Functions that are generic in types, in constants of other types, and in constants that are patterns.
 use xca_core::prelude::*;
 
 #[derive(Substates, Clone, Copy)]
@@ -17,4 +17,29 @@ fn second<T>(value: T) -> T {
     value
 }
 
-fn main() {}
+#[elementary_process]
+fn third<const WORD: char>(cell: &mut Cell<Heat>) {
+    cell.kind = 1;
+}
+
+#[elementary_process]
+fn fourth<const kind: u8>(cell: &mut Cell<Heat>) {
+    cell.kind = kind;
+}
+
+#[elementary_process]
+fn fifth<const KIND: u8>(cell: &mut Cell<Heat>) {
+    match cell.kind {
+        KIND => cell.kind = 0,
+        _ => {}
+    }
+}
+
+#[elementary_process]
+fn sixth<const KIND: u8>(cell: &mut Cell<Heat>) {
+    cell.temperature = KIND;
+}
+
+fn main() {
+    let _ = Model::builder("heat").substates::<Heat>().process(first).process(sixth::<3>);
+}

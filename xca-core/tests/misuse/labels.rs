@@ -1,4 +1,4 @@
-// Labels.
+// Labels that no loop has, that two loops have, and of blocks.
 use xca_core::prelude::*;
 
 #[derive(Substates, Clone, Copy)]
@@ -9,13 +9,19 @@ struct Heat {
 
 #[elementary_process]
 fn process(cell: &mut Cell<Heat>) {
-    'outer: for i in 0..3 {
-        cell.kind += i;
-    }
     'search: loop {
         loop {
-            break 'search;
+            break 'serch;
         }
+        continue 'other;
+    }
+    'outer: for _ in 0..3 {
+        'outer: for _ in 0..3 {
+            cell.kind += 1;
+        }
+    }
+    'block: {
+        break 'block;
     }
 }
 

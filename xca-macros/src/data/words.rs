@@ -5,12 +5,12 @@ use proc_macro2::{Span, TokenStream};
 use quote::quote;
 use syn::ext::IdentExt;
 use syn::spanned::Spanned;
-use syn::{BinOp, Error, GenericArgument, Ident, LitFloat, LitInt, PathArguments, Result, Type, UnOp};
+use syn::{BinOp, Error, Expr, GenericArgument, Ident, LitFloat, LitInt, PathArguments, Result, Type, UnOp};
 
 /// The types that a process can use, for messages.
 const SUPPORTED: &str = "a process can use bool, u8, i32, u32, f32, f64, Real, \
-                         Vector2, Vector3 and Vector4 of a number, enums that derive `States`, arrays [T; N] of these, and usize \
-                         as an index";
+                         Vector2, Vector3 and Vector4 of a number, enums that derive `States`, arrays [T; N] and \
+                         tuples of these, and usize as an index";
 
 /// A name without `r#`.
 pub(super) fn text(name: &Ident) -> String {
@@ -89,14 +89,27 @@ pub(super) fn type_(written: &Type) -> Result<TokenStream> {
         Type::Paren(inner) => type_(&inner.elem),
         Type::Array(array) => {
             let element = type_(&array.elem)?;
-            let length = &array.len;
+            let length = known_length(&array.len);
             Ok(quote!(::xca_core::ir::Type::Array(::std::boxed::Box::new(#element), #length)))
+        }
+        Type::Tuple(tuple) if tuple.elems.len() > 1 => {
+            let parts = tuple.elems.iter().map(type_).collect::<Result<Vec<_>>>()?;
+            Ok(quote!(::xca_core::ir::Type::Tuple(::std::vec![#(#parts),*])))
         }
         Type::Path(path) if path.qself.is_none() => match path.path.segments.last() {
             Some(last) => named_type(written, &last.ident, &last.arguments),
             None => Err(unsupported(written)),
         },
         _ => Err(unsupported(written)),
+    }
+}
+
+/// The length of an array.
+pub(super) fn known_length(length: &Expr) -> TokenStream {
+    match length {
+        Expr::Lit(literal) => quote!(#literal),
+        // Where it is no `usize`, the check of the function says so.
+        other => crate::native::checked_value(&quote!(#other)),
     }
 }
 
@@ -217,33 +230,4 @@ pub(super) fn binary_operator(operator: &BinOp, span: Span) -> Result<TokenStrea
         _ => return Err(Error::new(span, "this operator cannot be used in a process")),
     };
     Ok(quote!(::xca_core::ir::BinaryOperator::#variant))
-}
-
-pub(super) fn method(name: &Ident) -> Result<TokenStream> {
-    Ok(match name.to_string().as_str() {
-        "min" => quote!(Min),
-        "max" => quote!(Max),
-        "clamp" => quote!(Clamp),
-        "abs" => quote!(Abs),
-        "sqrt" => quote!(SquareRoot),
-        "floor" => quote!(Floor),
-        "ceil" => quote!(Ceiling),
-        "trunc" => quote!(Truncate),
-        "wrapping_add" => quote!(WrappingAdd),
-        "wrapping_sub" => quote!(WrappingSubtract),
-        "wrapping_mul" => quote!(WrappingMultiply),
-        "count_ones" => quote!(CountOnes),
-        "dot" => quote!(Dot),
-        "cross" => quote!(Cross),
-        "length_squared" => quote!(LengthSquared),
-        "length" => quote!(Length),
-        other => {
-            let message = format!(
-                "the method `{other}` is not known in a process: numbers have min, max, clamp, abs, sqrt, floor, ceil, \
-                 trunc, wrapping_add, wrapping_sub, wrapping_mul and count_ones, vectors have dot, cross, length and \
-                 length_squared"
-            );
-            return Err(Error::new(name.span(), message));
-        }
-    })
 }

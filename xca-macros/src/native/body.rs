@@ -1,8 +1,9 @@
 //! The body in one precision.
 
 use super::hidden;
+use super::loops::hidden_label;
 use crate::access::{Access, GroupOf, Uses};
-use crate::ast::{Block, Expression, Function, FunctionKind, Place, PlaceRoot, Projection, Reach, Statement};
+use crate::ast::{Block, Expression, Function, FunctionKind, Place, PlaceRoot, Projection, Statement};
 use crate::fields::with_real;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{quote, quote_spanned};
@@ -35,7 +36,7 @@ pub(super) struct Writer<'a> {
     uses: Option<&'a Uses>,
     pub(super) real: TokenStream,
     /// How many lists of found items the body needs.
-    searches: usize,
+    pub(super) searches: usize,
 }
 
 impl<'a> Writer<'a> {
@@ -53,7 +54,7 @@ impl<'a> Writer<'a> {
         hidden(name, self.function.name.span())
     }
 
-    fn list(&self, number: usize) -> Ident {
+    pub(super) fn list(&self, number: usize) -> Ident {
         self.name(&format!("found_{number}"))
     }
 
@@ -86,6 +87,21 @@ impl<'a> Writer<'a> {
                 });
                 quote!(let #mutable #name #type_ = #value;)
             }
+            Statement::LetTuple { parts, type_, value } => {
+                let value = self.expression(value);
+                let parts = parts.iter().map(|part| match &part.name {
+                    Some(name) => {
+                        let mutable = part.mutable.then(|| quote!(mut));
+                        quote!(#mutable #name)
+                    }
+                    None => quote!(_),
+                });
+                let type_ = type_.as_ref().map(|type_| {
+                    let type_ = with_real(type_, &self.real);
+                    quote!(: #type_)
+                });
+                quote!(let (#(#parts),*) #type_ = #value;)
+            }
             Statement::LetNeighbour { name, index } => {
                 let offset = self.offset(index);
                 quote!(let #name = #offset;)
@@ -105,30 +121,15 @@ impl<'a> Writer<'a> {
                 let expression = self.expression(expression);
                 quote!(#expression;)
             }
-            Statement::While { condition, body } => {
-                let (condition, body) = (self.expression(condition), self.block(body));
-                quote!(while #condition #body)
+            Statement::Loop(loop_) => self.loop_(loop_),
+            Statement::Break(label, span) => {
+                let label = label.as_ref().map(hidden_label);
+                quote_spanned!(*span=> break #label;)
             }
-            Statement::Loop { body } => {
-                let body = self.block(body);
-                quote!(loop #body)
+            Statement::Continue(label, span) => {
+                let label = label.as_ref().map(hidden_label);
+                quote_spanned!(*span=> continue #label;)
             }
-            Statement::ForRange { variable, from, to, inclusive, body } => {
-                let (from, to) = (self.expression(from), self.expression(to));
-                let body = self.block(body);
-                let dots = if *inclusive { quote!(..=) } else { quote!(..) };
-                quote!(for #variable in #from #dots #to #body)
-            }
-            Statement::ForOthers { variable, reach, radius, body } => {
-                self.for_others(variable, *reach, radius.as_ref(), body)
-            }
-            Statement::ForItems { variable, body } => {
-                let (row, column) = (self.name("row"), self.name("column"));
-                let body = self.block(body);
-                quote!(for #variable in #row.items(#column) #body)
-            }
-            Statement::Break(span) => quote_spanned!(*span=> break;),
-            Statement::Continue(span) => quote_spanned!(*span=> continue;),
             Statement::Return(value, span) => {
                 let value = value.as_ref().map(|value| self.expression(value));
                 if self.function.kind == FunctionKind::Helper {
@@ -147,51 +148,6 @@ impl<'a> Writer<'a> {
                 };
                 let (code, value, real) = (self.expression(code), self.expression(value), &self.real);
                 quote!(#row.report::<#real>(#x, #label, #code, #value);)
-            }
-        }
-    }
-
-    fn for_others(
-        &mut self,
-        variable: &Ident,
-        reach: Reach,
-        radius: Option<&Expression>,
-        body: &Block,
-    ) -> TokenStream {
-        let [row, column, item] = ["row", "column", "item"].map(|name| self.name(name));
-        let number = match reach {
-            Reach::Cell => quote!(0),
-            Reach::Neighbours => quote!(1),
-            Reach::All => quote!(2),
-        };
-        if reach == Reach::Cell && radius.is_none() {
-            let body = self.block(body);
-            return quote! {
-                for #variable in #row.items(#column) {
-                    if #variable == #item {
-                        continue;
-                    }
-                    #body
-                }
-            };
-        }
-        let list = self.list(self.searches);
-        self.searches += 1;
-        let search = match radius {
-            None => quote!(#row.others::<#number>(#column, #item, &mut #list.items);),
-            Some(radius) => {
-                let radius = self.expression(radius);
-                let positions = read_name(GroupOf::Position, &Ident::new("position", Span::call_site()));
-                quote!(#row.others_within::<_, #number>(#column, #item, #positions[#item], #radius, #positions, &mut #list.items);)
-            }
-        };
-        let body = self.block(body);
-        let index = self.name("index");
-        quote! {
-            #search
-            for #index in 0..#list.items.len() {
-                let #variable = #list.items[#index] as usize;
-                #body
             }
         }
     }

@@ -7,6 +7,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{quote, quote_spanned};
 use syn::spanned::Spanned;
 use syn::visit_mut::VisitMut;
+use xca_methods::{Meaning, Method};
 
 /// The name of the constant.
 pub(super) fn name() -> Ident {
@@ -38,9 +39,18 @@ pub(super) fn check(function: &Function, original: &syn::ItemFn) -> TokenStream 
         quote_spanned!(type_.span()=> let _: fn(#type_) -> #meant = |value| value;)
     });
     let copy = copy(function, original);
+    // Of a generic function each of its kernels checks them.
+    let arrays =
+        mentions.arrays.iter().enumerate().filter(|_| function.constants.is_empty()).map(|(last, array)| {
+            let sizes = mentions.arrays[..=last].iter().map(|array| &array.bytes);
+            quote_spanned!(array.span=> ::xca_core::checks::arrays_fit(0 #(+ #sizes)*);)
+        });
+    let generic: TokenStream = function.constants.iter().map(representative).collect();
     quote! {
         #[allow(clippy::type_complexity)]
         const #name: bool = {
+            #generic
+            #(#arrays)*
             let _ = || {
                 #(#types)*
                 #(#substates)*
@@ -54,6 +64,16 @@ pub(super) fn check(function: &Function, original: &syn::ItemFn) -> TokenStream 
     }
 }
 
+/// A constant that the function is generic in, with a value for the check: any that is no length of an array by chance.
+fn representative(constant: &syn::ConstParam) -> TokenStream {
+    let (name, type_) = (&constant.ident, &constant.ty);
+    let value = if quote!(#type_).to_string() == "bool" { quote!(false) } else { quote!(61) };
+    quote! {
+        #[allow(dead_code)]
+        const #name: #type_ = #value;
+    }
+}
+
 /// The function as a closure, which belongs to the constant's own body.
 fn copy(function: &Function, original: &syn::ItemFn) -> TokenStream {
     let mut block = original.block.clone();
@@ -64,16 +84,20 @@ fn copy(function: &Function, original: &syn::ItemFn) -> TokenStream {
         written @ syn::ReturnType::Type(..) => quote!(#written),
     };
     let lints = super::lints(&original.attrs);
+    // A constant that the function is generic in has another value here.
+    let generic =
+        (!function.constants.is_empty()).then(|| quote!(#[allow(arithmetic_overflow, unconditional_panic)]));
     quote! {
         #(#lints)*
+        #generic
         #[allow(clippy::all, clippy::pedantic, clippy::nursery, clippy::restriction)]
         let _ = |#inputs| #output #block;
     }
 }
 
 /// Writes `a += b` as `a = a + b`: the fields of a cell are reached through `DerefMut`, and in a compound assignment of vectors that
-/// would borrow the cell while the right-hand side reads it. For the same reason an index of what is assigned to gets a name before. And
-/// has each call of a function check that it is a helper.
+/// would borrow the cell while the right-hand side reads it. For the same reason an index of what is assigned to gets a name before.
+/// Methods become the functions that they mean, which take literals of any type. And each call of a function checks that it is a helper.
 struct SpellOut<'a>(&'a [Call]);
 
 /// Gives names to the indices of a place, outermost last, but for numbers and names.
@@ -118,7 +142,11 @@ impl VisitMut for SpellOut<'_> {
                 *expression = syn::Expr::Verbatim(with(&names, &quote!(#assign)));
             }
             syn::Expr::Call(call) => {
-                let function = &call.func;
+                let syn::Expr::Path(path) = &*call.func else { return };
+                let mut function = path.path.clone();
+                if let Some(last) = function.segments.last_mut() {
+                    last.arguments = syn::PathArguments::None;
+                }
                 let text = quote!(#function).to_string();
                 let helper = self.0.iter().find(|call| {
                     let function = &call.function;
@@ -131,9 +159,59 @@ impl VisitMut for SpellOut<'_> {
                     );
                 }
             }
+            syn::Expr::MethodCall(call) => {
+                if let Some(function) = as_function(call) {
+                    *expression = function;
+                }
+            }
             _ => {}
         }
     }
+}
+
+/// A helper as ordinary code: its methods are those of a process, so that it computes the same everywhere. In a constant function they are those
+/// of Rust.
+pub(super) fn ordinary(original: &syn::ItemFn) -> syn::ItemFn {
+    let mut ordinary = original.clone();
+    if original.sig.constness.is_none() {
+        Methods.visit_block_mut(&mut ordinary.block);
+    }
+    ordinary
+}
+
+struct Methods;
+
+impl VisitMut for Methods {
+    fn visit_expr_mut(&mut self, expression: &mut syn::Expr) {
+        syn::visit_mut::visit_expr_mut(self, expression);
+        if let syn::Expr::MethodCall(call) = expression
+            && let Some(function) = as_function(call)
+        {
+            *expression = function;
+        }
+    }
+}
+
+/// The call of the function that a method means.
+fn as_function(call: &syn::ExprMethodCall) -> Option<syn::Expr> {
+    let method = Method::named(&call.method.to_string())?;
+    // As an argument it needs no parentheses.
+    let receiver = match &*call.receiver {
+        syn::Expr::Paren(paren) => &paren.expr,
+        receiver => receiver,
+    };
+    let (arguments, span) = (&call.args, call.method.span());
+    Some(syn::Expr::Verbatim(match method.meaning {
+        Meaning::Operation(_) => {
+            let function = super::operation(&call.method);
+            quote_spanned!(span=> #function(#receiver, #arguments))
+        }
+        Meaning::Function(function) => {
+            let function = Ident::new(function, span);
+            let receiver = quote_spanned!(span=> ::xca_core::methods::real(#receiver));
+            quote_spanned!(span=> ::xca_core::math::#function(#receiver, #arguments))
+        }
+    }))
 }
 
 /// Names for the helpers that are called: of the helper's own type, or, where the function is no helper and has no such type,

@@ -7,6 +7,8 @@ use crate::ast::{ArgumentNumber, Arm, Builtin, Expression, FunctionKind, Pattern
 use crate::fields::with_real;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
+use syn::spanned::Spanned;
+use xca_methods::Meaning;
 
 impl Writer<'_> {
     fn expressions(&mut self, expressions: &[Expression]) -> Vec<TokenStream> {
@@ -68,23 +70,24 @@ impl Writer<'_> {
                 let type_ = with_real(type_, &self.real);
                 quote!((#value as #type_))
             }
-            Expression::Call { function, arguments } => {
+            Expression::Call { function, constants, arguments } => {
                 let arguments = self.expressions(arguments);
                 let precision = &self.real;
                 let native = format_ident!("native_{}", precision.to_string());
-                quote!(#function::#native(#(#arguments),*))
+                quote!(#function::#native #constants (#(#arguments),*))
             }
-            Expression::Method { method, receiver, arguments } => {
+            Expression::Method { method, name, receiver, arguments } => {
                 let receiver = self.expression(receiver);
                 let arguments = self.expressions(arguments);
-                let ordered = match method.to_string().as_str() {
-                    "min" => "ordered_min",
-                    "max" => "ordered_max",
-                    "clamp" => "ordered_clamp",
-                    _ => return quote!(#receiver.#method(#(#arguments),*)),
+                let function = match method.meaning {
+                    Meaning::Operation(_) => super::operation(name),
+                    Meaning::Function(function) => {
+                        let function = Ident::new(function, name.span());
+                        let native = format_ident!("native_{}", self.real.to_string());
+                        quote_spanned!(name.span()=> ::xca_core::math::#function::#native)
+                    }
                 };
-                let ordered = Ident::new(ordered, method.span());
-                quote!(::xca_core::kernel::Ordered::#ordered(#receiver, #(#arguments),*))
+                quote!(#function(#receiver #(, #arguments)*))
             }
             Expression::Component(value, component) => {
                 let value = self.expression(value);
@@ -95,9 +98,17 @@ impl Writer<'_> {
                 let elements = self.expressions(elements);
                 quote_spanned!(*span=> [#(#elements),*])
             }
+            Expression::Tuple(parts, span) => {
+                let parts = self.expressions(parts);
+                quote_spanned!(*span=> (#(#parts),*))
+            }
             Expression::Repeat(value, length) => {
+                let check = (!self.function.constants.is_empty()).then(|| {
+                    let bytes = crate::size::bytes(expression);
+                    quote_spanned!(length.span()=> const { ::xca_core::checks::arrays_fit(#bytes) };)
+                });
                 let value = self.expression(value);
-                quote!([#value; #length])
+                quote!({ #check [#value; #length] })
             }
             Expression::Vector(type_, components) => {
                 let components = self.expressions(components);

@@ -1,7 +1,7 @@
 //! Helpers: an ordinary function, and one for each precision, found through a type of the same name.
 
 use super::body::Writer;
-use super::{check, checked, conditions, hidden, native_parameters};
+use super::{Generics, check, checked, conditions, hidden, native_parameters};
 use crate::ast::{Function, Role};
 use crate::fields::with_real;
 use proc_macro2::TokenStream;
@@ -11,11 +11,13 @@ use syn::Result;
 pub(super) fn expand(function: &Function, original: &syn::ItemFn) -> Result<TokenStream> {
     let data = crate::data::function(function)?;
     let (name, visibility) = (&function.name, &function.visibility);
+    let ordinary = check::ordinary(original);
     let natives = [quote!(f32), quote!(f64)].map(|real| native(function, &real));
     let (check, aliases) = (check::check(function, original), check::aliases(function));
     let conditions: Vec<_> = conditions(function).collect();
+    let Generics { declared, .. } = Generics::of(function);
     Ok(quote! {
-        #original
+        #ordinary
 
         #(#conditions)*
         #[doc(hidden)]
@@ -37,7 +39,7 @@ pub(super) fn expand(function: &Function, original: &syn::ItemFn) -> Result<Toke
                 #(#natives)*
 
                 #[doc(hidden)]
-                pub fn body() -> ::xca_core::ir::Function {
+                pub fn body #declared () -> ::xca_core::ir::Function {
                     #data
                 }
             }
@@ -68,9 +70,10 @@ fn native(function: &Function, real: &TokenStream) -> TokenStream {
     });
     let result = function.result.as_ref().map(|type_| checked(&with_real(type_, real)));
     let body = Writer::new(function, None, real.clone()).block(&function.body);
+    let Generics { declared, .. } = Generics::of(function);
     quote! {
         #[doc(hidden)]
         #[inline(always)]
-        pub fn #native(#(#arguments),*) -> #result #body
+        pub fn #native #declared (#(#arguments),*) -> #result #body
     }
 }

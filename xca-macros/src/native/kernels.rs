@@ -59,31 +59,34 @@ pub(super) fn row(function: &Function, uses: &Uses, real: &TokenStream) -> Token
     let unrolled = over_cells && uses.neighbours;
     let size = hidden("SIZE", span);
     let work = if over_cells { cells(function, uses, real, &size) } else { items(function, uses, real) };
+    let constants = &function.constants;
+    let names: Vec<&Ident> = constants.iter().map(|constant| &constant.ident).collect();
     let call = if unrolled {
-        let arms = UNROLLED.iter().map(|size| quote!(#size => #inner::<#size>(#row, #(#values),*),));
+        let arms =
+            UNROLLED.iter().map(|size| quote!(#size => #inner::<#size, #(#names),*>(#row, #(#values),*),));
         quote! {
             match #row.neighbours() {
                 #(#arms)*
-                _ => #inner::<0>(#row, #(#values),*),
+                _ => #inner::<0, #(#names),*>(#row, #(#values),*),
             }
         }
     } else {
-        quote!(#inner::<0>(#row, #(#values),*))
+        quote!(#inner::<0, #(#names),*>(#row, #(#values),*))
     };
     let checked_row = checked_value(&quote!(#row));
     quote! {
         {
             #[allow(warnings, arithmetic_overflow, overflowing_literals, unconditional_panic, clippy::all)]
-            fn #name(#row: &::xca_core::kernel::Row<'_>) {
+            fn #name<#(#constants),*>(#row: &::xca_core::kernel::Row<'_>) {
                 #[inline(never)]
-                fn #inner<const #size: usize>(#row: &::xca_core::kernel::Row<'_>, #(#declarations),*) {
+                fn #inner<const #size: usize, #(#constants),*>(#row: &::xca_core::kernel::Row<'_>, #(#declarations),*) {
                     let #row = #checked_row;
                     #work
                 }
                 #take_parameters
                 #call
             }
-            #name
+            #name::<#(#names),*>
         }
     }
 }

@@ -6,27 +6,11 @@ use super::refusals;
 use super::scope::{Binding, Scope};
 use crate::ast::{Builtin, Expression, FunctionKind};
 use syn::spanned::Spanned;
-use syn::{Error, Expr, ExprMethodCall, Ident, PathArguments, Result};
-
-/// Methods of numbers and vectors, with the number of further arguments.
-const METHODS: [(&str, usize); 16] = [
-    ("min", 1),
-    ("max", 1),
-    ("clamp", 2),
-    ("abs", 0),
-    ("sqrt", 0),
-    ("floor", 0),
-    ("ceil", 0),
-    ("trunc", 0),
-    ("wrapping_add", 1),
-    ("wrapping_sub", 1),
-    ("wrapping_mul", 1),
-    ("count_ones", 0),
-    ("dot", 1),
-    ("cross", 1),
-    ("length", 0),
-    ("length_squared", 0),
-];
+use syn::{
+    AngleBracketedGenericArguments, Error, Expr, ExprMethodCall, GenericArgument, Ident, Path, PathArguments,
+    Result, Type,
+};
+use xca_methods::Method;
 
 /// What an item can do in a process over items and in a migration.
 const OF_ITEM: &str = "an item has its substates (`me.substate`), label(), index(), random(draw), random_bits(draw), fault(code, value) and \
@@ -83,17 +67,17 @@ impl Scope {
     }
 
     fn number_method(&mut self, call: &ExprMethodCall) -> Result<Expression> {
-        let method = &call.method;
-        let Some((_, count)) = METHODS.iter().find(|(known, _)| method == known) else {
-            return Err(refusals::method(method, &METHODS.map(|(known, _)| known)));
+        let name = &call.method;
+        let Some(method) = Method::named(&name.to_string()) else {
+            return Err(refusals::method(name));
         };
         let receiver = self.expression(&call.receiver);
         let arguments: Vec<Expression> =
             call.args.iter().map(|argument| self.expression(argument)).collect::<Result<_>>()?;
-        if arguments.len() != *count {
-            return Err(wrong_count(method, *count));
+        if arguments.len() != method.arguments.len() {
+            return Err(Error::new_spanned(name, format!("write `value.{}`", method.usage())));
         }
-        Ok(Expression::Method { method: method.clone(), receiver: Box::new(receiver?), arguments })
+        Ok(Expression::Method { method, name: name.clone(), receiver: Box::new(receiver?), arguments })
     }
 
     /// A method of the cell or item that the process runs for.
@@ -258,15 +242,11 @@ impl Scope {
                 ));
             }
         }
-        if let Some(segment) =
-            path.segments.iter().find(|segment| !matches!(segment.arguments, PathArguments::None))
-        {
-            return Err(Error::new_spanned(segment, "a helper is not generic: leave out the type arguments"));
-        }
+        let (path, constants) = without_constants(path)?;
         let arguments: Vec<Expression> =
             call.args.iter().map(|argument| self.argument(argument)).collect::<Result<_>>()?;
-        let alias = self.alias(path);
-        Ok(Expression::Call { function: alias.into(), arguments })
+        let alias = self.alias(&path);
+        Ok(Expression::Call { function: alias.into(), constants, arguments })
     }
 
     fn argument(&mut self, argument: &Expr) -> Result<Expression> {
@@ -317,6 +297,27 @@ impl Scope {
     }
 }
 
+/// The path of a helper, and the constants for which it is called, `::<N>`.
+fn without_constants(path: &Path) -> Result<(Path, Option<AngleBracketedGenericArguments>)> {
+    let mut path = path.clone();
+    let Some(last) = path.segments.last_mut() else { return Ok((path, None)) };
+    let constants = match std::mem::take(&mut last.arguments) {
+        PathArguments::AngleBracketed(constants) => Some(constants),
+        _ => None,
+    };
+    if let Some(segment) =
+        path.segments.iter().find(|segment| !matches!(segment.arguments, PathArguments::None))
+    {
+        return Err(Error::new_spanned(segment, "only the helper itself takes constants, `helper::<N>(…)`"));
+    }
+    for constant in constants.iter().flat_map(|constants| &constants.args) {
+        if let GenericArgument::Type(Type::Infer(_)) = constant {
+            return Err(Error::new_spanned(constant, "write the constant itself: `helper::<5>(…)`"));
+        }
+    }
+    Ok((path, constants))
+}
+
 fn is_type(word: &Ident) -> bool {
     let numbers = [
         "bool", "char", "str", "u8", "u16", "u32", "u64", "u128", "usize", "i8", "i16", "i32", "i64", "i128",
@@ -326,10 +327,9 @@ fn is_type(word: &Ident) -> bool {
 }
 
 fn associated_function(type_: &Ident, method: &Ident, call: &syn::ExprCall) -> Error {
-    let known = METHODS.iter().any(|(known, _)| method == known);
-    let advice = if known {
-        format!("write it as a method: `value.{method}(…)`")
-    } else if let Some(advice) = refusals::platform_function(&method.to_string()) {
+    let advice = if let Some(known) = Method::named(&method.to_string()) {
+        format!("write it as a method: `value.{}`", known.usage())
+    } else if let Some(advice) = refusals::no_method(&method.to_string()) {
         advice
     } else if method == "from" || method == "try_from" {
         format!("cast: `value as {type_}`")

@@ -5,7 +5,8 @@ use super::matches::is_constant;
 use super::refusals::{is_component, no_component, refused};
 use super::scope::{Binding, Scope};
 use super::statements::Item;
-use crate::ast::{ArgumentNumber, Block, Builtin, Expression, FunctionKind};
+use crate::ast::{ArgumentNumber, ArraySize, Block, Builtin, Expression, FunctionKind};
+use crate::size::bytes;
 use syn::spanned::Spanned;
 use syn::{BinOp, Error, Expr, ExprMethodCall, Ident, Lit, Member, Path, Result, UnOp};
 
@@ -68,16 +69,17 @@ impl Scope {
                 Ok(Expression::Array(elements, array.span()))
             }
             Expr::Repeat(repeat) => {
-                let value = self.expression(&repeat.expr)?;
-                match strip(&repeat.len) {
-                    Expr::Lit(literal) if let Lit::Int(length) = &literal.lit => {
-                        Ok(Expression::Repeat(Box::new(value), length.clone()))
-                    }
-                    other => Err(Error::new_spanned(
-                        other,
-                        "write the length of the array as a number: `[0.0; 4]`",
-                    )),
-                }
+                let outside = self.mentions.arrays.len();
+                let (value, length) = both(self.expression(&repeat.expr), self.length(&repeat.len))?;
+                let array = Expression::Repeat(Box::new(value), Box::new(length));
+                // What it is made of is counted with it.
+                self.mentions.arrays.truncate(outside);
+                self.mentions.arrays.push(ArraySize { bytes: bytes(&array), span: repeat.span() });
+                Ok(array)
+            }
+            Expr::Tuple(tuple) if tuple.elems.len() > 1 => {
+                let parts = tuple.elems.iter().map(|part| self.expression(part)).collect::<Result<_>>()?;
+                Ok(Expression::Tuple(parts, tuple.span()))
             }
             Expr::If(if_) => self.if_expression(if_),
             Expr::Match(match_) => self.match_expression(match_),
@@ -169,6 +171,30 @@ impl Scope {
         Error::new_spanned(name, message)
     }
 
+    /// The length of an array.
+    fn length(&mut self, length: &Expr) -> Result<Expr> {
+        if !self.is_known(length) {
+            return Err(Error::new_spanned(
+                length,
+                "the length of an array is a number or a constant: `[0.0; 4]`, `[0.0; SIDES]`",
+            ));
+        }
+        Ok(length.clone())
+    }
+
+    /// Whether an expression is made of integers and constants.
+    fn is_known(&self, expression: &Expr) -> bool {
+        match strip(expression) {
+            Expr::Lit(literal) => matches!(literal.lit, Lit::Int(_)),
+            Expr::Path(path) => {
+                let last = path.path.segments.last();
+                last.is_some_and(|last| is_constant(&last.ident)) && self.named(expression).is_none()
+            }
+            Expr::Binary(binary) => self.is_known(&binary.left) && self.is_known(&binary.right),
+            _ => false,
+        }
+    }
+
     /// What the expression stands for, where it is a plain name.
     pub(super) fn named(&self, expression: &Expr) -> Option<Binding> {
         match strip(expression) {
@@ -183,10 +209,7 @@ impl Scope {
 
     fn field(&mut self, field: &syn::ExprField) -> Result<Expression> {
         let Member::Named(member) = &field.member else {
-            return Err(Error::new_spanned(
-                &field.member,
-                "tuples are not part of a process; use single variables or a small vector",
-            ));
+            return Err(Error::new_spanned(&field.member, "take the tuple apart: `let (a, b) = pair;`"));
         };
         let member = member.clone();
         if let Expr::Path(path) = strip(&field.base)

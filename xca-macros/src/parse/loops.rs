@@ -1,45 +1,150 @@
-//! `for` loops.
+//! Loops.
 
-use super::expressions::strip;
-use super::refusals::refuse_label;
+use super::expressions::{both, strip};
 use super::scope::{Binding, Scope};
-use crate::ast::{ArgumentNumber, Block, FunctionKind, Reach, Statement};
+use crate::ast::{ArgumentNumber, FunctionKind, Loop, LoopKind, Range, Reach, Statement};
+use proc_macro2::Span;
 use syn::spanned::Spanned;
-use syn::{Error, Expr, ExprForLoop, ExprMethodCall, Ident, Pat, RangeLimits, Result};
+use syn::{
+    Error, Expr, ExprForLoop, ExprLoop, ExprMethodCall, ExprWhile, Ident, Label, Lifetime, Pat, RangeLimits,
+    Result,
+};
 
 impl Scope {
+    pub(super) fn while_loop(&mut self, while_: &ExprWhile) -> Result<Statement> {
+        let label = self.new_label(while_.label.as_ref());
+        let condition = self.expression(&while_.cond)?;
+        let body = self.in_loop(lifetime(&while_.label), |scope| scope.block(&while_.body))?;
+        Ok(Statement::Loop(Loop { label: label?, kind: LoopKind::While(condition), body }))
+    }
+
+    pub(super) fn endless_loop(&mut self, loop_: &ExprLoop) -> Result<Statement> {
+        let label = self.new_label(loop_.label.as_ref());
+        let body = self.in_loop(lifetime(&loop_.label), |scope| scope.block(&loop_.body))?;
+        Ok(Statement::Loop(Loop { label: label?, kind: LoopKind::Forever, body }))
+    }
+
     pub(super) fn for_loop(&mut self, for_: &ExprForLoop) -> Result<Statement> {
-        refuse_label(for_.label.as_ref())?;
+        let label = self.new_label(for_.label.as_ref());
         let variable = variable(&for_.pat)?;
-        match strip(&for_.expr) {
-            Expr::Range(range) => {
-                let (Some(from), Some(to)) = (&range.start, &range.end) else {
-                    return Err(Error::new_spanned(range, "give both ends of the range: `0..n`"));
-                };
-                let inclusive = matches!(range.limits, RangeLimits::Closed(_));
-                let (from, to) = (self.expression(from), self.expression(to));
-                let body = self.loop_body(&variable, Binding::Value, &for_.body)?;
-                Ok(Statement::ForRange { variable, from: from?, to: to?, inclusive, body })
-            }
+        let (kind, binding) = self.run_of(variable.clone(), strip(&for_.expr));
+        let body = self.nested(|scope| {
+            scope.bind(&variable, binding);
+            scope.in_loop(lifetime(&for_.label), |scope| scope.block(&for_.body))
+        })?;
+        Ok(Statement::Loop(Loop { label: label?, kind: kind?, body }))
+    }
+
+    /// What a `for` runs over, and what its variable stands for.
+    fn run_of(&mut self, variable: Ident, over: &Expr) -> (Result<LoopKind>, Binding) {
+        match over {
+            Expr::Range(_) => (self.range(variable, over), Binding::Value),
             Expr::MethodCall(call) if self.is_subject(&call.receiver) => {
-                let (reach, radius) = self.search(call)?;
-                let body = self.loop_body(&variable, Binding::Other(ArgumentNumber::SUBJECT), &for_.body)?;
-                Ok(Statement::ForOthers { variable, reach, radius, body })
+                let kind =
+                    self.search(call).map(|(reach, radius)| LoopKind::Others { variable, reach, radius });
+                (kind, Binding::Other(ArgumentNumber::SUBJECT))
             }
-            Expr::MethodCall(call) => Err(Error::new_spanned(&call.method, method_of_range(call))),
-            slots @ Expr::Path(_) if let Some(Binding::Slots(argument)) = self.named(slots) => {
-                let body = self.loop_body(&variable, Binding::Other(argument), &for_.body)?;
-                Ok(Statement::ForItems { variable, body })
+            Expr::MethodCall(call) if call.method == "rev" || call.method == "step_by" => {
+                (self.range(variable, over), Binding::Value)
             }
-            Expr::Reference(reference) if matches!(self.named(&reference.expr), Some(Binding::Slots(_))) => {
-                Err(Error::new_spanned(reference, "it is a reference already: leave out the `&`"))
+            Expr::MethodCall(call)
+                if ["iter", "into_iter", "iter_mut", "enumerate"].iter().any(|name| call.method == name) =>
+            {
+                let advice = "leave out what follows the array: `for value in values { … }`; with the index: \
+                              `for i in 0..values.len() { … values[i] … }`";
+                (Err(Error::new_spanned(&call.method, advice)), Binding::Value)
             }
-            other => Err(Error::new_spanned(
-                other,
-                "a `for` runs over a range (`for i in 0..n`), over other items (`for other in me.others_within(radius)`) or over \
-                 the items of a cell (`for item in slots`); go through an array by index",
-            )),
+            Expr::Path(_) if let Some(Binding::Slots(argument)) = self.named(over) => {
+                (Ok(LoopKind::Items { variable }), Binding::Other(argument))
+            }
+            Expr::Reference(reference)
+                if let Some(Binding::Slots(argument)) = self.named(&reference.expr) =>
+            {
+                let advice = "it is a reference already: leave out the `&`";
+                (Err(Error::new_spanned(reference, advice)), Binding::Other(argument))
+            }
+            Expr::Reference(reference) => {
+                let advice = "go through the values themselves, without `&`: `for value in values { … }`";
+                (Err(Error::new_spanned(reference, advice)), Binding::Value)
+            }
+            Expr::Lit(literal) => {
+                let advice =
+                    "a `for` runs over a range (`for i in 0..n`) or an array (`for value in values`)";
+                (Err(Error::new_spanned(literal, advice)), Binding::Value)
+            }
+            array => {
+                let kind = self.expression(array).map(|array| LoopKind::Elements { variable, array });
+                (kind, Binding::Value)
+            }
         }
+    }
+
+    /// `a..b`, `(a..b).rev()`, `(a..b).step_by(k)`, `(a..b).rev().step_by(k)`.
+    fn range(&mut self, variable: Ident, over: &Expr) -> Result<LoopKind> {
+        let (over, step) = match strip(over) {
+            Expr::MethodCall(call) if call.method == "step_by" => {
+                let [step] = self.arguments(call, "`step_by` takes the step: `(0..n).step_by(2)`")?;
+                (strip(&call.receiver), Some(step))
+            }
+            over => (over, None),
+        };
+        let (over, reversed) = match over {
+            Expr::MethodCall(call) if call.method == "rev" => {
+                let [] = self.arguments(call, "`rev()` takes no arguments")?;
+                (strip(&call.receiver), true)
+            }
+            over => (over, false),
+        };
+        let Expr::Range(range) = over else {
+            let advice = match over {
+                Expr::MethodCall(call) if reversed && call.method == "step_by" => {
+                    "turn the range first: `(0..n).rev().step_by(k)`, which begins at the end"
+                }
+                _ if step.is_some() || reversed => {
+                    "only ranges run backwards or in steps: `for i in (0..values.len()).rev() { … values[i] … }`"
+                }
+                _ => "a `for` runs over a range, `for i in 0..n`",
+            };
+            return Err(Error::new_spanned(over, advice));
+        };
+        let (Some(from), Some(to)) = (&range.start, &range.end) else {
+            return Err(Error::new_spanned(range, "give both ends of the range: `0..n`"));
+        };
+        let inclusive = matches!(range.limits, RangeLimits::Closed(_));
+        let (from, to) = both(self.expression(from), self.expression(to))?;
+        Ok(LoopKind::Range { variable, range: Range { from, to, inclusive, reversed, step } })
+    }
+
+    /// The label of a loop, which no loop around it has.
+    fn new_label(&self, label: Option<&Label>) -> Result<Option<Lifetime>> {
+        let Some(label) = label else { return Ok(None) };
+        let name = label.name.ident.to_string();
+        if self.labels().any(|known| known == name) {
+            return Err(Error::new_spanned(
+                &label.name,
+                format!("a loop around this one is `'{name}` already; choose another label"),
+            ));
+        }
+        Ok(Some(label.name.clone()))
+    }
+
+    /// That there is a loop for a `break` or a `continue`.
+    pub(super) fn check_in_loop(&self, label: Option<&Lifetime>, span: Span) -> Result<()> {
+        if !self.inside_loop() {
+            return Err(Error::new(span, "there is no loop around this"));
+        }
+        let Some(label) = label else { return Ok(()) };
+        let name = label.ident.to_string();
+        if self.labels().any(|known| known == name) {
+            return Ok(());
+        }
+        let message = match super::similar::similar(&name, self.labels()) {
+            Some(similar) => format!("no loop around this is `'{name}`; did you mean `'{similar}`?"),
+            None => {
+                format!("no loop around this is `'{name}`; write `'{name}: for …` where that loop begins")
+            }
+        };
+        Err(Error::new_spanned(label, message))
     }
 
     /// A search for other items: where, and within which radius.
@@ -94,13 +199,10 @@ impl Scope {
         let [radius] = self.arguments(call, "give the radius, in metres")?;
         Ok((reach, Some(radius)))
     }
+}
 
-    fn loop_body(&mut self, variable: &Ident, binding: Binding, body: &syn::Block) -> Result<Block> {
-        self.nested(|scope| {
-            scope.bind(variable, binding);
-            scope.in_loop(|scope| scope.block(body))
-        })
-    }
+fn lifetime(label: &Option<Label>) -> Option<&Lifetime> {
+    label.as_ref().map(|label| &label.name)
 }
 
 fn variable(pattern: &Pat) -> Result<Ident> {
@@ -112,20 +214,5 @@ fn variable(pattern: &Pat) -> Result<Ident> {
         }
         Pat::Wild(underscore) => Ok(Ident::new("_unused", underscore.span())),
         other => Err(Error::new_spanned(other, "the variable of a `for` is a plain name: `for i in 0..n`")),
-    }
-}
-
-fn method_of_range(call: &ExprMethodCall) -> String {
-    match call.method.to_string().as_str() {
-        "rev" => {
-            "a range runs upwards; compute the index: `for k in 0..n { let i = n - 1 - k; … }`".to_owned()
-        }
-        "step_by" => {
-            "a range runs by ones; compute the index: `for k in 0..n { let i = step * k; … }`".to_owned()
-        }
-        "iter" | "into_iter" | "iter_mut" | "enumerate" => {
-            "go through an array by index: `for i in 0..3 { … values[i] … }`".to_owned()
-        }
-        method => format!("a `for` runs over a range, `for i in 0..n`, without `.{method}(…)`"),
     }
 }

@@ -43,14 +43,12 @@ impl Scope {
                 name,
                 "a pattern binds no name; leave out the `name @` and use the matched value itself",
             )),
-            Pat::Ident(name) if is_constant(&name.ident) => {
-                Ok(self.constant_pattern(&name.ident.clone().into()))
-            }
+            Pat::Ident(name) if is_constant(&name.ident) => self.constant_pattern(&name.ident.clone().into()),
             Pat::Ident(name) => Err(Error::new_spanned(
                 name,
                 "a pattern binds no name; write `_`, and use the matched value itself",
             )),
-            Pat::Path(path) if path.qself.is_none() => Ok(self.constant_pattern(&path.path)),
+            Pat::Path(path) if path.qself.is_none() => self.constant_pattern(&path.path),
             Pat::Range(range) => {
                 if let syn::RangeLimits::HalfOpen(token) = &range.limits {
                     return Err(Error::new_spanned(token, "name the last value of the range: `a..=b`"));
@@ -67,9 +65,18 @@ impl Scope {
         }
     }
 
-    fn constant_pattern(&mut self, path: &Path) -> Pattern {
+    fn constant_pattern(&mut self, path: &Path) -> Result<Pattern> {
+        if self.is_generic_constant(path) {
+            let name = path.get_ident().map(ToString::to_string).unwrap_or_default();
+            return Err(Error::new_spanned(
+                path,
+                format!(
+                    "a constant that the function is generic in is no pattern; compare: `if value == {name}`"
+                ),
+            ));
+        }
         self.mentions.patterns.push(path.clone());
-        Pattern::Constant(path.clone())
+        Ok(Pattern::Constant(path.clone()))
     }
 }
 

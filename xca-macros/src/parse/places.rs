@@ -32,7 +32,10 @@ impl Scope {
                 }
                 Expr::Field(field) => {
                     let Member::Named(member) = &field.member else {
-                        return Err(Error::new_spanned(&field.member, "tuples are not part of a process"));
+                        return Err(Error::new_spanned(
+                            &field.member,
+                            "take the tuple apart and write a variable: `let (mut a, b) = pair;`",
+                        ));
                     };
                     match self.named(&field.base) {
                         Some(Binding::Subject) if self.kind != FunctionKind::Migration => {

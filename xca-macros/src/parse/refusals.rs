@@ -3,6 +3,7 @@
 use super::scope::Binding;
 use crate::ast::FunctionKind;
 use syn::{Attribute, Error, Expr, Ident, Result};
+use xca_methods::METHODS;
 
 /// Why an expression is no part of a process.
 pub(super) fn refused(expression: &Expr) -> Error {
@@ -17,9 +18,7 @@ pub(super) fn refused(expression: &Expr) -> Error {
         Expr::Tuple(tuple) if tuple.elems.is_empty() => {
             "`()` is not part of a process; write an empty block, `{}`"
         }
-        Expr::Tuple(_) => {
-            "tuples are not part of a process; use single variables, a small vector or an array"
-        }
+        Expr::Tuple(_) => "a tuple has two parts or more: leave out the comma",
         Expr::Struct(_) => {
             "structs cannot be made in a process; assign the substates one by one: `cell.substate = …`"
         }
@@ -39,7 +38,7 @@ pub(super) fn refused(expression: &Expr) -> Error {
             "this has no value; write it as a statement of its own"
         }
         Expr::Block(block) if block.label.is_some() => {
-            "blocks have no labels in a process; use `if`, or a function marked #[helper] with `return`"
+            "only loops have labels in a process; use `if`, or a function marked #[helper] with `return`"
         }
         Expr::Infer(_) => "give the value; `_` stands only in patterns and in `for _ in 0..n`",
         _ => "this is not part of the Rust that a process can use",
@@ -98,15 +97,6 @@ pub(super) fn cannot_write(binding: Binding, kind: FunctionKind) -> &'static str
     }
 }
 
-pub(super) fn refuse_label(label: Option<&syn::Label>) -> Result<()> {
-    label.map_or(Ok(()), |label| {
-        Err(Error::new_spanned(
-            label,
-            "loops have no labels in a process; use a `bool` variable that ends the outer loop",
-        ))
-    })
-}
-
 /// Attributes that only speak to the compiler or to tools are harmless; others would be lost.
 pub(super) fn refuse_attributes(attributes: &[Attribute]) -> Result<()> {
     let harmless = ["allow", "expect", "warn", "deny", "doc", "rustfmt"];
@@ -132,80 +122,62 @@ pub(super) fn no_component(name: &Ident) -> Error {
     )
 }
 
-/// What to write for a function of the platform, whose last bits differ between machines.
-pub(super) fn platform_function(name: &str) -> Option<String> {
+/// What to write for a method that Rust has and a process has not.
+pub(super) fn no_method(name: &str) -> Option<String> {
     let instead = match name {
-        "exp" | "sin" | "cos" | "tan" | "atan" | "tanh" => {
-            return Some(format!("{INEXACT}; write `{name}(x)` with `use xca_core::math::{name};`"));
-        }
-        "atan2" => return Some(format!("{INEXACT}; write `atan2(y, x)` with `use xca_core::math::atan2;`")),
-        "ln" | "log" => "log(x)",
-        "powf" => "pow(x, y)",
-        "powi" | "pow" => {
-            return Some(format!(
-                "`{name}` is not part of a process; write the product, `x * x * x`, or `pow(x, 3.0)` with `use xca_core::math::pow;`"
-            ));
-        }
         "mul_add" => {
             return Some("`mul_add` rounds once and differs between engines; write `a * b + c`".to_owned());
         }
-        "exp2" => "pow(2.0, x)",
-        "log2" => "log(x) / log(2.0)",
-        "log10" => "log(x) / log(10.0)",
-        "cbrt" => "pow(x, 1.0 / 3.0)",
-        "sin_cos" => "sin(x)",
-        "asin" => "atan2(x, ((1.0 - x) * (1.0 + x)).sqrt())",
-        "acos" => "atan2(((1.0 - x) * (1.0 + x)).sqrt(), x)",
-        "exp_m1" | "ln_1p" | "sinh" | "cosh" | "asinh" | "acosh" | "atanh" => {
-            return Some(format!("{INEXACT}; make it of the functions of `xca_core::math`"));
-        }
-        "hypot" => return Some(format!("{INEXACT}; write `(x * x + y * y).sqrt()`")),
+        "log" => "x.ln() / base.ln()",
+        "sin_cos" => "x.sin()` and `x.cos()",
+        "asinh" => "(x + (x * x + 1.0).sqrt()).ln()",
+        "acosh" => "(x + (x * x - 1.0).sqrt()).ln()",
+        "atanh" => "0.5 * ((1.0 + x) / (1.0 - x)).ln()",
+        "pow" => "x * x * x",
+        "round_ties_even" => "x.round()",
+        "is_sign_positive" => "!x.is_sign_negative()",
+        "is_positive" => "x > 0",
+        "is_negative" => "x < 0",
+        "abs_diff" => "a.max(b) - a.min(b)",
+        "is_empty" => "values.len() == 0",
+        "total_cmp" | "partial_cmp" | "cmp" => "a < b",
+        "normalized" | "normalise" => "vector.normalize()",
+        "norm" | "magnitude" => "vector.length()",
+        "norm_squared" | "magnitude_squared" => "vector.length_squared()",
         _ => return None,
     };
-    Some(format!("{INEXACT}; write `{instead}` with the functions of `xca_core::math`"))
+    Some(format!("`{name}` is not part of a process; write `{instead}`"))
 }
 
-/// Why the functions of the platform are refused.
-const INEXACT: &str = "the platform's function gives other bits on other machines";
-
 /// Why a method of Rust is no method of numbers in a process.
-pub(super) fn method(method: &Ident, known: &[&str]) -> Error {
+pub(super) fn method(method: &Ident) -> Error {
     let name = method.to_string();
-    if let Some(advice) = platform_function(&name) {
+    if let Some(advice) = no_method(&name) {
         return Error::new_spanned(method, advice);
     }
     let advice = match name.as_str() {
-        "round" | "round_ties_even" => {
-            "`round` differs between engines at halves; write `(value + 0.5).floor()`".to_owned()
-        }
         "clone" | "to_owned" | "copied" => format!("values are copied by themselves: leave out `.{name}()`"),
         "into" | "try_into" => {
             format!("`{name}` is not part of a process; cast: `value as Real`, `value as u32`")
         }
-        "is_nan" => "write `value != value`: only NaN differs from itself".to_owned(),
-        "is_finite" => "write `value - value == 0.0`: only numbers that are finite do that".to_owned(),
-        "signum" => "write `if value < 0.0 { -1.0 } else { 1.0 }`".to_owned(),
-        "copysign" => "write `if sign < 0.0 { -value.abs() } else { value.abs() }`".to_owned(),
-        "recip" => "write `1.0 / value`".to_owned(),
-        "fract" => "write `value - value.trunc()`".to_owned(),
-        "rem_euclid" => "write `let r = a % n;` and `if r < 0 { r + n } else { r }`".to_owned(),
-        "normalize" | "normalized" | "normalise" => "write `vector / vector.length()`".to_owned(),
-        "distance" => "write `(a - b).length()`".to_owned(),
-        "norm" | "magnitude" => "write `vector.length()`".to_owned(),
-        "norm_squared" | "magnitude_squared" => "write `vector.length_squared()`".to_owned(),
-        "len" => {
-            "an array has the length that it was made with; write it as a number or a constant".to_owned()
-        }
         "iter" | "into_iter" | "iter_mut" | "map" | "sum" | "fold" => {
-            "go through an array by index: `for i in 0..3 { … values[i] … }`".to_owned()
+            "go through the array itself: `for value in values { … }`".to_owned()
         }
         "contains" => "compare with `<=` and `<`, or with `match`".to_owned(),
-        _ => match super::similar::similar(&name, known.iter().copied()) {
-            Some(similar) => format!("there is no method `{name}`; did you mean `{similar}`?"),
-            None => {
-                format!("`{name}` is not part of a process; numbers and vectors have {}", known.join(", "))
+        "rev" | "step_by" => format!("`{name}` stands only in `for i in (a..b).{name}(…)`"),
+        _ => {
+            let known = METHODS.iter().map(|method| method.name);
+            match super::similar::similar(&name, known.clone()) {
+                Some(similar) => format!("there is no method `{name}`; did you mean `{similar}`?"),
+                None => {
+                    let all: Vec<&str> = known.collect();
+                    format!(
+                        "`{name}` is not part of a process; numbers, vectors and arrays have {}",
+                        all.join(", ")
+                    )
+                }
             }
-        },
+        }
     };
     Error::new_spanned(method, advice)
 }

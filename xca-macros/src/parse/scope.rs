@@ -6,7 +6,7 @@ use quote::{format_ident, quote};
 use std::collections::HashMap;
 use syn::ext::IdentExt;
 use syn::spanned::Spanned;
-use syn::{Error, Ident, Path, Result};
+use syn::{ConstParam, Error, Ident, Lifetime, Path, Result};
 
 /// What a name stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -43,13 +43,21 @@ pub(super) struct Scope {
     /// The name of the function.
     pub(super) function: Ident,
     pub(super) mentions: Mentions,
+    /// The constants that the function is generic in.
+    constants: Vec<Ident>,
     levels: Vec<HashMap<String, Binding>>,
-    loops: usize,
+    /// The loops around the present place, with their labels.
+    loops: Vec<Option<String>>,
     errors: Option<Error>,
 }
 
 impl Scope {
-    pub(super) fn new(kind: FunctionKind, function: Ident, arguments: &[Argument]) -> Self {
+    pub(super) fn new(
+        kind: FunctionKind,
+        function: Ident,
+        arguments: &[Argument],
+        constants: &[ConstParam],
+    ) -> Self {
         let mut substates = (0..).map(ArgumentNumber);
         let mut next = || substates.next().unwrap_or(ArgumentNumber::SUBJECT);
         let names = arguments.iter().map(|argument| {
@@ -69,8 +77,9 @@ impl Scope {
             kind,
             function,
             mentions: Mentions::default(),
+            constants: constants.iter().map(|constant| constant.ident.clone()).collect(),
             levels: vec![names.collect()],
-            loops: 0,
+            loops: Vec::new(),
             errors: None,
         }
     }
@@ -90,6 +99,11 @@ impl Scope {
         self.levels.iter().rev().find_map(|level| level.get(&name).copied())
     }
 
+    /// Whether the function is generic in the constant.
+    pub(super) fn is_generic_constant(&self, path: &Path) -> bool {
+        path.get_ident().is_some_and(|name| self.constants.contains(name))
+    }
+
     /// A name that is bound and much like this one.
     pub(super) fn similar_name(&self, name: &Ident) -> Option<String> {
         let bound = self.levels.iter().flat_map(HashMap::keys).map(String::as_str);
@@ -104,16 +118,21 @@ impl Scope {
         result
     }
 
-    /// Reads the body of a loop.
-    pub(super) fn in_loop<T>(&mut self, read: impl FnOnce(&mut Self) -> T) -> T {
-        self.loops += 1;
+    /// Reads the body of a loop with this label.
+    pub(super) fn in_loop<T>(&mut self, label: Option<&Lifetime>, read: impl FnOnce(&mut Self) -> T) -> T {
+        self.loops.push(label.map(|label| label.ident.to_string()));
         let result = read(self);
-        self.loops -= 1;
+        self.loops.pop();
         result
     }
 
     pub(super) fn inside_loop(&self) -> bool {
-        self.loops > 0
+        !self.loops.is_empty()
+    }
+
+    /// The labels of the loops around the present place, from outside.
+    pub(super) fn labels(&self) -> impl Iterator<Item = &str> {
+        self.loops.iter().flatten().map(String::as_str)
     }
 
     /// The alias of a helper that is called.

@@ -3,11 +3,13 @@
 use super::Wanted;
 use crate::ast::{Argument, FunctionKind, Role};
 use syn::{
-    Error, FnArg, GenericArgument, Ident, ItemFn, Pat, PathArguments, PathSegment, Result, ReturnType, Type,
+    ConstParam, Error, FnArg, GenericArgument, GenericParam, Ident, ItemFn, Pat, PathArguments, PathSegment,
+    Result, ReturnType, Type,
 };
 
 pub(super) struct Signature {
     pub(super) kind: FunctionKind,
+    pub(super) constants: Vec<ConstParam>,
     pub(super) arguments: Vec<Argument>,
     pub(super) result: Option<Type>,
 }
@@ -22,6 +24,7 @@ const HELPER_TAKES: &str =
 pub(super) fn parse(item: &ItemFn, wanted: Wanted) -> Result<Signature> {
     refuse_qualifiers(item, wanted)?;
     refuse_attributes(item, wanted)?;
+    let constants = constants(item, wanted)?;
     let mut arguments = Vec::new();
     for (position, input) in item.sig.inputs.iter().enumerate() {
         arguments.push(argument(input, position, wanted)?);
@@ -29,7 +32,7 @@ pub(super) fn parse(item: &ItemFn, wanted: Wanted) -> Result<Signature> {
     let kind = kind(item, wanted, &arguments)?;
     check_roles(kind, &arguments)?;
     let result = result(item, kind)?;
-    Ok(Signature { kind, arguments, result })
+    Ok(Signature { kind, constants, arguments, result })
 }
 
 fn refuse_qualifiers(item: &ItemFn, wanted: Wanted) -> Result<()> {
@@ -47,15 +50,40 @@ fn refuse_qualifiers(item: &ItemFn, wanted: Wanted) -> Result<()> {
     if let (Some(token), true) = (&signature.constness, wanted != Wanted::Helper) {
         return Err(Error::new_spanned(token, format!("a function marked {what} cannot be const")));
     }
-    if !signature.generics.params.is_empty() || signature.generics.where_clause.is_some() {
-        return Err(Error::new_spanned(
-            &signature.generics,
-            format!(
-                "a function marked {what} cannot be generic; write `Real` for the floating type, which the run chooses"
-            ),
-        ));
-    }
     Ok(())
+}
+
+/// The constants that the function is generic in; it is generic in nothing else.
+fn constants(item: &ItemFn, wanted: Wanted) -> Result<Vec<ConstParam>> {
+    let generics = &item.sig.generics;
+    let what = wanted.attribute();
+    if let Some(clause) = &generics.where_clause {
+        return Err(Error::new_spanned(clause, format!("a function marked {what} has no `where`")));
+    }
+    let constant = |parameter: &GenericParam| {
+        let GenericParam::Const(constant) = parameter else {
+            return Err(Error::new_spanned(
+                parameter,
+                format!(
+                    "a function marked {what} is generic in constants only, `const N: usize`; write `Real` for the floating type, which \
+                     the run chooses"
+                ),
+            ));
+        };
+        let type_ = last_segment(&constant.ty).map(|segment| segment.ident.to_string()).unwrap_or_default();
+        if !["bool", "u8", "i32", "u32", "usize"].contains(&type_.as_str()) {
+            return Err(Error::new_spanned(&constant.ty, "such a constant is a bool, u8, i32, u32 or usize"));
+        }
+        if !super::matches::is_constant(&constant.ident) {
+            let capitals = constant.ident.to_string().to_uppercase();
+            return Err(Error::new_spanned(
+                &constant.ident,
+                format!("constants are written in capitals: `{capitals}`"),
+            ));
+        }
+        Ok(constant.clone())
+    };
+    generics.params.iter().map(constant).collect()
 }
 
 /// A process is no function any more: attributes of functions would be lost.

@@ -1,11 +1,10 @@
 //! Blocks and statements.
 
-use super::refusals::{macro_call, refuse_attributes, refuse_label};
+use super::refusals::{macro_call, refuse_attributes};
 use super::scope::{Binding, Scope};
-use crate::ast::{ArgumentNumber, Block, Expression, FunctionKind, Statement};
-use proc_macro2::Span;
+use crate::ast::{ArgumentNumber, Block, Expression, FunctionKind, LoopKind, Statement, TuplePart};
 use syn::spanned::Spanned;
-use syn::{Error, Expr, Pat, Result, Stmt};
+use syn::{Error, Expr, Pat, PatTuple, Result, Stmt, Type};
 
 /// What an expression in the place of a statement turned out to be.
 #[expect(clippy::large_enum_variant, reason = "made one at a time, and taken apart at once")]
@@ -60,25 +59,20 @@ impl Scope {
             other => (other, None),
         };
         self.mentions.types.extend(type_.clone());
+        if let Pat::Tuple(pattern) = pattern {
+            return self.local_tuple(local, pattern, type_);
+        }
         let Pat::Ident(pattern) = pattern else {
-            return Err(Error::new_spanned(pattern, "bind one name at a time: `let name = value;`"));
+            return Err(Error::new_spanned(
+                pattern,
+                "bind names: `let name = value;`, or `let (a, b) = pair;`",
+            ));
         };
         if pattern.by_ref.is_some() || pattern.subpat.is_some() {
             return Err(Error::new_spanned(pattern, "bind a plain name: `let name = value;`"));
         }
         let name = pattern.ident.clone();
-        let value = match &local.init {
-            None => Err(Error::new_spanned(
-                local,
-                "give the variable a value: `let mut name = value;`, or `let name = if … { a } else { b };`",
-            )),
-            Some(init) => match &init.diverge {
-                Some((token, _)) => {
-                    Err(Error::new_spanned(token, "`let … else` is not part of a process; compare with `if`"))
-                }
-                None => self.initial_value(&init.expr),
-            },
-        };
+        let value = self.initial(local);
         // Bound even after an error, so that one mistake does not make others of its uses.
         let binding = match value {
             Ok(Initial::Neighbour(argument, _)) => Binding::Neighbour(argument),
@@ -92,6 +86,57 @@ impl Scope {
                 Statement::Let { name, mutable: pattern.mutability.is_some(), type_, value }
             }
         })
+    }
+
+    /// What a variable starts with.
+    fn initial(&mut self, local: &syn::Local) -> Result<Initial> {
+        match &local.init {
+            None => Err(Error::new_spanned(
+                local,
+                "give the variable a value: `let mut name = value;`, or `let name = if … { a } else { b };`",
+            )),
+            Some(init) => match &init.diverge {
+                Some((token, _)) => {
+                    Err(Error::new_spanned(token, "`let … else` is not part of a process; compare with `if`"))
+                }
+                None => self.initial_value(&init.expr),
+            },
+        }
+    }
+
+    /// `let (a, b) = value;`
+    fn local_tuple(
+        &mut self,
+        local: &syn::Local,
+        pattern: &PatTuple,
+        type_: Option<Type>,
+    ) -> Result<Statement> {
+        let value = self.initial(local);
+        let mut parts = Vec::new();
+        for part in &pattern.elems {
+            match part {
+                Pat::Wild(_) => parts.push(TuplePart { name: None, mutable: false }),
+                Pat::Ident(part) if part.by_ref.is_none() && part.subpat.is_none() => {
+                    self.bind(&part.ident, Binding::Value);
+                    parts.push(TuplePart {
+                        name: Some(part.ident.clone()),
+                        mutable: part.mutability.is_some(),
+                    });
+                }
+                other => {
+                    return Err(Error::new_spanned(
+                        other,
+                        "the parts of a tuple are bound to plain names: `let (a, mut b, _) = value;`",
+                    ));
+                }
+            }
+        }
+        match value? {
+            Initial::Value(value) => Ok(Statement::LetTuple { parts, type_, value }),
+            Initial::Neighbour(..) => {
+                Err(Error::new_spanned(pattern, "a neighbour is no tuple: `let other = cell.neighbour(n);`"))
+            }
+        }
     }
 
     fn initial_value(&mut self, value: &Expr) -> Result<Initial> {
@@ -113,32 +158,22 @@ impl Scope {
             Expr::Binary(binary) if let Some(operator) = super::plain_operator(&binary.op) => {
                 self.assignment(&binary.left, Some(operator), &binary.right, binary.op.span())?
             }
-            Expr::While(while_) => {
-                refuse_label(while_.label.as_ref())?;
-                let condition = self.expression(&while_.cond)?;
-                let body = self.in_loop(|scope| scope.block(&while_.body))?;
-                Statement::While { condition, body }
-            }
-            Expr::Loop(loop_) => {
-                refuse_label(loop_.label.as_ref())?;
-                Statement::Loop { body: self.in_loop(|scope| scope.block(&loop_.body))? }
-            }
+            Expr::While(while_) => self.while_loop(while_)?,
+            Expr::Loop(loop_) => self.endless_loop(loop_)?,
             Expr::ForLoop(for_) => self.for_loop(for_)?,
             Expr::Break(break_) => {
-                refuse_lifetime(break_.label.as_ref())?;
                 if let Some(value) = &break_.expr {
                     return Err(Error::new_spanned(
                         value,
                         "`break` carries no value in a process; assign it to a variable before",
                     ));
                 }
-                self.check_in_loop(break_.span())?;
-                Statement::Break(break_.span())
+                self.check_in_loop(break_.label.as_ref(), break_.span())?;
+                Statement::Break(break_.label.clone(), break_.span())
             }
             Expr::Continue(continue_) => {
-                refuse_lifetime(continue_.label.as_ref())?;
-                self.check_in_loop(continue_.span())?;
-                Statement::Continue(continue_.span())
+                self.check_in_loop(continue_.label.as_ref(), continue_.span())?;
+                Statement::Continue(continue_.label.clone(), continue_.span())
             }
             Expr::Return(return_) => {
                 let value = return_.expr.as_deref().map(|value| self.expression(value)).transpose()?;
@@ -166,10 +201,6 @@ impl Scope {
         };
         Ok(Item::Statement(statement))
     }
-
-    fn check_in_loop(&self, span: Span) -> Result<()> {
-        if self.inside_loop() { Ok(()) } else { Err(Error::new(span, "there is no loop around this")) }
-    }
 }
 
 /// What a variable starts with.
@@ -177,15 +208,6 @@ enum Initial {
     /// A neighbour with this index, as this struct of the cell sees it.
     Neighbour(ArgumentNumber, Expression),
     Value(Expression),
-}
-
-fn refuse_lifetime(label: Option<&syn::Lifetime>) -> Result<()> {
-    label.map_or(Ok(()), |label| {
-        Err(Error::new_spanned(
-            label,
-            "loops have no labels in a process; use a `bool` variable that ends the outer loop",
-        ))
-    })
 }
 
 /// Whether an expression that may stand for statements has a value.
@@ -203,7 +225,8 @@ fn has_value(expression: &Expression) -> bool {
 /// Whether the last statement leaves the function on every path.
 pub(super) fn ends_in_return(block: &Block) -> bool {
     match block.statements.last() {
-        Some(Statement::Return(..) | Statement::Loop { .. }) => true,
+        Some(Statement::Return(..)) => true,
+        Some(Statement::Loop(loop_)) => matches!(loop_.kind, LoopKind::Forever),
         Some(Statement::Expression(Expression::If { then, otherwise: Some(otherwise), .. })) => {
             ends_in_return(then) && ends_in_return(otherwise)
         }

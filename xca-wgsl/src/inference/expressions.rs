@@ -6,8 +6,9 @@ use crate::error::Problem;
 use crate::types::{Type, is_float};
 use xca_core::ScalarType;
 use xca_core::ir::{
-    Arm, Builtin, Constant, Expression, Function, Literal, Method, Pattern, Role, UnaryOperator,
+    Arm, Builtin, Constant, Expression, Function, Literal, Operation, Pattern, Role, UnaryOperator,
 };
+use xca_methods::{Method, Outcome};
 
 impl<'a> Inference<'a> {
     pub(super) fn expression(&mut self, value: &'a Expression) -> Result<Variable, Problem> {
@@ -79,6 +80,11 @@ impl<'a> Inference<'a> {
             Expression::Array(elements) => {
                 let element = self.same(elements, "the elements of an array")?;
                 self.table.variable(Term::Array(element, elements.len()))
+            }
+            Expression::Tuple(parts) => {
+                let parts: Vec<Variable> =
+                    parts.iter().map(|part| self.expression(part)).collect::<Result<_, _>>()?;
+                self.table.tuple(&parts)
             }
             Expression::Repeat(element, length) => {
                 let element = self.expression(element)?;
@@ -223,7 +229,7 @@ impl<'a> Inference<'a> {
 
     fn method(
         &mut self,
-        method: Method,
+        method: Operation,
         receiver: &'a Expression,
         arguments: &'a [Expression],
     ) -> Result<Variable, Problem> {
@@ -232,21 +238,11 @@ impl<'a> Inference<'a> {
             let found = self.expression(argument)?;
             self.table.unify(of, found, "an argument of a method")?;
         }
-        match method {
-            Method::Min
-            | Method::Max
-            | Method::Clamp
-            | Method::Abs
-            | Method::SquareRoot
-            | Method::Floor
-            | Method::Ceiling
-            | Method::Truncate
-            | Method::WrappingAdd
-            | Method::WrappingSubtract
-            | Method::WrappingMultiply
-            | Method::Cross => Ok(of),
-            Method::CountOnes => Ok(self.scalar(ScalarType::U32)),
-            Method::Dot | Method::LengthSquared | Method::Length => self.scalar_of(of),
+        match definition(method)?.result {
+            Outcome::Same => Ok(of),
+            Outcome::Truth => Ok(self.table.variable(Term::Bool)),
+            Outcome::Count => Ok(self.scalar(ScalarType::U32)),
+            Outcome::Lane => self.scalar_of(of),
         }
     }
 
@@ -273,6 +269,12 @@ impl<'a> Inference<'a> {
         }
         Ok(result)
     }
+}
+
+/// What the list of methods says about an operation.
+pub(crate) fn definition(operation: Operation) -> Result<&'static Method, Problem> {
+    let unlisted = || Problem::unsupported(format!("{operation:?}"), "it is no method of the list");
+    operation.method().ok_or_else(unlisted)
 }
 
 fn lanes(count: usize) -> Result<u8, Problem> {

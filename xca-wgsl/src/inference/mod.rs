@@ -12,11 +12,11 @@ mod table;
 use crate::error::Problem;
 use crate::program::{Program, Roles, field_number};
 use crate::types::Type;
-pub(crate) use expressions::constant as constant_type;
+pub(crate) use expressions::{constant as constant_type, definition};
 use operators::Waiting;
 use std::collections::HashMap;
 use table::{Table, Term, Variable};
-use xca_core::ir::{Block, Expression, Function, Place, Role, Statement};
+use xca_core::ir::{Block, Expression, Function, Place, Role, Statement, TuplePart};
 use xca_core::{ScalarType, Schema};
 
 /// The number of a variable of the source; shadowed ones are told apart.
@@ -37,6 +37,7 @@ pub(crate) struct Analysis {
     uses: HashMap<*const Expression, LocalNumber>,
     place_roots: HashMap<*const Place, LocalNumber>,
     bindings: HashMap<*const Statement, LocalNumber>,
+    parts: HashMap<*const TuplePart, LocalNumber>,
     pub(crate) locals: Vec<Local>,
     /// The variables of the arguments that are values.
     pub(crate) arguments: Vec<Option<LocalNumber>>,
@@ -67,6 +68,11 @@ impl Analysis {
         self.place_roots.get(&(&raw const *place)).copied().ok_or_else(lost)
     }
 
+    /// The variable that takes a part of a tuple.
+    pub(crate) fn part(&self, part: &TuplePart) -> Result<LocalNumber, Problem> {
+        self.parts.get(&(&raw const *part)).copied().ok_or_else(lost)
+    }
+
     /// The variable that a statement makes.
     pub(crate) fn bound(&self, statement: &Statement) -> Result<LocalNumber, Problem> {
         self.bindings.get(&(&raw const *statement)).copied().ok_or_else(lost)
@@ -91,6 +97,7 @@ struct Inference<'a> {
     uses: HashMap<*const Expression, LocalNumber>,
     place_roots: HashMap<*const Place, LocalNumber>,
     bindings: HashMap<*const Statement, LocalNumber>,
+    parts: HashMap<*const TuplePart, LocalNumber>,
 }
 
 impl<'a> Inference<'a> {
@@ -111,6 +118,7 @@ impl<'a> Inference<'a> {
             uses: HashMap::new(),
             place_roots: HashMap::new(),
             bindings: HashMap::new(),
+            parts: HashMap::new(),
         };
         let arguments = function
             .arguments
@@ -146,6 +154,7 @@ impl<'a> Inference<'a> {
             uses: self.uses,
             place_roots: self.place_roots,
             bindings: self.bindings,
+            parts: self.parts,
             locals: self.locals.into_iter().map(local).collect(),
             arguments,
             result: table.resolve(self.result),

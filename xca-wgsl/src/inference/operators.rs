@@ -78,6 +78,11 @@ impl Inference<'_> {
 
     pub(super) fn element(&mut self, of: Variable, index: Variable) -> Result<Variable, Problem> {
         self.indices.push(index);
+        self.element_of(of)
+    }
+
+    /// The type of the elements of an array.
+    pub(super) fn element_of(&mut self, of: Variable) -> Result<Variable, Problem> {
         let result = self.table.variable(Term::Any);
         self.demand(Waiting::Element { of, result })?;
         Ok(result)

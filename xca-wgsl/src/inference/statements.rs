@@ -1,12 +1,12 @@
 //! The types in statements.
 
+use super::Inference;
 use super::table::{Term, Variable};
-use super::{Inference, LocalNumber};
 use crate::error::Problem;
 use crate::types::Type;
 use crate::visit;
 use xca_core::ScalarType;
-use xca_core::ir::{Block, Expression, Place, PlaceRoot, Projection, Statement};
+use xca_core::ir::{Block, Expression, Loop, LoopKind, Place, PlaceRoot, Projection, Statement};
 
 impl<'a> Inference<'a> {
     /// The type of the block's value: anything where control does not reach its end.
@@ -38,6 +38,22 @@ impl<'a> Inference<'a> {
                 let number = self.bind(name, variable, *mutable);
                 self.bindings.insert(&raw const *statement, number);
             }
+            Statement::LetTuple { parts, type_, value } => {
+                let found = self.expression(value)?;
+                let variables: Vec<Variable> = parts.iter().map(|_| self.table.variable(Term::Any)).collect();
+                let tuple = self.table.tuple(&variables);
+                self.table.unify(tuple, found, "`let` with a tuple")?;
+                if let Some(written) = type_ {
+                    let written = self.table.known(&Type::from(written));
+                    self.table.unify(written, tuple, "`let` with a tuple")?;
+                }
+                for (part, variable) in parts.iter().zip(variables) {
+                    if let Some(name) = part.name {
+                        let number = self.bind(name, variable, part.mutable);
+                        self.parts.insert(&raw const *part, number);
+                    }
+                }
+            }
             Statement::LetNeighbour { name, index } => {
                 self.expect(index, ScalarType::U32, "the index of a neighbour")?;
                 self.bind_number(statement, name);
@@ -56,31 +72,8 @@ impl<'a> Inference<'a> {
             Statement::Expression(value) => {
                 self.expression(value)?;
             }
-            Statement::While { condition, body } => {
-                self.condition(condition)?;
-                self.block(body)?;
-            }
-            Statement::Loop { body } => {
-                self.block(body)?;
-            }
-            Statement::ForRange { variable, from, to, body, .. } => {
-                let counter = self.expression(from)?;
-                let end = self.expression(to)?;
-                self.table.unify(counter, end, "a range")?;
-                self.scoped(|inference| {
-                    let number = inference.bind(variable, counter, false);
-                    inference.bindings.insert(&raw const *statement, number);
-                    inference.block(body)
-                })?;
-            }
-            Statement::ForOthers { variable, radius, body, .. } => {
-                if let Some(radius) = radius {
-                    self.expect(radius, ScalarType::Real, "the radius of a search")?;
-                }
-                self.items(statement, variable, body)?;
-            }
-            Statement::ForItems { variable, body } => self.items(statement, variable, body)?,
-            Statement::Break | Statement::Continue => {}
+            Statement::Loop(loop_) => self.loop_(statement, loop_)?,
+            Statement::Break(_) | Statement::Continue(_) => {}
             Statement::Return(value) => {
                 let found = match value {
                     Some(value) => self.expression(value)?,
@@ -96,24 +89,46 @@ impl<'a> Inference<'a> {
         Ok(())
     }
 
-    fn items(
-        &mut self,
-        statement: &'a Statement,
-        variable: &'static str,
-        body: &'a Block,
-    ) -> Result<(), Problem> {
+    fn loop_(&mut self, statement: &'a Statement, loop_: &'a Loop) -> Result<(), Problem> {
+        let (variable, type_) = match &loop_.kind {
+            LoopKind::While(condition) => {
+                self.condition(condition)?;
+                return self.block(&loop_.body).map(|_| ());
+            }
+            LoopKind::Forever => return self.block(&loop_.body).map(|_| ()),
+            LoopKind::Range { variable, range } => {
+                let counter = self.expression(&range.from)?;
+                let end = self.expression(&range.to)?;
+                self.table.unify(counter, end, "a range")?;
+                if let Some(step) = &range.step {
+                    self.expect(step, ScalarType::U32, "the step of a range")?;
+                }
+                (variable, counter)
+            }
+            LoopKind::Elements { variable, array } => {
+                let array = self.expression(array)?;
+                (variable, self.element_of(array)?)
+            }
+            LoopKind::Others { variable, radius, .. } => {
+                if let Some(radius) = radius {
+                    self.expect(radius, ScalarType::Real, "the radius of a search")?;
+                }
+                (variable, self.scalar(ScalarType::U32))
+            }
+            LoopKind::Items { variable } => (variable, self.scalar(ScalarType::U32)),
+        };
         self.scoped(|inference| {
-            inference.bind_number(statement, variable);
-            inference.block(body).map(|_| ())
+            let number = inference.bind(variable, type_, false);
+            inference.bindings.insert(&raw const *statement, number);
+            inference.block(&loop_.body).map(|_| ())
         })
     }
 
-    /// Binds a name that stands for a cell or an item: its number.
-    fn bind_number(&mut self, statement: &'a Statement, name: &'static str) -> LocalNumber {
+    /// Binds a name that stands for a cell: its number.
+    fn bind_number(&mut self, statement: &'a Statement, name: &'static str) {
         let variable = self.scalar(ScalarType::U32);
         let number = self.bind(name, variable, false);
         self.bindings.insert(&raw const *statement, number);
-        number
     }
 
     fn place(&mut self, place: &'a Place) -> Result<Variable, Problem> {

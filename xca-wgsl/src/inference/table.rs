@@ -8,6 +8,13 @@ use xca_core::{ScalarType, StateNames};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Variable(usize);
 
+/// Where the parts of a tuple stand in the table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Parts {
+    first: usize,
+    count: usize,
+}
+
 /// What is known about a type.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Term {
@@ -23,6 +30,7 @@ pub(super) enum Term {
     Vector(Variable, u8),
     State(&'static StateNames),
     Array(Variable, usize),
+    Tuple(Parts),
     Destination,
 }
 
@@ -42,12 +50,25 @@ enum Node {
 #[derive(Default)]
 pub(super) struct Table {
     nodes: Vec<Node>,
+    /// The parts of tuples, one after the other.
+    parts: Vec<Variable>,
 }
 
 impl Table {
     pub(super) fn variable(&mut self, term: Term) -> Variable {
         self.nodes.push(Node::Root(term));
         Variable(self.nodes.len() - 1)
+    }
+
+    /// A tuple of these.
+    pub(super) fn tuple(&mut self, parts: &[Variable]) -> Variable {
+        let term = Term::Tuple(Parts { first: self.parts.len(), count: parts.len() });
+        self.parts.extend(parts);
+        self.variable(term)
+    }
+
+    fn parts(&self, parts: Parts) -> Vec<Variable> {
+        self.parts[parts.first..parts.first + parts.count].to_vec()
     }
 
     pub(super) fn known(&mut self, type_: &Type) -> Variable {
@@ -63,6 +84,10 @@ impl Table {
             Type::Array(element, length) => {
                 let element = self.known(element);
                 Term::Array(element, *length)
+            }
+            Type::Tuple(parts) => {
+                let parts: Vec<Variable> = parts.iter().map(|part| self.known(part)).collect();
+                return self.tuple(&parts);
             }
             Type::Destination => Term::Destination,
         };
@@ -113,6 +138,12 @@ impl Table {
                 self.unify(one, other, construct)?;
                 left_term
             }
+            (Term::Tuple(one), Term::Tuple(other)) if one.count == other.count => {
+                for (one, other) in self.parts(one).into_iter().zip(self.parts(other)) {
+                    self.unify(one, other, construct)?;
+                }
+                left_term
+            }
             (one, other) if one == other => one,
             _ => {
                 return Err(Problem::Types {
@@ -138,6 +169,11 @@ impl Table {
             Term::Vector(scalar, lanes) => format!("Vector{lanes}<{}>", self.describe(scalar)),
             Term::State(names) => names.name.to_owned(),
             Term::Array(element, length) => format!("[{}; {length}]", self.describe(element)),
+            Term::Tuple(parts) => {
+                let parts: Vec<String> =
+                    self.parts(parts).into_iter().map(|part| self.describe(part)).collect();
+                format!("({})", parts.join(", "))
+            }
             Term::Destination => "Destination".to_owned(),
         }
     }
@@ -156,6 +192,9 @@ impl Table {
             },
             Term::State(names) => Type::State(names),
             Term::Array(element, length) => Type::Array(Box::new(self.resolve(element)), length),
+            Term::Tuple(parts) => {
+                Type::Tuple(self.parts(parts).into_iter().map(|part| self.resolve(part)).collect())
+            }
             Term::Destination => Type::Destination,
         }
     }

@@ -6,7 +6,7 @@ use super::text::{Level, Text};
 use crate::error::Problem;
 use crate::types::{self, Type};
 use crate::visit;
-use xca_core::ir::{BinaryOperator, Builtin, Expression};
+use xca_core::ir::{BinaryOperator, Builtin, Expression, Operation};
 
 impl Writer<'_, '_> {
     /// `array[index]`: of one that stands in memory, without loading the others.
@@ -114,6 +114,15 @@ impl Writer<'_, '_> {
                     Expression::Binary(BinaryOperator::Divide | BinaryOperator::Remainder, left, right) => {
                         let type_ = self.analysis.type_of(left);
                         !type_.is_float() && self.range(right).may_stop_division_of(self.range(left), type_)
+                    }
+                    Expression::Method { method, receiver, arguments } => {
+                        let type_ = self.analysis.type_of(receiver);
+                        let divides = matches!(method, Operation::RemainderEuclid | Operation::DivideEuclid);
+                        divides
+                            && !type_.is_float()
+                            && arguments.iter().any(|divisor| {
+                                self.range(divisor).may_stop_division_of(self.range(receiver), type_)
+                            })
                     }
                     Expression::Neighbour { .. } | Expression::Call { .. } => true,
                     Expression::Builtin(builtin, _) => {

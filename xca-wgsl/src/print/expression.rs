@@ -87,6 +87,10 @@ impl Writer<'_, '_> {
                 let values: Vec<&Expression> = elements.iter().collect();
                 self.constructor(value, &values)
             }
+            Expression::Tuple(parts) => {
+                let values: Vec<&Expression> = parts.iter().collect();
+                self.constructor(value, &values)
+            }
             Expression::Vector(components) => {
                 let values: Vec<&Expression> = components.iter().collect();
                 self.constructor(value, &values)

@@ -5,6 +5,7 @@ mod constant;
 mod control;
 mod element;
 mod expression;
+mod loops;
 mod method;
 mod operator;
 mod range;
@@ -54,8 +55,8 @@ struct Writer<'a, 's> {
     ranges: HashMap<LocalNumber, Range>,
     /// Variables of loops that are written out, with their present value.
     counted: HashMap<LocalNumber, usize>,
-    /// The loops around the present place. Of a search in several cells, the flag that ends it.
-    loops: Vec<Option<String>>,
+    /// The loops around the present place.
+    loops: Vec<loops::Frame>,
 }
 
 /// Where a value goes.
@@ -160,8 +161,13 @@ impl Writer<'_, '_> {
             .ok_or_else(|| Problem::unsupported("a variable", "it has no name here"))
     }
 
-    fn check_type(&self, type_: &Type) -> Result<(), Problem> {
+    /// Whether WGSL has the type; a tuple gets a struct.
+    fn check_type(&mut self, type_: &Type) -> Result<(), Problem> {
         match type_ {
+            Type::Tuple(parts) => {
+                self.shared.routines.need_tuple(type_, parts);
+                parts.iter().try_for_each(|part| self.check_type(part))
+            }
             Type::Array(_, 0) => Err(Problem::unsupported("an empty array", "WGSL has none")),
             Type::Array(element, _) => self.check_type(element),
             _ => Ok(()),

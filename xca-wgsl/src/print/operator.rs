@@ -45,10 +45,10 @@ impl Writer<'_, '_> {
             }
             BinaryOperator::Divide => Text::joined(left, "/", right, Level::Multiplicative),
             BinaryOperator::Remainder if type_.is_float() => {
-                return Err(Problem::unsupported(
-                    "`%` of floats",
-                    "engines disagree about it; write `a - b * (a / b).trunc()`, or use integers",
-                ));
+                let wide =
+                    type_.scalar().is_some_and(|scalar| types::is_f64(scalar, self.shared.options.precision));
+                let routine = self.shared.routines.need_remainder(type_, wide);
+                Text::primary(format!("{routine}({}, {})", left.argument(), right.argument()))
             }
             BinaryOperator::Remainder => Text::joined(left, "%", right, Level::Multiplicative),
             BinaryOperator::BitAnd => Text::joined(left, "&", right, Level::Bitwise),
@@ -77,6 +77,9 @@ impl Writer<'_, '_> {
             }
             BinaryOperator::NotEqual if type_.lanes() > 1 => {
                 Text::primary(format!("any({})", Text::joined(left, "!=", right, Level::Relational).plain()))
+            }
+            BinaryOperator::Equal | BinaryOperator::NotEqual if matches!(type_, Type::Tuple(_)) => {
+                return Err(Problem::unsupported("a comparison of tuples", "compare their parts"));
             }
             BinaryOperator::Equal => Text::joined(left, "==", right, Level::Relational),
             BinaryOperator::NotEqual => Text::joined(left, "!=", right, Level::Relational),

@@ -4,7 +4,7 @@ use super::Writer;
 use crate::inference::LocalNumber;
 use crate::types::Type;
 use xca_core::ScalarType;
-use xca_core::ir::{BinaryOperator, Block, Builtin, Constant, Expression, Literal, Method, UnaryOperator};
+use xca_core::ir::{BinaryOperator, Block, Builtin, Constant, Expression, Literal, Operation, UnaryOperator};
 
 /// All numbers from the least to the most.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -169,9 +169,16 @@ impl Writer<'_, '_> {
         })
     }
 
-    fn method_range(&self, method: Method, receiver: &Expression, arguments: &[Expression]) -> Option<Range> {
-        if method == Method::CountOnes {
-            return Some(Range::new(0, 32));
+    fn method_range(
+        &self,
+        operation: Operation,
+        receiver: &Expression,
+        arguments: &[Expression],
+    ) -> Option<Range> {
+        match (operation, self.analysis.type_of(receiver)) {
+            (Operation::CountOnes, _) => return Some(Range::new(0, 32)),
+            (Operation::Len, Type::Array(_, length)) => return Some(Range::only(i64::try_from(*length).ok()?)),
+            _ => {}
         }
         if !self.is_whole(receiver) {
             return None;
@@ -180,12 +187,12 @@ impl Writer<'_, '_> {
         let argument = |number: usize| arguments.get(number).map(|argument| self.range(argument));
         let smaller = |a: Range, b: Range| Range::new(a.least.min(b.least), a.most.min(b.most));
         let larger = |a: Range, b: Range| Range::new(a.least.max(b.least), a.most.max(b.most));
-        Some(match method {
-            Method::Min => smaller(of, argument(0)?),
-            Method::Max => larger(of, argument(0)?),
-            Method::Clamp => smaller(larger(of, argument(0)?), argument(1)?),
-            Method::Abs if of.least >= 0 => of,
-            Method::Abs => Range::new(0, of.most.max(-of.least)),
+        Some(match operation {
+            Operation::Min => smaller(of, argument(0)?),
+            Operation::Max => larger(of, argument(0)?),
+            Operation::Clamp => smaller(larger(of, argument(0)?), argument(1)?),
+            Operation::Abs if of.least >= 0 => of,
+            Operation::Abs => Range::new(0, of.most.max(-of.least)),
             _ => return None,
         })
     }

@@ -1,22 +1,28 @@
 //! Loops over items.
 
 use super::Writer;
+use super::loops::Frame;
 use crate::access;
 use crate::error::Problem;
 use crate::visit;
-use xca_core::{Boundary, Face};
-use xca_core::ir::{Block, Expression, Reach, Statement};
+use xca_core::ir::{Expression, Loop, Reach, Statement};
 use xca_core::kernel::WRONG_RADIUS;
+use xca_core::{Boundary, Face};
+
 
 impl Writer<'_, '_> {
-    pub(super) fn for_items(&mut self, statement: &Statement, body: &Block) -> Result<(), Problem> {
-        let Statement::ForItems { variable, .. } = statement else { return Ok(()) };
+    pub(super) fn for_items(
+        &mut self,
+        statement: &Statement,
+        variable: &str,
+        loop_: &Loop,
+    ) -> Result<(), Problem> {
         let end = self.shared.names.local("end");
         self.line(&format!("let {end}: u32 = item_ends[here];"));
         self.shared.names.open();
         let item = self.item(statement, variable)?;
         self.line(&format!("for (var {item}: u32 = item_starts[here]; {item} < {end}; {item} += 1u) {{"));
-        self.loop_body(None, body)?;
+        self.loop_body(Frame::new(loop_, None), loop_)?;
         self.line("}");
         self.shared.names.close();
         Ok(())
@@ -25,17 +31,17 @@ impl Writer<'_, '_> {
     pub(super) fn for_others(
         &mut self,
         statement: &Statement,
+        variable: &str,
         reach: Reach,
         radius: Option<&Expression>,
-        body: &Block,
+        loop_: &Loop,
     ) -> Result<(), Problem> {
-        let Statement::ForOthers { variable, .. } = statement else { return Ok(()) };
         // What stands before the loop stays visible after it: only the variable of the loop has a scope of its own.
         let near = radius.map(|radius| self.near(reach, radius)).transpose()?;
         if reach == Reach::Cell {
-            return self.items_of("here", statement, variable, near.as_ref(), None, body);
+            return self.items_of("here", statement, variable, near.as_ref(), None, loop_);
         }
-        let ended = visit::breaks(body).then(|| self.shared.names.local("ended"));
+        let ended = visit::ends_early(loop_).then(|| self.shared.names.local("ended"));
         if let Some(ended) = &ended {
             self.line(&format!("var {ended}: bool = false;"));
         }
@@ -49,7 +55,7 @@ impl Writer<'_, '_> {
         self.inside(|writer| {
             let there = writer.shared.names.local("there");
             writer.line(&format!("let {there}: u32 = neighbour_at({neighbour});"));
-            writer.items_of(&there, statement, variable, near.as_ref(), ended.clone(), body)?;
+            writer.items_of(&there, statement, variable, near.as_ref(), ended.clone(), loop_)?;
             if let Some(ended) = &ended {
                 writer.line(&format!("if {ended} {{"));
                 writer.line("    break;");
@@ -92,7 +98,7 @@ impl Writer<'_, '_> {
         variable: &str,
         near: Option<&Near>,
         ended: Option<String>,
-        body: &Block,
+        loop_: &Loop,
     ) -> Result<(), Problem> {
         let end = self.shared.names.local("end");
         self.line(&format!("let {end}: u32 = item_ends[{cell}];"));
@@ -114,7 +120,7 @@ impl Writer<'_, '_> {
                 writer.line("}");
             }
             writer.indent -= 1;
-            let result = writer.loop_body(ended, body);
+            let result = writer.loop_body(Frame::new(loop_, ended), loop_);
             writer.indent += 1;
             result
         })?;

@@ -10,7 +10,7 @@ use crate::types::Type;
 use crate::visit;
 use xca_core::ScalarType;
 use xca_core::ir::{
-    BinaryOperator, Block, Builtin, Constant, Expression, Literal, Place, PlaceRoot, Projection, Statement,
+    BinaryOperator, Block, Builtin, Constant, Expression, Literal, Place, PlaceRoot, Projection, Statement, TuplePart,
 };
 
 impl Writer<'_, '_> {
@@ -57,6 +57,7 @@ impl Writer<'_, '_> {
     fn statement(&mut self, statement: &Statement) -> Result<(), Problem> {
         match statement {
             Statement::Let { name, mutable, value, .. } => self.let_(statement, name, *mutable, value),
+            Statement::LetTuple { parts, value, .. } => self.let_tuple(parts, value),
             Statement::LetNeighbour { name, index } => {
                 let number = self.neighbour(index)?;
                 let local = self.shared.names.local(name);
@@ -66,30 +67,13 @@ impl Writer<'_, '_> {
             }
             Statement::Assign { place, operator, value } => self.assign(place, *operator, value),
             Statement::Expression(value) => self.value_into(value, Target::Nowhere),
-            Statement::While { condition, body } => self.while_(condition, body),
-            Statement::Loop { body } => {
-                self.line("loop {");
-                self.long_body(true, body)?;
-                self.line("}");
+            Statement::Loop(loop_) => self.loop_(statement, loop_),
+            Statement::Break(label) => {
+                self.jump(true, *label);
                 Ok(())
             }
-            Statement::ForRange { from, to, inclusive, body, .. } => {
-                self.for_range(statement, from, to, *inclusive, body)
-            }
-            Statement::ForOthers { reach, radius, body, .. } => {
-                self.for_others(statement, *reach, radius.as_ref(), body)
-            }
-            Statement::ForItems { body, .. } => self.for_items(statement, body),
-            Statement::Break => {
-                if let Some(Some(flag)) = self.loops.last() {
-                    let ended = format!("{flag} = true;");
-                    self.line(&ended);
-                }
-                self.line("break;");
-                Ok(())
-            }
-            Statement::Continue => {
-                self.line("continue;");
+            Statement::Continue(label) => {
+                self.jump(false, *label);
                 Ok(())
             }
             Statement::Return(None) => {
@@ -138,6 +122,24 @@ impl Writer<'_, '_> {
         self.locals.insert(number, local);
         let range = self.range(value);
         self.note_range(number, range);
+        Ok(())
+    }
+
+    fn let_tuple(&mut self, parts: &[TuplePart], value: &Expression) -> Result<(), Problem> {
+        let type_ = self.type_of(value);
+        self.check_type(&type_)?;
+        let Type::Tuple(types) = &type_ else {
+            return Err(Problem::unsupported("`let` with a tuple", "the value is none"));
+        };
+        let text = self.expression(value)?;
+        let tuple = self.keep("parts", &type_, &text);
+        for (place, (part, type_)) in parts.iter().zip(types).enumerate() {
+            let Some(name) = part.name else { continue };
+            let keyword = if part.mutable || matches!(type_, Type::Array(..)) { "var" } else { "let" };
+            let local = self.shared.names.local(name);
+            self.line(&format!("{keyword} {local}: {} = {}.part_{place};", type_.wgsl(), tuple.plain()));
+            self.locals.insert(self.analysis.part(part)?, local);
+        }
         Ok(())
     }
 
@@ -311,19 +313,6 @@ impl Writer<'_, '_> {
             Type::Scalar(ScalarType::U8 | ScalarType::U32) => Ok("1u"),
             _ => Err(Problem::unsupported("a range", "its ends are integers")),
         }
-    }
-
-    /// Remembers that a variable is the index of an existing neighbour.
-    pub(super) fn note_neighbour(
-        &mut self,
-        statement: &Statement,
-        to: &Expression,
-        inclusive: bool,
-    ) -> Result<(), Problem> {
-        if !inclusive && matches!(to, Expression::Builtin(Builtin::NeighbourCount, _)) {
-            self.neighbours.insert(self.analysis.bound(statement)?);
-        }
-        Ok(())
     }
 }
 

@@ -4,6 +4,7 @@
 
 mod common;
 mod items;
+mod language;
 mod layouts;
 mod mathematics;
 mod random;

@@ -5,8 +5,8 @@
 
 use crate::common::validate;
 use xca_core::ir::{
-    Argument, Arm, BinaryOperator, Block, Builtin, Constant, Expression, Function, FunctionKind, Literal,
-    Method, Pattern, Place, PlaceRoot, Projection, Role, Statement, Type, UnaryOperator,
+    Argument, Arm, BinaryOperator, Block, Builtin, Constant, Expression, Function, FunctionKind, Literal, Loop,
+    LoopKind, Operation, Pattern, Place, PlaceRoot, Projection, Range, Role, Statement, Type, UnaryOperator,
 };
 use xca_core::prelude::*;
 use xca_core::{ScalarType, Schema};
@@ -59,11 +59,16 @@ fn path() -> Type {
 struct Source {
     state: u64,
     scopes: Vec<Vec<(&'static str, Type, bool)>>,
-    loops: usize,
+    /// The loops around the present place, with their labels.
+    loops: Vec<Option<&'static str>>,
 }
 
 fn is_float(type_: &Type) -> bool {
     matches!(type_, Type::Scalar(ScalarType::F32 | ScalarType::F64 | ScalarType::Real))
+}
+
+fn boxed_type(type_: &Type) -> Box<Type> {
+    Box::new(type_.clone())
 }
 
 fn boxed(value: Expression) -> Box<Expression> {
@@ -110,6 +115,7 @@ impl Source {
             Type::Vector(scalar, lanes) => {
                 Expression::Splat(boxed(self.literal(&Type::Scalar(*scalar))), *lanes)
             }
+            Type::Tuple(parts) => Expression::Tuple(parts.iter().map(|part| self.literal(part)).collect()),
             Type::Array(element, length) => Expression::Repeat(boxed(self.literal(element)), *length),
             Type::State(names) => {
                 let number = self.below(names.states.len());
@@ -234,7 +240,7 @@ impl Source {
         };
         let left = boxed(self.expression(type_, depth));
         if is_float(type_) {
-            let operator = [Add, Subtract, Multiply, Divide][self.below(4)];
+            let operator = [Add, Subtract, Multiply, Divide, Remainder][self.below(5)];
             return Expression::Binary(operator, left, boxed(self.expression(type_, depth)));
         }
         let operator =
@@ -244,7 +250,7 @@ impl Source {
             // Rust itself refuses a division by a literal 0.
             Divide | Remainder if self.below(2) == 0 => self.own(type_),
             Divide | Remainder => Expression::Method {
-                method: Method::Max,
+                method: Operation::Max,
                 receiver: boxed(self.own(type_)),
                 arguments: vec![Expression::Literal(Literal::Integer(1, None))],
             },
@@ -258,28 +264,41 @@ impl Source {
     }
 
     fn method(&mut self, type_: &Type, depth: usize) -> Expression {
-        use Method::{
-            Abs, Ceiling, Clamp, Dot, Floor, Max, Min, SquareRoot, Truncate, WrappingAdd, WrappingMultiply,
+        use Operation::{
+            Abs, Ceiling, Clamp, CopySign, DivideEuclid, Dot, Floor, Fraction, Max, Min, Reciprocal,
+            RemainderEuclid, Round, Signum, SquareRoot, Truncate, WrappingAdd, WrappingMultiply,
         };
         if *type_ == Type::Scalar(ScalarType::Real) && self.below(2) == 0 {
             let (receiver, argument) =
                 (boxed(self.expression(&PLACE, depth)), self.expression(&PLACE, depth));
             return match self.below(3) {
                 0 => Expression::Method { method: Dot, receiver, arguments: vec![argument] },
-                1 => Expression::Method { method: Method::Length, receiver, arguments: Vec::new() },
-                _ => Expression::Method { method: Method::LengthSquared, receiver, arguments: Vec::new() },
+                1 => Expression::Method { method: Operation::Length, receiver, arguments: Vec::new() },
+                _ => Expression::Method { method: Operation::LengthSquared, receiver, arguments: Vec::new() },
             };
         }
         let method = if is_float(type_) {
-            [Min, Max, Clamp, Abs, SquareRoot, Floor, Ceiling, Truncate][self.below(8)]
+            [
+                Min,
+                Max,
+                Clamp,
+                Abs,
+                SquareRoot,
+                Floor,
+                Ceiling,
+                Truncate,
+                Round,
+                Fraction,
+                Signum,
+                CopySign,
+                Reciprocal,
+                RemainderEuclid,
+                DivideEuclid,
+            ][self.below(15)]
         } else {
             [Min, Max, Clamp, WrappingAdd, WrappingMultiply][self.below(5)]
         };
-        let count = match method {
-            Clamp => 2,
-            Min | Max | WrappingAdd | WrappingMultiply => 1,
-            _ => 0,
-        };
+        let count = method.method().map_or(0, |method| method.arguments.len());
         let receiver = boxed(self.expression(type_, depth));
         Expression::Method {
             method,
@@ -317,7 +336,7 @@ impl Source {
                 boxed(self.expression(&single, depth)),
             ),
             3 => Expression::Method {
-                method: Method::Cross,
+                method: Operation::Cross,
                 receiver: boxed(self.expression(&vector, depth)),
                 arguments: vec![self.expression(&vector, depth)],
             },
@@ -358,7 +377,7 @@ impl Source {
         let value = match value {
             Some(_) if may_leave && self.below(8) == 0 => {
                 // Control may leave instead of giving a value.
-                let leave = if self.loops > 0 { Statement::Break } else { Statement::Return(None) };
+                let leave = self.leave();
                 self.scopes.pop();
                 let mut statements: Vec<Statement> = statements;
                 statements.push(leave);
@@ -399,16 +418,28 @@ impl Source {
                 let loops = std::mem::take(&mut self.loops);
                 let condition = self.expression(&Type::Bool, next);
                 self.loops = loops;
-                Statement::While { condition, body: self.loop_body(next) }
+                self.loop_(LoopKind::While(condition), next)
             }
             6 => {
                 let counter = self.integer();
                 let (from, to) = (self.expression(&counter, next), self.expression(&counter, next));
                 let (variable, inclusive) = (NAMES[self.below(NAMES.len())], self.below(2) == 0);
+                let step = (self.below(3) == 0).then(|| self.expression(&Type::Scalar(ScalarType::U32), 0));
                 self.scopes.push(vec![(variable, counter, false)]);
-                let body = self.loop_body(next);
+                let reversed = self.below(3) == 0;
+                let range = Range { from, to, inclusive, reversed, step };
+                let loop_ = self.loop_(LoopKind::Range { variable, range }, next);
                 self.scopes.pop();
-                Statement::ForRange { variable, from, to, inclusive, body }
+                loop_
+            }
+            7 if self.below(2) == 0 => {
+                let element = self.scalar();
+                let array = self.expression(&Type::Array(boxed_type(&element), 3), next);
+                let variable = NAMES[self.below(NAMES.len())];
+                self.scopes.push(vec![(variable, element, false)]);
+                let loop_ = self.loop_(LoopKind::Elements { variable, array }, next);
+                self.scopes.pop();
+                loop_
             }
             7 => Statement::Fault {
                 code: self.expression(&Type::Scalar(ScalarType::U32), next),
@@ -418,11 +449,26 @@ impl Source {
         }
     }
 
-    fn loop_body(&mut self, depth: usize) -> Block {
-        self.loops += 1;
+    fn loop_(&mut self, kind: LoopKind, depth: usize) -> Statement {
+        const LABELS: [&str; 6] = ["outer", "second", "third", "fourth", "fifth", "sixth"];
+        let label = LABELS.get(self.loops.len()).copied().filter(|_| self.below(2) == 0);
+        self.loops.push(label);
         let body = self.block(None, depth);
-        self.loops -= 1;
-        body
+        self.loops.pop();
+        Statement::Loop(Loop { label, kind, body })
+    }
+
+    /// Leaves a block: for a loop around it, or the function.
+    fn leave(&mut self) -> Statement {
+        if self.loops.is_empty() {
+            return Statement::Return(None);
+        }
+        let labels: Vec<&'static str> = self.loops.iter().flatten().copied().collect();
+        let label = match labels.len() {
+            0 => None,
+            count => Some(labels[self.below(count)]).filter(|_| self.below(3) > 0),
+        };
+        if self.below(2) == 0 { Statement::Break(label) } else { Statement::Continue(label) }
     }
 
     fn assignment(&mut self, depth: usize) -> Statement {
@@ -451,7 +497,7 @@ impl Source {
 #[test]
 fn whatever_is_written_is_valid() {
     for seed in 0..std::env::var("SEEDS").map_or(300, |text| text.parse().unwrap()) {
-        let mut source = Source { state: seed, scopes: vec![Vec::new()], loops: 0 };
+        let mut source = Source { state: seed, scopes: vec![Vec::new()], loops: Vec::new() };
         let body = source.block(None, 5);
         let process = Function {
             name: "senseless",

@@ -10,16 +10,17 @@ struct State {
 }
 
 #[elementary_process]
-fn remainder(cell: &mut Cell<State>) {
-    cell.value = cell.value % 2.0;
+fn pairs(cell: &mut Cell<State>) {
+    if (cell.value, cell.count) == (1.0, 2) {
+        cell.count = 1;
+    }
 }
 
 #[test]
-fn remainder_of_floats() {
+fn comparisons_of_tuples() {
     assert_eq!(
-        refused::<remainder>().to_string(),
-        "the process `remainder` cannot be written in WGSL: `%` of floats: engines disagree about it; \
-         write `a - b * (a / b).trunc()`, or use integers"
+        refused::<pairs>().to_string(),
+        "the process `pairs` cannot be written in WGSL: a comparison of arrays or tuples: compare their elements"
     );
 }
 

@@ -1,0 +1,83 @@
+//! Loops, tuples, methods and constants of functions as WGSL.
+
+use crate::common::{accepted, function, written};
+use xca_core::Precision;
+use xca_core::prelude::*;
+
+#[derive(Substates, Clone, Copy, Debug, PartialEq)]
+struct State {
+    count: i32,
+    x: Real,
+    y: Real,
+}
+
+const TABLE: [i32; 3] = [1, 2, 3];
+
+#[elementary_process]
+fn jump(cell: &mut Cell<State>) {
+    'rows: for i in (0..9).rev().step_by(2) {
+        for value in TABLE {
+            if value == i {
+                continue 'rows;
+            }
+            if value > i {
+                break 'rows;
+            }
+        }
+        cell.count += TABLE.len() as i32;
+    }
+}
+
+/// WGSL has no labels: flags carry a jump to the loop that it goes to.
+#[test]
+fn labels_are_flags() {
+    accepted::<jump>();
+    let text = function(&written::<jump>(Precision::F32), "jump");
+    for part in ["continued = true;", "left = true;", "if continued {", "if left {", "TABLE[place]", "3u"] {
+        assert!(text.contains(part), "{part}\n{text}");
+    }
+}
+
+#[helper]
+fn split<const N: usize>(values: [Real; N]) -> (Real, bool, [Real; N]) {
+    (values[0], values[0] > 0.0, values)
+}
+
+#[elementary_process]
+fn take_apart(cell: &mut Cell<State>) {
+    let (x, positive, _) = split::<2>([cell.x, cell.y]);
+    let (y, _, three) = split::<3>([x, x, cell.y]);
+    cell.x = if positive { y } else { three[2] };
+}
+
+/// A tuple is a struct; each constant gives a function of its own.
+#[test]
+fn tuples_are_structs() {
+    accepted::<take_apart>();
+    let shader = written::<take_apart>(Precision::F64);
+    assert!(shader.source.contains("struct tuple_3_real_bool_array_real_2 {"), "{}", shader.source);
+    assert!(shader.source.contains("fn split(values: array<Real, 2>)"), "{}", shader.source);
+    assert!(shader.source.contains("fn split_2(values: array<Real, 3>)"), "{}", shader.source);
+}
+
+#[elementary_process]
+fn compute(cell: &mut Cell<State>) {
+    cell.x = cell.x.exp().round() + cell.y.rem_euclid(3.0) + cell.x % cell.y + cell.x.signum();
+    cell.y = (2.0).powi(cell.count) + cell.y.copysign(cell.x).fract().recip();
+    cell.count = cell.count.rem_euclid(7) + cell.count.signum() + cell.x.is_finite() as i32;
+}
+
+/// None of WGSL's own functions whose result is the driver's choice.
+#[test]
+fn methods_are_routines() {
+    accepted::<compute>();
+    for precision in [Precision::F32, Precision::F64] {
+        let text = function(&written::<compute>(precision), "compute");
+        for part in
+            ["exp_2(", "round_real(", "rem_euclid_real(", "remainder_real(", "powi(", "rem_euclid_i32("]
+        {
+            assert!(text.contains(part), "{part}\n{text}");
+        }
+        assert!(!text.contains(" exp(") && !text.contains(" round("), "{text}");
+    }
+}
