@@ -4,7 +4,7 @@ use std::error::Error;
 use xca_core::engine::{EngineFailure, Execution, InputError, Population, StepContext, SubstateId};
 use xca_core::prelude::*;
 use xca_core::reduction::Reduction;
-use xca_core::{AnyParameters, Fault};
+use xca_core::{Fault, ParameterSet};
 use xca_tests::suite::engines;
 
 #[derive(Substates, Clone, Copy, Debug, PartialEq)]
@@ -56,9 +56,7 @@ fn worms() -> Population {
 }
 
 fn step(execution: &mut dyn Execution) -> Result<(), Fault> {
-    let nothing: Box<dyn AnyParameters> = Box::new(());
-    let native = nothing.kernel_view(Precision::F64);
-    execution.run(0..1, &StepContext { step: 0, seed: 0, parameters: &*native, values: &*nothing })
+    execution.run(0..1, &StepContext { step: 0, seed: 0, parameters: &[], values: &ParameterSet::default() })
 }
 
 /// Hands something to each engine that it must refuse with this message; afterwards the state is what it was, and

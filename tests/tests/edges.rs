@@ -22,7 +22,7 @@ struct Lava {
 fn flow(cell: &mut Cell<Lava>) {
     let own = cell.thickness;
     let mut change = 0;
-    for n in 1..cell.neighbours() {
+    for n in 1..cell.neighbour_count() {
         let out = (own - cell.neighbour(n).thickness) / 8;
         change -= out;
         if cell.neighbour(n).inside == 0 {
@@ -41,7 +41,10 @@ fn lava(boundaries: Faces<Boundary>) -> Result<Model, ModelError> {
         .boundaries(boundaries)
         .substates::<Lava>()
         .process(flow)
-        .fill(|[x, y, _]| Lava { inside: 1, thickness: (1000 * x * y) as i32, left: 0 })
+        .fill(|site| {
+            let [x, y, _] = site.cell();
+            Lava { inside: 1, thickness: (1000 * x * y) as i32, left: 0 }
+        })
         .steer(Schedule::EveryFromStart(1), |state| {
             Ok(state.update(Lava::THICKNESS, &VENTS, |[x, ..], thickness| thickness + 100 + x as i32)?)
         })
@@ -164,7 +167,7 @@ struct Fluid {
 #[elementary_process]
 fn drag(cell: &mut Cell<Fluid>) {
     let mut change = 0.0;
-    for n in 1..cell.neighbours() {
+    for n in 1..cell.neighbour_count() {
         change += cell.neighbour(n).speed - cell.speed;
     }
     cell.speed += 0.2 * change;
@@ -233,7 +236,7 @@ struct Digits {
 #[elementary_process]
 fn look_around(cell: &mut Cell<Digits>) {
     let mut all = 0;
-    for n in 1..cell.neighbours() {
+    for n in 1..cell.neighbour_count() {
         all = 10 * all + cell.neighbour(n).digit;
     }
     cell.all = all;

@@ -77,7 +77,7 @@ fn written(cell: &mut Cell<Field>) {
 #[elementary_process]
 fn at_a_neighbour(cell: &mut Cell<Field>) {
     let mut sum = 0.0;
-    for n in 1..cell.neighbours() {
+    for n in 1..cell.neighbour_count() {
         sum += cell.neighbour(n).flows[cell.neighbour(n).index as usize].x;
     }
     cell.total = sum;
@@ -168,8 +168,8 @@ fn always_right(cell: &mut Cell<Field>, p: &Plan) {
     for k in 0..3 {
         sum += p.weights[k] * cell.numbers[k] as Real;
     }
-    for n in 1..cell.neighbours() {
-        sum += cell.neighbour(n).flows[(n as usize - 1) % 2].y;
+    for n in 1..cell.neighbour_count() {
+        sum += cell.neighbour(n).flows[(n - 1) % 2].y;
     }
     cell.numbers[(cell.index & 1) as usize] = cell.divisor / 3 + 7 % (last as i32 + 1);
     cell.total = sum + p.weights[cell.ground as usize];
@@ -286,12 +286,13 @@ fn base(from: usize) -> ModelBuilder {
         .parameters(Plan { weights: [0.5, 0.25, 0.125], wanted: [false, true], least: i32::MIN })
         .substates::<Field>()
         .population::<Grain>(3)
-        .fill(move |cell| {
-            let faulty = place(cell) >= from;
+        .fill(move |site| {
+            let place = place(site.cell());
+            let faulty = place >= from;
             Field {
-                index: if faulty { 3 + (place(cell) - from) as u32 } else { 1 },
+                index: if faulty { 3 + (place - from) as u32 } else { 1 },
                 numbers: [1, 2, 3],
-                flows: [Vector2::new(0.5, 1.5), Vector2::new(2.5, place(cell) as f64)],
+                flows: [Vector2::new(0.5, 1.5), Vector2::new(2.5, place as f64)],
                 marks: [true, false],
                 ground: Ground::Soil,
                 divisor: i32::from(!faulty),
@@ -372,13 +373,13 @@ fn a_division_of_a_cell() -> Result<(), Box<dyn Error>> {
     stops(base(FIRST).process(divided_in_a_helper), CELL, None, by_zero)?;
     stops(base(FIRST).process(in_order), CELL, None, by_zero)?;
     let fill = |divisor, index| {
-        base(FIRST).fill(move |cell| Field {
+        base(FIRST).fill(move |site| Field {
             index,
             numbers: [1; 3],
             flows: [Vector2::splat(0.0); 2],
             marks: [false; 2],
             ground: Ground::Rock,
-            divisor: if cell == CELL { divisor } else { 1 },
+            divisor: if site.cell() == CELL { divisor } else { 1 },
             pair: Vector2::new(6, i32::MIN),
             byte: 1,
             total: 0.0,

@@ -132,14 +132,14 @@ fn items() -> Result<(), Box<dyn Error>> {
 
 #[test]
 fn parameters() -> Result<(), Box<dyn Error>> {
-    let other = ParameterError::OtherStruct { wanted: "Climate", given: "Weather" };
+    let other = ParameterError::OtherStruct { wanted: "Climate", given: "Weather".to_owned() };
     let other = StateError::Parameter(other);
-    let message = "the model's parameters are `Weather`, not `Climate`";
+    let message = "the model has no parameters `Climate`; it has: Weather";
     refused(&other, message, |state| state.parameters::<Climate>())?;
     refused(&other, message, |state| state.set_parameters(Climate { rain: 0.0 }))?;
     let unknown = StateError::Parameter(ParameterError::Unknown {
         name: "snow".to_owned(),
-        of: "Weather",
+        of: "Weather".to_owned(),
         known: "rain, days, wind".to_owned(),
     });
     let message = "no parameter is called `snow`; Weather has rain, days, wind";

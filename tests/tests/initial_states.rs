@@ -157,10 +157,13 @@ struct Fluid {
 #[test]
 fn other_parameters_are_refused() -> Result<(), Box<dyn Error>> {
     let error = builder().build()?.with_parameters(Fluid { density: 1.0 }).expect_err("they are others");
-    assert_eq!(error, ParameterError::OtherStruct { wanted: "Fluid", given: "Gas" });
+    assert_eq!(error, ParameterError::OtherStruct { wanted: "Fluid", given: "Gas".to_owned() });
     let error = builder().fill_with(|_, fluid: &Fluid| Sky { height: fluid.density }).build();
     let error = error.expect_err("the model has no such parameters");
-    assert_eq!(error, ModelError::InitialParameters { substates: "Sky", wanted: "Fluid", given: "Gas" });
+    assert_eq!(
+        error,
+        ModelError::InitialParameters { substates: "Sky", wanted: "Fluid", given: "Gas".to_owned() }
+    );
     assert!(error.to_string().contains("call `.parameters(Fluid {"));
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use std::error::Error;
 use xca_core::prelude::*;
-use xca_core::{Fault, ModelBuilder};
+use xca_core::{Draw, Fault, ModelBuilder, Stream};
 use xca_tests::suite::engines::{self, PRECISIONS, assert_same_fault, assert_same_runs};
 
 #[derive(Substates, Clone, Copy, Debug, PartialEq)]
@@ -14,11 +14,12 @@ struct Place {
 /// The numbers of the cells of a layer of hexagons or squares, from 1.
 fn numbered(extents: [usize; 3], neighbourhood: Neighbourhood) -> ModelBuilder {
     let [width, height, _] = extents;
-    Model::builder("numbered")
-        .extents(extents)
-        .neighbourhood(neighbourhood)
-        .substates::<Place>()
-        .fill(move |[x, y, z]| Place { number: ((z * height + y) * width + x + 1) as u32, seen: 0 })
+    Model::builder("numbered").extents(extents).neighbourhood(neighbourhood).substates::<Place>().fill(
+        move |site| {
+            let [x, y, z] = site.cell();
+            Place { number: ((z * height + y) * width + x + 1) as u32, seen: 0 }
+        },
+    )
 }
 
 /// What each cell has seen after a step, the same on every engine.
@@ -198,7 +199,10 @@ fn one_number_counts_everything() -> Result<(), Box<dyn Error>> {
         .substates::<Weighed>()
         .parameters(Weights { first: Vector4::new(1.0, 2.0, 4.0, 8.0) })
         .process(weigh)
-        .fill(|[x, y, _]| Weighed { value: (x + 10 * y + 1) as f64 })
+        .fill(|site| {
+            let [x, y, _] = site.cell();
+            Weighed { value: (x + 10 * y + 1) as f64 }
+        })
         .build()?;
     for precision in PRECISIONS {
         assert_same_runs(&model, &engines::all()?, RunOptions { precision, seed: 7 }, 3)?;
@@ -207,8 +211,8 @@ fn one_number_counts_everything() -> Result<(), Box<dyn Error>> {
         Simulation::new(&model, &Reference, RunOptions { seed: 7, ..RunOptions::default() })?;
     simulation.step()?;
     // Of the first cell: itself to the south and west, cell 2 to the east, cell 11 to the north.
-    let uniform = |draw: u32| {
-        let words = xca_core::draw_words(7, 0, xca_core::Owner::Cell(0), draw);
+    let uniform = |number: u32| {
+        let words = Draw { stream: Stream::process(0), step: 0, owner: 0, number }.words(7);
         f64::from(words[0] >> 5) * 67_108_864.0 + f64::from(words[1] >> 6)
     };
     let terms = [(1.0, 1.0, 1), (2.0, 1.0, 2), (4.0, 2.0, 3), (8.0, 11.0, 4)];

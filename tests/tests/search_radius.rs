@@ -209,7 +209,7 @@ proptest! {
             .build();
         // What does not fit the space is no model.
         if let Ok(model) = model {
-            let wanted = covered(&neighbourhood, extents, boundaries);
+            let wanted = covered(&neighbourhood, extents, boundaries.into());
             prop_assert_eq!(model.geometry().covered_radius(Precision::F64), wanted);
         }
     }

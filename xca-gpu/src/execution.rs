@@ -134,9 +134,7 @@ impl GpuExecution {
         if self.stopped {
             self.revive()?;
         }
-        let fields = context.values.schema().fields.len();
-        let parameters: Vec<ParameterValue> =
-            (0..fields).map(|field| context.values.value_of(field)).collect();
+        let parameters: Vec<ParameterValue> = context.values.values().collect();
         let precision = self.manner.precision;
         if self.parameters.as_ref() != Some(&parameters) {
             for program in &self.programs {
@@ -198,7 +196,9 @@ impl GpuExecution {
         self.prepare(context)?;
         let mut recorder = self.device.recorder();
         for index in processes {
-            self.record(&mut recorder, index)?;
+            if self.programs[index].process.is_due(context.step) {
+                self.record(&mut recorder, index)?;
+            }
         }
         self.finish(recorder)
     }
@@ -229,8 +229,11 @@ impl GpuExecution {
     ) -> Result<Option<(u64, Fault)>, DeviceError> {
         self.prepare(context)?;
         let mut recorder = self.device.recorder();
-        for _ in 0..steps {
+        for done in 0..steps {
             for index in 0..self.programs.len() {
+                if !self.programs[index].process.is_due(context.step + done) {
+                    continue;
+                }
                 self.record(&mut recorder, index)?;
                 if self.pace.apart() {
                     let recorded = std::mem::replace(&mut recorder, self.device.recorder());
@@ -472,13 +475,9 @@ fn records(space: &Space, programs: &[Program], items: impl Fn(&Program) -> usiz
 
 /// The substates of cells that some process reads at neighbours.
 fn looked_at(model: &Model) -> HashSet<SubstateId> {
-    let accesses = model
-        .processes()
-        .iter()
-        .flat_map(|process| process.access.iter().map(move |access| (process, access)));
-    accesses
-        .filter(|(_, access)| access.others)
-        .map(|(process, access)| model.substate(process, access))
+    let uses = (0..model.processes().len()).flat_map(|process| &model.plan().process(process).uses);
+    uses.filter(|used| used.elsewhere)
+        .map(|used| used.substate)
         .filter(|substate| matches!(model.groups()[substate.group].kind(), GroupKind::Cells { .. }))
         .collect()
 }

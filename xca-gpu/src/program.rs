@@ -9,8 +9,7 @@ use crate::values;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 use xca_core::engine::SubstateId;
-use xca_core::kernel::Of;
-use xca_core::{AnyParameters, Model, Parity, Precision, Process, ProcessKind, Stream};
+use xca_core::{Model, ParameterSet, Parity, Precision, Process, ProcessKind, Stream};
 use xca_wgsl::{BindingAccess, Content, Dispatch, Layout, Options, Shader, State};
 
 /// How processes are compiled.
@@ -33,13 +32,22 @@ pub(crate) struct Program {
     stream: Stream,
     pub(crate) shader: Shader,
     pipeline: Arc<Pipeline>,
-    parameters: Option<(Layout, Buffer)>,
+    parameters: Vec<Parameters>,
     /// The description of the space for each part.
     spaces: Option<(Layout, Vec<Buffer>)>,
     offsets: Option<Buffer>,
     directions: Option<Buffer>,
     /// Bound pipelines by the buffers that they are bound to.
     bound: HashMap<Vec<(u64, u64)>, Bindings>,
+}
+
+/// A struct of parameters on the device.
+#[derive(Debug)]
+struct Parameters {
+    /// The number of the struct among those of parameters that the process takes.
+    argument: usize,
+    layout: Layout,
+    buffer: Buffer,
 }
 
 /// The texts of processes that were written already: many runs of one program need the same ones.
@@ -120,16 +128,17 @@ impl Program {
             strict: manner.strict,
         };
         let pipeline = device.pipeline(&code)?;
-        let (mut parameters, mut spaces, mut offsets, mut directions) = (None, None, None, None);
+        let mut parameters = Vec::new();
+        let (mut spaces, mut offsets, mut directions) = (None, None, None);
         for binding in &shader.bindings {
             match &binding.content {
-                Content::Parameters(layout) => {
+                Content::Parameters { argument, layout } => {
                     let size = layout.size as usize;
                     let buffer = match binding.access {
                         BindingAccess::Uniform => device.uniform("parameters", &vec![0; size])?,
                         _ => device.buffer("parameters", size as u64)?,
                     };
-                    parameters = Some((layout.clone(), buffer));
+                    parameters.push(Parameters { argument: *argument, layout: layout.clone(), buffer });
                 }
                 Content::Space(layout) => {
                     let zeros = vec![0; layout.size as usize];
@@ -157,7 +166,9 @@ impl Program {
     /// The substates whose results go to a second buffer.
     pub(crate) fn doubled<'a>(&'a self, model: &'a Model) -> impl Iterator<Item = SubstateId> + 'a {
         self.shader.bindings.iter().filter_map(|binding| match binding.content {
-            Content::Substate { of, field, state: State::After, .. } => self.substate(model, of, field),
+            Content::Substate { argument, field, state: State::After, .. } => {
+                self.substate(model, argument, field)
+            }
             _ => None,
         })
     }
@@ -165,25 +176,21 @@ impl Program {
     /// The substates of cells that it writes.
     pub(crate) fn written<'a>(&'a self, model: &'a Model) -> impl Iterator<Item = SubstateId> + 'a {
         self.shader.bindings.iter().filter_map(|binding| match binding.content {
-            Content::Substate { of, field, state: State::After | State::Both, .. } => {
-                self.substate(model, of, field)
+            Content::Substate { argument, field, state: State::After | State::Both, .. } => {
+                self.substate(model, argument, field)
             }
             _ => None,
         })
     }
 
-    fn substate(&self, model: &Model, of: Of, field: usize) -> Option<SubstateId> {
-        let group = model.group_number((self.process.group(of).type_id)())?;
+    fn substate(&self, model: &Model, argument: usize, field: usize) -> Option<SubstateId> {
+        let group = model.group_number((self.process.substates.get(argument)?.type_id)())?;
         Some(SubstateId { group, field })
     }
 
     /// The population whose items it runs for or reads.
     pub(crate) fn population(&self, model: &Model) -> Option<usize> {
-        let group = match self.process.kind {
-            ProcessKind::Cells => self.process.companion?,
-            ProcessKind::Items | ProcessKind::Migration => self.process.subject,
-        };
-        model.group_number((group.type_id)())
+        model.group_number((self.process.population()?.type_id)())
     }
 
     /// Whether it may report faults.
@@ -195,11 +202,18 @@ impl Program {
     pub(crate) fn set_parameters(
         &self,
         device: &Device,
-        parameters: &dyn AnyParameters,
+        values: &ParameterSet,
         precision: Precision,
     ) -> Result<(), DeviceError> {
-        let Some((layout, buffer)) = &self.parameters else { return Ok(()) };
-        device.upload(buffer, 0, &values::parameters(layout, parameters, precision))
+        self.parameters.iter().try_for_each(|Parameters { argument, layout, buffer }| {
+            let type_id = (self.process.parameters[*argument].type_id)();
+            match values.struct_of_type(type_id) {
+                Some(parameters) => {
+                    device.upload(buffer, 0, &values::parameters(layout, parameters, precision))
+                }
+                None => Ok(()),
+            }
+        })
     }
 
     /// Hands it the space and the seed.
@@ -270,13 +284,16 @@ impl Program {
                 Content::Space(_) => {
                     self.spaces.as_ref().and_then(|(_, parts)| parts.get(number)).map(Binding::from)
                 }
-                Content::Parameters(_) => self.parameters.as_ref().map(|(_, buffer)| buffer.into()),
+                Content::Parameters { argument, .. } => {
+                    let given = self.parameters.iter().find(|given| given.argument == *argument);
+                    given.map(|given| Binding::from(&given.buffer))
+                }
                 Content::NeighbourOffsets => self.offsets.as_ref().map(Binding::from),
                 Content::NeighbourDirections => self.directions.as_ref().map(Binding::from),
                 Content::Moment(_) => Some(groups.journal(population)),
                 Content::Faults(_) => Some(groups.faults().into()),
-                Content::Substate { of, field, state, .. } => {
-                    let id = self.substate(model, *of, *field)?;
+                Content::Substate { argument, field, state, .. } => {
+                    let id = self.substate(model, *argument, *field)?;
                     groups.substate(id, *state == State::After, part)
                 }
                 content => match groups.group(population?) {

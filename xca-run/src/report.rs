@@ -223,9 +223,9 @@ pub(crate) fn of_host() -> Host {
 }
 
 /// The values of all parameters by name.
-pub(crate) fn of_parameters(parameters: &dyn AnyParameters) -> Map<String, Value> {
-    let fields = parameters.schema().fields.iter().enumerate();
-    fields.map(|(index, field)| (field.name.to_owned(), of_value(&parameters.value_of(index)))).collect()
+pub(crate) fn of_parameters(parameters: &ParameterSet) -> Map<String, Value> {
+    let values = parameters.values().map(|value| of_value(&value));
+    parameters.names().into_iter().zip(values).collect()
 }
 
 /// A vector or an array is a list, an array of vectors a list of lists.

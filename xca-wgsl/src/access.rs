@@ -5,12 +5,13 @@ use crate::program::{Program, Roles, field_number};
 use crate::visit::{self, Node};
 use xca_core::Schema;
 use xca_core::ir::{Builtin, Expression, Function, FunctionKind, LoopKind, PlaceRoot, Reach, Statement};
-use xca_core::kernel::Of;
+
 
 /// How a process uses one substate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Use {
-    pub(crate) of: Of,
+    /// The number of the struct among those of substates that the process takes.
+    pub(crate) argument: usize,
     pub(crate) field: usize,
     /// Read as a whole or written at the centre: it is loaded before the process and lies in a variable
     /// meanwhile.
@@ -33,7 +34,8 @@ impl Use {
 #[derive(Debug, Default)]
 pub(crate) struct Uses {
     pub(crate) substates: Vec<Use>,
-    pub(crate) parameters: bool,
+    /// The structs of parameters.
+    pub(crate) parameters: Vec<&'static Schema>,
     pub(crate) neighbourhood: bool,
     /// The displacements of the neighbours and their opposites.
     pub(crate) directions: bool,
@@ -52,7 +54,7 @@ impl Uses {
         for function in &program.functions {
             uses.add(function)?;
         }
-        uses.substates.sort_by_key(|used| (used.of == Of::Companion, used.field));
+        uses.substates.sort_by_key(|used| (used.argument, used.field));
         Ok(uses)
     }
 
@@ -77,16 +79,16 @@ impl Uses {
             Node::Statement(statement) => self.statement(statement, roles, kind),
             Node::Expression(Expression::Element(array, index)) => {
                 let owner = match &**array {
-                    Expression::Own(name) => Some((Of::Subject, roles.subject, *name)),
-                    Expression::CellOfItem(name) => Some((Of::Companion, roles.companion, *name)),
+                    Expression::Own(name) => Some((0, *name)),
+                    Expression::OfCell { argument, field } => Some((*argument, *field)),
                     _ => None,
                 };
                 match owner {
-                    Some((of, group, name)) => {
+                    Some((argument, name)) => {
                         // The index alone: the array need not be loaded as a whole.
                         inside = false;
                         visit::expression(index, &mut |node| self.see(node, roles, kind, problem));
-                        self.entry(of, group, name).map(|used| used.elements = true)
+                        self.entry(argument, roles, name).map(|used| used.elements = true)
                     }
                     None => Ok(()),
                 }
@@ -115,7 +117,7 @@ impl Uses {
                             "only processes write",
                         ));
                     }
-                    let used = self.entry(Of::Subject, roles.subject, name)?;
+                    let used = self.entry(0, roles, name)?;
                     used.centre = true;
                     used.write = true;
                 }
@@ -140,8 +142,8 @@ impl Uses {
                     self.searches = true;
                     // The radius may be too large.
                     self.faults = true;
-                    let name = position(roles.subject)?;
-                    self.entry(Of::Subject, roles.subject, name)?.others = true;
+                    let name = position(roles)?;
+                    self.entry(0, roles, name)?.others = true;
                 }
             }
             LoopKind::Items { .. } => self.ranges = true,
@@ -157,24 +159,23 @@ impl Uses {
         kind: FunctionKind,
     ) -> Result<(), Problem> {
         match value {
-            Expression::Own(name) => self.entry(Of::Subject, roles.subject, name)?.centre = true,
-            Expression::CellOfItem(name) => self.entry(Of::Companion, roles.companion, name)?.centre = true,
-            Expression::Neighbour { field, .. } => {
+            Expression::Own(name) => self.entry(0, roles, name)?.centre = true,
+            Expression::OfCell { argument, field } => self.entry(*argument, roles, field)?.centre = true,
+            Expression::Neighbour { argument, field, .. } => {
                 self.neighbourhood = true;
-                self.entry(Of::Subject, roles.subject, field)?.others = true;
+                self.entry(*argument, roles, field)?.others = true;
             }
-            Expression::NamedNeighbour { field, .. } => {
-                self.entry(Of::Subject, roles.subject, field)?.others = true;
-            }
-            Expression::Other { field, .. } => {
-                let (of, group) = match kind {
-                    FunctionKind::Cells => (Of::Companion, roles.companion),
-                    _ => (Of::Subject, roles.subject),
-                };
-                self.entry(of, group, field)?.others = true;
+            Expression::NamedNeighbour { argument, field, .. }
+            | Expression::Other { argument, field, .. } => {
+                self.entry(*argument, roles, field)?.others = true;
             }
             Expression::OtherLabel(_) | Expression::Builtin(Builtin::Label, _) => self.labels = true,
-            Expression::Parameter(_) => self.parameters = true,
+            Expression::Parameter { argument, .. } => {
+                let schema = roles.parameters(argument)?;
+                if !self.parameters.contains(&schema) {
+                    self.parameters.push(schema);
+                }
+            }
             Expression::Builtin(Builtin::Random | Builtin::RandomBits, _) => {
                 self.random = true;
                 match kind {
@@ -195,17 +196,19 @@ impl Uses {
 
     fn entry(
         &mut self,
-        of: Of,
-        group: Option<(&str, &'static Schema)>,
+        argument: usize,
+        roles: &Roles<'_>,
         name: &str,
     ) -> Result<&mut Use, Problem> {
-        let field = group
-            .and_then(|(_, schema)| field_number(schema, name))
+        let field = roles
+            .substates
+            .get(argument)
+            .and_then(|named| field_number(named.schema, name))
             .ok_or_else(|| Problem::unknown("substate", name))?;
-        let known = self.substates.iter().position(|used| used.of == of && used.field == field);
+        let known = self.substates.iter().position(|used| used.argument == argument && used.field == field);
         let index = known.unwrap_or_else(|| {
             self.substates.push(Use {
-                of,
+                argument,
                 field,
                 centre: false,
                 elements: false,
@@ -219,9 +222,11 @@ impl Uses {
 }
 
 /// The name of the substate by which searches measure distances.
-pub(crate) fn position(subject: Option<(&str, &'static Schema)>) -> Result<&'static str, Problem> {
-    subject
-        .and_then(|(_, schema)| schema.position.and_then(|field| schema.fields.get(field)))
+pub(crate) fn position(roles: &Roles<'_>) -> Result<&'static str, Problem> {
+    roles
+        .substates
+        .first()
+        .and_then(|named| named.schema.position.and_then(|field| named.schema.fields.get(field)))
         .map(|field| field.name)
         .ok_or_else(|| {
             Problem::unsupported("a search within a radius", "no substate is marked `#[position]`")

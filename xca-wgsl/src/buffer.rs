@@ -5,7 +5,6 @@ use crate::names::Names;
 use crate::program::{Roles, bare};
 use crate::types::{self, Type};
 use std::fmt::Write as _;
-use xca_core::kernel::Of;
 use xca_core::{ScalarType, ValueType};
 
 /// The largest number of elements that are read and stored one by one in the text.
@@ -26,11 +25,7 @@ pub(crate) struct Buffer {
 
 impl Buffer {
     pub(crate) fn of(used: Use, roles: &Roles<'_>, names: &mut Names) -> Option<Self> {
-        let group = match used.of {
-            Of::Subject => roles.subject,
-            Of::Companion => roles.companion,
-        };
-        let field = group.and_then(|(_, schema)| schema.fields.get(used.field))?;
+        let field = roles.substates.get(used.argument)?.schema.fields.get(used.field)?;
         let (name, value_type) = (bare(field.name), field.value_type);
         let now = names.module(&format!("{name}_now"));
         let next = used.doubled().then(|| names.module(&format!("{name}_next")));
@@ -39,6 +34,11 @@ impl Buffer {
         let element_reader =
             (array && value_type.lanes > 1).then(|| names.routine(&format!("{name}_element_at")));
         Some(Self { used, field: field.name, value_type, now, next, reader, element_reader })
+    }
+
+    /// Whether it is loaded before the process, with others of the struct with this number.
+    pub(crate) fn is_central(&self, argument: usize) -> bool {
+        self.used.argument == argument && self.used.centre
     }
 
     /// The value of a cell or item as it was before the process.

@@ -9,7 +9,6 @@ use crate::program::{Program, Roles};
 use crate::shader::{Binding, BindingAccess, Content, Options, State};
 use crate::types::{self, Type};
 use std::fmt::Write as _;
-use xca_core::kernel::Of;
 use xca_core::{ScalarType, ValueType};
 
 /// The text, and the buffers for the engine.
@@ -46,7 +45,7 @@ impl Declarations {
             options,
         };
         writer.provided();
-        writer.parameters(&roles, uses, glossary, names);
+        writer.parameters(&roles, glossary, names);
         writer.substates(glossary);
         writer.items();
         writer.own(&roles, glossary, names);
@@ -116,23 +115,26 @@ impl Writer<'_> {
         }
     }
 
-    fn parameters(&mut self, roles: &Roles<'_>, uses: &Uses, glossary: &Glossary, names: &mut Names) {
-        let Some((_, schema)) = roles.parameters.filter(|_| uses.parameters) else { return };
-        let name = names.module(schema.name);
-        self.structure(&name, schema.fields.iter().map(|field| (field.name, field.value_type)));
-        let layout = Layout::of_schema(schema, self.options.precision);
-        // In a uniform buffer the elements of an array would lie 16 bytes apart at least.
-        let arrays = schema.fields.iter().any(|field| field.value_type.length.is_some());
-        let access = if arrays { BindingAccess::Read } else { BindingAccess::Uniform };
-        self.buffer(&glossary.parameters, &name, access, Content::Parameters(layout));
+    fn parameters(&mut self, roles: &Roles<'_>, glossary: &Glossary, names: &mut Names) {
+        for (argument, named) in roles.parameters.iter().enumerate() {
+            let schema = named.schema;
+            let Ok(variable) = glossary.parameters(schema) else { continue };
+            let name = names.module(schema.name);
+            self.structure(&name, schema.fields.iter().map(|field| (field.name, field.value_type)));
+            let layout = Layout::of_schema(schema, self.options.precision);
+            // In a uniform buffer the elements of an array would lie 16 bytes apart at least.
+            let arrays = schema.fields.iter().any(|field| field.value_type.length.is_some());
+            let access = if arrays { BindingAccess::Read } else { BindingAccess::Uniform };
+            self.buffer(variable, &name, access, Content::Parameters { argument, layout });
+        }
     }
 
     fn substates(&mut self, glossary: &Glossary) {
         for buffer in &glossary.buffers {
             let used = buffer.used;
-            let (of, field, value_type) = (used.of, used.field, buffer.value_type);
+            let (argument, field, value_type) = (used.argument, used.field, buffer.value_type);
             let type_ = format!("array<{}>", types::scalar_name(value_type.scalar));
-            let content = |state| Content::Substate { of, field, value_type, state };
+            let content = |state| Content::Substate { argument, field, value_type, state };
             match &buffer.next {
                 Some(next) => {
                     self.buffer(&buffer.now, &type_, BindingAccess::Read, content(State::Before));
@@ -168,16 +170,12 @@ impl Writer<'_> {
         }
     }
 
-    /// The variables with the own substates, and with those of the item's cell.
+    /// The variables with the own substates, and with those of other structs of the cell.
     fn own(&mut self, roles: &Roles<'_>, glossary: &Glossary, names: &mut Names) {
-        let groups = [
-            (Of::Subject, roles.subject, &glossary.subject),
-            (Of::Companion, roles.companion, &glossary.companion),
-        ];
-        for (of, group, variable) in groups {
-            let (Some((_, schema)), Some(variable)) = (group, variable) else { continue };
-            let buffers = glossary.buffers.iter().filter(|buffer| buffer.used.of == of && buffer.used.centre);
-            let name = names.module(schema.name);
+        for (argument, named) in roles.substates.iter().enumerate() {
+            let Ok(variable) = glossary.central(argument) else { continue };
+            let buffers = glossary.buffers.iter().filter(|buffer| buffer.is_central(argument));
+            let name = names.module(named.schema.name);
             let fields = buffers.map(|buffer| (buffer.field, Type::of_value(buffer.value_type).wgsl()));
             self.structure_of(&name, fields);
             let _ = writeln!(self.variables, "var<private> {variable}: {name};");

@@ -6,7 +6,6 @@ use crate::names;
 use crate::shader::Options;
 use std::fmt::Write as _;
 use xca_core::ir::FunctionKind;
-use xca_core::kernel::Of;
 
 /// What the entry point is written for.
 pub(crate) struct Entry<'a> {
@@ -51,8 +50,8 @@ impl Entry<'_> {
 
     /// Whether the process has to know the cell of its item.
     fn knows_cell(&self) -> bool {
-        let companion = self.uses.substates.iter().any(|used| used.of == Of::Companion);
-        companion || self.uses.neighbourhood || self.uses.ranges || self.uses.index
+        let of_cell = self.uses.substates.iter().any(|used| used.argument > 0);
+        of_cell || self.uses.neighbourhood || self.uses.ranges || self.uses.index
     }
 
     /// The process for one cell or item: load, run, store.
@@ -76,11 +75,9 @@ impl Entry<'_> {
         }
         let number = if self.kind == FunctionKind::Cells { "here" } else { "item" };
         for buffer in self.glossary.buffers.iter().filter(|buffer| buffer.used.centre) {
-            let (variable, number) = match buffer.used.of {
-                Of::Subject => (self.glossary.subject.as_ref(), number),
-                Of::Companion => (self.glossary.companion.as_ref(), "here"),
-            };
-            if let Some(variable) = variable {
+            let argument = buffer.used.argument;
+            let number = if argument == 0 { number } else { "here" };
+            if let Ok(variable) = self.glossary.central(argument) {
                 let field = names::field(buffer.field);
                 let _ = writeln!(out, "    {variable}.{field} = {};", buffer.read(number));
             }
@@ -94,7 +91,7 @@ impl Entry<'_> {
         } else {
             let _ = writeln!(out, "    {name}();");
         }
-        if let Some(variable) = &self.glossary.subject {
+        if let Ok(variable) = self.glossary.central(0) {
             for buffer in self.glossary.buffers.iter().filter(|buffer| buffer.used.write) {
                 let value = format!("{variable}.{}", names::field(buffer.field));
                 out.push_str(&buffer.store(number, &value));

@@ -12,17 +12,16 @@ use crate::types::Type;
 use crate::visit::{self, Node};
 use std::collections::HashMap;
 use xca_core::ir::{Constant, Expression};
-use xca_core::kernel::Of;
+use xca_core::Schema;
 
 /// What things are called in a module.
 pub(crate) struct Glossary {
     /// The functions of the program.
     pub(crate) functions: Vec<String>,
-    /// The variable with the own substates.
-    pub(crate) subject: Option<String>,
-    /// The variable with the substates of the item's cell.
-    pub(crate) companion: Option<String>,
-    pub(crate) parameters: String,
+    /// For each struct of substates the variable with what is loaded of it before the process, if anything is.
+    centres: Vec<Option<String>>,
+    /// The structs of parameters that are used, and the variable with each.
+    parameters: Vec<(&'static Schema, String)>,
     /// The number of cells in the neighbourhood.
     pub(crate) neighbours: String,
     pub(crate) buffers: Vec<Buffer>,
@@ -43,15 +42,16 @@ impl Glossary {
         let roles = Roles::of(program.process());
         let neighbours =
             options.neighbourhood_size.map_or("space.neighbours".to_owned(), |size| format!("{size}u"));
-        let has = |of| uses.substates.iter().any(|used| used.of == of && used.centre);
-        let subject = roles.subject.filter(|_| has(Of::Subject)).map(|(name, _)| names.module(name));
-        let companion = roles.companion.filter(|_| has(Of::Companion)).map(|(name, _)| names.module(name));
-        let parameters = names.module(roles.parameters.map_or("parameters", |(name, _)| name));
+        let loaded = |argument| uses.substates.iter().any(|used| used.argument == argument && used.centre);
+        let centres = roles.substates.iter().enumerate();
+        let centres =
+            centres.map(|(argument, named)| loaded(argument).then(|| names.module(named.name))).collect();
+        let used = roles.parameters.iter().filter(|named| uses.parameters.contains(&named.schema));
+        let parameters = used.map(|named| (named.schema, names.module(named.name))).collect();
         let functions = program.functions.iter().map(|function| names.module(function.name)).collect();
         let mut glossary = Self {
             functions,
-            subject,
-            companion,
+            centres,
             parameters,
             neighbours,
             buffers: Vec::new(),
@@ -110,11 +110,25 @@ impl Glossary {
         Ok(())
     }
 
+    /// The variable with what is loaded of a struct of substates.
+    pub(crate) fn central(&self, argument: usize) -> Result<&str, Problem> {
+        let variable = self.centres.get(argument).and_then(Option::as_deref);
+        variable.ok_or_else(|| Problem::unknown("struct of substates", &argument.to_string()))
+    }
+
+    /// The variable with a struct of parameters.
+    pub(crate) fn parameters(&self, schema: &Schema) -> Result<&str, Problem> {
+        let variable = self.parameters.iter().find(|(used, _)| *used == schema);
+        variable
+            .map(|(_, variable)| variable.as_str())
+            .ok_or_else(|| Problem::unknown("struct of parameters", schema.name))
+    }
+
     /// The buffer of a substate.
-    pub(crate) fn buffer(&self, of: Of, field: &str) -> Result<&Buffer, Problem> {
+    pub(crate) fn buffer(&self, argument: usize, field: &str) -> Result<&Buffer, Problem> {
         self.buffers
             .iter()
-            .find(|buffer| buffer.used.of == of && bare(buffer.field) == bare(field))
+            .find(|buffer| buffer.used.argument == argument && bare(buffer.field) == bare(field))
             .ok_or_else(|| Problem::unknown("substate", field))
     }
 

@@ -117,16 +117,16 @@ fn provided(
         texts.push(space::neighbour_direction(options.parity, &glossary.neighbours));
     }
     if routines.neighbour_exists {
-        texts.push(space::neighbour_exists(options.boundaries));
+        texts.push(space::neighbour_exists(&options.boundaries));
     }
     if routines.checked_neighbours {
         texts.push(space::valid_neighbour(&glossary.neighbours));
     }
     if routines.nearest_image {
-        texts.push(space::nearest_image(options.boundaries, options.precision));
+        texts.push(space::nearest_image(&options.boundaries, options.precision));
     }
     if routines.wrapped {
-        texts.push(space::wrapped(options.boundaries));
+        texts.push(space::wrapped(&options.boundaries));
     }
     if routines.cell_containing {
         texts.push(space::cell_containing());

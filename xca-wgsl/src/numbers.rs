@@ -61,14 +61,7 @@ impl Routines {
                 ];
                 self.need_of_two("div_euclid", type_, &lines)
             }
-            Operation::DivideEuclid => {
-                let lines = [
-                    "let away: i32 = a / b - select(1i, -1i, b < 0i);",
-                    "return select(a / b, away, a % b < 0i);",
-                ];
-                self.need_of_two("div_euclid", type_, &lines)
-            }
-            _ if type_.is_float() => {
+            _ => {
                 let remainder = self.need_remainder(type_, wide);
                 let lines = [
                     &*format!("let rest: {name} = {remainder}(a, b);"),
@@ -76,10 +69,30 @@ impl Routines {
                 ];
                 self.need_of_two("rem_euclid", type_, &lines)
             }
-            _ => {
-                let lines = ["let rest: i32 = a % b;", "return select(rest, rest + abs(b), rest < 0i);"];
-                self.need_of_two("rem_euclid", type_, &lines)
-            }
+        }
+    }
+
+    /// The quotient or remainder of signed integers, which may be checked as `/` and `%` are.
+    pub(crate) fn need_euclidean(&mut self, remainder: bool, type_: &Type, checked: bool) -> String {
+        let whole = format!("let whole: i32 = {};", self.division(false, type_, checked));
+        let rest = format!("let rest: i32 = {};", self.division(true, type_, checked));
+        let manner = if checked { "_checked" } else { "" };
+        if remainder {
+            let lines = [&*rest, "return select(rest, rest + abs(b), rest < 0i);"];
+            self.need_of_two(&format!("rem_euclid{manner}"), type_, &lines)
+        } else {
+            let lines =
+                [&*whole, &rest, "return select(whole, whole - select(1i, -1i, b < 0i), rest < 0i);"];
+            self.need_of_two(&format!("div_euclid{manner}"), type_, &lines)
+        }
+    }
+
+    /// `a / b` or `a % b`.
+    fn division(&mut self, remainder: bool, type_: &Type, checked: bool) -> String {
+        match (checked, remainder) {
+            (true, _) => format!("{}(a, b)", self.need_quotient(remainder, type_)),
+            (false, true) => "a % b".to_owned(),
+            (false, false) => "a / b".to_owned(),
         }
     }
 

@@ -108,32 +108,43 @@ fn error(process: &str, function: &str, problem: Problem) -> Error {
 }
 
 /// What the arguments of a function stand for.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Roles<'a> {
-    /// The substates of the cell or item that the process runs for, and what the source calls it.
-    pub(crate) subject: Option<(&'a str, &'static Schema)>,
-    /// The substates of the item's cell, or of the cell's items, and what the source calls them.
-    pub(crate) companion: Option<(&'a str, &'static Schema)>,
-    /// The parameters, and what the source calls them.
-    pub(crate) parameters: Option<(&'a str, &'static Schema)>,
+    /// The structs of substates: first that of the cell or item that the process runs for.
+    pub(crate) substates: Vec<Named<'a>>,
+    /// The structs of parameters.
+    pub(crate) parameters: Vec<Named<'a>>,
+}
+
+/// A struct that a function takes.
+#[derive(Clone, Copy)]
+pub(crate) struct Named<'a> {
+    /// What the source calls the argument.
+    pub(crate) name: &'a str,
+    /// The fields.
+    pub(crate) schema: &'static Schema,
 }
 
 impl<'a> Roles<'a> {
     pub(crate) fn of(function: &'a Function) -> Self {
         let mut roles = Self::default();
-        for (position, argument) in function.arguments.iter().enumerate() {
+        for argument in &function.arguments {
+            let name = argument.name;
             match argument.role {
-                Role::Cell(schema) | Role::Slot(schema) if position == 0 => {
-                    roles.subject = Some((argument.name, schema));
-                }
                 Role::Cell(schema) | Role::Slot(schema) | Role::Slots(schema) => {
-                    roles.companion = Some((argument.name, schema));
+                    roles.substates.push(Named { name, schema });
                 }
-                Role::Parameters(schema) => roles.parameters = Some((argument.name, schema)),
+                Role::Parameters(schema) => roles.parameters.push(Named { name, schema }),
                 Role::Space | Role::Value(_) => {}
             }
         }
         roles
+    }
+
+    /// The struct of parameters that the source calls so.
+    pub(crate) fn parameters(&self, name: &str) -> Result<&'static Schema, Problem> {
+        let named = self.parameters.iter().find(|named| bare(named.name) == bare(name));
+        named.map(|named| named.schema).ok_or_else(|| Problem::unknown("struct of parameters", name))
     }
 }
 

@@ -4,8 +4,7 @@ use crate::error::Error;
 use crate::layout::Layout;
 use crate::module;
 use crate::program::Program;
-use xca_core::kernel::Of;
-use xca_core::{Boundary, Parity, Precision, ValueType, ir};
+use xca_core::{Boundary, Faces, Parity, Precision, ValueType, ir};
 
 /// What a shader is written for.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -23,7 +22,7 @@ pub struct Options {
     pub workgroup_size: [u32; 3],
     /// What lies beyond the faces: round toroidal axes searches for near items go the shorter way, beyond
     /// flat faces no neighbour exists.
-    pub boundaries: [Boundary; 3],
+    pub boundaries: Faces<Boundary>,
     /// Whether cells in odd rows or columns have another neighbourhood than those in even ones.
     pub parity: Parity,
     /// Whether float zeros are read from memory. Some drivers take `x + 0.0` for `x` and `x * 0.0` for `0.0` in spite of all
@@ -38,7 +37,7 @@ impl Default for Options {
             neighbourhood_size: None,
             neighbour_offsets: None,
             workgroup_size: [64, 1, 1],
-            boundaries: [Boundary::Flat; 3],
+            boundaries: Faces::all(Boundary::Flat),
             parity: Parity::None,
             opaque_zero: false,
         }
@@ -104,12 +103,16 @@ pub enum Content {
     /// can be run for a part of them: the `first` cell, by its indices, the `count` of cells along each axis,
     /// and the number `base` of the stored cell with which the bound buffers begin. For all cells these are 0,
     /// the extents, and 0.
-
     Space(Layout),
     /// What changes with the step: `step` (low word, high word) and the number of items of the population.
     Moment(Layout),
-    /// The parameters: in a storage buffer where one of them is an array, else in a uniform buffer.
-    Parameters(Layout),
+    /// A struct of parameters: in a storage buffer where one of them is an array, else in a uniform buffer.
+    Parameters {
+        /// The number of the struct among those of parameters that the process takes.
+        argument: usize,
+        /// Where its fields lie.
+        layout: Layout,
+    },
     /// `i32` for each cell of the neighbourhood: the difference of its number from that of the central cell. Where rows or columns
     /// differ ([`Options::parity`]), first those of even, then those of odd ones.
     NeighbourOffsets,
@@ -119,8 +122,8 @@ pub enum Content {
     /// A substate of all cells, or of all items: a value for each, element after element, lane beside lane,
     /// without padding; a `u8`, a `bool` and a state as a `u32`.
     Substate {
-        /// Of the process's subject or of its companion.
-        of: Of,
+        /// The number of the struct among those of substates that the process takes.
+        argument: usize,
         /// The number of the field in the struct of substates.
         field: usize,
         /// What it holds.

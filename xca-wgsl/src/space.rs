@@ -73,7 +73,7 @@ pub(crate) fn neighbour_direction(parity: Parity, neighbours: &str) -> String {
 }
 
 /// Whether a neighbour is a cell of the space.
-pub(crate) fn neighbour_exists(boundaries: Faces<Boundary>) -> String {
+pub(crate) fn neighbour_exists(boundaries: &Faces<Boundary>) -> String {
     let mut inside = Vec::new();
     for (lane, [low, high]) in ["x", "y", "z"].into_iter().zip(Face::ALONG) {
         if boundaries[low] == Boundary::Flat {
@@ -94,7 +94,7 @@ pub(crate) fn neighbour_exists(boundaries: Faces<Boundary>) -> String {
 }
 
 /// The separation by the shorter way round each toroidal axis.
-pub(crate) fn nearest_image(boundaries: [Boundary; 3], precision: Precision) -> String {
+pub(crate) fn nearest_image(boundaries: &Faces<Boundary>, precision: Precision) -> String {
     let half = match precision {
         Precision::F32 => "0.5f",
         Precision::F64 => "0.5lf",
@@ -120,20 +120,20 @@ fn nearest_image(separation: vec3<Real>) -> vec3<Real> {{
 }
 
 /// A vector in whose lanes of toroidal axes a function is applied, together with the extent.
-fn along_toroidal(boundaries: [Boundary; 3], vector: &str, function: &str) -> String {
-    let lane = |(lane, boundary): (&str, Boundary)| {
-        if boundary == Boundary::Toroidal {
+fn along_toroidal(boundaries: &Faces<Boundary>, vector: &str, function: &str) -> String {
+    let lane = |(lane, [low, _]): (&str, [Face; 2])| {
+        if boundaries[low] == Boundary::Toroidal {
             format!("{function}({vector}.{lane}, space.extents.{lane})")
         } else {
             format!("{vector}.{lane}")
         }
     };
-    let lanes: Vec<String> = ["x", "y", "z"].into_iter().zip(boundaries).map(lane).collect();
+    let lanes: Vec<String> = ["x", "y", "z"].into_iter().zip(Face::ALONG).map(lane).collect();
     format!("vec3<Real>({})", lanes.join(", "))
 }
 
 /// The position inside the space, as far as axes are toroidal.
-pub(crate) fn wrapped(boundaries: [Boundary; 3]) -> String {
+pub(crate) fn wrapped(boundaries: &Faces<Boundary>) -> String {
     let lanes = along_toroidal(boundaries, "position", "wrapped_along");
     format!(
         "fn wrapped_along(value: Real, extent: i32) -> Real {{

@@ -130,12 +130,12 @@ pub(crate) fn expression<'a>(value: &'a Expression, see: &mut dyn FnMut(Node<'a>
         | Expression::Local(_)
         | Expression::Constant { .. }
         | Expression::Own(_)
-        | Expression::CellOfItem(_)
+        | Expression::OfCell { .. }
         | Expression::NamedNeighbour { .. }
         | Expression::Other { .. }
         | Expression::OtherLabel(_)
-        | Expression::Parameter(_)
-        | Expression::Parameters
+        | Expression::Parameter { .. }
+        | Expression::Parameters(_)
         | Expression::Space => {}
     }
 }

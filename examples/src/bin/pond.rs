@@ -65,9 +65,9 @@ fn flow(cell: &mut Cell<Pond>, weather: &Weather) {
 #[elementary_process]
 fn level(cell: &mut Cell<Pond>, weather: &Weather) {
     let mut change = 0.0;
-    for n in 1..cell.neighbours() {
+    for n in 1..cell.neighbour_count() {
         // A neighbour's outflow to here is that in the opposite direction.
-        change += cell.neighbour(n).outflow[4 - n as usize] - cell.outflow[n as usize - 1];
+        change += cell.neighbour(n).outflow[4 - n] - cell.outflow[n - 1];
     }
     cell.depth += change;
     cell.currents[0] = Vector2::new(
@@ -112,6 +112,13 @@ fn reassign(me: &Slot<Litter>, space: &Space) -> Destination {
     space.cell_containing(me.position)
 }
 
+/// Rock in the middle, with a rough edge.
+fn ground(site: Site) -> Ground {
+    let [x, y] = [site.centre().x - 24.0, site.centre().y - 16.0];
+    let is_rock = (x * x + 2.0 * y * y).sqrt() + 6.0 * site.random(0) < 15.0;
+    if is_rock { Ground::Rock } else { Ground::Soil }
+}
+
 fn leaf(label: u32) -> Item<Litter> {
     let [x, y] = [4 + 5 * (label % 8), 4 + 6 * (label / 8)].map(|cell| cell as usize);
     let position = Vector3::new(x as f64 + 0.5, y as f64 + 0.5, 0.5);
@@ -120,12 +127,7 @@ fn leaf(label: u32) -> Item<Litter> {
 }
 
 fn main() -> ExitCode {
-    xca_run::main_of!("pond", "Rain on rock and soil", |given| {
-        let ground = move |cell: [usize; 3]| {
-            let [x, y] = [cell[0] as f64 - 23.5, cell[1] as f64 - 15.5];
-            let is_rock = (x * x + 2.0 * y * y).sqrt() + 6.0 * given.random(cell, 0) < 15.0;
-            if is_rock { Ground::Rock } else { Ground::Soil }
-        };
+    xca_run::main_of!("pond", "Rain on rock and soil", |_given| {
         let weather = Weather {
             raining: true,
             source: Ground::Rock,
@@ -144,8 +146,8 @@ fn main() -> ExitCode {
             .process(level)
             .process(drift)
             .process(reassign)
-            .fill(move |cell| Pond {
-                ground: ground(cell),
+            .fill(|site| Pond {
+                ground: ground(site),
                 wet: false,
                 depth: 0.0,
                 outflow: [0.0; 4],

@@ -4,13 +4,13 @@ use xca_core::prelude::*;
 
 /// The least distance, in sides of a cell, between the boxes of two cells of which one does not have the
 /// other in its neighbourhood; infinite where there are no such cells.
-pub fn covered(neighbourhood: &Neighbourhood, extents: [usize; 3], boundaries: [Boundary; 3]) -> f64 {
+pub fn covered(neighbourhood: &Neighbourhood, extents: [usize; 3], boundaries: Faces<Boundary>) -> f64 {
     let cells = || {
         let [width, height, depth] = extents;
         let layer = move |z| (0..height).flat_map(move |y| (0..width).map(move |x| [x, y, z]));
         (0..depth).flat_map(layer)
     };
-    let torus = boundaries.map(|boundary| boundary == Boundary::Toroidal);
+    let torus = Face::ALONG.map(|[low, _]| boundaries[low] == Boundary::Toroidal);
     let mut least = f64::INFINITY;
     for here in cells() {
         let seen: Vec<[i64; 3]> = neighbourhood

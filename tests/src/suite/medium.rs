@@ -195,7 +195,7 @@ pub fn peek(cell: &mut Cell<Medium>, p: &Tuning) {
 #[elementary_process]
 pub fn percolate(cell: &mut Cell<Medium>, p: &Tuning) {
     let mut sum = 0.0;
-    for n in 1..cell.neighbours() {
+    for n in 1..cell.neighbour_count() {
         let other = cell.neighbour(n);
         for k in 0..3 {
             sum += p.weights[k] * other.flows[2 - k];
@@ -214,7 +214,7 @@ pub fn percolate(cell: &mut Cell<Medium>, p: &Tuning) {
 #[elementary_process]
 pub fn erode(cell: &mut Cell<Medium>, p: &Tuning) {
     let mut waters = 0;
-    for n in 1..cell.neighbours() {
+    for n in 1..cell.neighbour_count() {
         if cell.neighbour(n).terrain == Terrain::Water || cell.neighbour(n).wet {
             waters += 1;
         }
@@ -260,7 +260,7 @@ pub fn overreach(cell: &mut Cell<Medium>, p: &Tuning) {
     let k = mix(cell.bits, p.salt + 3) % (11 + p.greed);
     let beyond = k / 11;
     cell.life = cell.long[k as usize];
-    if cell.neighbours() > 1 {
+    if cell.neighbour_count() > 1 {
         cell.level = bounded(cell.neighbour(1).flows[(2 * beyond + k % 2) as usize], 100.0);
     }
     if p.greed > 0 && cell.bits % 7 == 0 {

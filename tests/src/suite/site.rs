@@ -151,7 +151,7 @@ pub fn first(cell: &mut Cell<Site>, p: &Lattice, space: &Space) {
             cell.fault(WRONG_NEIGHBOUR, n as Real);
         }
         let earlier = mark(there, step.wrapping_sub(1), 1);
-        let chosen = (n + step) % 4;
+        let chosen = (n as u32 + step) % 4;
         let all = other.table;
         if other.table[chosen as usize] != entry_of(earlier, chosen) || all[3] != entry_of(earlier, 3) {
             cell.fault(WRONG_NEIGHBOUR, n as Real);
@@ -211,7 +211,7 @@ pub fn third(cell: &mut Cell<Site>, p: &Lattice, space: &Space) {
         }
         let stale = mark(there, step.wrapping_sub(1), 3);
         let terrain: Terrain = terrain_of(stale);
-        if other.terrain != terrain || other.wet[(n % 2) as usize] != ((stale >> (n % 2)) & 1 == 1) {
+        if other.terrain != terrain || other.wet[n % 2] != ((stale >> (n % 2)) & 1 == 1) {
             cell.fault(WRONG_NEIGHBOUR, n as Real);
         }
         let paths = other.paths;

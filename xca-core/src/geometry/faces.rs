@@ -54,7 +54,7 @@ impl fmt::Display for Face {
 }
 
 /// Something for each face of the space. A face is an index: `faces[Face::North]`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, serde::Serialize, serde::Deserialize)]
 #[expect(missing_docs, reason = "the fields are those of `Face`")]
 pub struct Faces<T> {
     pub west: T,

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use xca_core::model::Group;
 use xca_core::{
-    AnyParameters, Engine, Field, GroupSnapshot, Model, Precision, RunOptions, Snapshot, StoredType,
+    Engine, GroupSnapshot, Model, ParameterSet, Precision, RunOptions, Snapshot, StoredType, ValueType,
 };
 
 /// The JSON part of a checkpoint.
@@ -100,14 +100,13 @@ impl Description {
     pub(crate) fn new(run: Origin, recorder: &Recorder, snapshot: &Snapshot, recorded: Recorded) -> Self {
         let model = recorder.model();
         let groups = model.groups().iter().zip(&snapshot.groups);
-        let parameters = model.parameters().schema().fields.iter().zip(&snapshot.parameters);
+        let components =
+            snapshot.parameters.iter().map(|bits| bits.iter().copied().map(f64::from_bits).collect());
         Self {
             step: snapshot.step,
             time: Exact(recorder.time(snapshot.step)),
             stop: snapshot.stop.clone(),
-            parameters: parameters
-                .map(|(field, bits)| Parameter::new(field, bits.iter().copied().map(f64::from_bits)))
-                .collect(),
+            parameters: Parameter::with_values(model.parameters(), components),
             groups: groups
                 .map(|(group, state)| GroupShape::new(group, state, model, run.precision))
                 .collect(),
@@ -151,21 +150,24 @@ impl GroupShape {
 }
 
 impl Parameter {
-    fn new(field: &Field, components: impl Iterator<Item = f64>) -> Self {
+    fn new(name: String, value_type: ValueType, components: Vec<f64>) -> Self {
         Self {
-            name: field.name.to_owned(),
-            value_type: field.value_type.to_string(),
-            states: state_names(field.value_type.scalar),
-            components: components.map(Exact).collect(),
+            name,
+            value_type: value_type.to_string(),
+            states: state_names(value_type.scalar),
+            components: components.into_iter().map(Exact).collect(),
         }
     }
 
     /// The parameters of a model that has not been run.
-    fn all(parameters: &dyn AnyParameters) -> Vec<Self> {
-        let fields = parameters.schema().fields.iter().enumerate();
-        let of_field =
-            |(index, field)| Self::new(field, parameters.value_of(index).components().iter().copied());
-        fields.map(of_field).collect()
+    fn all(parameters: &ParameterSet) -> Vec<Self> {
+        Self::with_values(parameters, parameters.values().map(|value| value.components().to_vec()))
+    }
+
+    /// Parameters with the values that a run has given them, in the order of their numbers.
+    fn with_values(parameters: &ParameterSet, values: impl Iterator<Item = Vec<f64>>) -> Vec<Self> {
+        let named = parameters.names().into_iter().zip(parameters.fields()).zip(values);
+        named.map(|((name, field), components)| Self::new(name, field.value_type, components)).collect()
     }
 
     pub(super) fn bits(&self) -> Vec<u64> {
@@ -218,13 +220,17 @@ pub(crate) fn other_model(found: &Value, wanted: &Value) -> Option<Difference> {
     first_difference(of_models(found, wanted))
 }
 
-/// The CRC-32 of all processes with the helpers that they call, as shaders; of those that cannot be written as shaders, of the bodies alone,
-/// in which helpers are told by their addresses, and these are left out.
+/// The CRC-32 of the steps in which the processes are run, and of all processes with the helpers that they call, as shaders; of those that
+/// cannot be written as shaders, of the bodies alone, in which helpers are told by their addresses, and these are left out.
 fn of_processes(model: &Model) -> u32 {
-    if let Ok(text) = xca_gpu::wgsl(model, Precision::F64) {
-        return crc32fast::hash(text.as_bytes());
-    }
     let mut sum = crc32fast::Hasher::new();
+    for process in model.processes() {
+        sum.update(&process.every.to_le_bytes());
+    }
+    if let Ok(text) = xca_gpu::wgsl(model, Precision::F64) {
+        sum.update(text.as_bytes());
+        return sum.finalize();
+    }
     for process in model.processes() {
         let body = format!("{:?}", (process.body)());
         for (number, part) in body.split("0x").enumerate() {

@@ -88,11 +88,12 @@ fn as_json(model: &Model) -> serde_json::Result<String> {
             "buffers": adapter.buffers,
         })
     });
-    let processes = model.processes().iter().map(|process| {
-        let [reads, reads_elsewhere, writes] = accesses(model, process);
+    let processes = model.processes().iter().enumerate().map(|(number, process)| {
+        let [reads, reads_elsewhere, writes] = accesses(model, number);
         json!({
             "name": process.name,
             "for_each": subject(process),
+            "every": process.every,
             "local_interaction": process.local_interaction,
             "reads": reads,
             "reads_elsewhere": reads_elsewhere,
@@ -133,15 +134,18 @@ fn as_text(model: &Model) -> String {
             .map(move |field| [format!("{name}.{}", field.name), type_text(field.value_type), of.clone()])
     });
     let parameters = model.parameters();
-    let fields = parameters.schema().fields.iter().enumerate().map(|(index, field)| {
-        [field.name.to_owned(), type_text(field.value_type), parameters.value_of(index).to_string()]
-    });
-    let processes = model.processes().iter().map(|process| {
-        let [reads, elsewhere, writes] = accesses(model, process).map(|names| names.join(" "));
-        [process.name.to_owned(), subject(process).to_owned(), reads, elsewhere, writes]
+    let named = parameters.names().into_iter().zip(parameters.fields()).zip(parameters.values());
+    let fields = named.map(|((name, field), value)| [name, type_text(field.value_type), value.to_string()]);
+    let processes = model.processes().iter().enumerate().map(|(number, process)| {
+        let [reads, elsewhere, writes] = accesses(model, number).map(|names| names.join(" "));
+        let subject = match process.every {
+            1 => subject(process).to_owned(),
+            every => format!("{}, every {every} steps", subject(process)),
+        };
+        [process.name.to_owned(), subject, reads, elsewhere, writes]
     });
     let mut parts = vec![space, engines, adapters, table(["substate", "type", "of"], substates, &[])];
-    if !parameters.schema().fields.is_empty() {
+    if parameters.count() > 0 {
         parts.push(table(["parameter", "type", "value"], fields, &[]));
     }
     let header = ["process", "for each", "reads", "reads elsewhere", "writes"];
@@ -158,14 +162,21 @@ fn subject(process: &Process) -> &'static str {
 }
 
 /// The substates that a process reads of its own cell or item, those that it reads elsewhere, and those that it writes.
-fn accesses(model: &Model, process: &Process) -> [Vec<&'static str>; 3] {
+///
+/// Where it takes several structs, the names of these stand before those of the substates.
+fn accesses(model: &Model, number: usize) -> [Vec<String>; 3] {
+    let process = &model.processes()[number];
     let mut names = [Vec::new(), Vec::new(), Vec::new()];
-    for access in process.access {
-        let substate = model.substate(process, access);
-        let name = model.groups()[substate.group].schema().fields[substate.field].name;
+    for (access, substate) in process.access.iter().zip(&model.plan().process(number).accesses) {
+        let schema = model.groups()[substate.group].schema();
+        let field = schema.fields[substate.field].name;
+        let name = match process.substates {
+            [_] => field.to_owned(),
+            _ => format!("{}.{field}", schema.name),
+        };
         for (list, uses) in names.iter_mut().zip([access.centre, access.others, access.write]) {
             if uses && !list.contains(&name) {
-                list.push(name);
+                list.push(name.clone());
             }
         }
     }

@@ -61,7 +61,7 @@ impl<'a> Choice<'a> {
     /// Makes the model, with its parameters set.
     pub(super) fn set_up(&self, given: &Given) -> Result<SetUp, Unable> {
         let mut set_up = (self.definition.set_up)(&self.matches, given.clone())?;
-        if let (Some(parameter), []) = (given.parameters.first(), set_up.model.parameters().schema().fields) {
+        if let (Some(parameter), 0) = (given.parameters.first(), set_up.model.parameters().count()) {
             return Err(Unable::refused(format!(
                 "this model has no parameters; `{parameter}` cannot be set"
             )));

@@ -300,8 +300,9 @@ impl Differences {
 
     /// Parameters, where steering has made them differ.
     fn parameters(&mut self, model: &Model, first: Side<'_>, other: Side<'_>) {
-        let fields = model.parameters().schema().fields.iter();
-        for (field, (a, b)) in fields.zip(first.snapshot.parameters.iter().zip(&other.snapshot.parameters)) {
+        let parameters = model.parameters();
+        let values = first.snapshot.parameters.iter().zip(&other.snapshot.parameters);
+        for ((field, name), (a, b)) in parameters.fields().zip(parameters.names()).zip(values) {
             if a == b {
                 continue;
             }
@@ -309,7 +310,7 @@ impl Differences {
             let bytes = [a, b]
                 .map(|numbers| numbers.iter().flat_map(|number| number.to_ne_bytes()).collect::<Vec<u8>>());
             let [a, b] = bytes.each_ref().map(|bytes| Numbers::new(stored, bytes));
-            let mut difference = Difference::none(format!("parameter {}", field.name), Kind::Float);
+            let mut difference = Difference::none(format!("parameter {name}"), Kind::Float);
             difference.compare([&a, &b], &Pairs::Same(1), field.value_type, &|_| Place::Parameter);
             self.substates.push(difference);
         }

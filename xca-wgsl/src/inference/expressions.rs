@@ -29,30 +29,24 @@ impl<'a> Inference<'a> {
                 let type_ = constant(name, value)?;
                 self.table.known(&type_)
             }
-            Expression::Own(name) => self.field(self.roles.subject, "substate", name)?,
-            Expression::CellOfItem(name) => self.field(self.roles.companion, "substate", name)?,
-            Expression::Neighbour { index, field } => {
+            Expression::Own(name) => self.substate(0, name)?,
+            Expression::OfCell { argument, field } => self.substate(*argument, field)?,
+            Expression::Neighbour { argument, index, field } => {
                 self.expect(index, ScalarType::U32, "the index of a neighbour")?;
-                self.field(self.roles.subject, "substate", field)?
+                self.substate(*argument, field)?
             }
-            Expression::NamedNeighbour { name, field } => {
+            Expression::NamedNeighbour { argument, name, field } | Expression::Other { argument, name, field } => {
                 let number = self.look_up(name)?;
                 self.uses.insert(&raw const *value, number);
-                self.field(self.roles.subject, "substate", field)?
-            }
-            Expression::Other { name, field } => {
-                let number = self.look_up(name)?;
-                self.uses.insert(&raw const *value, number);
-                let of = if self.over_cells { self.roles.companion } else { self.roles.subject };
-                self.field(of, "substate", field)?
+                self.substate(*argument, field)?
             }
             Expression::OtherLabel(name) => {
                 let number = self.look_up(name)?;
                 self.uses.insert(&raw const *value, number);
                 self.scalar(ScalarType::U32)
             }
-            Expression::Parameter(name) => self.field(self.roles.parameters, "parameter", name)?,
-            Expression::Parameters | Expression::Space => {
+            Expression::Parameter { argument, field } => self.parameter(argument, field)?,
+            Expression::Parameters(_) | Expression::Space => {
                 return Err(Problem::unsupported(
                     "the parameters or the space as a value",
                     "they can only be passed on to a helper",
@@ -215,8 +209,8 @@ impl<'a> Inference<'a> {
                     let found = self.expression(value)?;
                     self.table.unify(expected, found, &construct)?;
                 }
-                (Role::Parameters(schema), Expression::Parameters) => {
-                    if self.roles.parameters.is_none_or(|(_, own)| own != *schema) {
+                (Role::Parameters(schema), Expression::Parameters(name)) => {
+                    if self.roles.parameters(name)? != *schema {
                         return Err(Problem::unsupported(
                             construct,
                             "it takes other parameters than the process",

@@ -86,7 +86,6 @@ fn lost() -> Problem {
 struct Inference<'a> {
     program: &'a Program,
     roles: Roles<'a>,
-    over_cells: bool,
     table: Table,
     scopes: Vec<HashMap<&'static str, LocalNumber>>,
     locals: Vec<(Variable, bool)>,
@@ -108,7 +107,6 @@ impl<'a> Inference<'a> {
         let mut inference = Self {
             program,
             roles: Roles::of(function),
-            over_cells: function.kind == xca_core::ir::FunctionKind::Cells,
             table,
             scopes: vec![HashMap::new()],
             locals: Vec::new(),
@@ -192,13 +190,25 @@ impl<'a> Inference<'a> {
     }
 
     /// The type of a field of a struct of substates or parameters.
+    /// A substate of the struct with this number.
+    fn substate(&mut self, argument: usize, name: &str) -> Result<Variable, Problem> {
+        let named = self.roles.substates.get(argument);
+        let schema = named.ok_or_else(|| Problem::unknown("substate", name))?.schema;
+        self.field(schema, "substate", name)
+    }
+
+    /// A field of the struct of parameters that the source calls so.
+    fn parameter(&mut self, argument: &str, name: &str) -> Result<Variable, Problem> {
+        let schema = self.roles.parameters(argument)?;
+        self.field(schema, "parameter", name)
+    }
+
     fn field(
         &mut self,
-        of: Option<(&str, &'static Schema)>,
+        schema: &'static Schema,
         kind: &'static str,
         name: &str,
     ) -> Result<Variable, Problem> {
-        let (_, schema) = of.ok_or_else(|| Problem::unknown(kind, name))?;
         let number = field_number(schema, name).ok_or_else(|| Problem::unknown(kind, name))?;
         Ok(self.table.known(&Type::of_value(schema.fields[number].value_type)))
     }

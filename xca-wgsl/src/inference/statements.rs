@@ -138,7 +138,7 @@ impl<'a> Inference<'a> {
                 self.place_roots.insert(&raw const *place, number);
                 self.locals[number.0].0
             }
-            PlaceRoot::Own(name) => self.field(self.roles.subject, "substate", name)?,
+            PlaceRoot::Own(name) => self.substate(0, name)?,
         };
         for projection in &place.path {
             variable = match projection {

@@ -5,41 +5,35 @@ use super::range::Range;
 use super::text::{Level, Text};
 use crate::error::Problem;
 use crate::types::{self, Type};
-use crate::{names, visit};
-use xca_core::ir::{BinaryOperator, Expression};
-use xca_core::kernel::Of;
+use crate::visit;
+use xca_core::ir::{BinaryOperator, Builtin, Expression, Operation};
 
 impl Writer<'_, '_> {
     /// `array[index]`: of one that stands in memory, without loading the others.
     pub(super) fn element(&mut self, array: &Expression, index: &Expression) -> Result<Text, Problem> {
         let length = self.length(array)?;
-        let (of, field, number) = match array {
-            Expression::Neighbour { index: neighbour, field } => {
+        let (argument, field, number) = match array {
+            Expression::Neighbour { argument, index: neighbour, field } => {
                 let mut number = self.neighbour(neighbour)?;
                 if self.hoists(index) {
                     number = self.keep("there", &Type::U32, &number);
                 }
-                (Of::Subject, *field, number)
+                (*argument, *field, number)
             }
-            Expression::NamedNeighbour { field, .. } => {
-                (Of::Subject, *field, Text::primary(self.local(self.analysis.local(array)?)?))
+            Expression::NamedNeighbour { argument, field, .. } | Expression::Other { argument, field, .. } => {
+                (*argument, *field, Text::primary(self.local(self.analysis.local(array)?)?))
             }
-            Expression::Other { field, .. } => {
-                let of = if self.over_cells() { Of::Companion } else { Of::Subject };
-                (of, *field, Text::primary(self.local(self.analysis.local(array)?)?))
+            Expression::Own(field) if !self.shared.glossary.buffer(0, field)?.used.centre => {
+                (0, *field, Text::primary(if self.over_cells() { "here" } else { "this_item" }))
             }
-            Expression::Own(field) if !self.shared.glossary.buffer(Of::Subject, field)?.used.centre => {
-                (Of::Subject, *field, Text::primary(if self.over_cells() { "here" } else { "this_item" }))
-            }
-            Expression::CellOfItem(field)
-                if !self.shared.glossary.buffer(Of::Companion, field)?.used.centre =>
+            Expression::OfCell { argument, field }
+                if !self.shared.glossary.buffer(*argument, field)?.used.centre =>
             {
-                (Of::Companion, *field, Text::primary("here"))
+                (*argument, *field, Text::primary("here"))
             }
-            Expression::Parameter(name) => {
+            Expression::Parameter { argument, field } => {
                 let index = self.index(index, length)?;
-                let variable = &self.shared.glossary.parameters;
-                let text = format!("{variable}.{}[{}]", names::field(name), index.plain());
+                let text = format!("{}[{}]", self.parameter(argument, field)?, index.plain());
                 return Ok(Text::primary(match self.analysis.type_of(array) {
                     Type::Array(element, _) if **element == Type::Bool => {
                         types::loaded(xca_core::ScalarType::Bool, &text)
@@ -58,7 +52,7 @@ impl Writer<'_, '_> {
             }
         };
         let index = self.index(index, length)?;
-        let buffer = self.shared.glossary.buffer(of, field)?;
+        let buffer = self.shared.glossary.buffer(argument, field)?;
         let (number, index) = (number.at_least(Level::Unary), index.right_of(Level::Multiplicative));
         Ok(Text::primary(buffer.read_element(&number, &index)))
     }
@@ -121,7 +115,19 @@ impl Writer<'_, '_> {
                         let type_ = self.analysis.type_of(left);
                         !type_.is_float() && self.range(right).may_stop_division_of(self.range(left), type_)
                     }
+                    Expression::Method { method, receiver, arguments } => {
+                        let type_ = self.analysis.type_of(receiver);
+                        let divides = matches!(method, Operation::RemainderEuclid | Operation::DivideEuclid);
+                        divides
+                            && !type_.is_float()
+                            && arguments.iter().any(|divisor| {
+                                self.range(divisor).may_stop_division_of(self.range(receiver), type_)
+                            })
+                    }
                     Expression::Neighbour { .. } | Expression::Call { .. } => true,
+                    Expression::Builtin(builtin, _) => {
+                        matches!(builtin, Builtin::Opposite | Builtin::Displacement | Builtin::Exists)
+                    }
                     _ => false,
                 };
             }

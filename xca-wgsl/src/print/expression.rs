@@ -8,7 +8,7 @@ use crate::visit::{self, Node};
 use crate::{literal, names};
 use xca_core::ScalarType;
 use xca_core::ir::{BinaryOperator, Block, Builtin, Expression, Role, UnaryOperator};
-use xca_core::kernel::{OUTSIDE, Of, STAY};
+use xca_core::kernel::{OUTSIDE, STAY};
 
 const LANES: [&str; 4] = ["x", "y", "z", "w"];
 
@@ -26,31 +26,24 @@ impl Writer<'_, '_> {
             }
             Expression::Local(_) => Ok(Text::primary(self.local(self.analysis.local(value)?)?)),
             Expression::Own(name) => Ok(Text::primary(self.own(name)?)),
-            Expression::CellOfItem(name) => {
-                let variable = self.shared.glossary.companion.as_ref();
-                let variable = variable.ok_or_else(|| Problem::unknown("substate", name))?;
-                Ok(Text::primary(format!("{variable}.{}", names::field(name))))
+            Expression::OfCell { argument, field } => {
+                let variable = self.shared.glossary.central(*argument)?;
+                Ok(Text::primary(format!("{variable}.{}", names::field(field))))
             }
-            Expression::Neighbour { index, field } => {
+            Expression::Neighbour { argument, index, field } => {
                 let number = self.neighbour(index)?;
-                self.value_of(Of::Subject, field, number.plain())
+                self.value_of(*argument, field, number.plain())
             }
-            Expression::NamedNeighbour { field, .. } => {
+            Expression::NamedNeighbour { argument, field, .. } | Expression::Other { argument, field, .. } => {
                 let name = self.local(self.analysis.local(value)?)?;
-                self.value_of(Of::Subject, field, &name)
-            }
-            Expression::Other { field, .. } => {
-                let name = self.local(self.analysis.local(value)?)?;
-                // In a process over cells the other items are those of the cell.
-                let of = if self.over_cells() { Of::Companion } else { Of::Subject };
-                self.value_of(of, field, &name)
+                self.value_of(*argument, field, &name)
             }
             Expression::OtherLabel(_) => {
                 let name = self.local(self.analysis.local(value)?)?;
                 Ok(Text::primary(format!("item_labels[{name}]")))
             }
-            Expression::Parameter(name) => {
-                let text = format!("{}.{}", self.shared.glossary.parameters, names::field(name));
+            Expression::Parameter { argument, field } => {
+                let text = self.parameter(argument, field)?;
                 Ok(Text::primary(match self.type_of(value) {
                     Type::Bool => types::loaded(ScalarType::Bool, &text),
                     Type::Array(element, length) if *element == Type::Bool => {
@@ -59,7 +52,7 @@ impl Writer<'_, '_> {
                     _ => text,
                 }))
             }
-            Expression::Parameters | Expression::Space => Err(Problem::unsupported(
+            Expression::Parameters(_) | Expression::Space => Err(Problem::unsupported(
                 "the parameters or the space as a value",
                 "they can only be passed on to a helper",
             )),
@@ -205,14 +198,18 @@ impl Writer<'_, '_> {
     }
 
     pub(super) fn own(&self, name: &str) -> Result<String, Problem> {
-        let variable =
-            self.shared.glossary.subject.as_ref().ok_or_else(|| Problem::unknown("substate", name))?;
-        Ok(format!("{variable}.{}", names::field(name)))
+        Ok(format!("{}.{}", self.shared.glossary.central(0)?, names::field(name)))
+    }
+
+    /// A parameter as it lies in memory. A helper has its own name for the struct.
+    pub(super) fn parameter(&self, argument: &str, field: &str) -> Result<String, Problem> {
+        let schema = self.roles.parameters(argument)?;
+        Ok(format!("{}.{}", self.shared.glossary.parameters(schema)?, names::field(field)))
     }
 
     /// A substate of the cell or item with this number, as it was before the process.
-    pub(super) fn value_of(&self, of: Of, field: &str, number: &str) -> Result<Text, Problem> {
-        Ok(Text::primary(self.shared.glossary.buffer(of, field)?.read(number)))
+    pub(super) fn value_of(&self, argument: usize, field: &str, number: &str) -> Result<Text, Problem> {
+        Ok(Text::primary(self.shared.glossary.buffer(argument, field)?.read(number)))
     }
 
     fn unary(&mut self, operator: UnaryOperator, operand: &Expression) -> Result<Text, Problem> {
@@ -309,8 +306,8 @@ pub(super) fn is_simple(value: &Expression) -> bool {
         | Expression::Constant { .. }
         | Expression::Local(_)
         | Expression::Own(_)
-        | Expression::CellOfItem(_)
-        | Expression::Parameter(_)
+        | Expression::OfCell { .. }
+        | Expression::Parameter { .. }
         | Expression::Builtin(
             Builtin::NeighbourCount | Builtin::Side | Builtin::Extents | Builtin::Stay | Builtin::Outside,
             _,

@@ -51,11 +51,17 @@ impl Writer<'_, '_> {
                 let one = Text::primary(format!("{}(1.0)", type_.wgsl()));
                 Text::joined(&one, "/", &texts[0], Level::Multiplicative)
             }
-            Operation::RemainderEuclid if type_.scalar().is_some_and(is_unsigned) => {
-                self.combined(BinaryOperator::Remainder, (&texts[0], &type_), (&texts[1], &type_))?
-            }
-            Operation::DivideEuclid if type_.scalar().is_some_and(is_unsigned) => {
-                self.combined(BinaryOperator::Divide, (&texts[0], &type_), (&texts[1], &type_))?
+            Operation::RemainderEuclid | Operation::DivideEuclid if !type_.is_float() => {
+                let remainder = operation == Operation::RemainderEuclid;
+                let (dividend, divisor) = (self.range(receiver), self.range(&arguments[0]));
+                if type_.scalar().is_some_and(is_unsigned) {
+                    let operator = if remainder { BinaryOperator::Remainder } else { BinaryOperator::Divide };
+                    self.quotient(operator, (&texts[0], &type_, dividend), (&texts[1], &type_, divisor))?
+                } else {
+                    let checked = divisor.may_stop_division_of(dividend, &type_);
+                    let routine = self.shared.routines.need_euclidean(remainder, &type_, checked);
+                    Text::primary(format!("{routine}({})", list(&texts)))
+                }
             }
             Operation::WrappingAdd | Operation::WrappingSubtract | Operation::WrappingMultiply => {
                 let operator = match operation {

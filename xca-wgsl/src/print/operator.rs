@@ -204,12 +204,12 @@ pub(super) fn is_constant(value: &Expression) -> bool {
                 inner,
                 Expression::Local(_)
                     | Expression::Own(_)
-                    | Expression::CellOfItem(_)
+                    | Expression::OfCell { .. }
                     | Expression::Neighbour { .. }
                     | Expression::NamedNeighbour { .. }
                     | Expression::Other { .. }
                     | Expression::OtherLabel(_)
-                    | Expression::Parameter(_)
+                    | Expression::Parameter { .. }
                     | Expression::Builtin(..)
                     | Expression::Call { .. }
             );

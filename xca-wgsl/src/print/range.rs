@@ -4,7 +4,7 @@ use super::Writer;
 use crate::inference::LocalNumber;
 use crate::types::Type;
 use xca_core::ScalarType;
-use xca_core::ir::{BinaryOperator, Block, Builtin, Constant, Expression, Literal, Method, UnaryOperator};
+use xca_core::ir::{BinaryOperator, Block, Builtin, Constant, Expression, Literal, Operation, UnaryOperator};
 
 /// All numbers from the least to the most.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -98,10 +98,14 @@ impl Writer<'_, '_> {
             Expression::Literal(Literal::Bool(truth)) => Range::only(i64::from(*truth)),
             Expression::Constant { value, .. } => constant_range(value)?,
             Expression::Local(_) => *self.ranges.get(&self.analysis.local(value).ok()?)?,
-            Expression::Builtin(Builtin::Neighbours, _) => match self.shared.options.neighbourhood_size {
+            Expression::Builtin(Builtin::NeighbourCount, _) => match self.shared.options.neighbourhood_size {
                 Some(size) => Range::only(size.into()),
                 None => Range::new(1, u32::MAX.into()),
             },
+            Expression::Builtin(Builtin::Opposite, _) => {
+                let size = self.shared.options.neighbourhood_size?;
+                Range::new(0, i64::from(size) - 1)
+            }
             Expression::Unary(UnaryOperator::Negate, operand) => {
                 let range = self.range(operand);
                 Range::new(-range.most, -range.least)
@@ -165,9 +169,16 @@ impl Writer<'_, '_> {
         })
     }
 
-    fn method_range(&self, method: Method, receiver: &Expression, arguments: &[Expression]) -> Option<Range> {
-        if method == Method::CountOnes {
-            return Some(Range::new(0, 32));
+    fn method_range(
+        &self,
+        operation: Operation,
+        receiver: &Expression,
+        arguments: &[Expression],
+    ) -> Option<Range> {
+        match (operation, self.analysis.type_of(receiver)) {
+            (Operation::CountOnes, _) => return Some(Range::new(0, 32)),
+            (Operation::Len, Type::Array(_, length)) => return Some(Range::only(i64::try_from(*length).ok()?)),
+            _ => {}
         }
         if !self.is_whole(receiver) {
             return None;
@@ -176,12 +187,12 @@ impl Writer<'_, '_> {
         let argument = |number: usize| arguments.get(number).map(|argument| self.range(argument));
         let smaller = |a: Range, b: Range| Range::new(a.least.min(b.least), a.most.min(b.most));
         let larger = |a: Range, b: Range| Range::new(a.least.max(b.least), a.most.max(b.most));
-        Some(match method {
-            Method::Min => smaller(of, argument(0)?),
-            Method::Max => larger(of, argument(0)?),
-            Method::Clamp => smaller(larger(of, argument(0)?), argument(1)?),
-            Method::Abs if of.least >= 0 => of,
-            Method::Abs => Range::new(0, of.most.max(-of.least)),
+        Some(match operation {
+            Operation::Min => smaller(of, argument(0)?),
+            Operation::Max => larger(of, argument(0)?),
+            Operation::Clamp => smaller(larger(of, argument(0)?), argument(1)?),
+            Operation::Abs if of.least >= 0 => of,
+            Operation::Abs => Range::new(0, of.most.max(-of.least)),
             _ => return None,
         })
     }
@@ -206,7 +217,7 @@ impl Writer<'_, '_> {
 
     /// Whether a range may have more turns than a device has time for, as no loop over neighbours has.
     pub(super) fn may_take_long(&self, from: &Expression, to: &Expression) -> bool {
-        let over_neighbours = matches!(to, Expression::Builtin(Builtin::Neighbours, _));
+        let over_neighbours = matches!(to, Expression::Builtin(Builtin::NeighbourCount, _));
         !over_neighbours && self.range(to).most - self.range(from).least > MANY_TURNS
     }
 }

@@ -5,9 +5,10 @@ use super::loops::Frame;
 use crate::access;
 use crate::error::Problem;
 use crate::visit;
-use xca_core::Boundary;
 use xca_core::ir::{Expression, Loop, Reach, Statement};
-use xca_core::kernel::{Of, WRONG_RADIUS};
+use xca_core::kernel::WRONG_RADIUS;
+use xca_core::{Boundary, Face};
+
 
 impl Writer<'_, '_> {
     pub(super) fn for_items(
@@ -69,7 +70,7 @@ impl Writer<'_, '_> {
 
     /// What a search measures with: the position before the process, and the square of the radius.
     fn near(&mut self, reach: Reach, radius: &Expression) -> Result<Near, Problem> {
-        let field = access::position(self.roles.subject)?;
+        let field = access::position(&self.roles)?;
         let text = self.expression(radius)?;
         let radius = self.shared.names.local("radius");
         self.line(&format!("let {radius}: Real = {};", text.plain()));
@@ -80,11 +81,12 @@ impl Writer<'_, '_> {
         self.line("}");
         let limit = self.shared.names.local("limit");
         self.line(&format!("let {limit}: Real = {radius} * {radius};"));
-        let position = self.value_of(Of::Subject, field, "this_item")?;
+        let position = self.value_of(0, field, "this_item")?;
         let centre = self.shared.names.local("centre");
         self.line(&format!("let {centre}: vec3<Real> = {};", position.plain()));
         let dot = self.shared.routines.need_dot(&crate::types::Type::Vector(xca_core::ScalarType::Real, 3));
-        let toroidal = self.shared.options.boundaries.contains(&Boundary::Toroidal);
+        let boundaries = &self.shared.options.boundaries;
+        let toroidal = Face::ALL.iter().any(|face| boundaries[*face] == Boundary::Toroidal);
         self.shared.routines.nearest_image |= toroidal;
         Ok(Near { field, centre, limit, dot, toroidal })
     }
@@ -108,7 +110,7 @@ impl Writer<'_, '_> {
             writer.line("    continue;");
             writer.line("}");
             if let Some(near) = near {
-                let position = writer.value_of(Of::Subject, near.field, &item)?;
+                let position = writer.value_of(0, near.field, &item)?;
                 let difference = format!("{} - {}", near.centre, position.plain());
                 let separation = writer.shared.names.local("separation");
                 let image = if near.toroidal { format!("nearest_image({difference})") } else { difference };

@@ -13,7 +13,6 @@ use xca_core::ir::{
     BinaryOperator, Block, Builtin, Constant, Expression, Literal, Place, PlaceRoot, Projection, Statement,
     TuplePart,
 };
-use xca_core::kernel::Of;
 
 impl Writer<'_, '_> {
     /// Writes the statements of a block, and its value to where it belongs.
@@ -218,7 +217,7 @@ impl Writer<'_, '_> {
                 (self.local(number)?, self.analysis.locals[number.0].type_.clone())
             }
             PlaceRoot::Own(name) => {
-                let value_type = self.shared.glossary.buffer(Of::Subject, name)?.value_type;
+                let value_type = self.shared.glossary.buffer(0, name)?.value_type;
                 (self.own(name)?, Type::of_value(value_type))
             }
         };
@@ -262,10 +261,10 @@ impl Writer<'_, '_> {
     pub(super) fn neighbour_index(&mut self, index: &Expression) -> Result<Text, Problem> {
         let known = match index {
             Expression::Local(_) => self.neighbours.contains(&self.analysis.local(index)?),
-            _ => fixed_number(index)
-                .zip(self.shared.options.neighbourhood_size)
-                .is_some_and(|(number, size)| u32::try_from(number).is_ok_and(|number| number < size)),
+            _ => false,
         };
+        let size = self.shared.options.neighbourhood_size;
+        let known = known || size.is_some_and(|size| self.is_within(index, size as usize));
         let text = self.expression(index)?;
         if known {
             return Ok(text);

@@ -31,7 +31,7 @@ pub(crate) fn accepted<P: ElementaryProcess>() {
                     let options = Options {
                         precision,
                         neighbourhood_size,
-                        boundaries,
+                        boundaries: boundaries.into(),
                         opaque_zero,
                         ..Options::default()
                     };

@@ -177,7 +177,7 @@ fn searches(me: &mut Slot<Dem>, cell: &Cell<Field>, space: &Space) {
 fn searches_of_all_kinds() {
     accepted::<searches>();
     let options =
-        Options { boundaries: [Boundary::Toroidal, Boundary::Flat, Boundary::Flat], ..Options::default() };
+        Options { boundaries: [Boundary::Toroidal, Boundary::Flat, Boundary::Flat].into(), ..Options::default() };
     let shader = written_with::<searches>(&options);
     let text = function(&shader, "searches");
     assert_eq!(text.matches(" = true;").count(), 2, "{text}");

@@ -61,7 +61,7 @@ fn arrays_lie_as_in_wgsl() {
         let shader = written::<arrays>(precision);
         let module = validate(&shader);
         let layout = shader.bindings.iter().find_map(|binding| match &binding.content {
-            Content::Parameters(layout) => Some(layout),
+            Content::Parameters { layout, .. } => Some(layout),
             _ => None,
         });
         let layout = layout.unwrap();
@@ -91,7 +91,7 @@ fn layouts_are_those_of_wgsl() {
             let (structure, layout): (&str, &Layout) = match &binding.content {
                 Content::Space(layout) => ("Space", layout),
                 Content::Moment(layout) => ("Moment", layout),
-                Content::Parameters(layout) => ("Mixed", layout),
+                Content::Parameters { layout, .. } => ("Mixed", layout),
                 Content::Faults(layout) => ("Fault", layout),
                 _ => continue,
             };

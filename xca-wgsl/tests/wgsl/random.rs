@@ -185,7 +185,7 @@ impl Source {
         let Some(field) = Self::field(type_) else { return self.literal(type_) };
         let index = Box::new(Expression::Literal(Literal::Integer(self.below(9) as u64, None)));
         match self.below(3) {
-            0 => Expression::Neighbour { index, field },
+            0 => Expression::Neighbour { argument: 0, index, field },
             _ => Expression::Own(field),
         }
     }

@@ -550,13 +550,13 @@ fn directions_are_read_from_a_table() {
             "if neighbour_exists(n) {",
             "u32(neighbour_direction(n).w)",
             "neighbour_direction(valid_neighbour(cell.unsigned)).x",
-            "u32(there.y) < u32(space.extents.y)",
+            "there.y >= 0 && there.y < space.extents.y",
         ] {
             assert!(text.contains(words), "{words}: {text}");
         }
         assert!(!text.contains("neighbour_offsets"), "{text}");
     }
-    let boundaries = [Boundary::Toroidal, Boundary::Reflecting, Boundary::Toroidal];
+    let boundaries = [Boundary::Toroidal, Boundary::Reflecting, Boundary::Toroidal].into();
     let text = written_with::<directions_of_neighbours>(&Options { boundaries, ..Options::default() }).source;
     assert!(text.contains("return true;"), "{text}");
 }

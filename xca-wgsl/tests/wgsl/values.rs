@@ -128,7 +128,7 @@ fn whole_arrays_are_read_and_stored() {
 #[elementary_process]
 fn elements(cell: &mut Cell<Land>) {
     let mut sum = cell.flows[1];
-    for n in 1..cell.neighbours() {
+    for n in 1..cell.neighbour_count() {
         let other = cell.neighbour(n);
         for k in 0..3 {
             sum += other.flows[k];
@@ -177,7 +177,7 @@ fn parameters_with_arrays_are_in_a_storage_buffer() {
     accepted::<parameters>();
     let access = |shader: &Shader| {
         let binding =
-            shader.bindings.iter().find(|binding| matches!(binding.content, Content::Parameters(_)));
+            shader.bindings.iter().find(|binding| matches!(binding.content, Content::Parameters { .. }));
         binding.map(|binding| binding.access)
     };
     let shader = written::<parameters>(Precision::F32);
@@ -251,7 +251,7 @@ fn certain(cell: &mut Cell<Land>, climate: &Climate) {
     for k in 1..=2 {
         sum += cell.flows[k] * climate.shares[k - 1];
     }
-    for n in 1..cell.neighbours() {
+    for n in 1..cell.neighbour_count() {
         sum += cell.neighbour(n).flows[n as usize / 3];
         cell.long[2 * n as usize - 1] = n as i32 / 2;
     }
