@@ -32,6 +32,15 @@ impl Type {
         }
     }
 
+    /// Whether it is a tuple or an array of such.
+    pub(crate) fn holds_tuples(&self) -> bool {
+        match self {
+            Self::Tuple(_) => true,
+            Self::Array(element, _) => element.holds_tuples(),
+            _ => false,
+        }
+    }
+
     /// The scalar of a number or vector.
     pub(crate) fn scalar(&self) -> Option<ScalarType> {
         match self {

@@ -61,6 +61,9 @@ impl Writer<'_, '_> {
                 self.wrapped(shift(left, "<<", right, left_type, right_type), left_type)
             }
             BinaryOperator::ShiftRight => shift(left, ">>", right, left_type, right_type),
+            BinaryOperator::Equal | BinaryOperator::NotEqual if type_.holds_tuples() => {
+                return Err(Problem::unsupported("a comparison of tuples", "compare their parts"));
+            }
             BinaryOperator::Equal if matches!(type_, Type::Array(..)) => {
                 let routine = self.shared.routines.need_equal(type_);
                 Text::primary(format!("{routine}({}, {})", left.argument(), right.argument()))
@@ -77,9 +80,6 @@ impl Writer<'_, '_> {
             }
             BinaryOperator::NotEqual if type_.lanes() > 1 => {
                 Text::primary(format!("any({})", Text::joined(left, "!=", right, Level::Relational).plain()))
-            }
-            BinaryOperator::Equal | BinaryOperator::NotEqual if matches!(type_, Type::Tuple(_)) => {
-                return Err(Problem::unsupported("a comparison of tuples", "compare their parts"));
             }
             BinaryOperator::Equal => Text::joined(left, "==", right, Level::Relational),
             BinaryOperator::NotEqual => Text::joined(left, "!=", right, Level::Relational),

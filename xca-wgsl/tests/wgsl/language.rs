@@ -81,3 +81,62 @@ fn methods_are_routines() {
         assert!(!text.contains(" exp(") && !text.contains(" round("), "{text}");
     }
 }
+
+#[derive(Substates, Clone, Copy, Debug, PartialEq)]
+struct Weather {
+    rain: [Real; 3],
+    dry: bool,
+}
+
+#[derive(Parameters, Clone, Debug)]
+struct Soil {
+    rate: Real,
+}
+
+#[derive(Parameters, Clone, Debug)]
+struct Growth {
+    rate: Real,
+    weights: [Real; 3],
+}
+
+#[helper]
+fn weigh<const N: usize>(values: [Real; N], growth: &Growth) -> (Real, bool) {
+    let mut sum = 0.0;
+    for value in values {
+        sum += value * growth.rate;
+    }
+    (sum, sum > 1.0)
+}
+
+#[elementary_process]
+fn update<const COLOUR: i32>(cell: &mut Cell<State>, weather: &Cell<Weather>, soil: &Soil, growth: &Growth) {
+    if cell.count != COLOUR {
+        return;
+    }
+    let (sum, much) = weigh::<3>(weather.rain, growth);
+    'search: for n in (1..cell.neighbour_count()).rev() {
+        let sky = weather.neighbour(n);
+        for rain in sky.rain {
+            if sky.dry || cell.neighbour(n).count == 7 {
+                continue 'search;
+            }
+            if much && rain > soil.rate {
+                break 'search;
+            }
+        }
+        for k in (0..weather.neighbour(n).rain.len()).step_by(2) {
+            cell.x += weather.neighbour(n).rain[k] * growth.weights[k];
+        }
+    }
+    cell.y = sum;
+}
+
+/// The indices are known to lie in their arrays and neighbourhoods: nothing is checked.
+#[test]
+fn loops_over_neighbours_in_several_structs() {
+    accepted::<update<0>>();
+    accepted::<update<7>>();
+    let text = function(&written::<update<7>>(Precision::F32), "update");
+    assert!(!text.contains("checked_index") && !text.contains("valid_neighbour"), "{text}");
+    assert!(text.contains("7i"), "{text}");
+}

@@ -16,12 +16,21 @@ fn pairs(cell: &mut Cell<State>) {
     }
 }
 
+#[elementary_process]
+fn rows(cell: &mut Cell<State>) {
+    let all = [(cell.count, 1), (2, cell.count)];
+    if all == [(1, 1), (2, 1)] {
+        cell.count = 1;
+    }
+}
+
 #[test]
 fn comparisons_of_tuples() {
-    assert_eq!(
-        refused::<pairs>().to_string(),
-        "the process `pairs` cannot be written in WGSL: a comparison of arrays or tuples: compare their elements"
-    );
+    let message = |name: &str| {
+        format!("the process `{name}` cannot be written in WGSL: a comparison of tuples: compare their parts")
+    };
+    assert_eq!(refused::<pairs>().to_string(), message("pairs"));
+    assert_eq!(refused::<rows>().to_string(), message("rows"));
 }
 
 const NOTHING: Real = Real::NAN;
