@@ -20,7 +20,7 @@ fn pairs(cell: &mut Cell<State>) {
 fn comparisons_of_tuples() {
     assert_eq!(
         refused::<pairs>().to_string(),
-        "the process `pairs` cannot be written in WGSL: a comparison of arrays or tuples: compare their elements"
+        "the process `pairs` cannot be written in WGSL: a comparison of tuples: compare their parts"
     );
 }
 
