@@ -94,7 +94,7 @@ fn what_a_substate_cannot_have_is_refused_when_it_is_given() -> Result<(), Box<d
     for value in [f64::NAN, f64::INFINITY] {
         assert!(
             refusal("Water.altitude", with(value))
-                .contains("in cell [1, 1, 0] is no value for `altitude`, which is a f32")
+                .contains("in cell [1, 1, 0] is no value for `Water.altitude`, which is a f32")
         );
     }
     Ok(())
