@@ -79,7 +79,10 @@ fn what_a_substate_cannot_have_is_refused_when_it_is_given() -> Result<(), Box<d
         "several substates are called `altitude`; say which one: Ground.altitude, Water.altitude"
     );
     assert!(refusal("length", vec![0.0; 6]).starts_with("no substate of cells is called `length`"));
-    assert_eq!(refusal("wind", vec![0.0; 6]), "`wind` is a Vector2<Real>; only scalars can be given");
+    assert_eq!(
+        refusal("wind", vec![0.0; 6]),
+        "`wind` is a Vector2<Real>; give one of its components, such as `wind.x`"
+    );
     assert_eq!(refusal("kind", vec![0.0; 5]), "`kind` has 6 values, one for each cell, but 5 are given");
     for (name, value) in [("kind", 256.0), ("kind", 0.5), ("drops", -1.0), ("debris", 2_147_483_648.0)] {
         let message = refusal(name, with(value));
@@ -91,7 +94,7 @@ fn what_a_substate_cannot_have_is_refused_when_it_is_given() -> Result<(), Box<d
     for value in [f64::NAN, f64::INFINITY] {
         assert!(
             refusal("Water.altitude", with(value))
-                .contains("in cell [1, 1, 0] is no value for `altitude`, which is a f32")
+                .contains("in cell [1, 1, 0] is no value for `Water.altitude`, which is a f32")
         );
     }
     Ok(())

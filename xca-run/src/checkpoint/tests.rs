@@ -27,6 +27,12 @@ struct Weather {
     days: u32,
 }
 
+#[derive(Parameters, Clone, Copy, Debug)]
+struct Climate {
+    rain: Real,
+    sun: [Real; 2],
+}
+
 #[elementary_process]
 fn warm(cell: &mut Cell<Field>, p: &Weather) {
     cell.heat += p.rain;
@@ -243,6 +249,46 @@ fn the_last_two_are_kept() {
     assert_eq!(steps(), ["step_00000007", "step_00000005"]);
 }
 
+/// Parameters of several structs, of which two have one name.
+#[test]
+fn parameters_of_several_structs() -> Result<(), ParameterError> {
+    let mut model = Model::builder("field")
+        .extents([2, 1, 1])
+        .substates::<Field>()
+        .parameters(Weather { rain: 0.25, days: 3 })
+        .parameters(Climate { rain: 8.0, sun: [0.5, 2.0] })
+        .build()
+        .unwrap();
+    let line = || vec!["field".to_owned(), "run".to_owned()];
+    let origin = |model: &Model| {
+        Origin::new(["0.1.0", "field", "1.2.3"], line(), model, RunOptions::default(), [10, 2])
+    };
+    let listed = |parameters: &[Parameter]| parameters.iter().map(ToString::to_string).collect::<Vec<_>>();
+    let run = origin(&model);
+    assert_eq!(
+        listed(&run.parameters),
+        ["Weather.rain = 0.25", "days = 3.0", "Climate.rain = 8.0", "sun = 0.5,2.0"]
+    );
+    let mut simulation = Simulation::new(&model, &Reference, RunOptions::default()).unwrap();
+    simulation.state().set_parameter("Climate.rain", "9").unwrap();
+    let recorder = Recorder::new(SetUp::new(model.clone(), 10)).unwrap();
+    let snapshot = simulation.snapshot().unwrap();
+    let recorded = recorder.recorded().unwrap();
+    let description = Description::new(run.clone(), &recorder, &snapshot, recorded);
+    assert_eq!(
+        listed(&description.parameters),
+        ["Weather.rain = 0.25", "days = 3.0", "Climate.rain = 9.0", "sun = 0.5,2.0"]
+    );
+    let checkpoint = Checkpoint { description, snapshot };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a");
+    checkpoint.write(&path).unwrap();
+    assert!(Checkpoint::read(&path).unwrap().snapshot == checkpoint.snapshot);
+    model.set_parameter("Weather.rain", "1")?;
+    assert_eq!(run.mismatch(&origin(&model)).unwrap().what, "parameters");
+    Ok(())
+}
+
 #[test]
 fn another_run_is_known_by_what_differs() -> Result<(), ParameterError> {
     let simulation = simulation();
@@ -275,6 +321,11 @@ fn another_run_is_known_by_what_differs() -> Result<(), ParameterError> {
         own(&process(builder.parameters(parameters)).build().unwrap(), 0, [10, 2])
     };
     let difference = with(|builder| builder.process(warm)).mismatch(&with(|b| b.process(edited::warm)));
+    assert_eq!(difference.unwrap().what, "code of the processes");
+    // The same process in other steps.
+    let seldom = || with(|builder| builder.process_every(10, warm));
+    assert_eq!(seldom().mismatch(&seldom()), None);
+    let difference = with(|builder| builder.process(warm)).mismatch(&seldom());
     assert_eq!(difference.unwrap().what, "code of the processes");
     let helped = || with(|builder| builder.process(warm_twice));
     assert_eq!(helped().mismatch(&helped()), None);

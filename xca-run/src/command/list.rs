@@ -182,3 +182,76 @@ fn accesses(model: &Model, number: usize) -> [Vec<String>; 3] {
     }
     names
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::Value;
+    use xca_core::prelude::*;
+
+    #[derive(Substates, Clone, Copy)]
+    struct Ground {
+        water: Real,
+    }
+
+    #[derive(Substates, Clone, Copy)]
+    struct Sky {
+        water: Real,
+        wind: Real,
+    }
+
+    #[derive(Parameters, Clone, Debug)]
+    struct Soil {
+        rate: Real,
+    }
+
+    #[derive(Parameters, Clone, Debug)]
+    struct Air {
+        rate: Real,
+        calm: Real,
+    }
+
+    #[elementary_process]
+    fn soak(ground: &mut Cell<Ground>, sky: &Cell<Sky>, soil: &Soil) {
+        ground.water += soil.rate * sky.water * sky.neighbour(1).wind;
+    }
+
+    #[elementary_process]
+    fn blow(sky: &mut Cell<Sky>, air: &Air) {
+        sky.wind *= air.rate + air.calm;
+    }
+
+    fn model() -> Model {
+        Model::builder("weather")
+            .extents([3, 3, 1])
+            .neighbourhood(Neighbourhood::von_neumann_2d(1))
+            .substates::<Ground>()
+            .substates::<Sky>()
+            .parameters(Soil { rate: 0.5 })
+            .parameters(Air { rate: 0.25, calm: 1.5 })
+            .process(soak)
+            .process_every(6, blow)
+            .build()
+            .unwrap()
+    }
+
+    /// What several structs share is told apart, and processes say in which steps they are run.
+    #[test]
+    fn several_structs() {
+        let told: Value = serde_json::from_str(&as_json(&model()).unwrap()).unwrap();
+        assert_eq!(told["parameters"], json!({ "Soil.rate": 0.5, "Air.rate": 0.25, "calm": 1.5 }));
+        let [first, second] = [0, 1].map(|number| &told["processes"][number]);
+        assert_eq!(first["reads"], json!(["Sky.water", "Ground.water"]));
+        assert_eq!(first["reads_elsewhere"], json!(["Sky.wind"]));
+        assert_eq!(first["writes"], json!(["Ground.water"]));
+        assert_eq!((&first["every"], &second["every"]), (&json!(1), &json!(6)));
+        assert_eq!(second["writes"], json!(["wind"]));
+        let text = as_text(&model());
+        let row = |first: &str| {
+            let line = text.lines().find(|line| line.trim_start().starts_with(first)).unwrap();
+            line.split_whitespace().map(str::to_owned).collect::<Vec<_>>()
+        };
+        assert_eq!(row("Air.rate"), ["Air.rate", "Real", "0.25"]);
+        assert_eq!(row("blow"), ["blow", "cell,", "every", "6", "steps", "wind", "wind"]);
+    }
+}
