@@ -5,3 +5,4 @@
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
 pub mod cadem_input;
+pub mod models;

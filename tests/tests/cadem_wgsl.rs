@@ -5,7 +5,7 @@ mod cadem_support;
 use cadem::{Case, Configuration, Integrator, Opening, Walls};
 use cadem_support::TestResult;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
-use xca_core::{Boundary, Precision};
+use xca_core::{Boundary, Faces, Precision};
 use xca_wgsl::{Options, shader};
 
 #[test]
@@ -25,8 +25,10 @@ fn all_processes_are_valid_shaders() -> TestResult {
                 let options = Options {
                     precision,
                     neighbourhood_size: Some(27),
-                    boundaries: [if walls == Walls::PerSlot { Boundary::Toroidal } else { Boundary::Flat };
-                        3],
+                    boundaries: Faces::all(match walls {
+                        Walls::PerSlot => Boundary::Toroidal,
+                        _ => Boundary::Flat,
+                    }),
                     ..Options::default()
                 };
                 let shader = shader(&(process.body)(), &options)?;

@@ -489,7 +489,8 @@ impl Fault {
 /// below zero that is taken for an index has 64 on a processor.
 fn with_narrow_index(message: String) -> String {
     const WORDS: &str = "but the index is ";
-    let wide = message.rsplit_once(WORDS).and_then(|(start, index)| Some((start, index.parse::<u64>().ok()?)));
+    let wide =
+        message.rsplit_once(WORDS).and_then(|(start, index)| Some((start, index.parse::<u64>().ok()?)));
     match wide {
         Some((start, index)) => format!("{start}{WORDS}{}", index as u32),
         None => message,

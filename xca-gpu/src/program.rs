@@ -160,7 +160,17 @@ impl Program {
                 _ => {}
             }
         }
-        Ok(Self { process, stream, shader, pipeline, parameters, spaces, offsets, directions, bound: HashMap::new() })
+        Ok(Self {
+            process,
+            stream,
+            shader,
+            pipeline,
+            parameters,
+            spaces,
+            offsets,
+            directions,
+            bound: HashMap::new(),
+        })
     }
 
     /// The substates whose results go to a second buffer.

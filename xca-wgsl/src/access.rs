@@ -6,7 +6,6 @@ use crate::visit::{self, Node};
 use xca_core::Schema;
 use xca_core::ir::{Builtin, Expression, Function, FunctionKind, LoopKind, PlaceRoot, Reach, Statement};
 
-
 /// How a process uses one substate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Use {
@@ -194,12 +193,7 @@ impl Uses {
         Ok(())
     }
 
-    fn entry(
-        &mut self,
-        argument: usize,
-        roles: &Roles<'_>,
-        name: &str,
-    ) -> Result<&mut Use, Problem> {
+    fn entry(&mut self, argument: usize, roles: &Roles<'_>, name: &str) -> Result<&mut Use, Problem> {
         let field = roles
             .substates
             .get(argument)

@@ -11,8 +11,8 @@ use crate::shader::Options;
 use crate::types::Type;
 use crate::visit::{self, Node};
 use std::collections::HashMap;
-use xca_core::ir::{Constant, Expression};
 use xca_core::Schema;
+use xca_core::ir::{Constant, Expression};
 
 /// What things are called in a module.
 pub(crate) struct Glossary {

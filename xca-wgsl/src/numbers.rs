@@ -81,8 +81,7 @@ impl Routines {
             let lines = [&*rest, "return select(rest, rest + abs(b), rest < 0i);"];
             self.need_of_two(&format!("rem_euclid{manner}"), type_, &lines)
         } else {
-            let lines =
-                [&*whole, &rest, "return select(whole, whole - select(1i, -1i, b < 0i), rest < 0i);"];
+            let lines = [&*whole, &rest, "return select(whole, whole - select(1i, -1i, b < 0i), rest < 0i);"];
             self.need_of_two(&format!("div_euclid{manner}"), type_, &lines)
         }
     }

@@ -22,11 +22,8 @@ fn covered_from(geometry: &Geometry, cell: [usize; 3]) -> f64 {
     // lies further is missing too, and no nearer.
     let steps = |axis: usize| {
         let extent = extent(geometry, axis);
-        let (low, high) = if geometry.toroidal()[axis] {
-            ((extent - 1) / 2, extent / 2)
-        } else {
-            (extent - 1, extent - 1)
-        };
+        let (low, high) =
+            if geometry.toroidal()[axis] { ((extent - 1) / 2, extent / 2) } else { (extent - 1, extent - 1) };
         let reach = geometry.neighbourhood.reach()[axis] as i64 + 1;
         -low.min(reach)..=high.min(reach)
     };

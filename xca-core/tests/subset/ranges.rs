@@ -31,11 +31,9 @@ fn flow() -> Flow {
 }
 
 fn builder(flow: Flow) -> ModelBuilder {
-    Model::builder("flow")
-        .extents([2, 1, 1])
-        .substates::<Fluid>()
-        .parameters(flow)
-        .compute_parameters(|flow: &mut Flow| flow.viscosity = flow.speed * f64::from(flow.width) / flow.reynolds)
+    Model::builder("flow").extents([2, 1, 1]).substates::<Fluid>().parameters(flow).compute_parameters(
+        |flow: &mut Flow| flow.viscosity = flow.speed * f64::from(flow.width) / flow.reynolds,
+    )
 }
 
 fn message(flow: Flow) -> String {
@@ -62,7 +60,10 @@ fn a_model_is_not_built_with_values_out_of_range() {
     );
     // What is computed has a range too.
     assert_eq!(message(Flow { speed: 0.0, ..flow() }), "the parameter `viscosity` is 0, but must be above 0");
-    assert_eq!(message(Flow { free: f64::NAN, ..flow() }), "the parameter `free` is NaN, but must be any number");
+    assert_eq!(
+        message(Flow { free: f64::NAN, ..flow() }),
+        "the parameter `free` is NaN, but must be any number"
+    );
     assert!(builder(Flow { free: f64::INFINITY, ..flow() }).build().is_ok());
 }
 

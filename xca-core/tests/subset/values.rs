@@ -224,7 +224,11 @@ fn items_hold_arrays_bool_and_states() {
         .process(gather)
         .process(look_down)
         .initialise(move |state| Ok(state.set_items(items())?))
-        .fill(|site| Lane { flows: [site.cell()[0] as f64, 10.0], states: [Ground::Water; 2], ..Lane::default() })
+        .fill(|site| Lane {
+            flows: [site.cell()[0] as f64, 10.0],
+            states: [Ground::Water; 2],
+            ..Lane::default()
+        })
         .build()
         .unwrap();
     for precision in PRECISIONS {

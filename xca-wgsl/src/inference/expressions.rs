@@ -35,7 +35,8 @@ impl<'a> Inference<'a> {
                 self.expect(index, ScalarType::U32, "the index of a neighbour")?;
                 self.substate(*argument, field)?
             }
-            Expression::NamedNeighbour { argument, name, field } | Expression::Other { argument, name, field } => {
+            Expression::NamedNeighbour { argument, name, field }
+            | Expression::Other { argument, name, field } => {
                 let number = self.look_up(name)?;
                 self.uses.insert(&raw const *value, number);
                 self.substate(*argument, field)?

@@ -20,7 +20,8 @@ impl Writer<'_, '_> {
                 }
                 (*argument, *field, number)
             }
-            Expression::NamedNeighbour { argument, field, .. } | Expression::Other { argument, field, .. } => {
+            Expression::NamedNeighbour { argument, field, .. }
+            | Expression::Other { argument, field, .. } => {
                 (*argument, *field, Text::primary(self.local(self.analysis.local(array)?)?))
             }
             Expression::Own(field) if !self.shared.glossary.buffer(0, field)?.used.centre => {

@@ -34,7 +34,8 @@ impl Writer<'_, '_> {
                 let number = self.neighbour(index)?;
                 self.value_of(*argument, field, number.plain())
             }
-            Expression::NamedNeighbour { argument, field, .. } | Expression::Other { argument, field, .. } => {
+            Expression::NamedNeighbour { argument, field, .. }
+            | Expression::Other { argument, field, .. } => {
                 let name = self.local(self.analysis.local(value)?)?;
                 self.value_of(*argument, field, &name)
             }

@@ -177,7 +177,9 @@ impl Writer<'_, '_> {
     ) -> Option<Range> {
         match (operation, self.analysis.type_of(receiver)) {
             (Operation::CountOnes, _) => return Some(Range::new(0, 32)),
-            (Operation::Len, Type::Array(_, length)) => return Some(Range::only(i64::try_from(*length).ok()?)),
+            (Operation::Len, Type::Array(_, length)) => {
+                return Some(Range::only(i64::try_from(*length).ok()?));
+            }
             _ => {}
         }
         if !self.is_whole(receiver) {

@@ -9,7 +9,6 @@ use xca_core::ir::{Expression, Loop, Reach, Statement};
 use xca_core::kernel::WRONG_RADIUS;
 use xca_core::{Boundary, Face};
 
-
 impl Writer<'_, '_> {
     pub(super) fn for_items(
         &mut self,

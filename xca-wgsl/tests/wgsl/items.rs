@@ -176,8 +176,10 @@ fn searches(me: &mut Slot<Dem>, cell: &Cell<Field>, space: &Space) {
 #[test]
 fn searches_of_all_kinds() {
     accepted::<searches>();
-    let options =
-        Options { boundaries: [Boundary::Toroidal, Boundary::Flat, Boundary::Flat].into(), ..Options::default() };
+    let options = Options {
+        boundaries: [Boundary::Toroidal, Boundary::Flat, Boundary::Flat].into(),
+        ..Options::default()
+    };
     let shader = written_with::<searches>(&options);
     let text = function(&shader, "searches");
     assert_eq!(text.matches(" = true;").count(), 2, "{text}");

@@ -1,0 +1,37 @@
+//! The minimisation of differences (Di Gregorio and Serra, Future Generation Computer Systems 16, 1999), which lava, debris and snow share.
+
+use xca_core::prelude::*;
+
+/// What goes to each place so that the heights of all that take part differ as little as possible: place 0 is the cell itself, whose height is that
+/// of what cannot move. A place that stands above the common level takes no part.
+#[helper]
+pub(super) fn shares<const N: usize>(heights: [Real; N], takes_part: [bool; N], mobile: Real) -> [Real; N] {
+    let mut taking_part = takes_part;
+    let mut level = 0.0;
+    let mut is_settled = false;
+    while !is_settled {
+        let mut sum = mobile;
+        let mut count = 0.0;
+        for n in 0..N {
+            if taking_part[n] {
+                sum += heights[n];
+                count += 1.0;
+            }
+        }
+        level = sum / count;
+        is_settled = true;
+        for n in 0..N {
+            if taking_part[n] && heights[n] > level {
+                taking_part[n] = false;
+                is_settled = false;
+            }
+        }
+    }
+    let mut shares = [0.0; N];
+    for n in 0..N {
+        if taking_part[n] {
+            shares[n] = level - heights[n];
+        }
+    }
+    shares
+}

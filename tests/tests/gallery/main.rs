@@ -1,0 +1,13 @@
+//! The gallery: each model against something that is known of it, and with the same bits on every engine.
+
+#![allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should")]
+
+mod boltzmann;
+mod common;
+mod debris;
+mod excitable;
+mod ising;
+mod lava;
+mod reaction;
+mod sandpile;
+mod wildfire;
