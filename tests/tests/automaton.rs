@@ -75,7 +75,7 @@ fn every_cell_finds_what_it_must() -> Result<(), Box<dyn Error>> {
                 let Ok(model) = model else { continue };
                 for precision in PRECISIONS {
                     cases += 1;
-                    let engines = engines::for_case(&engines, cases);
+                    let engines = engines::for_case(&engines, cases, engines::SMALL_GPU_SHARE);
                     assert_same_runs(&model, engines, RunOptions { precision, seed: 0 }, 3)
                         .map_err(|error| format!("{}: {error}", model.name()))?;
                 }

@@ -76,7 +76,7 @@ fn every_item_sees_what_it_must() -> Result<(), Box<dyn Error>> {
                 };
                 for precision in PRECISIONS {
                     cases += 1;
-                    let engines = engines::for_case(&engines, cases);
+                    let engines = engines::for_case(&engines, cases, engines::SMALL_GPU_SHARE);
                     assert_same_runs(&model, engines, RunOptions { precision, seed: 0 }, 10)
                         .map_err(|error| format!("{}: {error}", model.name()))?;
                 }

@@ -8,10 +8,11 @@ use toml::{Table, Value};
 type TestResult = Result<(), Box<dyn Error>>;
 
 /// For each member, the members that it may depend on. A new member finds its place here first.
-const DIRECTIONS: [(&str, &[&str]); 13] = [
-    ("xca-macros", &[]),
-    ("xca-core", &["xca-macros"]),
-    ("xca-wgsl", &["xca-core"]),
+const DIRECTIONS: [(&str, &[&str]); 14] = [
+    ("xca-methods", &[]),
+    ("xca-macros", &["xca-methods"]),
+    ("xca-core", &["xca-macros", "xca-methods"]),
+    ("xca-wgsl", &["xca-core", "xca-methods"]),
     ("xca-cpu", &["xca-core"]),
     ("xca-gpu", &["xca-core", "xca-wgsl"]),
     ("xca-run", &["xca-core", "xca-cpu", "xca-gpu"]),
@@ -20,7 +21,10 @@ const DIRECTIONS: [(&str, &[&str]); 13] = [
     ("xca-examples", &["xca-core", "xca-run", "cadem"]),
     ("new-model", &["xca-core", "xca-run"]),
     ("xca-benchmarks", &["xca-core", "xca-cpu", "xca-gpu", "cadem"]),
-    ("xca-tests", &["xca-core", "xca-cpu", "xca-gpu", "xca-run", "xca-wgsl", "cadem"]),
+    (
+        "xca-tests",
+        &["xca-methods", "xca-core", "xca-cpu", "xca-gpu", "xca-run", "xca-wgsl", "cadem", "xca-examples"],
+    ),
     ("xca-tests-renamed", &["xca"]),
 ];
 

@@ -123,7 +123,7 @@ fn same_bits_on_every_engine() {
     let cases = Cell::new(0);
     proptest!(config(1200), |(recipe in recipes(), options in options(), steps in 1_u64..7)| {
         cases.set(cases.get() + 1);
-        let engines = engines::for_case(&all, cases.get());
+        let engines = engines::for_case(&all, cases.get(), engines::GPU_SHARE);
         match assert_same_runs(&recipe.build()?, engines, options, steps) {
             Ok(()) | Err(RunError::Fault { .. }) => {}
             Err(error) => return Err(TestCaseError::fail(error.to_string())),
@@ -144,7 +144,7 @@ fn same_bits_process_by_process() {
             return Ok(());
         }
         cases.set(cases.get() + 1);
-        let engines = engines::for_case(&all, cases.get());
+        let engines = engines::for_case(&all, cases.get(), engines::GPU_SHARE);
         let mut oracle = Simulation::new(&model, &*engines[0], options)?;
         let mut others = Vec::new();
         for engine in &engines[1..] {
@@ -177,7 +177,7 @@ fn a_step_is_its_processes_in_order() {
         let recipe = Recipe { steered: false, ..recipe };
         let model = recipe.build()?;
         cases.set(cases.get() + 1);
-        for engine in engines::for_case(&all, cases.get()) {
+        for engine in engines::for_case(&all, cases.get(), engines::GPU_SHARE) {
             let mut whole = Simulation::new(&model, &**engine, options)?;
             let mut apart = Simulation::new(&model, &**engine, options)?;
             let outcome = whole.step();

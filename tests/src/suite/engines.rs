@@ -15,13 +15,16 @@ pub const THREADS: [usize; 4] = [1, 2, 3, 8];
 /// Both precisions.
 pub const PRECISIONS: [Precision; 2] = [Precision::F32, Precision::F64];
 
-/// Of so many cases the GPU engine takes part in one, where there are very many: a driver compiles each model anew, which takes far longer
-/// than to run it.
+/// Of so many cases the GPU engine takes part in one: a driver compiles each model anew, which takes far longer than to run it.
+/// Odd, so that both precisions take turns.
 pub const GPU_SHARE: usize = 9;
 
+/// The same where there are thousands of cases.
+pub const SMALL_GPU_SHARE: usize = 101;
+
 /// The engines for the case with this number: all, or those on processors.
-pub fn for_case(engines: &[Box<dyn Engine>], number: usize) -> &[Box<dyn Engine>] {
-    if number.is_multiple_of(GPU_SHARE) { engines } else { on_processors(engines) }
+pub fn for_case(engines: &[Box<dyn Engine>], number: usize, share: usize) -> &[Box<dyn Engine>] {
+    if number.is_multiple_of(share) { engines } else { on_processors(engines) }
 }
 
 /// The engines without the GPU's.
