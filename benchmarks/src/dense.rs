@@ -1,6 +1,7 @@
 //! Heat and Life on the CPU engine against loops written by hand with rayon.
 
-use crate::timing::{Times, interleaved};
+use crate::comparison::Comparison;
+use crate::timing::interleaved;
 use rayon::prelude::*;
 use std::error::Error;
 use xca_core::prelude::*;
@@ -86,19 +87,6 @@ fn life_by_hand(size: usize, old: &mut [u8], new: &mut [u8]) {
     });
 }
 
-/// A comparison of the engine with the loop by hand.
-#[derive(Debug)]
-pub(crate) struct Comparison {
-    /// The model and its size.
-    pub(crate) name: String,
-    /// The number of cells.
-    pub(crate) cells: usize,
-    /// Seconds a step of the engine.
-    pub(crate) engine: Times,
-    /// Seconds a step of the loop by hand.
-    pub(crate) by_hand: Times,
-}
-
 fn heat_at([x, y, z]: [usize; 3]) -> f64 {
     ((x * 31 + y * 17 + z * 7) % 101) as f64
 }
@@ -169,7 +157,7 @@ pub(crate) fn heat(
     if simulation.state().get(Heat::TEMPERATURE, [cell; 3])? != by_hand {
         return Err("the engine and the loop by hand differ".into());
     }
-    comparison(format!("heat {size}^3, f64"), size * size * size, steps, times)
+    Comparison::new(format!("heat {size}^3, f64"), size * size * size, steps, times)
 }
 
 /// Life on a square torus of `size` cells along each side.
@@ -208,15 +196,5 @@ pub(crate) fn life(
     if simulation.state().sum(Life::ALIVE)? != alive {
         return Err("the engine and the loop by hand differ".into());
     }
-    comparison(format!("life {size}^2"), size * size, steps, times)
-}
-
-fn comparison(
-    name: String,
-    cells: usize,
-    steps: usize,
-    times: Vec<Times>,
-) -> Result<Comparison, Box<dyn Error>> {
-    let [engine, by_hand] = <[Times; 2]>::try_from(times).map_err(|_| "two contenders")?;
-    Ok(Comparison { name, cells, engine: engine.per(steps), by_hand: by_hand.per(steps) })
+    Comparison::new(format!("life {size}^2"), size * size, steps, times)
 }

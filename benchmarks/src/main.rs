@@ -1,6 +1,8 @@
 //! What the engines cost. `cargo run --release -p xca-benchmarks -- --help` lists the benchmarks.
 #![allow(clippy::print_stdout, reason = "printing is what this program does")]
 
+mod boltzmann;
+mod comparison;
 mod dense;
 mod engines;
 mod mathematics;
@@ -28,6 +30,15 @@ struct Arguments {
 enum Benchmark {
     /// Heat 256^3 and Life 4096^2 against loops written by hand with rayon.
     Dense,
+    /// The gallery's fluid (D3Q19) against a loop written by hand with rayon.
+    Boltzmann {
+        /// The cells along each side of the cube.
+        #[arg(long, default_value_t = 64)]
+        size: usize,
+        /// How many steps make a round.
+        #[arg(long, default_value_t = 10)]
+        steps: usize,
+    },
     /// The GPU engine against the CPU engine for CADEM, mod2 256^3, Life 4096^2 and heat 256^3.
     Engines {
         /// How many steps make a round.
@@ -58,20 +69,12 @@ fn main() -> Result<(), Box<dyn Error>> {
                 dense::heat(256, arguments.threads, arguments.rounds, 10)?,
                 dense::life(4096, arguments.threads, arguments.rounds, 20)?,
             ] {
-                let (low, high) = comparison.engine.spread();
-                let (hand_low, hand_high) = comparison.by_hand.spread();
-                println!(
-                    "{}: engine {:.2} ms a step ({:.2} to {:.2}), by hand {:.2} ms ({:.2} to {:.2}), ratio {:.3}; {:.0} million cells a second",
-                    comparison.name,
-                    comparison.engine.median() * 1e3,
-                    low * 1e3,
-                    high * 1e3,
-                    comparison.by_hand.median() * 1e3,
-                    hand_low * 1e3,
-                    hand_high * 1e3,
-                    comparison.engine.median() / comparison.by_hand.median(),
-                    comparison.cells as f64 / comparison.engine.median() / 1e6,
-                );
+                println!("{comparison}");
+            }
+        }
+        Benchmark::Boltzmann { size, steps } => {
+            for precision in [Precision::F32, Precision::F64] {
+                println!("{}", boltzmann::fluid(size, precision, arguments.threads, arguments.rounds, steps)?);
             }
         }
         Benchmark::Engines { steps } => {

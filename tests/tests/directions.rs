@@ -20,7 +20,7 @@ const DIRECTIONS: [(&str, &[&str]); 14] = [
     ("cadem", &["xca-core"]),
     ("xca-examples", &["xca-core", "xca-run", "cadem"]),
     ("new-model", &["xca-core", "xca-run"]),
-    ("xca-benchmarks", &["xca-core", "xca-cpu", "xca-gpu", "cadem"]),
+    ("xca-benchmarks", &["xca-core", "xca-cpu", "xca-gpu", "cadem", "xca-examples"]),
     (
         "xca-tests",
         &["xca-methods", "xca-core", "xca-cpu", "xca-gpu", "xca-run", "xca-wgsl", "cadem", "xca-examples"],
