@@ -30,7 +30,8 @@ mod wide;
 pub use cells::{AroundRead, CentreRead, Column, Columns, Offset};
 pub use constants::{KernelConstant, constant};
 pub use entries::{Entry, Memory, MemoryOf};
-pub use neighbours::Directions;
+pub use crate::neighbourhood::shapes::{ANY as ANY_SHAPE, ShapeNumber};
+pub use neighbours::{Directions, Offsets};
 pub use search::{CellFilter, Found, Scratch, reach};
 pub use space::NativeSpace;
 pub use values::{
@@ -241,12 +242,6 @@ impl<'a> Row<'a> {
         self.length
     }
 
-    /// The size of the neighbourhood.
-    #[inline(always)]
-    pub fn neighbours(&self) -> usize {
-        self.frame.offsets.len()
-    }
-
     /// A struct of parameters; nothing where the model has none of this type, which building it has excluded.
     #[inline(always)]
     pub fn parameters<P: 'static>(&self) -> Option<&'a P> {
@@ -257,13 +252,6 @@ impl<'a> Row<'a> {
     #[inline(always)]
     pub fn space<R: Float>(&self) -> NativeSpace<'a, R> {
         NativeSpace::new(self.frame)
-    }
-
-    /// The neighbourhood: of exactly `K` cells, or of any number where `K` is 0.
-    #[inline(always)]
-    pub fn offsets<const K: usize>(&self) -> Offsets<'a, K> {
-        let fixed = self.frame.offsets.first_chunk().copied().unwrap_or([0; K]);
-        Offsets { fixed, any: self.frame.offsets }
     }
 
     /// The cells of the row.
@@ -369,31 +357,5 @@ impl<'a> Row<'a> {
     pub fn item_random<R: Float>(&self, item: usize, draw: usize) -> R {
         let words = self.draw(self.label(item), draw as u32);
         R::uniform([words[0], words[1]])
-    }
-}
-
-/// The neighbourhood of a row's cells: `K` offsets known to the compiler by number, or any number where `K` is 0.
-#[derive(Debug, Clone, Copy)]
-pub struct Offsets<'a, const K: usize> {
-    fixed: [isize; K],
-    any: &'a [isize],
-}
-
-impl<const K: usize> Offsets<'_, K> {
-    /// The number of cells.
-    #[inline(always)]
-    pub fn count(&self) -> usize {
-        if K > 0 { K } else { self.any.len() }
-    }
-
-    /// The offset of the neighbour with this index. Beyond the neighbourhood it is a fault, and the cell itself is read.
-    #[inline(always)]
-    pub fn at<'r>(&self, index: usize, row: &'r Row<'_>, x: usize) -> Offset<'r> {
-        let offset = if K > 0 { self.fixed.get(index).copied() } else { self.any.get(index).copied() };
-        let distance = offset.unwrap_or_else(|| {
-            row.beyond_neighbourhood(x, index);
-            0
-        });
-        Offset { distance, row: PhantomData }
     }
 }

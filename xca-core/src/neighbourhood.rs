@@ -1,7 +1,10 @@
 //! Neighbourhoods: which cells a cell sees.
 
+use shapes::ShapeNumber;
 use std::collections::HashMap;
 use std::fmt;
+
+pub(crate) mod shapes;
 
 /// The cells that a process sees, as displacements from the central cell, which has index 0.
 ///
@@ -16,6 +19,7 @@ pub struct Neighbourhood {
     parity: Parity,
     /// For each index that of the opposite direction, the same for all cells.
     opposites: Vec<Option<usize>>,
+    shape: ShapeNumber,
 }
 
 /// What the displacements depend on.
@@ -134,7 +138,11 @@ impl Neighbourhood {
 
     fn new(name: String, displacements: [Vec<[i32; 3]>; 2], parity: Parity) -> Self {
         let opposites = opposites(&displacements, parity);
-        Self { name, displacements, parity, opposites }
+        let shape = match parity {
+            Parity::None => shapes::number_of(&displacements[0]),
+            Parity::Row | Parity::Column => shapes::HEXAGONAL,
+        };
+        Self { name, displacements, parity, opposites, shape }
     }
 
     /// The number of cells, with the central one.
@@ -176,6 +184,11 @@ impl Neighbourhood {
     /// [`Self::opposite`] for each index.
     pub(crate) fn opposites(&self) -> &[Option<usize>] {
         &self.opposites
+    }
+
+    /// The shape that kernels know it by.
+    pub(crate) fn shape(&self) -> ShapeNumber {
+        self.shape
     }
 
     /// The first displacement whose opposite is missing.
@@ -234,7 +247,7 @@ impl fmt::Display for Neighbourhood {
 
 #[cfg(test)]
 mod tests {
-    use super::{Hexagons, Neighbourhood, NeighbourhoodError};
+    use super::{Hexagons, Neighbourhood, NeighbourhoodError, shapes};
 
     #[test]
     fn sizes_of_the_ready_made_ones() {
@@ -424,6 +437,37 @@ mod tests {
         let custom = Neighbourhood::custom(list).unwrap();
         assert_eq!([1, 2, 3, 4].map(|n| custom.opposite(n)), [Some(3), None, Some(1), None]);
         assert_eq!(custom.without_opposite(), Some([2, 1, 0]));
+    }
+
+    /// What kernels know of a shape is what the neighbourhood says.
+    #[test]
+    fn shapes_are_those_of_their_neighbourhoods() {
+        let near = |[x, y, z]: &[i32; 3]| x * x + y * y + z * z <= 2;
+        let cube = Neighbourhood::moore(1);
+        let nineteen = cube.displacements([0; 3]).iter().copied().filter(near).collect();
+        let known = [
+            Neighbourhood::von_neumann_2d(1),
+            Neighbourhood::von_neumann(1),
+            Neighbourhood::moore_2d(1),
+            Neighbourhood::custom(nineteen).unwrap(),
+            cube,
+            Neighbourhood::hexagonal(Hexagons::CornerUp),
+            Neighbourhood::hexagonal(Hexagons::SideUp),
+        ];
+        for (neighbourhood, number) in known.iter().zip([1, 2, 3, 4, 5, 6, 6]) {
+            assert_eq!(neighbourhood.shape(), number, "{neighbourhood}");
+            let shape = shapes::shape(number);
+            assert_eq!(shape.size, neighbourhood.size());
+            if number != shapes::HEXAGONAL {
+                assert_eq!(shape.displacements[..shape.size], *neighbourhood.displacements([0; 3]));
+            }
+            for index in 0..shape.size {
+                assert_eq!(neighbourhood.opposite(index), Some(shape.opposite(index)));
+            }
+        }
+        let turned = Neighbourhood::custom(vec![[0; 3], [1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0]]);
+        let others = [Neighbourhood::moore(2), Neighbourhood::moore_2d(0), turned.unwrap()];
+        assert!(others.iter().all(|other| other.shape() == shapes::ANY));
     }
 
     #[test]

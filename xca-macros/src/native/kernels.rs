@@ -10,8 +10,8 @@ use crate::ast::{Function, FunctionKind, Role};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
-/// Neighbourhood sizes that get a kernel of their own, whose loop over neighbours can be unrolled.
-const UNROLLED: [usize; 4] = [5, 7, 9, 27];
+/// The numbers of the shapes of neighbourhoods that get a kernel of their own, see `xca_core::kernel`.
+const SHAPES: std::ops::RangeInclusive<u8> = 1..=6;
 
 /// An expression whose value is the kernel for one precision.
 pub(super) fn row(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
@@ -56,22 +56,23 @@ pub(super) fn row(function: &Function, uses: &Uses, real: &TokenStream) -> Token
             quote!(let ::core::option::Option::Some(#name) = #row.parameters::<#native>() else { return; };),
         );
     }
-    let unrolled = over_cells && uses.neighbours;
-    let size = hidden("SIZE", span);
-    let work = if over_cells { cells(function, uses, real, &size) } else { items(function, uses, real) };
+    let several = over_cells && uses.neighbours;
+    let shape = hidden("SHAPE", span);
+    let work = if over_cells { cells(function, uses, real, &shape) } else { items(function, uses, real) };
     let constants = &function.constants;
     let names: Vec<&Ident> = constants.iter().map(|constant| &constant.ident).collect();
-    let call = if unrolled {
+    let any = quote!(#inner::<{ ::xca_core::kernel::ANY_SHAPE }, #(#names),*>(#row, #(#values),*));
+    let call = if several {
         let arms =
-            UNROLLED.iter().map(|size| quote!(#size => #inner::<#size, #(#names),*>(#row, #(#values),*),));
+            SHAPES.map(|shape| quote!(#shape => #inner::<#shape, #(#names),*>(#row, #(#values),*),));
         quote! {
-            match #row.neighbours() {
+            match #row.shape() {
                 #(#arms)*
-                _ => #inner::<0, #(#names),*>(#row, #(#values),*),
+                _ => #any,
             }
         }
     } else {
-        quote!(#inner::<0, #(#names),*>(#row, #(#values),*))
+        any
     };
     let checked_row = checked_value(&quote!(#row));
     quote! {
@@ -79,7 +80,7 @@ pub(super) fn row(function: &Function, uses: &Uses, real: &TokenStream) -> Token
             #[allow(warnings, arithmetic_overflow, overflowing_literals, unconditional_panic, clippy::all)]
             fn #name<#(#constants),*>(#row: &::xca_core::kernel::Row<'_>) {
                 #[inline(never)]
-                fn #inner<const #size: usize, #(#constants),*>(#row: &::xca_core::kernel::Row<'_>, #(#declarations),*) {
+                fn #inner<const #shape: ::xca_core::kernel::ShapeNumber, #(#constants),*>(#row: &::xca_core::kernel::Row<'_>, #(#declarations),*) {
                     let #row = #checked_row;
                     #work
                 }
@@ -101,7 +102,7 @@ fn space(real: &TokenStream, span: Span) -> TokenStream {
     quote!(let #space = #row.space::<#real>();)
 }
 
-fn cells(function: &Function, uses: &Uses, real: &TokenStream, size: &Ident) -> TokenStream {
+fn cells(function: &Function, uses: &Uses, real: &TokenStream, shape: &Ident) -> TokenStream {
     let span = function.name.span();
     let [row, x, column, place, offsets, length] =
         ["row", "x", "column", "place", "offsets", "length"].map(|name| hidden(name, span));
@@ -130,13 +131,13 @@ fn cells(function: &Function, uses: &Uses, real: &TokenStream, size: &Ident) -> 
     }
     let directions = uses.directions.then(|| {
         let directions = hidden("directions", span);
-        quote!(let #directions = #row.directions::<#size>();)
+        quote!(let #directions = #row.directions::<#shape>();)
     });
     let mut writer = Writer::new(function, Some(uses), real.clone());
     let body = writer.block(&function.body);
     quote! {
         #space
-        let #offsets = #row.offsets::<#size>();
+        let #offsets = #row.offsets::<#shape>();
         #directions
         let #length = #row.length();
         #shorten
@@ -178,7 +179,7 @@ fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
     let body = writer.block(&function.body);
     let lists = writer.lists();
     // An item may look at the neighbours of the cell that it stands in.
-    let neighbourhood = uses.neighbours.then(|| quote!(let #offsets = #row.offsets::<0>();));
+    let neighbourhood = uses.neighbours.then(|| quote!(let #offsets = #row.offsets::<{ ::xca_core::kernel::ANY_SHAPE }>();));
     let (take, run) = if function.kind == FunctionKind::Migration {
         (
             quote!(let #destinations = #row.destinations();),
