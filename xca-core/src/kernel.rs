@@ -26,17 +26,17 @@ mod search;
 mod space;
 mod values;
 mod wide;
+mod written;
 
-pub use cells::{AroundRead, CentreRead, Column, Columns, Offset};
+pub use cells::{AroundRead, Blocks, CentreRead, Column, Columns, Offset};
 pub use constants::{KernelConstant, constant};
 pub use entries::{Entry, Memory, MemoryOf};
 pub use crate::neighbourhood::shapes::{ANY as ANY_SHAPE, ShapeNumber};
 pub use neighbours::{Directions, Offsets};
 pub use search::{CellFilter, Found, Scratch, reach};
 pub use space::NativeSpace;
-pub use values::{
-    ArrayCells, ArrayValue, CellsOf, KernelElement, KernelValue, Planes, load, load_element, store,
-};
+pub use values::{ArrayValue, KernelElement, KernelValue, load, load_element, store};
+pub use written::{Lanes, Planes, Stage, Written, WrittenArrays, block};
 
 /// A migration's answer: the item stays where it is.
 pub const STAY: u32 = u32::MAX;
@@ -257,7 +257,13 @@ impl<'a> Row<'a> {
     /// The cells of the row.
     #[inline(always)]
     pub fn columns(&self) -> Columns<'_> {
-        Columns { numbers: 0..self.length, row: PhantomData }
+        Columns { first: 0, lanes: 0..self.length, row: PhantomData }
+    }
+
+    /// The cells of the row, in blocks of so many at most.
+    #[inline(always)]
+    pub fn blocks(&self, most: usize) -> Blocks<'_> {
+        Blocks { rest: 0..self.length, most, row: PhantomData }
     }
 
     /// The number of the row's first own item.

@@ -6,6 +6,7 @@ mod expressions;
 mod helper;
 mod kernels;
 mod loops;
+mod unrolled;
 
 use crate::access::{GroupOf, Uses, structs};
 use crate::ast::{Function, FunctionKind, Role};

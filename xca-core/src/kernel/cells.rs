@@ -11,7 +11,8 @@ use std::ops::Range;
 /// The number of a cell in its row: below the row's length.
 #[derive(Debug, Clone, Copy)]
 pub struct Column<'r> {
-    number: usize,
+    first: usize,
+    lane: usize,
     row: PhantomData<&'r ()>,
 }
 
@@ -19,15 +20,30 @@ impl Column<'_> {
     /// The number.
     #[inline(always)]
     pub fn number(self) -> usize {
-        self.number
+        self.first + self.lane
+    }
+
+    /// The number within its block.
+    #[inline(always)]
+    pub fn lane(self) -> usize {
+        self.lane
     }
 }
 
-/// The cells of a row.
+/// Cells of a row, one after the other.
 #[derive(Debug, Clone)]
 pub struct Columns<'r> {
-    pub(super) numbers: Range<usize>,
+    pub(super) first: usize,
+    pub(super) lanes: Range<usize>,
     pub(super) row: PhantomData<&'r ()>,
+}
+
+impl Columns<'_> {
+    /// Their numbers in the row.
+    #[inline(always)]
+    pub fn numbers(&self) -> Range<usize> {
+        self.first + self.lanes.start..self.first + self.lanes.end
+    }
 }
 
 impl<'r> Iterator for Columns<'r> {
@@ -35,7 +51,27 @@ impl<'r> Iterator for Columns<'r> {
 
     #[inline(always)]
     fn next(&mut self) -> Option<Column<'r>> {
-        Some(Column { number: self.numbers.next()?, row: self.row })
+        Some(Column { first: self.first, lane: self.lanes.next()?, row: self.row })
+    }
+}
+
+/// A row, in blocks of so many cells at most.
+#[derive(Debug, Clone)]
+pub struct Blocks<'r> {
+    pub(super) rest: Range<usize>,
+    pub(super) most: usize,
+    pub(super) row: PhantomData<&'r ()>,
+}
+
+impl<'r> Iterator for Blocks<'r> {
+    type Item = Columns<'r>;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<Columns<'r>> {
+        let Range { start: first, end } = self.rest;
+        let count = self.most.min(end - first);
+        self.rest.start += count;
+        (count > 0).then_some(Columns { first, lanes: 0..count, row: self.row })
     }
 }
 
@@ -64,7 +100,7 @@ impl<'r, T: KernelValue> AroundRead<'r, T> {
     #[inline(always)]
     fn read(&self, cell: Column<'r>, offset: Offset<'r>, element: usize) -> T::Element {
         assert!(element < T::LENGTH, "an element beyond the value");
-        let place = cell.number as isize + offset.distance + (element * self.stride) as isize;
+        let place = cell.number() as isize + offset.distance + (element * self.stride) as isize;
         // SAFETY: `Row::new`: each plane can be read at every cell of the row and, if these can be had, at all offsets of the neighbourhood
         // from there. The column and the offset are of this row, and there are `LENGTH` planes.
         #[allow(unsafe_code)]

@@ -2,7 +2,8 @@
 
 use super::Row;
 use super::cells::{AroundRead, CentreRead};
-use super::values::{CellsOf, KernelElement, KernelValue, Planes};
+use super::values::{KernelElement, KernelValue};
+use super::written::{Planes, Written};
 use std::marker::PhantomData;
 
 /// One substate as a kernel reaches it.
@@ -85,7 +86,7 @@ impl Row<'_> {
 
     /// A substate of the row's cells, to be written. Each can be asked for once.
     #[inline(always)]
-    pub fn write_cells<T: KernelValue>(&self, number: usize) -> T::Cells<'_> {
+    pub fn write_cells<T: KernelValue>(&self, number: usize) -> T::Written<'_> {
         let entry = self.entry::<T>(number);
         let MemoryOf::Cells { write_stride: stride, .. } = entry.memory.of else {
             panic!("an entry of items")
@@ -94,7 +95,7 @@ impl Row<'_> {
         let planes = Planes { first: entry.write.cast(), stride, cells: self.length };
         // SAFETY: `Row::new`: where it can be written, each plane has `length` elements, aligned, this row's alone. It is, and is asked for
         // once, see `take`; it is not read through the entry but where `read` is other memory.
-        unsafe { T::Cells::new(planes) }
+        unsafe { T::Written::new(planes) }
     }
 
     /// Checks that an entry can be written, and that no one else has asked for it.

@@ -3,10 +3,10 @@
 //! An engine keeps each substate of cells as planes: one for a single value, one for each element of an array, a fixed stride apart. Of items
 //! it keeps whole values one after the other.
 
+use super::written::{Lanes, STAGED, Stage, Written, WrittenArrays};
 use crate::states::States;
 use crate::vector::{Vector2, Vector3, Vector4};
 use bytemuck::Pod;
-use std::marker::PhantomData;
 
 /// A single value: a number, a bool, a state or a small vector.
 pub trait KernelElement: Copy + 'static {
@@ -99,8 +99,17 @@ pub trait KernelValue: Copy + 'static {
     /// What stands in memory where the elements stand one after the other.
     type Memory: Pod;
 
-    /// The value of each cell of a row, to be written.
-    type Cells<'r>: CellsOf<'r, Self>;
+    /// The values of a row's cells, to be written.
+    type Written<'r>: Written<'r, Self>;
+
+    /// Where a block is written before it is copied to its place.
+    type Stage;
+
+    /// The values of a block of cells, to be written.
+    type Lanes<'b>: Lanes<Self>;
+
+    /// The most cells of a block.
+    const BLOCK: usize;
 
     /// The value with these elements.
     fn from_elements(element: impl FnMut(usize) -> Self::Element) -> Self;
@@ -112,39 +121,14 @@ pub trait KernelValue: Copy + 'static {
     fn to_memory(self) -> Self::Memory;
 }
 
-/// The planes of a row's cells, as their engine describes them.
-#[derive(Debug, Clone, Copy)]
-pub struct Planes<M> {
-    pub(super) first: *mut M,
-    pub(super) stride: usize,
-    pub(super) cells: usize,
-}
-
-/// The values of a row's cells, to be written.
-pub trait CellsOf<'r, T: KernelValue>: Sized {
-    /// Takes the planes of a row.
-    ///
-    /// # Safety
-    /// For `'r` each of the planes, `stride` elements apart, is aligned, has so many cells from the first on, and no one else reads
-    /// or writes them.
-    #[allow(unsafe_code)]
-    unsafe fn new(planes: Planes<<T::Element as KernelElement>::Memory>) -> Self;
-
-    /// The same of the first cells. That their number is known where they are used lets the compiler leave out checks.
-    fn first(self, cells: usize) -> Self;
-
-    /// The value of a cell.
-    fn get(&self, cell: usize) -> T;
-
-    /// Replaces the value of a cell.
-    fn set(&mut self, cell: usize, value: T);
-}
-
 impl<T: KernelElement> KernelValue for T {
     type Element = T;
     const LENGTH: usize = 1;
     type Memory = T::Memory;
-    type Cells<'r> = &'r mut [T::Memory];
+    type Written<'r> = &'r mut [T::Memory];
+    type Stage = ();
+    type Lanes<'b> = &'b mut [T::Memory];
+    const BLOCK: usize = usize::MAX;
 
     #[inline(always)]
     fn from_elements(mut element: impl FnMut(usize) -> T) -> T {
@@ -162,35 +146,14 @@ impl<T: KernelElement> KernelValue for T {
     }
 }
 
-impl<'r, T: KernelElement> CellsOf<'r, T> for &'r mut [T::Memory] {
-    #[inline(always)]
-    #[allow(unsafe_code)]
-    unsafe fn new(planes: Planes<T::Memory>) -> Self {
-        // SAFETY: as the function.
-        unsafe { std::slice::from_raw_parts_mut(planes.first, planes.cells) }
-    }
-
-    #[inline(always)]
-    fn first(self, cells: usize) -> Self {
-        &mut self[..cells]
-    }
-
-    #[inline(always)]
-    fn get(&self, cell: usize) -> T {
-        <T as KernelElement>::from_memory(self[cell])
-    }
-
-    #[inline(always)]
-    fn set(&mut self, cell: usize, value: T) {
-        self[cell] = KernelElement::to_memory(value);
-    }
-}
-
 impl<T: KernelElement, const N: usize> KernelValue for [T; N] {
     type Element = T;
     const LENGTH: usize = N;
     type Memory = [T::Memory; N];
-    type Cells<'r> = ArrayCells<'r, T::Memory, N>;
+    type Written<'r> = WrittenArrays<'r, T::Memory, N>;
+    type Stage = Stage<T::Memory, N>;
+    type Lanes<'b> = &'b mut Stage<T::Memory, N>;
+    const BLOCK: usize = STAGED;
 
     #[inline(always)]
     fn from_elements(element: impl FnMut(usize) -> T) -> Self {
@@ -205,53 +168,6 @@ impl<T: KernelElement, const N: usize> KernelValue for [T; N] {
     #[inline(always)]
     fn to_memory(self) -> Self::Memory {
         self.map(KernelElement::to_memory)
-    }
-}
-
-/// The values of a row's cells, arrays of `N` elements in a plane each, to be written.
-#[derive(Debug)]
-pub struct ArrayCells<'r, M, const N: usize> {
-    planes: Planes<M>,
-    row: PhantomData<&'r mut [M]>,
-}
-
-impl<M: Pod, const N: usize> ArrayCells<'_, M, N> {
-    #[inline(always)]
-    fn place(&self, cell: usize, element: usize) -> *mut M {
-        assert!(cell < self.planes.cells && element < N, "no such cell in the row");
-        self.planes.first.wrapping_add(element * self.planes.stride + cell)
-    }
-}
-
-impl<'r, T: KernelElement, const N: usize> CellsOf<'r, [T; N]> for ArrayCells<'r, T::Memory, N> {
-    #[inline(always)]
-    #[allow(unsafe_code)]
-    unsafe fn new(planes: Planes<T::Memory>) -> Self {
-        Self { planes, row: PhantomData }
-    }
-
-    #[inline(always)]
-    fn first(mut self, cells: usize) -> Self {
-        self.planes.cells = self.planes.cells.min(cells);
-        self
-    }
-
-    #[inline(always)]
-    fn get(&self, cell: usize) -> [T; N] {
-        // SAFETY: `new`: `N` planes, aligned, each with the cells that `place` lets through.
-        #[allow(unsafe_code)]
-        std::array::from_fn(|element| T::from_memory(unsafe { self.place(cell, element).read() }))
-    }
-
-    #[inline(always)]
-    fn set(&mut self, cell: usize, value: [T; N]) {
-        for (element, value) in value.into_iter().enumerate() {
-            // SAFETY: as above, and no one else reads or writes them.
-            #[allow(unsafe_code)]
-            unsafe {
-                self.place(cell, element).write(KernelElement::to_memory(value));
-            }
-        }
     }
 }
 

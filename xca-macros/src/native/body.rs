@@ -2,13 +2,14 @@
 
 use super::hidden;
 use super::loops::hidden_label;
+use super::unrolled::Unrolled;
 use crate::access::{Access, GroupOf, Uses};
 use crate::ast::{Block, Expression, Function, FunctionKind, Place, PlaceRoot, Projection, Statement};
 use crate::fields::with_real;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{quote, quote_spanned};
-use syn::BinOp;
 use syn::ext::IdentExt;
+use syn::{BinOp, Lifetime};
 
 /// The variable that holds an own substate while the body runs.
 pub(super) fn own_name(field: &Ident) -> Ident {
@@ -37,11 +38,15 @@ pub(super) struct Writer<'a> {
     pub(super) real: TokenStream,
     /// How many lists of found items the body needs.
     pub(super) searches: usize,
+    /// How many loops have been written.
+    pub(super) loops: usize,
+    /// The loop whose turns are being written out.
+    pub(super) unrolled: Option<Unrolled>,
 }
 
 impl<'a> Writer<'a> {
     pub(super) fn new(function: &'a Function, uses: Option<&'a Uses>, real: TokenStream) -> Self {
-        Self { function, uses, real, searches: 0 }
+        Self { function, uses, real, searches: 0, loops: 0, unrolled: None }
     }
 
     /// How the process uses a substate.
@@ -122,14 +127,20 @@ impl<'a> Writer<'a> {
                 quote!(#expression;)
             }
             Statement::Loop(loop_) => self.loop_(loop_),
-            Statement::Break(label, span) => {
-                let label = label.as_ref().map(hidden_label);
-                quote_spanned!(*span=> break #label;)
-            }
-            Statement::Continue(label, span) => {
-                let label = label.as_ref().map(hidden_label);
-                quote_spanned!(*span=> continue #label;)
-            }
+            Statement::Break(label, span) => match self.leaves(label.as_ref(), true) {
+                Some(turns) => quote_spanned!(*span=> break #turns;),
+                None => {
+                    let label = label.as_ref().map(hidden_label);
+                    quote_spanned!(*span=> break #label;)
+                }
+            },
+            Statement::Continue(label, span) => match self.leaves(label.as_ref(), false) {
+                Some(turn) => quote_spanned!(*span=> break #turn;),
+                None => {
+                    let label = label.as_ref().map(hidden_label);
+                    quote_spanned!(*span=> continue #label;)
+                }
+            },
             Statement::Return(value, span) => {
                 let value = value.as_ref().map(|value| self.expression(value));
                 if self.function.kind == FunctionKind::Helper {
@@ -150,6 +161,11 @@ impl<'a> Writer<'a> {
                 quote!(#row.report::<#real>(#x, #label, #code, #value);)
             }
         }
+    }
+
+    /// What a `break` (of the whole loop) or `continue` leaves where the turns of its loop are written out.
+    fn leaves(&self, label: Option<&Lifetime>, whole: bool) -> Option<Lifetime> {
+        self.unrolled.as_ref()?.leaves(label, whole)
     }
 
     pub(super) fn offset(&mut self, index: &Expression) -> TokenStream {

@@ -9,6 +9,7 @@ use crate::access::{Access, GroupOf, Uses, structs};
 use crate::ast::{Function, FunctionKind, Role};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
+use syn::ext::IdentExt;
 
 /// The numbers of the shapes of neighbourhoods that get a kernel of their own, see `xca_core::kernel`.
 const SHAPES: std::ops::RangeInclusive<u8> = 1..=6;
@@ -21,6 +22,7 @@ pub(super) fn row(function: &Function, uses: &Uses, real: &TokenStream) -> Token
     let over_cells = function.kind == FunctionKind::Cells;
     let mut declarations = Vec::new();
     let mut values = Vec::new();
+    let mut written = Blocks::default();
     for (number, access) in uses.accesses.iter().enumerate() {
         let type_ = native_type(access.group, &access.field, function, real);
         let cells = matches!(structs(function).nth(access.group.argument().0), Some(Role::Cell(_)));
@@ -36,15 +38,15 @@ pub(super) fn row(function: &Function, uses: &Uses, real: &TokenStream) -> Token
             declarations.push(quote!(#read: #argument));
             values.push(quote!(#row.#take::<#type_>(#number)));
         }
-        if access.write {
-            let write = write_name(&access.field);
-            let (argument, take) = if cells {
-                (quote!(<#type_ as ::xca_core::kernel::KernelValue>::Cells<'_>), quote!(write_cells))
-            } else {
-                (quote!(&mut [#memory]), quote!(write_items))
-            };
-            declarations.push(quote!(#write: #argument));
-            values.push(quote!(#row.#take::<#type_>(#number)));
+        if access.write && over_cells {
+            let lanes = written.add(access, number, &type_, &row);
+            let name = write_name(&access.field);
+            declarations.push(quote!(#name: <#type_ as ::xca_core::kernel::KernelValue>::Lanes<'_>));
+            values.push(lanes);
+        } else if access.write {
+            let name = write_name(&access.field);
+            declarations.push(quote!(#name: &mut [#memory]));
+            values.push(quote!(#row.write_items::<#type_>(#number)));
         }
     }
     let mut take_parameters = TokenStream::new();
@@ -61,10 +63,11 @@ pub(super) fn row(function: &Function, uses: &Uses, real: &TokenStream) -> Token
     let work = if over_cells { cells(function, uses, real, &shape) } else { items(function, uses, real) };
     let constants = &function.constants;
     let names: Vec<&Ident> = constants.iter().map(|constant| &constant.ident).collect();
-    let any = quote!(#inner::<{ ::xca_core::kernel::ANY_SHAPE }, #(#names),*>(#row, #(#values),*));
+    let columns = hidden("columns", span);
+    let any = quote!(#inner::<{ ::xca_core::kernel::ANY_SHAPE }, #(#names),*>(#row, #columns, #(#values),*));
     let call = if several {
         let arms =
-            SHAPES.map(|shape| quote!(#shape => #inner::<#shape, #(#names),*>(#row, #(#values),*),));
+            SHAPES.map(|shape| quote!(#shape => #inner::<#shape, #(#names),*>(#row, #columns, #(#values),*),));
         quote! {
             match #row.shape() {
                 #(#arms)*
@@ -74,20 +77,69 @@ pub(super) fn row(function: &Function, uses: &Uses, real: &TokenStream) -> Token
     } else {
         any
     };
+    let call = written.around(&call, &row, &columns);
     let checked_row = checked_value(&quote!(#row));
     quote! {
         {
             #[allow(warnings, arithmetic_overflow, overflowing_literals, unconditional_panic, clippy::all)]
             fn #name<#(#constants),*>(#row: &::xca_core::kernel::Row<'_>) {
                 #[inline(never)]
-                fn #inner<const #shape: ::xca_core::kernel::ShapeNumber, #(#constants),*>(#row: &::xca_core::kernel::Row<'_>, #(#declarations),*) {
+                fn #inner<const #shape: ::xca_core::kernel::ShapeNumber, #(#constants),*>(
+                    #row: &::xca_core::kernel::Row<'_>,
+                    #columns: ::xca_core::kernel::Columns<'_>,
+                    #(#declarations),*
+                ) {
                     let #row = #checked_row;
                     #work
                 }
                 #take_parameters
-                #call
+                #call;
             }
             #name::<#(#names),*>
+        }
+    }
+}
+
+/// The blocks of cells through which a kernel goes, and what is done before and after each.
+#[derive(Default)]
+struct Blocks {
+    prepare: TokenStream,
+    before: TokenStream,
+    after: TokenStream,
+    types: Vec<TokenStream>,
+}
+
+impl Blocks {
+    /// Adds a substate that is written, and says what the kernel is handed of it.
+    fn add(&mut self, access: &Access, number: usize, type_: &TokenStream, row: &Ident) -> TokenStream {
+        let written = write_name(&access.field);
+        let stage = hidden(&format!("stage_{}", access.field.unraw()), access.field.span());
+        let numbers = hidden("numbers", row.span());
+        let trait_ = quote!(::xca_core::kernel::Written::<'_, #type_>);
+        self.prepare.extend(quote! {
+            let mut #written = #row.write_cells::<#type_>(#number);
+            let mut #stage = <<#type_ as ::xca_core::kernel::KernelValue>::Written<'_> as #trait_>::stage();
+        });
+        if !access.others {
+            self.before.extend(quote!(#trait_::load(&#written, &mut #stage, &#numbers);));
+        }
+        self.after.extend(quote!(#trait_::store(&mut #written, &#stage, &#numbers);));
+        self.types.push(type_.clone());
+        quote!(#trait_::lanes(&mut #written, &mut #stage, &#numbers))
+    }
+
+    /// The loop over the blocks.
+    fn around(&self, call: &TokenStream, row: &Ident, columns: &Ident) -> TokenStream {
+        let Self { prepare, before, after, types } = self;
+        let numbers = hidden("numbers", row.span());
+        quote! {
+            #prepare
+            for #columns in #row.blocks(::xca_core::kernel::block(&[#(<#types as ::xca_core::kernel::KernelValue>::BLOCK),*])) {
+                let #numbers = #columns.numbers();
+                #before
+                #call;
+                #after
+            }
         }
     }
 }
@@ -104,10 +156,10 @@ fn space(real: &TokenStream, span: Span) -> TokenStream {
 
 fn cells(function: &Function, uses: &Uses, real: &TokenStream, shape: &Ident) -> TokenStream {
     let span = function.name.span();
-    let [row, x, column, place, offsets, length] =
-        ["row", "x", "column", "place", "offsets", "length"].map(|name| hidden(name, span));
+    let [row, x, column, columns, lane, place, offsets, length] =
+        ["row", "x", "column", "columns", "lane", "place", "offsets", "length"].map(|name| hidden(name, span));
     let space = space(real, span);
-    let of_cells = quote!(::xca_core::kernel::CellsOf);
+    let lanes = quote!(::xca_core::kernel::Lanes);
     let mut shorten = TokenStream::new();
     let mut load = TokenStream::new();
     let mut store = TokenStream::new();
@@ -117,14 +169,14 @@ fn cells(function: &Function, uses: &Uses, real: &TokenStream, shape: &Ident) ->
         let read = read_name(access.group, &access.field);
         if access.write {
             let write = write_name(&access.field);
-            shorten.extend(quote!(let mut #write = #of_cells::<#type_>::first(#write, #length);));
+            shorten.extend(quote!(let mut #write = #lanes::<#type_>::first(#write, #length);));
             let old = if access.others {
                 quote!(#read.here(#column))
             } else {
-                quote!(#of_cells::<#type_>::get(&#write, #x))
+                quote!(#lanes::<#type_>::get(&#write, #lane))
             };
             load.extend(quote!(let mut #own = #old;));
-            store.extend(quote!(#of_cells::<#type_>::set(&mut #write, #x, #own);));
+            store.extend(quote!(#lanes::<#type_>::set(&mut #write, #lane, #own);));
         } else if access.centre {
             load.extend(quote!(let #own = #read.here(#column);));
         }
@@ -139,11 +191,11 @@ fn cells(function: &Function, uses: &Uses, real: &TokenStream, shape: &Ident) ->
         #space
         let #offsets = #row.offsets::<#shape>();
         #directions
-        let #length = #row.length();
+        let #length = #columns.numbers().len();
         #shorten
         let mut #place = #row.place();
-        for #column in #row.columns() {
-            let #x = #column.number();
+        for #column in #columns {
+            let (#x, #lane) = (#column.number(), #column.lane());
             #place.x = #x;
             #load
             'body: #body
@@ -155,8 +207,8 @@ fn cells(function: &Function, uses: &Uses, real: &TokenStream, shape: &Ident) ->
 
 fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
     let span = function.name.span();
-    let [row, x, column, item, place, first, offsets, destinations, answer] =
-        ["row", "x", "column", "item", "place", "first", "offsets", "destinations", "answer"]
+    let [row, x, column, columns, item, place, first, offsets, destinations, answer] =
+        ["row", "x", "column", "columns", "item", "place", "first", "offsets", "destinations", "answer"]
             .map(|name| hidden(name, span));
     let space = space(real, span);
     let mut load = TokenStream::new();
@@ -195,7 +247,7 @@ fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
         #take
         let #first = #row.first_item();
         let mut #place = #row.place();
-        for #column in #row.columns() {
+        for #column in #columns {
             let #x = #column.number();
             #place.x = #x;
             for #item in #row.items(#column) {

@@ -14,7 +14,9 @@ pub(super) fn hidden_label(label: &Lifetime) -> Lifetime {
 
 impl Writer<'_> {
     pub(super) fn loop_(&mut self, loop_: &Loop) -> TokenStream {
-        let label = loop_.label.as_ref().map(hidden_label).map(|label| quote!(#label:));
+        self.loops += 1;
+        let name = loop_.label.as_ref();
+        let label = name.map(hidden_label).map(|label| quote!(#label:));
         let body = &loop_.body;
         match &loop_.kind {
             LoopKind::While(condition) => {
@@ -26,8 +28,7 @@ impl Writer<'_> {
                 quote!(#label loop #body)
             }
             LoopKind::Range { variable, range } => {
-                let (range, body) = (self.range(range), self.block(body));
-                quote!(#label for #variable in #range #body)
+                self.range_loop(name, variable, range, body)
             }
             LoopKind::Elements { variable, array } => {
                 let (array, body) = (self.expression(array), self.block(body));
@@ -44,7 +45,7 @@ impl Writer<'_> {
         }
     }
 
-    fn range(&mut self, range: &Range) -> TokenStream {
+    pub(super) fn range(&mut self, range: &Range) -> TokenStream {
         let (from, to) = (self.expression(&range.from), self.expression(&range.to));
         let dots = if range.inclusive { quote!(..=) } else { quote!(..) };
         let reversed = range.reversed.then(|| quote!(.rev()));

@@ -1,0 +1,209 @@
+//! How kernels write the substates of a row's cells.
+//!
+//! A kernel works through a row in blocks. Single values it writes where they belong. Arrays it writes to a stage on the stack, lane by
+//! lane, and each block is then copied to the planes: the compiler would not vectorise a loop whose writes go to many planes, as it cannot
+//! know that these are apart from what is read.
+
+use super::values::{KernelElement, KernelValue};
+use bytemuck::{Pod, Zeroable};
+use std::fmt;
+use std::marker::PhantomData;
+use std::ops::Range;
+
+/// The cells of a block where arrays are staged.
+pub(super) const STAGED: usize = 32;
+
+/// The planes of a row's cells, as their engine describes them.
+#[derive(Debug, Clone, Copy)]
+pub struct Planes<M> {
+    pub(super) first: *mut M,
+    pub(super) stride: usize,
+    pub(super) cells: usize,
+}
+
+/// The values of a row's cells, to be written.
+pub trait Written<'r, T: KernelValue>: Sized {
+    /// Takes the planes of a row.
+    ///
+    /// # Safety
+    /// For `'r` each of the planes, `stride` elements apart, is aligned, has so many cells from the first on, and no one else reads
+    /// or writes them.
+    #[allow(unsafe_code)]
+    unsafe fn new(planes: Planes<<T::Element as KernelElement>::Memory>) -> Self;
+
+    /// A stage.
+    fn stage() -> T::Stage;
+
+    /// Fills the stage with the present values of a block.
+    fn load(&self, stage: &mut T::Stage, block: &Range<usize>);
+
+    /// The values of a block.
+    fn lanes<'b>(&'b mut self, stage: &'b mut T::Stage, block: &Range<usize>) -> T::Lanes<'b>;
+
+    /// Copies a block from the stage to its place.
+    fn store(&mut self, stage: &T::Stage, block: &Range<usize>);
+}
+
+/// The most cells of a block that suits all values that a kernel writes.
+pub const fn block(most: &[usize]) -> usize {
+    let (mut least, mut number) = (usize::MAX, 0);
+    while number < most.len() {
+        if most[number] < least {
+            least = most[number];
+        }
+        number += 1;
+    }
+    least
+}
+
+/// The values of a block of cells, to be written.
+pub trait Lanes<T: KernelValue> {
+    /// The same of the first lanes. That their number is known where they are used lets the compiler leave out checks.
+    fn first(self, lanes: usize) -> Self;
+
+    /// The value of a cell.
+    fn get(&self, lane: usize) -> T;
+
+    /// Replaces the value of a cell.
+    fn set(&mut self, lane: usize, value: T);
+}
+
+impl<'r, T: KernelElement> Written<'r, T> for &'r mut [T::Memory] {
+    #[inline(always)]
+    #[allow(unsafe_code)]
+    unsafe fn new(planes: Planes<T::Memory>) -> Self {
+        // SAFETY: as the function.
+        unsafe { std::slice::from_raw_parts_mut(planes.first, planes.cells) }
+    }
+
+    #[inline(always)]
+    fn stage() {}
+
+    #[inline(always)]
+    fn load(&self, (): &mut (), _: &Range<usize>) {}
+
+    #[inline(always)]
+    fn lanes<'b>(&'b mut self, (): &'b mut (), block: &Range<usize>) -> &'b mut [T::Memory] {
+        &mut self[block.clone()]
+    }
+
+    #[inline(always)]
+    fn store(&mut self, (): &(), _: &Range<usize>) {}
+}
+
+impl<T: KernelElement> Lanes<T> for &mut [T::Memory] {
+    #[inline(always)]
+    fn first(self, lanes: usize) -> Self {
+        &mut self[..lanes]
+    }
+
+    #[inline(always)]
+    fn get(&self, lane: usize) -> T {
+        <T as KernelElement>::from_memory(self[lane])
+    }
+
+    #[inline(always)]
+    fn set(&mut self, lane: usize, value: T) {
+        self[lane] = KernelElement::to_memory(value);
+    }
+}
+
+/// The values of a row's cells, arrays of `N` elements in a plane each, to be written.
+#[derive(Debug)]
+pub struct WrittenArrays<'r, M, const N: usize> {
+    planes: Planes<M>,
+    row: PhantomData<&'r mut [M]>,
+}
+
+impl<M: Pod, const N: usize> WrittenArrays<'_, M, N> {
+    /// Where an element of a block's first cell stands.
+    #[inline(always)]
+    fn place(&self, block: &Range<usize>, element: usize) -> *mut M {
+        let inside = block.start <= block.end && block.end <= self.planes.cells;
+        assert!(inside && block.len() <= STAGED && element < N, "no such block in the row");
+        self.planes.first.wrapping_add(element * self.planes.stride + block.start)
+    }
+}
+
+/// Arrays of a block of cells, by element and lane.
+pub struct Stage<M, const N: usize>([[M; STAGED]; N]);
+
+impl<M, const N: usize> fmt::Debug for Stage<M, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Stage").finish_non_exhaustive()
+    }
+}
+
+impl<'r, T: KernelElement, const N: usize> Written<'r, [T; N]> for WrittenArrays<'r, T::Memory, N> {
+    #[inline(always)]
+    #[allow(unsafe_code)]
+    unsafe fn new(planes: Planes<T::Memory>) -> Self {
+        Self { planes, row: PhantomData }
+    }
+
+    #[inline(always)]
+    fn stage() -> Stage<T::Memory, N> {
+        Stage([[T::Memory::zeroed(); STAGED]; N])
+    }
+
+    #[inline(always)]
+    fn load(&self, stage: &mut Stage<T::Memory, N>, block: &Range<usize>) {
+        for (element, lanes) in stage.0.iter_mut().enumerate() {
+            let from = self.place(block, element).cast_const();
+            // SAFETY: `new`: `N` planes, aligned, each with the cells that `place` lets through; a stage has as many lanes.
+            #[allow(unsafe_code)]
+            unsafe {
+                copy(from, lanes.as_mut_ptr(), block.len());
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn lanes<'b>(&'b mut self, stage: &'b mut Stage<T::Memory, N>, _: &Range<usize>) -> &'b mut Stage<T::Memory, N> {
+        stage
+    }
+
+    #[inline(always)]
+    fn store(&mut self, stage: &Stage<T::Memory, N>, block: &Range<usize>) {
+        for (element, lanes) in stage.0.iter().enumerate() {
+            let to = self.place(block, element);
+            // SAFETY: as above, and no one else reads or writes them.
+            #[allow(unsafe_code)]
+            unsafe {
+                copy(lanes.as_ptr(), to, block.len());
+            }
+        }
+    }
+}
+
+/// Copies values; a whole block by instructions that the compiler chooses, as it knows their number.
+///
+/// # Safety
+/// As of [`std::ptr::copy_nonoverlapping`].
+#[inline(always)]
+#[allow(unsafe_code)]
+unsafe fn copy<M>(from: *const M, to: *mut M, count: usize) {
+    let count = if count == STAGED { STAGED } else { count };
+    // SAFETY: as the function.
+    unsafe { std::ptr::copy_nonoverlapping(from, to, count) }
+}
+
+impl<T: KernelElement, const N: usize> Lanes<[T; N]> for &mut Stage<T::Memory, N> {
+    #[inline(always)]
+    fn first(self, lanes: usize) -> Self {
+        assert!(lanes <= STAGED, "no such block");
+        self
+    }
+
+    #[inline(always)]
+    fn get(&self, lane: usize) -> [T; N] {
+        std::array::from_fn(|element| T::from_memory(self.0[element][lane]))
+    }
+
+    #[inline(always)]
+    fn set(&mut self, lane: usize, value: [T; N]) {
+        for element in 0..N {
+            self.0[element][lane] = KernelElement::to_memory(value[element]);
+        }
+    }
+}
