@@ -53,8 +53,7 @@ impl<T: Number> Lattice<T> {
                     let (x, y, z) = (1 - dx, y as isize - dy, z as isize - dz);
                     ((z * whole as isize + y) * whole as isize + x) as usize
                 };
-                let from: [&[T]; DIRECTIONS] =
-                    std::array::from_fn(|n| &now[n][first(n)..first(n) + size]);
+                let from: [&[T]; DIRECTIONS] = std::array::from_fn(|n| &now[n][first(n)..first(n) + size]);
                 let here = y * whole + 1;
                 for begin in (0..size).step_by(LANES) {
                     let count = LANES.min(size - begin);

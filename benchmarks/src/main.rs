@@ -74,7 +74,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         Benchmark::Boltzmann { size, steps } => {
             for precision in [Precision::F32, Precision::F64] {
-                println!("{}", boltzmann::fluid(size, precision, arguments.threads, arguments.rounds, steps)?);
+                println!(
+                    "{}",
+                    boltzmann::fluid(size, precision, arguments.threads, arguments.rounds, steps)?
+                );
             }
         }
         Benchmark::Engines { steps } => {

@@ -39,13 +39,14 @@ const DRIVERS: [(&str, &[&str]); 2] = [("rayon", &["xca-cpu", "xca-benchmarks"])
 const ENGINES: [&str; 2] = ["xca-cpu", "xca-gpu"];
 
 /// The files that argue for unsafe code.
-const UNSAFE: [&str; 10] = [
+const UNSAFE: [&str; 11] = [
     "xca-core/src/kernel.rs",
     "xca-core/src/kernel/cells.rs",
     "xca-core/src/kernel/entries.rs",
     "xca-core/src/kernel/search.rs",
-    "xca-core/src/kernel/values.rs",
     "xca-core/src/kernel/wide.rs",
+    "xca-core/src/kernel/work.rs",
+    "xca-core/src/kernel/written.rs",
     "xca-core/src/reference/pass.rs",
     "xca-core/src/vector.rs",
     "xca-cpu/src/rows.rs",

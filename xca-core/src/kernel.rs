@@ -26,16 +26,18 @@ mod search;
 mod space;
 mod values;
 mod wide;
+mod work;
 mod written;
 
+pub use crate::neighbourhood::shapes::{ANY as ANY_SHAPE, ShapeNumber};
 pub use cells::{AroundRead, Blocks, CentreRead, Column, Columns, Offset};
 pub use constants::{KernelConstant, constant};
 pub use entries::{Entry, Memory, MemoryOf};
-pub use crate::neighbourhood::shapes::{ANY as ANY_SHAPE, ShapeNumber};
 pub use neighbours::{Directions, Offsets};
 pub use search::{CellFilter, Found, Scratch, reach};
 pub use space::NativeSpace;
 pub use values::{ArrayValue, KernelElement, KernelValue, load, load_element, store};
+pub use work::{Work, run};
 pub use written::{Lanes, Planes, Stage, Written, WrittenArrays, block};
 
 /// A migration's answer: the item stays where it is.

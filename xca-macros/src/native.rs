@@ -1,5 +1,6 @@
 //! The native side: a type for the model to hold, the kernels, and a copy of the function for the compiler to check.
 
+mod blocks;
 mod body;
 mod check;
 mod expressions;
@@ -7,6 +8,7 @@ mod helper;
 mod kernels;
 mod loops;
 mod unrolled;
+mod work;
 
 use crate::access::{GroupOf, Uses, structs};
 use crate::ast::{Function, FunctionKind, Role};

@@ -159,7 +159,11 @@ impl<'r, T: KernelElement, const N: usize> Written<'r, [T; N]> for WrittenArrays
     }
 
     #[inline(always)]
-    fn lanes<'b>(&'b mut self, stage: &'b mut Stage<T::Memory, N>, _: &Range<usize>) -> &'b mut Stage<T::Memory, N> {
+    fn lanes<'b>(
+        &'b mut self,
+        stage: &'b mut Stage<T::Memory, N>,
+        _: &Range<usize>,
+    ) -> &'b mut Stage<T::Memory, N> {
         stage
     }
 

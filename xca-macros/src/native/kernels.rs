@@ -3,13 +3,14 @@
 //! Each substate is an argument of its own of the inner function: that tells the compiler that what is written is apart from
 //! what is read, without which it would not vectorise.
 
+use super::blocks::Blocks;
 use super::body::{Writer, own_name, read_name, write_name};
+use super::work::{Argument, LIFE, Typed, Work};
 use super::{checked_value, hidden, native_parameters, native_type, parameters};
 use crate::access::{Access, GroupOf, Uses, structs};
 use crate::ast::{Function, FunctionKind, Role};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
-use syn::ext::IdentExt;
 
 /// The numbers of the shapes of neighbourhoods that get a kernel of their own, see `xca_core::kernel`.
 const SHAPES: std::ops::RangeInclusive<u8> = 1..=6;
@@ -18,56 +19,60 @@ const SHAPES: std::ops::RangeInclusive<u8> = 1..=6;
 pub(super) fn row(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
     let span = function.name.span();
     let name = hidden(&format!("row_{real}"), span);
-    let (row, inner) = (hidden("row", span), hidden("inner", span));
+    let row = hidden("row", span);
     let over_cells = function.kind == FunctionKind::Cells;
-    let mut declarations = Vec::new();
-    let mut values = Vec::new();
-    let mut written = Blocks::default();
+    let mut arguments = Vec::new();
+    let mut blocks = Blocks::default();
     for (number, access) in uses.accesses.iter().enumerate() {
         let type_ = native_type(access.group, &access.field, function, real);
         let cells = matches!(structs(function).nth(access.group.argument().0), Some(Role::Cell(_)));
         let memory = quote!(<#type_ as ::xca_core::kernel::KernelValue>::Memory);
         if reads(access) {
-            let read = read_name(access.group, &access.field);
             let (argument, take) = match (cells, access.others) {
-                (true, true) => (quote!(::xca_core::kernel::AroundRead<'_, #type_>), quote!(read_around)),
-                (true, false) => (quote!(::xca_core::kernel::CentreRead<'_, #type_>), quote!(read_cells)),
-                (false, true) => (quote!(&[#memory]), quote!(read_items)),
-                (false, false) => (quote!(&[#memory]), quote!(read_own_items)),
+                (true, true) => (quote!(::xca_core::kernel::AroundRead<#LIFE, #type_>), quote!(read_around)),
+                (true, false) => (quote!(::xca_core::kernel::CentreRead<#LIFE, #type_>), quote!(read_cells)),
+                (false, true) => (quote!(&#LIFE [#memory]), quote!(read_items)),
+                (false, false) => (quote!(&#LIFE [#memory]), quote!(read_own_items)),
             };
-            declarations.push(quote!(#read: #argument));
-            values.push(quote!(#row.#take::<#type_>(#number)));
+            arguments.push(Argument {
+                name: read_name(access.group, &access.field),
+                row: Typed { type_: argument, value: quote!(#row.#take::<#type_>(#number)) },
+                block: None,
+            });
         }
-        if access.write && over_cells {
-            let lanes = written.add(access, number, &type_, &row);
-            let name = write_name(&access.field);
-            declarations.push(quote!(#name: <#type_ as ::xca_core::kernel::KernelValue>::Lanes<'_>));
-            values.push(lanes);
-        } else if access.write {
-            let name = write_name(&access.field);
-            declarations.push(quote!(#name: &mut [#memory]));
-            values.push(quote!(#row.write_items::<#type_>(#number)));
+        if access.write {
+            let of_cells = quote!(<#type_ as ::xca_core::kernel::KernelValue>);
+            let (row, block) = if over_cells {
+                let value = quote!(#row.write_cells::<#type_>(#number));
+                let lanes = Typed { type_: quote!(#of_cells::Lanes<'_>), value: blocks.add(access, &type_) };
+                (Typed { type_: quote!(#of_cells::Written<#LIFE>), value }, Some(lanes))
+            } else {
+                let value = quote!(#row.write_items::<#type_>(#number));
+                (Typed { type_: quote!(&#LIFE mut [#memory]), value }, None)
+            };
+            arguments.push(Argument { name: write_name(&access.field), row, block });
         }
     }
     let mut take_parameters = TokenStream::new();
     for (name, type_) in parameters(function) {
         let native = native_parameters(type_, real);
-        declarations.push(quote!(#name: &#native));
-        values.push(quote!(#name));
         take_parameters.extend(
             quote!(let ::core::option::Option::Some(#name) = #row.parameters::<#native>() else { return; };),
         );
+        let row = Typed { type_: quote!(&#LIFE #native), value: quote!(#name) };
+        arguments.push(Argument { name: name.clone(), row, block: None });
     }
-    let several = over_cells && uses.neighbours;
     let shape = hidden("SHAPE", span);
-    let work = if over_cells { cells(function, uses, real, &shape) } else { items(function, uses, real) };
-    let constants = &function.constants;
-    let names: Vec<&Ident> = constants.iter().map(|constant| &constant.ident).collect();
-    let columns = hidden("columns", span);
-    let any = quote!(#inner::<{ ::xca_core::kernel::ANY_SHAPE }, #(#names),*>(#row, #columns, #(#values),*));
-    let call = if several {
-        let arms =
-            SHAPES.map(|shape| quote!(#shape => #inner::<#shape, #(#names),*>(#row, #columns, #(#values),*),));
+    let body = if over_cells { cells(function, uses, real, &shape) } else { items(function, uses, real) };
+    let checked_row = checked_value(&quote!(#row));
+    let work = Work { function, arguments, blocks, body: quote!({ let #row = #checked_row; #body }) };
+    let definition = work.definition();
+    let any = work.call(&quote!({ ::xca_core::kernel::ANY_SHAPE }));
+    let call = if over_cells && uses.neighbours {
+        let arms = SHAPES.map(|shape| {
+            let call = work.call(&quote!(#shape));
+            quote!(#shape => #call,)
+        });
         quote! {
             match #row.shape() {
                 #(#arms)*
@@ -77,69 +82,17 @@ pub(super) fn row(function: &Function, uses: &Uses, real: &TokenStream) -> Token
     } else {
         any
     };
-    let call = written.around(&call, &row, &columns);
-    let checked_row = checked_value(&quote!(#row));
+    let constants = &function.constants;
+    let names = constants.iter().map(|constant| &constant.ident);
     quote! {
         {
             #[allow(warnings, arithmetic_overflow, overflowing_literals, unconditional_panic, clippy::all)]
             fn #name<#(#constants),*>(#row: &::xca_core::kernel::Row<'_>) {
-                #[inline(never)]
-                fn #inner<const #shape: ::xca_core::kernel::ShapeNumber, #(#constants),*>(
-                    #row: &::xca_core::kernel::Row<'_>,
-                    #columns: ::xca_core::kernel::Columns<'_>,
-                    #(#declarations),*
-                ) {
-                    let #row = #checked_row;
-                    #work
-                }
+                #definition
                 #take_parameters
-                #call;
+                #call
             }
             #name::<#(#names),*>
-        }
-    }
-}
-
-/// The blocks of cells through which a kernel goes, and what is done before and after each.
-#[derive(Default)]
-struct Blocks {
-    prepare: TokenStream,
-    before: TokenStream,
-    after: TokenStream,
-    types: Vec<TokenStream>,
-}
-
-impl Blocks {
-    /// Adds a substate that is written, and says what the kernel is handed of it.
-    fn add(&mut self, access: &Access, number: usize, type_: &TokenStream, row: &Ident) -> TokenStream {
-        let written = write_name(&access.field);
-        let stage = hidden(&format!("stage_{}", access.field.unraw()), access.field.span());
-        let numbers = hidden("numbers", row.span());
-        let trait_ = quote!(::xca_core::kernel::Written::<'_, #type_>);
-        self.prepare.extend(quote! {
-            let mut #written = #row.write_cells::<#type_>(#number);
-            let mut #stage = <<#type_ as ::xca_core::kernel::KernelValue>::Written<'_> as #trait_>::stage();
-        });
-        if !access.others {
-            self.before.extend(quote!(#trait_::load(&#written, &mut #stage, &#numbers);));
-        }
-        self.after.extend(quote!(#trait_::store(&mut #written, &#stage, &#numbers);));
-        self.types.push(type_.clone());
-        quote!(#trait_::lanes(&mut #written, &mut #stage, &#numbers))
-    }
-
-    /// The loop over the blocks.
-    fn around(&self, call: &TokenStream, row: &Ident, columns: &Ident) -> TokenStream {
-        let Self { prepare, before, after, types } = self;
-        let numbers = hidden("numbers", row.span());
-        quote! {
-            #prepare
-            for #columns in #row.blocks(::xca_core::kernel::block(&[#(<#types as ::xca_core::kernel::KernelValue>::BLOCK),*])) {
-                let #numbers = #columns.numbers();
-                #before
-                #call;
-                #after
-            }
         }
     }
 }
@@ -157,7 +110,8 @@ fn space(real: &TokenStream, span: Span) -> TokenStream {
 fn cells(function: &Function, uses: &Uses, real: &TokenStream, shape: &Ident) -> TokenStream {
     let span = function.name.span();
     let [row, x, column, columns, lane, place, offsets, length] =
-        ["row", "x", "column", "columns", "lane", "place", "offsets", "length"].map(|name| hidden(name, span));
+        ["row", "x", "column", "columns", "lane", "place", "offsets", "length"]
+            .map(|name| hidden(name, span));
     let space = space(real, span);
     let lanes = quote!(::xca_core::kernel::Lanes);
     let mut shorten = TokenStream::new();
@@ -231,7 +185,8 @@ fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
     let body = writer.block(&function.body);
     let lists = writer.lists();
     // An item may look at the neighbours of the cell that it stands in.
-    let neighbourhood = uses.neighbours.then(|| quote!(let #offsets = #row.offsets::<{ ::xca_core::kernel::ANY_SHAPE }>();));
+    let neighbourhood =
+        uses.neighbours.then(|| quote!(let #offsets = #row.offsets::<{ ::xca_core::kernel::ANY_SHAPE }>();));
     let (take, run) = if function.kind == FunctionKind::Migration {
         (
             quote!(let #destinations = #row.destinations();),

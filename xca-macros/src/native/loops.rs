@@ -27,9 +27,7 @@ impl Writer<'_> {
                 let body = self.block(body);
                 quote!(#label loop #body)
             }
-            LoopKind::Range { variable, range } => {
-                self.range_loop(name, variable, range, body)
-            }
+            LoopKind::Range { variable, range } => self.range_loop(name, variable, range, body),
             LoopKind::Elements { variable, array } => {
                 let (array, body) = (self.expression(array), self.block(body));
                 quote!(#label for #variable in #array #body)

@@ -1,0 +1,36 @@
+//! The work of a kernel, with the widest instructions of the processor.
+//!
+//! They change the time that a kernel takes and nothing else: each lane does the operations of the plain code in the same order, with the
+//! same rounding and no fused operation.
+
+/// The work of a kernel on a row.
+pub trait Work {
+    /// Does it. To be inlined, so that it is compiled for the processor of its caller.
+    fn run(self);
+}
+
+/// Does the work.
+#[inline(always)]
+pub fn run(work: impl Work) {
+    #[cfg(target_arch = "x86_64")]
+    if std::arch::is_x86_feature_detected!("avx2") {
+        // SAFETY: the processor has AVX2.
+        #[allow(unsafe_code)]
+        unsafe {
+            run_with_avx2(work);
+        }
+        return;
+    }
+    run_plain(work);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn run_with_avx2(work: impl Work) {
+    work.run();
+}
+
+#[inline(never)]
+fn run_plain(work: impl Work) {
+    work.run();
+}
