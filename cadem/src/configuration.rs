@@ -137,27 +137,10 @@ impl Configuration {
     /// # Errors
     /// The first mistake that is found; its message says what to change.
     pub fn check(&self) -> Result<(), CademError> {
-        let material = self.material();
-        let positive = [
-            ("cell_side", self.cell_side, "m"),
-            ("stiffness", self.stiffness, "N/m"),
-            ("mass", self.mass, "kg"),
-            ("radius", self.radius, "m"),
-            ("time_step", material.time_step, "s"),
-        ];
-        for (name, value, unit) in positive {
-            if !(value.is_finite() && value > 0.0) {
-                return Err(CademError::NotPositive { name, value, unit });
-            }
-        }
-        if !(self.damping.is_finite() && self.damping >= 0.0) {
-            return Err(CademError::NegativeDamping { value: self.damping });
-        }
-        if !self.gravity.is_finite() {
-            return Err(CademError::Gravity { value: self.gravity });
-        }
-        if self.cell_side < 2.0 * self.radius {
-            return Err(CademError::NarrowCells { cell_side: self.cell_side, radius: self.radius });
+        self.material().check()?;
+        let two_radii = 2.0 * self.radius;
+        if !(two_radii..f64::INFINITY).contains(&self.cell_side) {
+            return Err(CademError::CellSide { cell_side: self.cell_side, radius: self.radius });
         }
         if self.cells.contains(&0) {
             return Err(CademError::NoCells { cells: self.cells });

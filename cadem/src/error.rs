@@ -12,16 +12,11 @@ use xca_core::{ModelError, ParameterError};
 pub enum CademError {
     #[error("there is no case `{name}`; use illustration, table1 or published")]
     UnknownCase { name: String },
-    #[error("{name} is {value} {unit}; it must be positive and finite")]
-    NotPositive { name: &'static str, value: f64, unit: &'static str },
-    #[error("damping is {value} kg/s; it must be finite, and 0 or positive")]
-    NegativeDamping { value: f64 },
-    #[error("gravity is {value} m/s^2; it must be finite")]
-    Gravity { value: f64 },
     #[error(
-        "the cell side is {cell_side} m, less than two radii of {radius} m: contacts could reach beyond the neighbours; use larger cells"
+        "the cell side is {cell_side} m; it must be finite, and at least two radii of {radius} m, so that no contact \
+         reaches beyond the neighbours"
     )]
-    NarrowCells { cell_side: f64, radius: f64 },
+    CellSide { cell_side: f64, radius: f64 },
     #[error("the space has {cells:?} cells; each of the three numbers must be at least 1")]
     NoCells { cells: [usize; 3] },
     #[error(

@@ -102,6 +102,15 @@ pub trait Parameters: Clone + fmt::Debug + Send + Sync + 'static {
         self.set_value(index, &value);
         Ok(())
     }
+
+    /// Checks that all values are in their ranges.
+    ///
+    /// # Errors
+    /// [`ParameterError::OutOfRange`] with the first that is not.
+    fn check(&self) -> Result<(), ParameterError> {
+        let mut fields = Self::SCHEMA.fields.iter().enumerate();
+        fields.try_for_each(|(number, field)| self.value(number).check(field, Precision::F64))
+    }
 }
 
 fn find(schema: &'static Schema, name: &str) -> Result<(usize, &'static Field), ParameterError> {

@@ -71,6 +71,7 @@ pub mod interrupt;
 mod items_file;
 mod machine;
 mod numbers;
+mod options;
 pub mod output;
 mod program;
 pub mod progress;
@@ -88,6 +89,7 @@ pub use command::{run_model, run_program};
 pub use engines::{EngineError, EngineName, EngineOptions, MOST_THREADS};
 pub use items_file::{ReadItem, read_items};
 pub use machine::{NotEnoughMemory, check_memory};
+pub use options::{number_in, positive_number};
 pub use program::{Assignment, Failure, Given, NoAssignment, Observable, Program};
 pub use record::{FolderError, RecordError};
 pub use set_up::SetUp;
@@ -97,7 +99,9 @@ pub use view::{CellView, ItemView, ViewError};
 pub mod prelude {
     pub use crate::output::ascii_grid::AsciiGrid;
     pub use crate::output::picture::ColourMap;
-    pub use crate::{CellView, Failure, Given, ItemView, Observable, Program, SetUp};
+    pub use crate::{
+        CellView, Failure, Given, ItemView, Observable, Program, SetUp, number_in, positive_number,
+    };
     pub use clap::{self, Args};
     pub use std::process::ExitCode;
     pub use xca_core::prelude::*;

@@ -1,23 +1,28 @@
-//! Heat in a cube of copper whose faces are kept at 0 degrees, compared with the solution in closed form.
+//! Heat in a cube of copper whose faces are kept at 0 °C, compared with the solution in closed form.
 //!
-//! The temperature starts as T0 sin(pi x / L) sin(pi y / L) sin(pi z / L). Under the heat equation this shape only fades, by
-//! exp(-3 pi^2 D t / L^2). Each cell stands for a point; N of them along each axis, and the faces, divide L into N + 1 parts h. In the
-//! explicit scheme, with alpha = D dt / h^2, the same shape fades by 1 - 12 alpha sin^2(pi / (2 (N + 1))) in each step.
+//! The temperature starts as T0 sin(pi x / L) sin(pi y / L) sin(pi z / L). Under the heat equation this shape
+//! only fades, by exp(-3 pi^2 D t / L^2). Each cell stands for a point; N of them along each axis, and the
+//! faces, divide L into N + 1 parts h. In the explicit scheme, with alpha = D dt / h^2, the same shape fades by
+//! 1 - 12 alpha sin^2(pi / (2 (N + 1))) in each step. The time step follows from alpha.
 use std::f64::consts::PI;
 use xca_run::prelude::*;
 
 #[derive(Substates, Clone)]
 struct Heat {
+    #[substate(unit = "°C")]
     temperature: Real,
 }
 
 #[derive(Parameters, Clone, Copy, Debug)]
 struct Copper {
-    /// D dt / h^2
+    /// D dt / h^2: the scheme is stable up to 1/6.
+    #[parameter(range = ..=1.0 / 6.0, positive)]
     alpha: Real,
-    /// D, in m^2/s
+    /// D.
+    #[parameter(unit = "m2/s", range = ..f64::INFINITY, positive)]
     diffusivity: Real,
-    /// T0, in degrees
+    /// T0: above absolute zero.
+    #[parameter(unit = "°C", range = -273.15..f64::INFINITY)]
     initial: Real,
 }
 
@@ -36,10 +41,10 @@ struct Cube {
     #[arg(long, value_name = "N", default_value_t = 64)]
     size: usize,
     /// The length of a side, in m
-    #[arg(long, value_name = "METRES", default_value_t = 0.1)]
+    #[arg(long, value_name = "METRES", default_value_t = 0.1, value_parser = positive_number)]
     side: f64,
-    /// Stop when no cell is hotter than this, in degrees
-    #[arg(long, value_name = "DEGREES", default_value_t = 20.0)]
+    /// Stop when no cell is further than this from 0 °C, in °C
+    #[arg(long, value_name = "DEGREES", default_value_t = 20.0, value_parser = number_in(0.0..))]
     until: f64,
 }
 
@@ -58,9 +63,6 @@ impl Program for Cube {
 
     fn set_up(&self, given: Given) -> Result<SetUp, Failure> {
         let copper = given.applied_to(Copper { alpha: 0.125, diffusivity: 1.11e-4, initial: 100.0 })?;
-        if !(copper.alpha > 0.0 && copper.alpha <= 1.0 / 6.0) {
-            return Err(format!("alpha is {}; the scheme is stable from 0 to 1/6 only", copper.alpha).into());
-        }
         let Self { size, side, until } = *self;
         let width = side / (size + 1) as f64;
         let time_step = copper.alpha * width * width / copper.diffusivity;
@@ -78,7 +80,9 @@ impl Program for Cube {
             })
             .stop_when(Schedule::Every(10), move |state| {
                 let hottest = state.maximum(Heat::TEMPERATURE)?.unwrap_or(0.0);
-                Ok((hottest <= until).then(|| format!("no cell is hotter than {until} degrees")))
+                let coldest = state.minimum(Heat::TEMPERATURE)?.unwrap_or(0.0);
+                let is_over = hottest <= until && coldest >= -until;
+                Ok(is_over.then(|| format!("no cell is further than {until} °C from 0 °C")))
             })
             .build()?;
         let observe = move |state: &State<'_>| {
@@ -94,11 +98,12 @@ impl Program for Cube {
                 Observable::new("hottest", "°C", state.maximum(Heat::TEMPERATURE)?.unwrap_or(0.0)),
                 Observable::new("mean", "°C", state.sum(Heat::TEMPERATURE)? / temperatures.len() as f64),
                 Observable::new("exact_in_the_middle", "°C", exact),
-                Observable::number("relative_error", (errors / norm).sqrt()),
+                Observable::number("relative_error", (errors / norm.max(f64::MIN_POSITIVE)).sqrt()),
             ])
         };
         // A little longer than it takes, should the criterion not be met.
-        let steps = (1.1 * (copper.initial / until).ln() / (decay * time_step) + 20.0).clamp(1.0, 1e9) as u64;
+        let steps =
+            (1.1 * (copper.initial.abs() / until).ln() / (decay * time_step) + 20.0).clamp(1.0, 1e9) as u64;
         let view = CellView::named("heat").draw(Heat::TEMPERATURE, "temperature (°C)");
         Ok(SetUp::new(model, steps).time_step(time_step).observables(observe).cells(view))
     }

@@ -1,89 +1,64 @@
 //! A landslide that runs down a valley: debris levels out with the ground, cell by cell.
 //!
-//! The model is SCIDDICA-T in its simplest form. What a cell holds above a layer that sticks to the ground (the adherence) can move. It is shared with the four
-//! neighbours so that the heights of all that take part differ as little as possible (the minimisation of differences of Di Gregorio and Serra,
-//! Future Generation Computer Systems 16, 1999): a cell that stands above the common level takes no part. Of what would flow then, a step
-//! moves a part (the rate). Debris is neither lost nor made.
+//! The model is SCIDDICA-T in its simplest form. Debris above a layer that sticks to the ground (the
+//! adherence) can move. The minimisation of differences shares it with the four neighbours. A step moves a part
+//! of that (the rate). The volume of debris is conserved.
 use std::path::{Path, PathBuf};
+use xca_examples::models::flows::shares;
 use xca_run::prelude::*;
+
+/// The sides of a cell.
+const SIDES: usize = 4;
 
 #[derive(Substates, Clone)]
 struct Slope {
-    /// Of the ground below the debris, in m
+    /// Of the ground below the debris.
+    #[substate(unit = "m")]
     altitude: Real,
-    /// Of the debris, in m
+    /// Of the debris.
+    #[substate(unit = "m")]
     thickness: Real,
-    /// What leaves for the neighbours 1 to 4 (south, west, east, north), in m of thickness
-    outflow: Vector4<Real>,
+    /// Thickness that leaves for each neighbour.
+    #[substate(unit = "m")]
+    outflow: [Real; SIDES],
 }
 
 #[derive(Parameters, Clone, Copy, Debug)]
 struct Debris {
-    /// The thickness of what sticks to the ground, in m
+    /// Thickness of what sticks to the ground.
+    #[parameter(unit = "m", range = 0.0..)]
     adherence: Real,
-    /// The part of the flow that a step moves, up to 1
+    /// The part of the flow that a step moves.
+    #[parameter(range = 0.0..=1.0)]
     rate: Real,
 }
 
 #[elementary_process]
 fn flow(cell: &mut Cell<Slope>, p: &Debris) {
-    cell.outflow = Vector4::splat(0.0);
+    for n in 0..SIDES {
+        cell.outflow[n] = 0.0;
+    }
     let mobile = cell.thickness - p.adherence;
     if mobile <= 0.0 {
         return;
     }
-    let mut heights = [0.0; 5];
-    let mut takes_part = [true; 5];
-    heights[0] = cell.altitude + p.adherence;
-    for n in 1..5 {
+    let mut heights = [cell.altitude + p.adherence; SIDES + 1];
+    for n in 1..cell.neighbour_count() {
         heights[n] = cell.neighbour(n).altitude + cell.neighbour(n).thickness;
     }
-    let mut level = 0.0;
-    let mut is_settled = false;
-    while !is_settled {
-        let mut sum = mobile;
-        let mut count = 0.0;
-        for n in 0..5 {
-            if takes_part[n] {
-                sum += heights[n];
-                count += 1.0;
-            }
-        }
-        level = sum / count;
-        is_settled = true;
-        for n in 0..5 {
-            if takes_part[n] && heights[n] > level {
-                takes_part[n] = false;
-                is_settled = false;
-            }
-        }
-    }
-    let mut outflow = [0.0; 5];
-    for n in 1..5 {
-        if takes_part[n] {
-            outflow[n] = p.rate * (level - heights[n]);
-        }
-    }
-    cell.outflow = Vector4::new(outflow[1], outflow[2], outflow[3], outflow[4]);
-}
-
-/// What leaves for one of the neighbours.
-#[helper]
-fn towards(outflow: Vector4<Real>, neighbour: usize) -> Real {
-    match neighbour {
-        directions::von_neumann_2d::SOUTH => outflow.x,
-        directions::von_neumann_2d::WEST => outflow.y,
-        directions::von_neumann_2d::EAST => outflow.z,
-        _ => outflow.w,
+    let out = shares::<{ SIDES + 1 }>(heights, [true; SIDES + 1], mobile);
+    for n in 1..cell.neighbour_count() {
+        cell.outflow[n - 1] = p.rate * out[n];
     }
 }
 
 #[elementary_process]
 fn settle(cell: &mut Cell<Slope>) {
-    let gone = cell.outflow.x + cell.outflow.y + cell.outflow.z + cell.outflow.w;
+    let mut gone = 0.0;
     let mut come = 0.0;
     for n in 1..cell.neighbour_count() {
-        come += towards(cell.neighbour(n).outflow, cell.opposite(n));
+        gone += cell.outflow[n - 1];
+        come += cell.neighbour(n).outflow[cell.opposite(n) - 1];
     }
     cell.thickness += come - gone;
 }
@@ -99,8 +74,8 @@ struct Landslide {
     /// The debris: an ESRI ASCII grid of its thickness, in m, of the same cells as the ground
     #[arg(long, value_name = "FILE", requires = "dem")]
     debris: Option<PathBuf>,
-    /// Stop when no cell sends more than this to a neighbour in a step, in m
-    #[arg(long, value_name = "METRES", default_value_t = 1e-4)]
+    /// Stop when no cell sends more than this to a neighbour in a step, in m; never where it is below 0
+    #[arg(long, value_name = "METRES", default_value_t = 1e-4, value_parser = number_in(..))]
     until: f64,
 }
 
@@ -157,7 +132,7 @@ impl Map {
         Slope {
             altitude: self.ground.value([x, y]).map_or(WALL, rough),
             thickness: self.debris.value([x, y]).unwrap_or(0.0),
-            outflow: Vector4::splat(0.0),
+            outflow: [0.0; SIDES],
         }
     }
 }
@@ -177,7 +152,7 @@ impl Program for Landslide {
         };
         let ([columns, rows], side, until) = (map.ground.extents(), map.ground.side(), self.until);
         let (corner, files) = (map.ground.corner(), map.files.clone());
-        let outside = Slope { altitude: WALL, thickness: 0.0, outflow: Vector4::splat(0.0) };
+        let outside = Slope { altitude: WALL, thickness: 0.0, outflow: [0.0; SIDES] };
         let debris = Debris { adherence: 1.0, rate: 0.5 };
         let model = Model::builder("landslide")
             .extents([columns, rows, 1])
@@ -186,13 +161,11 @@ impl Program for Landslide {
             .boundary(Boundary::Flat)
             .substates_with_outside(outside)
             .parameters(debris)
-            .process(flow)
-            .process(settle)
+            .process((flow, settle))
             .fill(move |site| map.state(site))
             .stop_when(Schedule::Every(20), move |state| {
                 let largest = state.maximum(Slope::OUTFLOW)?.unwrap_or_default();
-                let flows = [largest.x, largest.y, largest.z, largest.w];
-                let rests = flows.iter().all(|metres| *metres <= until);
+                let rests = largest.iter().all(|metres| *metres <= until);
                 Ok(rests.then(|| format!("no cell sends more than {until} m to a neighbour")))
             })
             .build()?;

@@ -12,9 +12,11 @@ enum Ground {
 struct Pond {
     ground: Ground,
     wet: bool,
-    /// Water, in m.
+    /// Of water.
+    #[substate(unit = "m")]
     depth: Real,
-    /// What flows to each of the four neighbours in a step, in m.
+    /// What flows to each of the four neighbours in a step.
+    #[substate(unit = "m")]
     outflow: [Real; 4],
     /// How fast water comes in, and how fast it leaves, in cells a step.
     currents: [Vector2<Real>; 2],
@@ -42,9 +44,11 @@ struct Weather {
     raining: bool,
     /// Where water comes in.
     source: Ground,
-    /// In m a step.
+    /// What falls in a step.
+    #[parameter(unit = "m", range = 0.0..)]
     rain: Real,
-    /// The share of the water that flows to each neighbour.
+    /// The share of the water that flows to each neighbour: no more than there is in all.
+    #[parameter(range = 0.0..=0.25)]
     shares: [Real; 4],
     /// After how many steps a leaf is soaked.
     soaked_after: u8,
@@ -66,8 +70,7 @@ fn flow(cell: &mut Cell<Pond>, weather: &Weather) {
 fn level(cell: &mut Cell<Pond>, weather: &Weather) {
     let mut change = 0.0;
     for n in 1..cell.neighbour_count() {
-        // A neighbour's outflow to here is that in the opposite direction.
-        change += cell.neighbour(n).outflow[4 - n] - cell.outflow[n - 1];
+        change += cell.neighbour(n).outflow[cell.opposite(n) - 1] - cell.outflow[n - 1];
     }
     cell.depth += change;
     cell.currents[0] = Vector2::new(

@@ -106,12 +106,12 @@ pub fn flow(cell: &mut Cell<Slope>, p: &Debris) {
     let head = cell.altitude + run_up;
     let mut heights = [cell.altitude; SIDES + 1];
     let mut takes_part = [true; SIDES + 1];
-    for n in 1..=SIDES {
+    for n in 1..cell.neighbour_count() {
         heights[n] = cell.neighbour(n).altitude + cell.neighbour(n).thickness;
         takes_part[n] = head - heights[n] >= p.friction;
     }
     let out = shares::<7>(heights, takes_part, run_up);
-    for n in 1..=SIDES {
+    for n in 1..cell.neighbour_count() {
         let debris = cell.thickness * out[n] / run_up * p.relaxation;
         cell.debris[n - 1] = debris;
         cell.carried[n - 1] = (head - heights[n]) * debris;
@@ -125,7 +125,7 @@ pub fn settle(cell: &mut Cell<Slope>) {
     if cell.thickness > 0.0 {
         run_up = cell.momentum / cell.thickness;
     }
-    for n in 1..=SIDES {
+    for n in 1..cell.neighbour_count() {
         let from = cell.opposite(n) - 1;
         let gone = cell.debris[n - 1];
         cell.thickness += cell.neighbour(n).debris[from] - gone;

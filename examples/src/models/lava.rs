@@ -92,7 +92,7 @@ pub fn flow(cell: &mut Cell<Volcano>, lava: &Lava, space: &Space) {
     let mut heights = [cell.altitude; NEIGHBOURS + 1];
     let mut takes_part = [true; NEIGHBOURS + 1];
     let mut cosine = [1.0; NEIGHBOURS + 1];
-    for n in 1..=NEIGHBOURS {
+    for n in 1..cell.neighbour_count() {
         let other = cell.neighbour(n);
         let distance = (cell.displacement(n).length_squared() as Real).sqrt();
         heights[n] = cell.altitude - (cell.altitude - other.altitude) / distance + other.thickness;
@@ -103,7 +103,7 @@ pub fn flow(cell: &mut Cell<Volcano>, lava: &Lava, space: &Space) {
     let rate = power_law(lava.solid_rate, lava.vent_rate, cell.temperature, lava);
     let held_back = power_law(lava.solid_yield, lava.vent_yield, cell.temperature, lava);
     let out = shares::<{ NEIGHBOURS + 1 }>(heights, takes_part, cell.thickness);
-    for n in 1..=NEIGHBOURS {
+    for n in 1..cell.neighbour_count() {
         if cell.thickness > held_back * cosine[n] {
             cell.outflow[n - 1] = rate * out[n];
         }
@@ -116,7 +116,7 @@ pub fn mix(cell: &mut Cell<Volcano>) {
     let mut rest = cell.thickness;
     let mut come = 0.0;
     let mut heat = 0.0;
-    for n in 1..=NEIGHBOURS {
+    for n in 1..cell.neighbour_count() {
         rest -= cell.outflow[n - 1];
         let inflow = cell.neighbour(n).outflow[cell.opposite(n) - 1];
         come += inflow;

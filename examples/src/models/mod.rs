@@ -7,7 +7,7 @@ pub mod cavity;
 pub mod debris;
 pub mod elementary;
 pub mod excitable;
-mod flows;
+pub mod flows;
 pub mod ising;
 pub mod lava;
 pub mod reaction;

@@ -1,6 +1,6 @@
 //! Bad input gets a clear error, a non-zero exit code, and nothing is run.
 
-use crate::running::{CADEM, HEAT, LIFE, MOD2, Workplace};
+use crate::running::{CADEM, HEAT, LANDSLIDE, LIFE, MOD2, Workplace};
 use std::process::Command;
 
 const HEADER: &str = "label,x,y,z,vx,vy,vz\n";
@@ -45,17 +45,24 @@ fn values_that_make_no_sense() {
         (CADEM, "--engine gpu --arithmetic lax", "`lax` is no arithmetic; use best, strict or relaxed"),
         (CADEM, "--adapter 0", "--adapter and --arithmetic are for --engine gpu"),
         (CADEM, "--precision f16", "`f16` is not a precision; use f32 or f64"),
-        (CADEM, "--set stiffness=-1", "stiffness is -1 N/m; it must be positive"),
+        (CADEM, "--set stiffness=-1", "`stiffness` is -1, but must be above 0 and below inf (N/m)"),
         (CADEM, "--set stiffness=nan", "`nan` is no value for the parameter `stiffness`"),
         (CADEM, "--set stiffness", "must be of the form NAME=VALUE"),
         (CADEM, "--steps -5", "it must be a whole number of steps"),
         (CADEM, "--every 0", "every 0 steps never comes"),
-        (CADEM, "--subdivisions 0", "time_step is inf s"),
+        (CADEM, "--subdivisions 0", "it must be a number above 0"),
         (CADEM, "--seed 5000000000", "the seed of the particles is at most 4294967295"),
         (CADEM, "--slots 2", "2 slots do not hold the 3 BOUNDARY slots"),
         (CADEM, "--open z-low:8,8:99,99", "that face has [20, 20] cells"),
-        (HEAT, "--set alpha=0.3", "alpha is 0.3; the scheme is stable from 0 to 1/6 only"),
-        (HEAT, "--side -1", "it must be a positive number"),
+        (HEAT, "--set alpha=0.3", "`alpha` is 0.3, but must be above 0 and at most 0.16666666666666666"),
+        (HEAT, "--set alpha=0", "`alpha` is 0, but must be above 0"),
+        (HEAT, "--set diffusivity=-1e-4", "`diffusivity` is -0.0001, but must be above 0"),
+        (HEAT, "--set initial=-300", "`initial` is -300, but must be at least -273.15"),
+        (HEAT, "--side -1", "it must be a number above 0"),
+        (HEAT, "--until nan", "it must be a number at least 0"),
+        (LANDSLIDE, "--set rate=5", "`rate` is 5, but must be at least 0 and at most 1"),
+        (LANDSLIDE, "--set adherence=-5", "`adherence` is -5, but must be at least 0 (m)"),
+        (LANDSLIDE, "--until nan", "invalid value 'nan' for '--until <METRES>': it must be a number"),
         (MOD2, "--size 2", "too far for 2 cells with a toroidal boundary"),
     ]);
 }

@@ -37,7 +37,7 @@ fn heat_converges_to_the_solution_in_closed_form() {
 fn heat_stops_when_it_is_cool_enough() {
     let place = Workplace::new();
     let said = place.succeed(HEAT, "--size 20 --until 40");
-    assert!(said.contains("no cell is hotter than 40 degrees"), "{said}");
+    assert!(said.contains("no cell is further than 40 °C from 0 °C"), "{said}");
     let report = report(&place.path("out/heat"));
     assert_eq!(report["progress"]["outcome"], "stopped");
     let series = Table::read(&place.path("out/heat/observables.csv"));
