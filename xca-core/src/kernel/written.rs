@@ -11,7 +11,10 @@ use std::marker::PhantomData;
 use std::ops::Range;
 
 /// The cells of a block where arrays are staged.
-pub(super) const STAGED: usize = 32;
+pub(super) const STAGED: usize = 4 * PART;
+
+/// A part of a block.
+const PART: usize = 8;
 
 /// The planes of a row's cells, as their engine describes them.
 #[derive(Debug, Clone, Copy)]
@@ -180,16 +183,27 @@ impl<'r, T: KernelElement, const N: usize> Written<'r, [T; N]> for WrittenArrays
     }
 }
 
-/// Copies values; a whole block by instructions that the compiler chooses, as it knows their number.
+/// Copies values of a block.
 ///
 /// # Safety
 /// As of [`std::ptr::copy_nonoverlapping`].
 #[inline(always)]
 #[allow(unsafe_code)]
-unsafe fn copy<M>(from: *const M, to: *mut M, count: usize) {
-    let count = if count == STAGED { STAGED } else { count };
-    // SAFETY: as the function.
-    unsafe { std::ptr::copy_nonoverlapping(from, to, count) }
+unsafe fn copy<M: Copy>(from: *const M, to: *mut M, count: usize) {
+    if count < STAGED {
+        // SAFETY: as the function.
+        unsafe { std::ptr::copy_nonoverlapping(from, to, count) }
+        return;
+    }
+    // Most blocks are whole. In parts this small the compiler copies them by itself, without a call.
+    let (from, to) = (from.cast::<[M; PART]>(), to.cast::<[M; PART]>());
+    // SAFETY: as the function; the parts make up a block, and an array has the alignment of its elements.
+    unsafe {
+        to.write(from.read());
+        to.add(1).write(from.add(1).read());
+        to.add(2).write(from.add(2).read());
+        to.add(3).write(from.add(3).read());
+    }
 }
 
 impl<T: KernelElement, const N: usize> Lanes<[T; N]> for &mut Stage<T::Memory, N> {
