@@ -136,9 +136,64 @@ fn labels(n: i32) -> i32 {
     sum
 }
 
+/// As many turns as kernels write out, and one more.
+const TURNS: i32 = 27;
+const MORE: i32 = TURNS + 1;
+const NEAR: u8 = 102;
+
+/// Loops that kernels write out, with every way to leave a turn.
+#[helper]
+fn short(n: i32) -> i32 {
+    let mut sum: i32 = 1;
+    for i in 0..TURNS {
+        if i == n {
+            continue;
+        }
+        if i > n + 9 {
+            break;
+        }
+        sum = sum.wrapping_mul(7).wrapping_add(i);
+    }
+    for i in 1..=MORE {
+        if sum & 3 == 3 {
+            sum += 5;
+            continue;
+        }
+        sum = sum.wrapping_mul(5).wrapping_sub(i);
+    }
+    'turns: for i in 2..=6 {
+        match i + n {
+            5 => continue 'turns,
+            9 => break 'turns,
+            17 => return sum,
+            _ => sum = sum.wrapping_mul(3).wrapping_add(i),
+        }
+    }
+    for i in 100..=NEAR {
+        sum = sum.wrapping_add(i as i32);
+    }
+    for i in 3..TURNS - 24 {
+        sum += 1000 * i;
+    }
+    'outer: loop {
+        for i in 0..4 {
+            sum = sum.wrapping_add(i);
+            if sum & 7 == 0 {
+                break 'outer;
+            }
+            if sum & 1 == 0 {
+                continue 'outer;
+            }
+        }
+        sum = sum.wrapping_add(1);
+    }
+    sum
+}
+
 #[derive(Substates, Clone, Copy, Debug, Default, PartialEq)]
 struct Numbers {
     n: i32,
+    short: i32,
     elements: i32,
     backwards: i32,
     in_steps: i32,
@@ -153,6 +208,7 @@ fn compute(cell: &mut Cell<Numbers>) {
     cell.in_steps = in_steps(cell.n, 1 + (cell.n & 7) as u32);
     cell.ends = at_the_ends(cell.n);
     cell.labels = labels(cell.n);
+    cell.short = short(cell.n);
 }
 
 #[test]
@@ -176,6 +232,7 @@ fn loops_are_those_of_rust() -> TestResult {
                 assert_eq!(state.get(Numbers::IN_STEPS, cell)?, in_steps(n, 1 + (n & 7) as u32), "{n}");
                 assert_eq!(state.get(Numbers::ENDS, cell)?, at_the_ends(n), "{n}");
                 assert_eq!(state.get(Numbers::LABELS, cell)?, labels(n), "{n}");
+                assert_eq!(state.get(Numbers::SHORT, cell)?, short(n), "{n}");
             }
             Ok(())
         })?;

@@ -1,0 +1,104 @@
+//! Arrays in rows that kernels go through in blocks: rows of every length around that of a block, against loops on the host.
+
+use std::error::Error;
+use xca_core::prelude::*;
+use xca_tests::suite::engines::{self, PRECISIONS, assert_same_runs};
+
+type TestResult = Result<(), Box<dyn Error>>;
+
+const LANES: usize = 3;
+
+#[derive(Substates, Clone, Copy, Debug, PartialEq)]
+struct Ring {
+    values: [i32; LANES],
+    marks: [bool; 2],
+    sum: i32,
+}
+
+/// Old values are read at the cell only, where they are replaced.
+#[elementary_process]
+fn turn(cell: &mut Cell<Ring>) {
+    let first = cell.values[0];
+    for n in 1..LANES {
+        cell.values[n - 1] = cell.values[n];
+    }
+    cell.values[LANES - 1] = first + cell.sum;
+    cell.marks[(cell.sum & 1) as usize] = first > cell.sum;
+}
+
+/// Old values are read at neighbours too; some cells keep theirs.
+#[elementary_process]
+fn pull(cell: &mut Cell<Ring>) {
+    if cell.marks[0] {
+        return;
+    }
+    for n in 1..cell.neighbour_count() {
+        let from = cell.neighbour(n);
+        cell.values[n % LANES] = cell.values[n % LANES].wrapping_add(3 * from.values[(n + 1) % LANES]);
+        cell.sum += from.marks[n & 1] as i32;
+    }
+}
+
+fn begin(x: usize, y: usize) -> Ring {
+    let number = (x * 7 + y * 13) as i32;
+    Ring { values: [number, number % 5, -number], marks: [x % 3 == 0, y % 2 == 0], sum: number % 4 }
+}
+
+/// Both processes, as loops over a torus of two rows.
+fn by_hand(width: usize, steps: usize) -> Vec<Ring> {
+    let mut cells: Vec<Ring> = (0..2 * width).map(|cell| begin(cell % width, cell / width)).collect();
+    for _ in 0..steps {
+        for cell in &mut cells {
+            let first = cell.values[0];
+            cell.values.rotate_left(1);
+            cell.values[LANES - 1] = first + cell.sum;
+            cell.marks[(cell.sum % 2) as usize] = first > cell.sum;
+        }
+        let old = cells.clone();
+        for (number, cell) in cells.iter_mut().enumerate().filter(|(_, cell)| !cell.marks[0]) {
+            let (x, y) = (number % width, number / width);
+            let around = [
+                old[(1 - y) * width + x],
+                old[y * width + (x + width - 1) % width],
+                old[y * width + (x + 1) % width],
+                old[(1 - y) * width + x],
+            ];
+            for (n, from) in (1..).zip(around) {
+                let value = &mut cell.values[n % LANES];
+                *value = value.wrapping_add(3 * from.values[(n + 1) % LANES]);
+                cell.sum += i32::from(from.marks[n % 2]);
+            }
+        }
+    }
+    cells
+}
+
+#[test]
+fn rows_of_every_length() -> TestResult {
+    for width in [1, 2, 31, 32, 33, 63, 64, 65, 97] {
+        let model = Model::builder("rings")
+            .extents([width, 2, 1])
+            .neighbourhood(Neighbourhood::von_neumann_2d(1))
+            .boundary(Boundary::Toroidal)
+            .substates::<Ring>()
+            .process((turn, pull))
+            .fill(|site| begin(site.cell()[0], site.cell()[1]))
+            .build()?;
+        for precision in PRECISIONS {
+            assert_same_runs(&model, &engines::all()?, RunOptions { precision, seed: 0 }, 3)?;
+        }
+        let mut simulation = Simulation::new(&model, &xca_cpu::Cpu::with_threads(2)?, RunOptions::default())?;
+        simulation.run(3)?;
+        let state = simulation.state();
+        let (values, marks) = (state.read(Ring::VALUES)?, state.read(Ring::MARKS)?);
+        for (cell, wanted) in by_hand(width, 3).into_iter().enumerate() {
+            let sum = state.get(Ring::SUM, [cell % width, cell / width, 0])?;
+            assert_eq!(
+                Ring { values: values[cell], marks: marks[cell], sum },
+                wanted,
+                "cell {cell} of {width}"
+            );
+        }
+    }
+    Ok(())
+}
