@@ -16,12 +16,9 @@ fn hills(site: Site) -> Landscape {
     let river = 3400.0 + 300.0 * (y / 400.0).sin();
     let hills = (x / 500.0).sin() * (y / 700.0).cos() + 0.5 * (x / 230.0 + y / 310.0).sin();
     let carved = 30.0 * (-((x - river) / 60.0).powi(2)).exp();
-    let fuel = match (x - river).abs() {
-        away if away < 50.0 => 0.0,
-        _ if hills < -0.6 => 0.6,
-        _ => 0.9 + 0.1 * site.random(0),
-    };
-    Landscape { cover: Cover::Whole, fuel, altitude: 300.0 + 45.0 * hills - carved }
+    let fuel = if hills < -0.6 { 0.6 } else { 0.9 + 0.1 * site.random(0) };
+    let cover = if (x - river).abs() < 50.0 { Cover::Bare } else { Cover::Whole };
+    Landscape { cover, fuel, altitude: 300.0 + 45.0 * hills - carved }
 }
 
 impl Wildfire {
@@ -53,18 +50,23 @@ impl Program for Wildfire {
             let [x, y, _] = site.cell();
             let land = match &grid {
                 Some(grid) => {
-                    Landscape { cover: Cover::Whole, fuel: grid.value([x, y]).unwrap_or(0.0), altitude: 0.0 }
+                    let fuel = grid.value([x, y]).unwrap_or(0.0);
+                    let cover = if fuel > 0.0 { Cover::Whole } else { Cover::Bare };
+                    Landscape { cover, fuel, altitude: 0.0 }
                 }
                 None => hills(site),
             };
             if [x, y] == fire { Landscape { cover: Cover::Burning, ..land } } else { land }
         })?;
-        let colours =
-            [(Cover::Whole, [120, 160, 90]), (Cover::Burning, [230, 80, 30]), (Cover::Burnt, [60, 50, 50])];
+        let colours = [
+            (Cover::Bare, [150, 180, 210]),
+            (Cover::Whole, [120, 160, 90]),
+            (Cover::Burning, [230, 80, 30]),
+            (Cover::Burnt, [60, 50, 50]),
+        ];
         let view =
             CellView::named("wildfire").draw(Landscape::COVER, "cover").colours(Landscape::COVER, &colours);
-        let view = view.relief(Landscape::ALTITUDE, 0.0);
-        let set_up = SetUp::new(model, 200).cells(view).corner(corner);
+        let set_up = SetUp::new(model, 130).cells(view).corner(corner);
         Ok(self.fuel.iter().fold(set_up, SetUp::input))
     }
 }
