@@ -47,8 +47,8 @@ struct Weather {
     /// What falls in a step.
     #[parameter(unit = "m", range = 0.0..)]
     rain: Real,
-    /// The share of the water that flows to each neighbour: no more than there is in all.
-    #[parameter(range = 0.0..=0.25)]
+    /// The share of the water that flows to each neighbour.
+    #[parameter(range = 0.0..=1.0)]
     shares: [Real; 4],
     /// After how many steps a leaf is soaked.
     soaked_after: u8,

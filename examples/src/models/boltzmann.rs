@@ -11,6 +11,8 @@ const DIRECTIONS: usize = 19;
 pub struct Fluid {
     /// Particles that move towards the neighbour with this index.
     pub f: [Real; DIRECTIONS],
+    /// The velocity before the collision, in cells a step.
+    pub velocity: Vector3<Real>,
 }
 
 /// What the fluid is like.
@@ -57,6 +59,7 @@ pub fn stream_and_collide(cell: &mut Cell<Fluid>, flow: &Flow) {
         momentum += Vector3::new(direction.x as Real, direction.y as Real, direction.z as Real) * f[n];
     }
     let velocity = momentum / density;
+    cell.velocity = velocity;
     for n in 0..DIRECTIONS {
         cell.f[n] = f[n] + flow.omega * (equilibrium(cell.displacement(n), density, velocity) - f[n]);
     }
@@ -88,7 +91,7 @@ pub fn model(
             let [x, y, z] = directions[n];
             equilibrium(Vector3::new(x, y, z), 1.0, velocity)
         };
-        Fluid { f: std::array::from_fn(particles) }
+        Fluid { f: std::array::from_fn(particles), velocity }
     };
     let model = Model::builder("lattice Boltzmann")
         .extents(extents)

@@ -1,4 +1,5 @@
-//! Elementary cellular automata (Wolfram, Reviews of Modern Physics 55, 1983) as a picture of space and time: row t from the top is step t.
+//! Elementary cellular automata (Wolfram, Reviews of Modern Physics 55, 1983) as a picture of space
+//! and time: row t from the top is step t.
 
 use xca_core::prelude::*;
 

@@ -1,13 +1,18 @@
-//! Lava that flows down a volcano, cools and becomes rock: SCIARA-fv2 (Spataro, Avolio, Lupiano, Trunfio, Rongo and D'Ambrosio, ICCS 2010).
+//! Lava that flows down a volcano, cools and becomes rock: SCIARA-fv2 (Spataro, Avolio, Lupiano, Trunfio, Rongo
+//! and D'Ambrosio, ICCS 2010).
 //!
-//! What a cell holds is shared with its neighbours by the minimisation of differences, if it is thicker than what the yield strength holds
-//! back. Both that and how fast it flows follow from the temperature. Vents give lava at a rate that changes with time.
+//! The minimisation of differences shares the lava of a cell with its neighbours, if it is thicker than what the
+//! yield strength holds back. Yield strength and flow rate follow from the temperature. Vents give lava at a rate
+//! that changes with time.
 
 use crate::models::flows::shares;
 use xca_core::prelude::*;
 
 /// A side or a corner is shared with so many cells.
 const NEIGHBOURS: usize = 8;
+
+/// The altitude of what no lava climbs, in m.
+pub const WALL: f64 = 1e5;
 
 /// A volcano.
 #[derive(Substates, Clone, Copy, Debug)]
@@ -218,6 +223,3 @@ pub fn model(
 fn bare(altitude: f64) -> Volcano {
     Volcano { altitude, thickness: 0.0, temperature: 0.0, solid: 0.0, outflow: [0.0; NEIGHBOURS] }
 }
-
-/// The altitude of what no lava climbs, in m.
-const WALL: f64 = 1e5;

@@ -10,6 +10,7 @@ pub mod excitable;
 pub mod flows;
 pub mod ising;
 pub mod lava;
+pub mod predators;
 pub mod reaction;
 pub mod sandpile;
 pub mod wildfire;

@@ -5,6 +5,8 @@ use xca_core::prelude::*;
 /// What a fire does to a cell.
 #[derive(States, Clone, Copy, Debug, PartialEq)]
 pub enum Cover {
+    /// Nothing that can burn.
+    Bare,
     /// Plants that can burn.
     Whole,
     /// Plants on fire.
@@ -18,7 +20,7 @@ pub enum Cover {
 pub struct Landscape {
     /// What the fire has done.
     pub cover: Cover,
-    /// Fuel: 0 is bare ground, 1 as much as there can be.
+    /// Fuel: 1 is as much as there can be.
     pub fuel: Real,
     /// Of the ground.
     #[substate(unit = "m")]
@@ -95,7 +97,7 @@ pub fn burn(cell: &mut Cell<Landscape>, weather: &Weather, space: &Space) {
                 cell.cover = Cover::Burnt;
             }
         }
-        Cover::Burnt => {}
+        Cover::Bare | Cover::Burnt => {}
     }
 }
 
@@ -113,7 +115,7 @@ pub fn model(
         .extents([extents[0], extents[1], 1])
         .cell_side(side)
         .neighbourhood(Neighbourhood::moore_2d(1))
-        .substates_with_outside(Landscape { cover: Cover::Burnt, fuel: 0.0, altitude: 0.0 })
+        .substates::<Landscape>()
         .parameters(weather)
         .process(burn)
         .fill(begin)

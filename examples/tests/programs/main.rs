@@ -6,6 +6,7 @@ mod begun;
 mod checkpoints;
 mod compared;
 mod files;
+mod gallery;
 mod interrupted;
 mod killed;
 mod looked_at;

@@ -17,9 +17,11 @@ fn shear_error(size: usize) -> f64 {
     let state = simulation.state();
     let directions = boltzmann::neighbourhood().unwrap().displacements([0; 3]).to_vec();
     let fade = (-viscosity * 2.0 * k * k * steps as f64).exp();
+    let kept = state.read(boltzmann::Fluid::VELOCITY).unwrap();
     let (mut errors, mut norm, mut mass) = (0.0, 0.0, 0.0);
     for (cell, f) in state.read(boltzmann::Fluid::F).unwrap().iter().enumerate() {
         let (density, velocity) = boltzmann::moments(f, &directions);
+        assert!((velocity - kept[cell]).length() < 1e-14, "collisions keep the momentum");
         let wanted = fade * amplitude * phase(state.geometry().indices(cell)).cos();
         errors += (velocity.y - wanted).powi(2);
         norm += wanted * wanted;

@@ -5,9 +5,11 @@
 mod boltzmann;
 mod common;
 mod debris;
+mod elementary;
 mod excitable;
 mod ising;
 mod lava;
+mod predators;
 mod reaction;
 mod sandpile;
 mod wildfire;

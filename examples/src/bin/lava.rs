@@ -1,0 +1,113 @@
+//! Lava out of the vents of a volcano, made up or over a map.
+use std::path::PathBuf;
+use std::str::FromStr;
+use xca_examples::models::lava::{Lava, Rate, Vent, Volcano, WALL, model};
+use xca_run::prelude::*;
+
+#[derive(Args)]
+struct Eruption {
+    /// The ground: an ESRI ASCII grid of altitudes, in m; a volcano is made up without it
+    #[arg(long, value_name = "FILE")]
+    dem: Option<PathBuf>,
+    /// A vent: column from the west and row from the south; can be given several times. Default: the highest cell of a map
+    #[arg(long, value_name = "X,Y")]
+    vent: Vec<Place>,
+    /// What a vent gives at its height, in m³/s
+    #[arg(long, value_name = "RATE", default_value_t = 30.0, value_parser = number_in(0.0..))]
+    rate: f64,
+}
+
+/// A column and a row.
+#[derive(Clone, Copy)]
+struct Place {
+    x: usize,
+    y: usize,
+}
+
+impl FromStr for Place {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let numbers = text.split_once(',').map(|(x, y)| (x.trim().parse(), y.trim().parse()));
+        match numbers {
+            Some((Ok(x), Ok(y))) => Ok(Self { x, y }),
+            _ => Err("it must be a column and a row, such as 40,25"),
+        }
+    }
+}
+
+/// The vents of the volcano that is made up.
+const VENTS: [Place; 2] = [Place { x: 70, y: 82 }, Place { x: 85, y: 70 }];
+
+/// A cone with a flank that has a valley, in cells of 10 m.
+fn volcano() -> Option<AsciiGrid> {
+    const EXTENTS: [usize; 2] = [200, 150];
+    let cells = (0..EXTENTS[1]).flat_map(|y| (0..EXTENTS[0]).map(move |x| [x as f64, y as f64]));
+    let altitudes = cells.map(|[x, y]| {
+        let cone = 600.0 - 4.0 * (x - 60.0).hypot(y - 75.0);
+        let valley = -20.0 * (-((y - 75.0 - 20.0 * (x / 25.0).sin()) / 8.0).powi(2)).exp();
+        cone.max(150.0 - 0.5 * x) + valley
+    });
+    AsciiGrid::new(EXTENTS, 10.0, altitudes.collect())
+}
+
+impl Eruption {
+    /// The vents: they begin, are at their height for half an hour, and go on at a lower rate.
+    fn vents(&self, ground: &AsciiGrid) -> Result<Vec<Vent>, Failure> {
+        let [columns, rows] = ground.extents();
+        if let Some(Place { x, y }) = self.vent.iter().find(|place| place.x >= columns || place.y >= rows) {
+            return Err(format!("no cell {x},{y} for a vent: the ground has {columns} x {rows} cells").into());
+        }
+        let cells = ground.values().iter().enumerate().filter(|(_, altitude)| !altitude.is_nan());
+        let highest = cells.max_by(|(_, one), (_, other)| one.total_cmp(other)).map_or(0, |(cell, _)| cell);
+        let highest = [Place { x: highest % columns, y: highest / columns }];
+        let places = match &self.dem {
+            _ if !self.vent.is_empty() => &self.vent[..],
+            Some(_) => &highest,
+            None => &VENTS,
+        };
+        let hours = [(0.0, 0.25), (1.0, 1.0), (5.0, 0.4), (20.0, 0.0)];
+        let rates = hours.map(|(hour, share)| Rate { from: 3600.0 * hour, volume: share * self.rate });
+        Ok(places.iter().map(|place| Vent { cell: [place.x, place.y, 0], rates: rates.to_vec() }).collect())
+    }
+}
+
+impl Program for Eruption {
+    const NAME: &'static str = "lava";
+    const ABOUT: &'static str = "Lava out of the vents of a volcano";
+    const EXAMPLES: &'static str = "--vent 60,75 --vent 80,70 --rate 30\n--dem etna.asc --vent 210,180";
+
+    fn set_up(&self, _given: Given) -> Result<SetUp, Failure> {
+        let ground = match &self.dem {
+            Some(path) => AsciiGrid::read(path)?,
+            None => volcano().ok_or("a volcano has cells")?,
+        };
+        let (extents, side, corner) = (ground.extents(), ground.side(), ground.corner());
+        let (lava, vents) = (Lava::default(), self.vents(&ground)?);
+        let roughness = if self.dem.is_some() { 0.0 } else { 2.0 };
+        let altitude = move |site: Site| {
+            let [x, y, _] = site.cell();
+            ground.value([x, y]).map_or(WALL, |altitude| altitude + roughness * site.random(0))
+        };
+        let model = model(extents, side, lava, vents, altitude)?;
+        let area = side * side;
+        let observe = move |state: &State<'_>| {
+            let (fluid, solid) = (area * state.sum(Volcano::THICKNESS)?, area * state.sum(Volcano::SOLID)?);
+            let covered = state.count_where(|cell: &Volcano| cell.thickness + cell.solid > 0.0)?;
+            Ok(vec![
+                Observable::new("fluid", "m^3", fluid),
+                Observable::new("solid", "m^3", solid),
+                Observable::new("covered_area", "m^2", covered as f64 * area),
+                Observable::new("hottest", "K", state.maximum(Volcano::TEMPERATURE)?.unwrap_or(0.0)),
+            ])
+        };
+        let view = CellView::named("lava").draw(Volcano::TEMPERATURE, "temperature (K)");
+        let view = view.range(1000.0, lava.vent_temperature).relief(Volcano::ALTITUDE, 0.0);
+        let set_up = SetUp::new(model, 720).time_step(lava.clock).observables(observe).cells(view);
+        Ok(self.dem.iter().fold(set_up.corner(corner), SetUp::input))
+    }
+}
+
+fn main() -> ExitCode {
+    xca_run::main!(Eruption)
+}

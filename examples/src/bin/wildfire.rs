@@ -1,0 +1,76 @@
+//! A fire that runs over hills with the wind, and stops at a river.
+use std::path::PathBuf;
+use xca_examples::models::wildfire::{Cover, Landscape, Weather, model};
+use xca_run::prelude::*;
+
+#[derive(Args)]
+struct Wildfire {
+    /// Fuel: an ESRI ASCII grid of numbers from 0 (bare) to 1, on flat ground; hills are made up without it
+    #[arg(long, value_name = "FILE")]
+    fuel: Option<PathBuf>,
+}
+
+/// Hills of forest and grass, in cells of 20 m, with a river.
+fn hills(site: Site) -> Landscape {
+    let [x, y] = [site.centre().x, site.centre().y];
+    let river = 3400.0 + 300.0 * (y / 400.0).sin();
+    let hills = (x / 500.0).sin() * (y / 700.0).cos() + 0.5 * (x / 230.0 + y / 310.0).sin();
+    let carved = 30.0 * (-((x - river) / 60.0).powi(2)).exp();
+    let fuel = if hills < -0.6 { 0.6 } else { 0.9 + 0.1 * site.random(0) };
+    let cover = if (x - river).abs() < 50.0 { Cover::Bare } else { Cover::Whole };
+    Landscape { cover, fuel, altitude: 300.0 + 45.0 * hills - carved }
+}
+
+impl Wildfire {
+    /// The grid, whose cells without a value are bare.
+    fn grid(&self) -> Result<Option<AsciiGrid>, Failure> {
+        let Some(path) = &self.fuel else { return Ok(None) };
+        let grid = AsciiGrid::read(path)?;
+        match grid.values().iter().find(|fuel| **fuel < 0.0 || **fuel > 1.0) {
+            Some(fuel) => Err(format!("{}: fuel of {fuel}; it must be from 0 to 1", path.display()).into()),
+            None => Ok(Some(grid)),
+        }
+    }
+}
+
+impl Program for Wildfire {
+    const NAME: &'static str = "wildfire";
+    const ABOUT: &'static str = "A fire that runs over hills with the wind";
+    const EXAMPLES: &'static str = "--set wind=-4,0 --set spread=0.4\n--fuel fuel.asc";
+
+    fn set_up(&self, _given: Given) -> Result<SetUp, Failure> {
+        let grid = self.grid()?;
+        let (extents, side, corner) = grid
+            .as_ref()
+            .map_or(([240, 160], 20.0, [0.0; 2]), |grid| (grid.extents(), grid.side(), grid.corner()));
+        let fire = extents.map(|cells| cells / 4);
+        let weather =
+            Weather { spread: 0.32, wind: Vector2::new(3.0, 1.5), extinction: 0.4, ..Weather::default() };
+        let model = model(extents, side, weather, move |site| {
+            let [x, y, _] = site.cell();
+            let land = match &grid {
+                Some(grid) => {
+                    let fuel = grid.value([x, y]).unwrap_or(0.0);
+                    let cover = if fuel > 0.0 { Cover::Whole } else { Cover::Bare };
+                    Landscape { cover, fuel, altitude: 0.0 }
+                }
+                None => hills(site),
+            };
+            if [x, y] == fire { Landscape { cover: Cover::Burning, ..land } } else { land }
+        })?;
+        let colours = [
+            (Cover::Bare, [150, 180, 210]),
+            (Cover::Whole, [120, 160, 90]),
+            (Cover::Burning, [230, 80, 30]),
+            (Cover::Burnt, [60, 50, 50]),
+        ];
+        let view =
+            CellView::named("wildfire").draw(Landscape::COVER, "cover").colours(Landscape::COVER, &colours);
+        let set_up = SetUp::new(model, 130).cells(view).corner(corner);
+        Ok(self.fuel.iter().fold(set_up, SetUp::input))
+    }
+}
+
+fn main() -> ExitCode {
+    xca_run::main!(Wildfire)
+}

@@ -1,0 +1,91 @@
+//! Each program of the gallery runs, draws its first and last state, and keeps what its model keeps.
+
+use crate::running::{Table, Workplace};
+use std::collections::BTreeSet;
+use std::fs;
+
+/// A program with options that make its run short.
+struct Short {
+    name: &'static str,
+    path: &'static str,
+    options: &'static str,
+}
+
+macro_rules! short {
+    ($name:literal, $options:literal) => {
+        Short { name: $name, path: env!(concat!("CARGO_BIN_EXE_", $name)), options: $options }
+    };
+}
+
+const GALLERY: [Short; 11] = [
+    short!("boltzmann", "--steps 2"),
+    short!("cavity", "--steps 5 --size 16"),
+    short!("debris", "--steps 20"),
+    short!("elementary", "--rule 110 --width 41 --rows 20"),
+    short!("excitable", "--steps 3"),
+    short!("ising", "--steps 3"),
+    short!("lava", "--steps 20 --vent 60,75 --vent 80,70"),
+    short!("predators", "--steps 5"),
+    short!("reaction", "--steps 3"),
+    short!("sandpile", "--grains 500 --size 31"),
+    short!("wildfire", "--steps 5"),
+];
+
+/// Programs with tests of their own.
+const OTHERS: [&str; 6] = ["cadem", "heat", "landslide", "life", "mod2", "pond"];
+
+#[test]
+fn programs_of_the_gallery_run() {
+    for Short { name, path, options } in GALLERY {
+        let place = Workplace::new();
+        place.succeed(path, options);
+        for picture in ["initial.png", "final.png"] {
+            assert!(place.path(&format!("out/{name}/{picture}")).exists(), "{name}: {picture}");
+        }
+    }
+}
+
+#[test]
+fn no_program_is_missing() {
+    let known: BTreeSet<String> =
+        GALLERY.iter().map(|short| short.name).chain(OTHERS).map(str::to_owned).collect();
+    let there: BTreeSet<String> = fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/src/bin"))
+        .unwrap()
+        .map(|entry| entry.unwrap().path().file_stem().unwrap().to_str().unwrap().to_owned())
+        .collect();
+    assert_eq!(known, there);
+}
+
+/// All grains are on the table or have fallen off it, and the pile ends stable.
+#[test]
+fn the_sandpile_keeps_its_grains() {
+    let place = Workplace::new();
+    let said = place.succeed(GALLERY[9].path, "--grains 3000 --size 31");
+    assert!(said.contains("the pile is stable"), "{said}");
+    let series = Table::read(&place.path("out/sandpile/observables.csv"));
+    assert!(series.column("grains").iter().all(|grains| *grains == 3000.0));
+    assert_eq!(series.last("unstable"), 0.0);
+    assert!(series.last("lost") > 0.0);
+}
+
+#[test]
+fn maps_of_the_gallery() {
+    let place = Workplace::new();
+    let header = "ncols 4\nnrows 3\nxllcorner 100\nyllcorner 200\ncellsize 10\nNODATA_value -9999\n";
+    place.write("ground.asc", &format!("{header}9 8 7 6\n9 30 7 6\n9 8 7 -9999\n"));
+    place.write("fuel.asc", &format!("{header}1 1 1 1\n1 1 0.5 1\n1 1 1 -9999\n"));
+    place.write("much.asc", &format!("{header}1 1 1 1\n1 1 1.5 1\n1 1 1 1\n"));
+    let [lava, wildfire] = [GALLERY[6].path, GALLERY[10].path];
+    // The highest cell is the vent: it gives its lava before the first step.
+    place.succeed(lava, "--dem ground.asc --steps 0");
+    let grid = place.read("out/lava/final_thickness.asc");
+    assert!(grid.starts_with("ncols 4\nnrows 3\nxllcorner 100\nyllcorner 200\ncellsize 10\n"), "{grid}");
+    let rows: Vec<&str> = grid.lines().skip(6).collect();
+    assert_eq!(rows, ["0 0 0 0", "0 4.5 0 0", "0 0 0 0"]);
+    assert!(place.fail(2, lava, "--dem ground.asc --vent 4,0").contains("no cell 4,0 for a vent"));
+    assert!(place.fail(2, lava, "--vent 4").contains("it must be a column and a row"));
+    assert!(place.fail(2, lava, "--rate=-1").contains("it must be a number at least 0"));
+    place.succeed(wildfire, "--fuel fuel.asc --steps 1");
+    let said = place.fail(2, wildfire, "--fuel much.asc");
+    assert!(said.contains("much.asc: fuel of 1.5; it must be from 0 to 1"), "{said}");
+}
