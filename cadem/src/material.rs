@@ -10,16 +10,22 @@ use xca_core::prelude::*;
 #[derive(Parameters, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
-    /// The contact stiffness k_n, in N/m.
+    /// The contact stiffness k_n.
+    #[parameter(unit = "N/m")]
     pub stiffness: Real,
-    /// The contact damping eta, in kg/s.
+    /// The contact damping eta.
+    #[parameter(unit = "kg/s")]
     pub damping: Real,
-    /// The mass of a particle m, in kg.
+    /// The mass of a particle m.
+    #[parameter(unit = "kg")]
     pub mass: Real,
-    /// The radius of a particle p_r, in m.
+    /// The radius of a particle p_r.
+    #[parameter(unit = "m")]
     pub radius: Real,
-    /// The acceleration of gravity along -z, in m/s^2.
+    /// The acceleration of gravity along -z.
+    #[parameter(unit = "m/s2")]
     pub gravity: Real,
-    /// The time step dt, in s.
+    /// The time step dt.
+    #[parameter(unit = "s")]
     pub time_step: Real,
 }
