@@ -26,7 +26,7 @@ struct Cadem {
     #[arg(long, value_name = "N")]
     slots: Option<usize>,
     /// Let a contact take so many steps: dt = pi sqrt(m / k_n) / N. The paper's eq. 3, instead of 0.1 sqrt(m / k_n)
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = parse_positive)]
     subdivisions: Option<f64>,
     /// Leave a wall open, so that particles leave there: x-low, …, z-high, or some of its cells, z-low:8,8:11,11
     #[arg(long, value_name = "FACE", value_parser = opening)]

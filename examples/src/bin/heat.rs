@@ -13,11 +13,14 @@ struct Heat {
 
 #[derive(Parameters, Clone, Copy, Debug)]
 struct Copper {
-    /// D dt / h^2
+    /// alpha = D dt / h^2; the scheme is stable up to 1/6.
+    #[parameter(range = ..=1.0 / 6.0, positive)]
     alpha: Real,
-    /// D, in m^2/s
+    /// Thermal diffusivity D.
+    #[parameter(unit = "m2/s", positive)]
     diffusivity: Real,
-    /// T0, in degrees
+    /// Initial temperature T0 of the middle.
+    #[parameter(unit = "°C")]
     initial: Real,
 }
 
@@ -36,10 +39,10 @@ struct Cube {
     #[arg(long, value_name = "N", default_value_t = 64)]
     size: usize,
     /// The length of a side, in m
-    #[arg(long, value_name = "METRES", default_value_t = 0.1)]
+    #[arg(long, value_name = "METRES", default_value_t = 0.1, value_parser = parse_positive)]
     side: f64,
     /// Stop when no cell is hotter than this, in degrees
-    #[arg(long, value_name = "DEGREES", default_value_t = 20.0)]
+    #[arg(long, value_name = "DEGREES", default_value_t = 20.0, value_parser = parse_not_negative)]
     until: f64,
 }
 
@@ -58,9 +61,6 @@ impl Program for Cube {
 
     fn set_up(&self, given: Given) -> Result<SetUp, Failure> {
         let copper = given.applied_to(Copper { alpha: 0.125, diffusivity: 1.11e-4, initial: 100.0 })?;
-        if !(copper.alpha > 0.0 && copper.alpha <= 1.0 / 6.0) {
-            return Err(format!("alpha is {}; the scheme is stable from 0 to 1/6 only", copper.alpha).into());
-        }
         let Self { size, side, until } = *self;
         let width = side / (size + 1) as f64;
         let time_step = copper.alpha * width * width / copper.diffusivity;

@@ -12,9 +12,11 @@ enum Ground {
 struct Pond {
     ground: Ground,
     wet: bool,
-    /// Water, in m.
+    /// Depth of the water.
+    #[substate(unit = "m")]
     depth: Real,
-    /// What flows to each of the four neighbours in a step, in m.
+    /// What flows to each of the four neighbours in a step.
+    #[substate(unit = "m")]
     outflow: [Real; 4],
     /// How fast water comes in, and how fast it leaves, in cells a step.
     currents: [Vector2<Real>; 2],
@@ -42,7 +44,8 @@ struct Weather {
     raining: bool,
     /// Where water comes in.
     source: Ground,
-    /// In m a step.
+    /// What falls on a source in a step.
+    #[parameter(unit = "m")]
     rain: Real,
     /// The share of the water that flows to each neighbour.
     shares: [Real; 4],
