@@ -32,7 +32,7 @@ pub(crate) fn table(
 }
 
 /// Columns that a terminal has.
-const WIDTH: usize = 80;
+pub(crate) const WIDTH: usize = 80;
 
 /// A table in which notes stand below each row, indented.
 pub(crate) fn table_with_notes<const COLUMNS: usize>(
@@ -51,7 +51,7 @@ pub(crate) fn table_with_notes<const COLUMNS: usize>(
 }
 
 /// The words of a text in lines of at most so many characters, where no word is longer.
-fn wrapped(text: &str, width: usize) -> Vec<String> {
+pub(crate) fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
         match lines.last_mut() {

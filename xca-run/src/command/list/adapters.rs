@@ -2,6 +2,8 @@
 
 #[cfg(feature = "gpu")]
 use crate::table::table_with_notes;
+#[cfg(not(feature = "gpu"))]
+use crate::table::{WIDTH, wrapped};
 use serde_json::Value;
 
 /// As a table, or why there is none.
@@ -54,7 +56,8 @@ pub(super) fn as_json() -> Vec<Value> {
 /// Why there is none.
 #[cfg(not(feature = "gpu"))]
 pub(super) fn as_text() -> String {
-    format!("gpu engine: {}", crate::engines::MissingFeature::GPU)
+    let text = format!("gpu engine: {}", crate::engines::MissingFeature::GPU);
+    wrapped(&text, WIDTH).join("\n")
 }
 
 /// None.
