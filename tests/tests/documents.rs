@@ -178,7 +178,7 @@ fn crates_depend_on_each_other_as_the_architecture_says() -> TestResult {
         ("xca-wgsl", &["xca-core", "xca-methods"]),
         ("cadem", &["xca-core"]),
         ("xca-gpu", &["xca-core", "xca-wgsl"]),
-        ("xca-run", &["xca-core", "xca-cpu", "xca-gpu"]),
+        ("xca-run", &["xca-core", "xca-cpu", "xca-gpu", "xca-wgsl"]),
     ] {
         let manifest = fs::read_to_string(root().join(folder).join("Cargo.toml"))?;
         let dependencies = manifest

@@ -139,10 +139,9 @@ fn parameters() -> Result<(), Box<dyn Error>> {
     refused(&other, message, |state| state.set_parameters(Climate { rain: 0.0 }))?;
     let unknown = StateError::Parameter(ParameterError::Unknown {
         name: "snow".to_owned(),
-        of: "Weather".to_owned(),
         known: "rain, days, wind".to_owned(),
     });
-    let message = "no parameter is called `snow`; Weather has rain, days, wind";
+    let message = "no parameter is called `snow`; known parameters: rain, days, wind";
     refused(&unknown, message, |state| state.parameter("snow"))?;
     refused(&unknown, message, |state| state.set_parameter("snow", "1"))?;
     for (name, text, kind) in [

@@ -50,6 +50,7 @@ pub trait Engine: fmt::Debug + Send + Sync {
 
 /// An engine that cannot run a model.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum StartError {
     /// More memory or more cells than the engine can number.
     #[error(

@@ -1,6 +1,6 @@
 //! Which numbers a parameter can be.
 
-use crate::value::Precision;
+use crate::value::{Precision, Shortest};
 use std::fmt;
 
 /// An interval of numbers; without an end it goes on for ever.
@@ -32,6 +32,21 @@ impl Interval {
         above && below && !number.is_nan()
     }
 
+    /// The interval as mathematics writes it: `[0, 1)`, `> 0`, `≤ 5`; nothing for all numbers.
+    pub fn notation(&self) -> String {
+        let number = |end: End| Shortest(end.number);
+        match (self.low, self.high) {
+            (None, None) => String::new(),
+            (Some(low), None) => format!("{} {}", if low.included { "≥" } else { ">" }, number(low)),
+            (None, Some(high)) => format!("{} {}", if high.included { "≤" } else { "<" }, number(high)),
+            (Some(low), Some(high)) => {
+                let left = if low.included { '[' } else { '(' };
+                let right = if high.included { ']' } else { ')' };
+                format!("{left}{}, {}{right}", number(low), number(high))
+            }
+        }
+    }
+
     /// The interval with its ends rounded to a precision, to be compared with numbers that are rounded too.
     pub(crate) fn rounded(&self, precision: Precision) -> Self {
         let rounded = |end: End| End { number: precision.rounded(end.number), ..end };
@@ -43,11 +58,11 @@ impl fmt::Display for Interval {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let low = self.low.map(|end| {
             let word = if end.included { "at least" } else { "above" };
-            format!("{word} {}", end.number)
+            format!("{word} {}", Shortest(end.number))
         });
         let high = self.high.map(|end| {
             let word = if end.included { "at most" } else { "below" };
-            format!("{word} {}", end.number)
+            format!("{word} {}", Shortest(end.number))
         });
         match (low, high) {
             (Some(low), Some(high)) => write!(f, "{low} and {high}"),
@@ -82,5 +97,27 @@ mod tests {
         assert!(!half_open.rounded(Precision::F32).contains(Precision::F32.rounded(nearly_one)));
         let tenth = Interval { low: None, high: Some(End { number: 0.1, included: true }) };
         assert!(tenth.rounded(Precision::F32).contains(Precision::F32.rounded(0.1)));
+    }
+
+    #[test]
+    fn intervals_are_written_in_few_characters() {
+        let end = |number: f64, included: bool| Some(End { number, included });
+        for (low, high, words, notation) in [
+            (end(0.0, true), end(1.0, false), "at least 0 and below 1", "[0, 1)"),
+            (end(0.0, false), None, "above 0", "> 0"),
+            (None, end(1e300, true), "at most 1e300", "≤ 1e300"),
+            (
+                end(-1e15, false),
+                end(1e-7, true),
+                "above -1000000000000000 and at most 1e-7",
+                "(-1000000000000000, 1e-7]",
+            ),
+            (None, None, "any number", ""),
+        ] {
+            let interval = Interval { low, high };
+            assert_eq!((interval.to_string().as_str(), interval.notation().as_str()), (words, notation));
+        }
+        let infinite = Interval { low: end(f64::NEG_INFINITY, true), high: end(f64::INFINITY, true) };
+        assert_eq!(infinite.notation(), "[-inf, inf]");
     }
 }

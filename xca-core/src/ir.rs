@@ -3,6 +3,8 @@
 //! `#[elementary_process]`, `#[migration]` and `#[helper]` keep, beside the native kernel, the parsed body of the
 //! function. An engine that cannot call Rust (a GPU) writes its own program from it. Types are those the user wrote;
 //! whatever Rust infers is inferred again by the reader of the data, from the schemas of the substates and parameters.
+//!
+//! This module is for engines and for code that the macros write; models do not need it.
 
 pub use crate::ir_constant::ConstantValue;
 use crate::schema::Schema;

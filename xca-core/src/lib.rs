@@ -81,6 +81,10 @@
 //! Processes run in the order in which they were added; each sees the state that the previous one left. A process writes its own cell
 //! only: neighbours show the state from before this process, the own cell what the process has written already. So the result
 //! does not depend on the order of cells, and every engine gives the same bits at any number of threads.
+//!
+//! # For engines and generated code
+//! The modules [`engine`], [`ir`], [`kernel`], [`plan`] and [`storage`] are not part of the interface for models.
+//! They change with the engines and the macros, in any version.
 
 // The macros name this crate by its outer name, also in its own tests and documentation.
 extern crate self as xca_core;

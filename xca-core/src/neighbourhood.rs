@@ -44,6 +44,7 @@ pub enum Hexagons {
 
 /// A list of displacements that is no neighbourhood.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum NeighbourhoodError {
     /// Index 0 is the central cell.
     #[error("a neighbourhood starts with the central cell: put [0, 0, 0] first")]

@@ -192,11 +192,7 @@ impl ParameterSet {
         }
         match &found[..] {
             [(place, _)] => Ok(*place),
-            [] => Err(ParameterError::Unknown {
-                name: name.to_owned(),
-                of: self.schemas().map(|schema| schema.name).collect::<Vec<_>>().join(" and "),
-                known: self.names().join(", "),
-            }),
+            [] => Err(ParameterError::Unknown { name: name.to_owned(), known: self.names().join(", ") }),
             several => {
                 let known: Vec<&str> = several.iter().map(|(_, whole)| whole.as_str()).collect();
                 Err(ParameterError::Ambiguous { name: name.to_owned(), known: known.join(", ") })

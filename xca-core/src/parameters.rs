@@ -2,7 +2,7 @@
 
 use crate::interval::Interval;
 use crate::schema::{Field, Schema};
-use crate::value::{Float, HostScalar, HostValue, Precision, ScalarType, ValueType};
+use crate::value::{Float, HostScalar, HostValue, Precision, ScalarType, Shortest, ValueType};
 use std::any::{Any, TypeId};
 use std::fmt;
 use std::sync::Arc;
@@ -27,7 +27,7 @@ use std::sync::Arc;
 /// parameters.set("wind", "3, -1")?;
 /// assert_eq!(parameters, Conduction { alpha: 0.25, wind: Vector2::new(3.0, -1.0) });
 /// let error = parameters.set("beta", "1").unwrap_err();
-/// assert_eq!(error.to_string(), "no parameter is called `beta`; Conduction has alpha, wind");
+/// assert_eq!(error.to_string(), "no parameter is called `beta`; known parameters: alpha, wind");
 /// # Ok::<(), ParameterError>(())
 /// ```
 ///
@@ -114,11 +114,7 @@ pub trait Parameters: Clone + fmt::Debug + Send + Sync + 'static {
 }
 
 fn find(schema: &'static Schema, name: &str) -> Result<(usize, &'static Field), ParameterError> {
-    schema.field(name).ok_or_else(|| ParameterError::Unknown {
-        name: name.to_owned(),
-        of: schema.name.to_owned(),
-        known: schema.names(),
-    })
+    schema.field(name).ok_or_else(|| ParameterError::Unknown { name: name.to_owned(), known: schema.names() })
 }
 
 /// The value of a parameter, with its type. Every scalar type fits exactly into the `f64` of its components.
@@ -207,6 +203,7 @@ impl fmt::Display for ParameterValue {
 
 /// A parameter that cannot be read or set.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ParameterError {
     /// The model has no parameters of this type.
     #[error("the model has no parameters `{wanted}`; it has: {given}")]
@@ -217,13 +214,11 @@ pub enum ParameterError {
         given: String,
     },
     /// No parameter has this name.
-    #[error("no parameter is called `{name}`; {of} has {known}")]
+    #[error("no parameter is called `{name}`; known parameters: {known}")]
     Unknown {
         /// The name that was asked for.
         name: String,
-        /// The parameter struct or structs.
-        of: String,
-        /// The names that they have.
+        /// The names that there are.
         known: String,
     },
     /// Parameters of several structs have this name.
@@ -241,7 +236,7 @@ pub enum ParameterError {
         name: &'static str,
     },
     /// A number that the parameter cannot be.
-    #[error("the parameter `{name}` is {number}{}, but must be {range}{unit}", in_precision(*number, *precision))]
+    #[error("the parameter `{name}` is {}{}, but must be {range}{unit}", Shortest(*number), in_precision(*number, *precision))]
     OutOfRange {
         /// Its name.
         name: &'static str,
@@ -268,7 +263,11 @@ pub enum ParameterError {
 
 fn in_precision(number: f64, precision: Precision) -> String {
     let rounded = precision.rounded(number);
-    if rounded == number || number.is_nan() { String::new() } else { format!(" ({rounded} in {precision})") }
+    if rounded == number || number.is_nan() {
+        String::new()
+    } else {
+        format!(" ({} in {precision})", Shortest(rounded))
+    }
 }
 
 /// Parameters whose type is not known: what a model keeps and an engine reads.

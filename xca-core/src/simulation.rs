@@ -25,6 +25,7 @@ pub struct RunOptions {
 
 /// Why a run ended.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Outcome {
     /// All steps are done.
     StepsDone,
@@ -37,6 +38,7 @@ pub enum Outcome {
 
 /// What makes a run end early.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum RunError {
     /// The engine cannot run the model.
     #[error(transparent)]

@@ -41,6 +41,7 @@ pub struct Item<S> {
 
 /// A question or an order that the model has no answer to.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum StateError {
     /// The model does not have these substates.
     #[error("the model has no substates `{0}`")]

@@ -1,4 +1,4 @@
-//! Memory for substates.
+//! Memory for substates. This module is for engines; models do not need it.
 
 /// Bytes that are aligned for every scalar.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -113,7 +113,23 @@ impl ScalarType {
                 let name = names.states.get(number as usize);
                 name.map_or_else(|| number.to_string(), |name| (*name).to_owned())
             }
-            _ => number.to_string(),
+            _ => Shortest(number).to_string(),
+        }
+    }
+}
+
+/// A number with the fewest digits that give it back, for messages: with an exponent where it would have many zeros.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Shortest(pub(crate) f64);
+
+impl fmt::Display for Shortest {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(number) = self;
+        let magnitude = number.abs();
+        if magnitude.is_finite() && (magnitude >= 1e16 || (magnitude > 0.0 && magnitude < 1e-5)) {
+            write!(f, "{number:e}")
+        } else {
+            write!(f, "{number}")
         }
     }
 }

@@ -2,15 +2,18 @@
 
 use clap::ValueEnum;
 use std::fmt;
+use std::str::FromStr;
 use xca_core::{Engine, Reference};
 use xca_cpu::{Cpu, CpuError};
-use xca_gpu::{AdapterChoice, Arithmetic, Gpu, GpuError, GpuOptions};
+#[cfg(feature = "gpu")]
+use xca_gpu::{AdapterChoice, Gpu, GpuError, GpuOptions};
 
 /// The most threads that can be asked for; many more than cores only cost memory.
 pub const MOST_THREADS: usize = 1024;
 
 /// An engine by its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, ValueEnum)]
+#[non_exhaustive]
 pub enum EngineName {
     /// All cores, or as many threads as --threads says
     #[default]
@@ -21,8 +24,73 @@ pub enum EngineName {
     Reference,
 }
 
+/// Float arithmetic of the gpu engine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
+pub enum Arithmetic {
+    /// Strict where the adapter proves it, else relaxed.
+    #[default]
+    Best,
+    /// The bits of the other engines; refused where the adapter cannot prove it.
+    Strict,
+    /// The driver's own: it may contract and reorder.
+    Relaxed,
+}
+
+/// A word that names no arithmetic.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("`{0}` is no arithmetic; use best, strict or relaxed")]
+pub struct UnknownArithmetic(String);
+
+impl FromStr for Arithmetic {
+    type Err = UnknownArithmetic;
+
+    fn from_str(text: &str) -> Result<Self, UnknownArithmetic> {
+        match text {
+            "best" => Ok(Self::Best),
+            "strict" => Ok(Self::Strict),
+            "relaxed" => Ok(Self::Relaxed),
+            other => Err(UnknownArithmetic(other.to_owned())),
+        }
+    }
+}
+
+#[cfg(feature = "gpu")]
+impl From<Arithmetic> for xca_gpu::Arithmetic {
+    fn from(arithmetic: Arithmetic) -> Self {
+        match arithmetic {
+            Arithmetic::Best => Self::Best,
+            Arithmetic::Strict => Self::Strict,
+            Arithmetic::Relaxed => Self::Relaxed,
+        }
+    }
+}
+
+/// A part that the program was built without.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "this program was built without the feature `{feature}`; build it with \
+     `cargo run --release --features xca/{feature}`"
+)]
+pub struct MissingFeature {
+    feature: &'static str,
+}
+
+#[cfg(not(feature = "gpu"))]
+impl MissingFeature {
+    /// The engine for graphics adapters.
+    pub(crate) const GPU: Self = Self { feature: "gpu" };
+}
+
+#[cfg(not(feature = "terminal"))]
+impl MissingFeature {
+    /// The subcommand `watch`.
+    pub(crate) const TERMINAL: Self = Self { feature: "terminal" };
+}
+
 /// An engine that cannot be had.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum EngineError {
     /// Threads for a serial engine.
     #[error(
@@ -39,8 +107,12 @@ pub enum EngineError {
     #[error(transparent)]
     Cpu(#[from] CpuError),
     /// The engine says why.
+    #[cfg(feature = "gpu")]
     #[error(transparent)]
     Gpu(#[from] GpuError),
+    /// The program was built without the engine.
+    #[error(transparent)]
+    Missing(#[from] MissingFeature),
 }
 
 /// How an engine is made; what is not given is the engine's own choice.
@@ -70,13 +142,21 @@ impl EngineName {
             (Self::Cpu, None) => Ok(Box::new(Cpu::new()?)),
             (Self::Cpu, Some(threads)) => Ok(Box::new(Cpu::with_threads(threads)?)),
             (Self::Gpu, Some(_)) => Err(EngineError::Threadless),
-            (Self::Gpu, None) => {
-                let adapter = adapter.as_deref().map(AdapterChoice::from).unwrap_or_default();
-                let arithmetic = arithmetic.unwrap_or_default();
-                Ok(Box::new(Gpu::new(&GpuOptions { adapter, arithmetic, ..GpuOptions::default() })?))
-            }
+            (Self::Gpu, None) => gpu(options),
         }
     }
+}
+
+#[cfg(feature = "gpu")]
+fn gpu(options: &EngineOptions) -> Result<Box<dyn Engine>, EngineError> {
+    let adapter = options.adapter.as_deref().map(AdapterChoice::from).unwrap_or_default();
+    let arithmetic = options.arithmetic.unwrap_or_default().into();
+    Ok(Box::new(Gpu::new(&GpuOptions { adapter, arithmetic, ..GpuOptions::default() })?))
+}
+
+#[cfg(not(feature = "gpu"))]
+fn gpu(_options: &EngineOptions) -> Result<Box<dyn Engine>, EngineError> {
+    Err(MissingFeature::GPU.into())
 }
 
 impl fmt::Display for EngineName {
@@ -114,12 +194,20 @@ mod tests {
         assert!(error.contains("not for the cpu engine"), "{error}");
         let options = EngineOptions { adapter: Some("no such adapter".to_owned()), ..options };
         let error = EngineName::Gpu.engine(&options).unwrap_err().to_string();
-        assert!(error.contains("no adapter is `no such adapter`; this machine has 0: "), "{error}");
+        let wanted = if cfg!(feature = "gpu") {
+            "no adapter is `no such adapter`; this machine has 0: "
+        } else {
+            "built without the feature `gpu`; build it with `cargo run --release --features xca/gpu`"
+        };
+        assert!(error.contains(wanted), "{error}");
     }
 
     #[test]
     fn names_are_those_of_the_engines() {
         for name in EngineName::value_variants() {
+            if !cfg!(feature = "gpu") && *name == EngineName::Gpu {
+                continue;
+            }
             assert_eq!(name.engine(&with_threads(None)).unwrap().name(), name.to_string());
         }
     }

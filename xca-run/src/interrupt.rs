@@ -85,6 +85,7 @@ impl Interrupt {
 
 fn on_signal(raised: &AtomicBool) {
     if raised.swap(true, Ordering::Relaxed) {
+        #[cfg(feature = "terminal")]
         crate::terminal::give_back();
         #[expect(clippy::exit, reason = "the user asked twice, and the run did not answer the first time")]
         std::process::exit(i32::from(EXIT_INTERRUPTED));

@@ -56,9 +56,10 @@
 //! |---|---|
 //! | [`output`] | the files of a run: particles and time series as CSV, VTK files for ParaView, ESRI ASCII grids, PNG pictures |
 //! | [`progress`] | the line that shows how far a run has come, and the table at its end |
+//! | [`options`] | value parsers for a model's own options |
 //! | [`interrupt`] | Ctrl-C and termination: the run ends after its current step |
 //!
-//! These three work on plain data (slices of numbers) and know nothing of models and engines.
+//! These work on plain data (slices of numbers, texts) and know nothing of models and engines.
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
@@ -86,7 +87,9 @@ pub use checkpoint::CheckpointError;
 pub use command::ConfigError;
 #[doc(hidden)]
 pub use command::{run_model, run_program};
-pub use engines::{EngineError, EngineName, EngineOptions, MOST_THREADS};
+pub use engines::{
+    Arithmetic, EngineError, EngineName, EngineOptions, MOST_THREADS, MissingFeature, UnknownArithmetic,
+};
 pub use items_file::{ReadItem, read_items};
 pub use machine::{NotEnoughMemory, check_memory};
 pub use options::{number_in, positive_number};

@@ -1,4 +1,4 @@
-//! Numbers as options of a program: out of range or NaN, they are refused with the range.
+//! Numbers as options of a program: out of range, NaN or infinite, they are refused with the range.
 
 use std::ops::{Bound, RangeBounds};
 use xca_core::{End, Interval};
@@ -19,7 +19,7 @@ use xca_core::{End, Interval};
 /// }
 ///
 /// assert!(number_in(0.0..=1.0)("nan").is_err());
-/// assert_eq!(positive_number("0").unwrap_err(), "it must be a number above 0");
+/// assert_eq!(positive_number("0").unwrap_err(), "it must be a finite number above 0");
 /// ```
 pub fn number_in(
     range: impl RangeBounds<f64>,
@@ -45,9 +45,9 @@ fn end(bound: Bound<&f64>) -> Option<End> {
 }
 
 fn parse(text: &str, interval: Interval) -> Result<f64, String> {
-    text.parse().ok().filter(|number| interval.contains(*number)).ok_or_else(|| match interval {
-        Interval::ALL => "it must be a number".to_owned(),
-        _ => format!("it must be a number {interval}"),
+    text.parse().ok().filter(|number: &f64| number.is_finite() && interval.contains(*number)).ok_or_else(|| match interval {
+        Interval::ALL => "it must be a finite number".to_owned(),
+        _ => format!("it must be a finite number {interval}"),
     })
 }
 
@@ -60,16 +60,17 @@ mod tests {
         for (text, wanted) in [
             ("0.5", Ok(0.5)),
             ("0", Ok(0.0)),
-            ("1", Err("it must be a number at least 0 and below 1")),
-            ("-1e-9", Err("it must be a number at least 0 and below 1")),
-            ("NaN", Err("it must be a number at least 0 and below 1")),
-            ("half", Err("it must be a number at least 0 and below 1")),
+            ("1", Err("it must be a finite number at least 0 and below 1")),
+            ("-1e-9", Err("it must be a finite number at least 0 and below 1")),
+            ("NaN", Err("it must be a finite number at least 0 and below 1")),
+            ("half", Err("it must be a finite number at least 0 and below 1")),
         ] {
             assert_eq!(number_in(0.0..1.0)(text), wanted.map_err(str::to_owned), "{text}");
         }
         assert_eq!(number_in(..)("-3"), Ok(-3.0));
-        assert_eq!(number_in(..)("nan"), Err("it must be a number".to_owned()));
+        assert_eq!(number_in(..)("nan"), Err("it must be a finite number".to_owned()));
         assert_eq!(positive_number("1e-300"), Ok(1e-300));
         assert!(positive_number("0").is_err());
+        assert_eq!(number_in(0.0..)("inf"), Err("it must be a finite number at least 0".to_owned()));
     }
 }

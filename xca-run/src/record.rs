@@ -13,6 +13,7 @@ mod recorded;
 mod saved;
 mod seen;
 mod shown;
+#[cfg(feature = "terminal")]
 mod sight;
 mod values;
 
@@ -23,6 +24,7 @@ pub(crate) use look::{Look, ViewKind};
 pub(crate) use recorded::Recorded;
 pub(crate) use saved::SavedError;
 pub(crate) use seen::Seen;
+#[cfg(feature = "terminal")]
 pub(crate) use sight::{Sight, Subject};
 
 use crate::output::atomic::WriteError;
@@ -41,6 +43,7 @@ use xca_core::{Model, Precision, RunError, Simulation, Snapshot};
 /// A part of a run's record that cannot be made or written.
 #[derive(Debug, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages explain the fields")]
+#[non_exhaustive]
 pub enum RecordError {
     #[error(transparent)]
     Table(#[from] WriteParticlesError),

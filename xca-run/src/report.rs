@@ -29,6 +29,8 @@ pub(crate) struct Report {
     pub(crate) notes: Map<String, Value>,
     pub(crate) model: ModelReport,
     pub(crate) parameters: Map<String, Value>,
+    /// Of the parameters and substates that have one.
+    pub(crate) units: Map<String, Value>,
     pub(crate) engine: String,
     pub(crate) threads: usize,
     /// What the engine says of its device, if it has one.
@@ -226,6 +228,17 @@ pub(crate) fn of_host() -> Host {
 pub(crate) fn of_parameters(parameters: &ParameterSet) -> Map<String, Value> {
     let values = parameters.values().map(|value| of_value(&value));
     parameters.names().into_iter().zip(values).collect()
+}
+
+/// The units of parameters, by their names, and of substates, as `Struct.field`.
+pub(crate) fn of_units(model: &Model) -> Map<String, Value> {
+    let parameters = model.parameters();
+    let named = parameters.names().into_iter().zip(parameters.fields());
+    let substates = model.groups().iter().flat_map(|group| {
+        let schema = group.schema();
+        schema.fields.iter().map(|field| (format!("{}.{}", schema.name, field.name), field))
+    });
+    named.chain(substates).filter_map(|(name, field)| Some((name, field.unit?.into()))).collect()
 }
 
 /// A vector or an array is a list, an array of vectors a list of lists.

@@ -3,8 +3,10 @@
 //! Results go to stdout and are left out by `--quiet`; errors and what happens meanwhile go to stderr. That no one listens any more, as
 //! after `| head`, is no error.
 
+#[cfg(feature = "terminal")]
 mod full_screen;
 
+#[cfg(feature = "terminal")]
 pub(crate) use full_screen::{FullScreen, give_back};
 
 use std::io::{self, Write};

@@ -422,6 +422,7 @@ impl AnyView {
 
 /// A view that does not fit its model.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ViewError {
     /// The model does not have its substates, or they are not of the kind that the view shows.
     #[error("the view `{view}` shows substates that the model does not have as {kind}")]

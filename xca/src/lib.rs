@@ -1,13 +1,14 @@
 //! Extended Cellular Automata: write a model once, run it with the same bits on every engine.
 //!
-//! This crate is all that a model depends on. It gathers the others:
+//! This crate is all that a model or its program depends on. It gathers the others behind features:
 //!
-//! | feature | gives | on by default |
+//! | feature | adds | default |
 //! |---|---|---|
 //! | | [`prelude`], models, the serial reference engine | |
 //! | `cpu` | `xca::Cpu`, the engine for all cores | yes |
-//! | `gpu` | `xca::gpu`, the engine for graphics adapters | |
-//! | `run` | `xca::run`, the command line of a model's program; its words join the prelude | |
+//! | `gpu` | `xca::gpu`, the engine for graphics adapters; with `run` also `--engine gpu` | |
+//! | `run` | `xca::run`, the command line of a model's program, and its names in the prelude | |
+//! | `terminal` | the subcommand `watch` of a program | |
 //!
 //! # A model in a library
 //! ```
@@ -43,8 +44,11 @@
 //! ```
 //!
 //! # A program
-//! With `cargo add xca --features run` the same model becomes a program with a command line, pictures and checkpoints:
-//! see `xca::run::main_of`.
+//! With `cargo add xca --features run` the same model becomes a program with a command line, pictures and checkpoints.
+//! `fn main() -> ExitCode` calls the macro `xca::run::main_of!` or `xca::run::main!`.
+//!
+//! The GPU engine and `watch` bring many dependencies. A program has them if it is built with the features:
+//! `cargo run --release --features xca/gpu,xca/terminal -- watch --engine gpu`.
 
 // The macros name this crate by its outer name, also in its own tests and documentation.
 extern crate self as xca;

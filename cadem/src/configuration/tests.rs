@@ -82,7 +82,7 @@ fn parameters_have_names() {
     let error = configuration.set("viscosity", "1").expect_err("no such parameter");
     assert_eq!(
         error.to_string(),
-        "no parameter is called `viscosity`; Material has stiffness, damping, mass, radius, gravity, time_step"
+        "no parameter is called `viscosity`; known parameters: stiffness, damping, mass, radius, gravity, time_step"
     );
     assert!(configuration.set("mass", "heavy").is_err());
     assert_eq!(configuration, table1());

@@ -15,13 +15,13 @@ struct Heat {
 
 #[derive(Parameters, Clone, Copy, Debug)]
 struct Copper {
-    /// D dt / h^2: the scheme is stable up to 1/6.
+    /// alpha = D dt / h^2; the scheme is stable up to 1/6.
     #[parameter(range = ..=1.0 / 6.0, positive)]
     alpha: Real,
-    /// D.
+    /// Thermal diffusivity D.
     #[parameter(unit = "m2/s", range = ..f64::INFINITY, positive)]
     diffusivity: Real,
-    /// T0: above absolute zero.
+    /// Initial temperature T0 of the middle, above absolute zero.
     #[parameter(unit = "°C", range = -273.15..f64::INFINITY)]
     initial: Real,
 }

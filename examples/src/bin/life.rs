@@ -1,5 +1,5 @@
 //! Conway's Game of Life on a torus, from a random soup.
-use xca_run::prelude::*;
+use xca::prelude::*;
 
 #[derive(Substates, Clone)]
 struct Life {
@@ -16,7 +16,7 @@ fn evolve(cell: &mut Cell<Life>) {
 }
 
 fn main() -> ExitCode {
-    xca_run::main_of!("life", "Conway's Game of Life on a torus", |_given| {
+    xca::run::main_of!("life", "Conway's Game of Life on a torus", |_given| {
         let model = Model::builder("life")
             .extents([256, 256, 1])
             .neighbourhood(Neighbourhood::moore_2d(1))

@@ -12,7 +12,7 @@ enum Ground {
 struct Pond {
     ground: Ground,
     wet: bool,
-    /// Of water.
+    /// Depth of the water.
     #[substate(unit = "m")]
     depth: Real,
     /// What flows to each of the four neighbours in a step.
@@ -44,7 +44,7 @@ struct Weather {
     raining: bool,
     /// Where water comes in.
     source: Ground,
-    /// What falls in a step.
+    /// What falls on a source in a step.
     #[parameter(unit = "m", range = 0.0..)]
     rain: Real,
     /// The share of the water that flows to each neighbour.

@@ -34,17 +34,21 @@ fn a_program_lists_its_parts() {
     let place = Workplace::new();
     let text = told(&place, HEAT, "list --size 12 --set alpha=0.15");
     assert!(text.starts_with("heat: 12 x 12 x 12 cells of side 0.00769"), "{text}");
-    assert!(text.contains("; boundaries: flat; von Neumann"), "{text}");
+    assert!(text.contains("boundaries: flat\n  neighbourhood: von Neumann"), "{text}");
     assert_eq!(row(&text, "Heat.temperature"), ["Real", "cells"]);
-    assert_eq!(row(&text, "alpha"), ["Real", "0.15"]);
-    assert_eq!(row(&text, "diffuse"), ["cell", "temperature", "temperature", "temperature"]);
+    assert_eq!(row(&text, "alpha"), ["Real", "0.15", "(0,", "0.16666666666666666]"]);
+    assert_eq!(row(&text, "diffusivity"), ["Real", "0.000111", "m2/s", ">", "0"]);
+    assert!(text.contains("\n    Thermal diffusivity D.\n"), "{text}");
+    assert_eq!(row(&text, "diffuse"), ["cell", "each"]);
+    assert_eq!(row(&text, "writes"), ["temperature"]);
     assert!(row(&text, "reference").len() > 2 && row(&text, "cpu").len() > 2);
     assert!(!told(&place, LIFE, "list").contains("parameter"));
     let cadem = json(&place, CADEM, "list --case published --slots 14 --json");
     for (pointer, value) in [
         ("/engines/0/name", "\"cpu\""),
         ("/model/groups/0/slots", "14"),
-        ("/parameters/stiffness", "100.0"),
+        ("/parameters/stiffness/value", "100.0"),
+        ("/parameters/stiffness/unit", "\"N/m\""),
         ("/processes/0/name", "\"reset_forces\""),
         ("/processes/0/reads_elsewhere", "[]"),
         ("/processes/0/writes", "[\"force\"]"),

@@ -30,7 +30,7 @@ fn every_command_tells_its_result_as_json() {
     );
     let inspected = told(&place, HEAT, "inspect out/heat");
     assert_eq!((&inspected["run"]["seed"], &inspected["state"]["step"]), (&1.into(), &10.into()));
-    assert_eq!(told(&place, HEAT, "list")["parameters"]["alpha"], 0.125);
+    assert_eq!(told(&place, HEAT, "list")["parameters"]["alpha"]["value"], 0.125);
     for words in
         ["render --size 10 --steps 4 --every 2", "render out/heat --every 3", &format!("render {checkpoint}")]
     {

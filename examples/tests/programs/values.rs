@@ -50,12 +50,14 @@ fn parameters_of_every_type_are_set_told_and_kept() {
         "soaked_after": 7,
     });
     assert_eq!(report["parameters"], wanted);
+    assert_eq!(report["units"], json!({ "rain": "m", "Pond.depth": "m", "Pond.outflow": "m" }));
     assert_eq!(report["version"], env!("CARGO_PKG_VERSION"));
     let said = succeed(&place, "list --set shares=0.5,0,0,0.25 --set source=Soil");
-    assert_eq!(rows(&said, "Pond.ground")[0][1..], ["Ground", "(Rock,", "Soil,", "Mud)", "cells"]);
+    assert_eq!(rows(&said, "Pond.ground")[0][1..], ["Ground", "cells"]);
     assert_eq!(rows(&said, "Pond.currents")[0][1..3], ["[Vector2<Real>;", "2]"]);
     assert_eq!(rows(&said, "shares")[0][3..], ["0.5,", "0,", "0,", "0.25"]);
     assert_eq!(rows(&said, "source")[0].last().unwrap(), "Soil");
+    assert_eq!(said.matches("\n    states: Rock, Soil, Mud\n").count(), 2, "{said}");
     for (wrong, message) in [
         ("source=Ice", "`Ice` is no value for the parameter `source`, which is a Ground: Rock, Soil, Mud"),
         ("raining=1", "which is a bool: true or false"),

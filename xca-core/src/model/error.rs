@@ -6,6 +6,7 @@ use crate::parameters::ParameterError;
 /// A model that cannot be built; the message says what to change.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages explain the fields")]
+#[non_exhaustive]
 pub enum ModelError {
     #[error(
         "the model `{model}` has no extents; call `.extents([x, y, z])` with the number of cells along each axis"

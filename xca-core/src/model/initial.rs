@@ -8,6 +8,7 @@ use crate::value::ValueType;
 
 /// Initial values that a substate cannot have.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum InitialError {
     /// No substate has this name.
     #[error("no substate of cells is called `{name}`; there are {known}")]

@@ -37,6 +37,7 @@ pub enum GroupSnapshot {
 
 /// A snapshot that a simulation cannot go on from.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SnapshotError {
     /// It was taken of another model, at another precision, or changed since.
     #[error("the snapshot does not fit the model `{model}`: {reason}")]

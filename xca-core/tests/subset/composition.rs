@@ -97,7 +97,7 @@ fn parameters_of_one_name_are_told_apart_by_their_struct() {
     let error = model.set_parameter("lost", "5").unwrap_err();
     assert_eq!(
         error.to_string(),
-        "no parameter is called `lost`; Soil and Growth has loss, Soil.rate, Growth.rate"
+        "no parameter is called `lost`; known parameters: loss, Soil.rate, Growth.rate"
     );
     let mut simulation = simulation(&model, Precision::F64);
     let mut state = simulation.state();

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use xca_core::model::Group;
 use xca_core::{
-    Engine, GroupSnapshot, Model, ParameterSet, Precision, RunOptions, Snapshot, StoredType, ValueType,
+    Engine, Field, GroupSnapshot, Model, ParameterSet, Precision, Process, RunOptions, Snapshot, StoredType,
 };
 
 /// The JSON part of a checkpoint.
@@ -59,6 +59,8 @@ pub(crate) struct Parameter {
     /// The names of the values of `bool` and states, by number.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) states: Vec<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) unit: Option<String>,
     pub(crate) components: Vec<Exact>,
 }
 
@@ -150,11 +152,12 @@ impl GroupShape {
 }
 
 impl Parameter {
-    fn new(name: String, value_type: ValueType, components: Vec<f64>) -> Self {
+    fn new(name: String, field: &Field, components: Vec<f64>) -> Self {
         Self {
             name,
-            value_type: value_type.to_string(),
-            states: state_names(value_type.scalar),
+            value_type: field.value_type.to_string(),
+            states: state_names(field.value_type.scalar),
+            unit: field.unit.map(str::to_owned),
             components: components.into_iter().map(Exact).collect(),
         }
     }
@@ -167,7 +170,7 @@ impl Parameter {
     /// Parameters with the values that a run has given them, in the order of their numbers.
     fn with_values(parameters: &ParameterSet, values: impl Iterator<Item = Vec<f64>>) -> Vec<Self> {
         let named = parameters.names().into_iter().zip(parameters.fields()).zip(values);
-        named.map(|((name, field), components)| Self::new(name, field.value_type, components)).collect()
+        named.map(|((name, field), components)| Self::new(name, field, components)).collect()
     }
 
     pub(super) fn bits(&self) -> Vec<u64> {
@@ -227,8 +230,8 @@ fn of_processes(model: &Model) -> u32 {
     for process in model.processes() {
         sum.update(&process.every.to_le_bytes());
     }
-    if let Ok(text) = xca_gpu::wgsl(model, Precision::F64) {
-        sum.update(text.as_bytes());
+    if let Ok(texts) = shaders(model) {
+        sum.update(texts.join("\n").as_bytes());
         return sum.finalize();
     }
     for process in model.processes() {
@@ -239,6 +242,19 @@ fn of_processes(model: &Model) -> u32 {
         }
     }
     sum.finalize()
+}
+
+/// The processes as shaders, whether or not the program has the engine that runs them.
+fn shaders(model: &Model) -> Result<Vec<String>, xca_wgsl::Error> {
+    let geometry = model.geometry();
+    let options = xca_wgsl::Options {
+        neighbourhood_size: u32::try_from(geometry.neighbourhood().size()).ok(),
+        boundaries: geometry.boundaries(),
+        parity: geometry.neighbourhood().parity(),
+        ..xca_wgsl::Options::default()
+    };
+    let shader = |process: &Process| xca_wgsl::shader(&(process.body)(), &options);
+    model.processes().iter().map(|process| shader(process).map(|shader| shader.source)).collect()
 }
 
 fn listed(parameters: &[Parameter]) -> String {

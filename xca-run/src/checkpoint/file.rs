@@ -22,6 +22,7 @@ const CHECKSUM: u64 = 4;
 /// A checkpoint that cannot be used.
 #[derive(Debug, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages explain the fields")]
+#[non_exhaustive]
 pub enum CheckpointError {
     #[error("cannot read the checkpoint {}", path.display())]
     Read { path: PathBuf, source: io::Error },

@@ -2,12 +2,11 @@
 
 use super::interval::Interval;
 use super::voice::Voice;
-use crate::engines::{EngineName, EngineOptions, MOST_THREADS};
+use crate::engines::{Arithmetic, EngineName, EngineOptions, MOST_THREADS};
 use crate::program::{Assignment, Given};
 use clap::Args;
 use std::path::PathBuf;
 use xca_core::Precision;
-use xca_gpu::Arithmetic;
 
 /// What bears on the model itself.
 #[derive(Args, Debug, Clone)]
@@ -17,7 +16,7 @@ pub(crate) struct ModelArguments {
     precision: Precision,
 
     /// The seed of random numbers
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = seed)]
     seed: u64,
 
     /// Set a parameter of the model; can be given several times. Values: 0.1, true, Water (a state by its
@@ -156,6 +155,13 @@ impl ModelArguments {
     pub(crate) fn given(&self, steps: Option<u64>) -> Given {
         Given { seed: self.seed, precision: self.precision, steps, parameters: self.set.clone() }
     }
+}
+
+fn seed(text: &str) -> Result<u64, String> {
+    let wanted = || {
+        format!("a seed is a whole number from 0 to {}, such as 7; each gives other random numbers", u64::MAX)
+    };
+    text.parse().map_err(|_| wanted())
 }
 
 fn grid(text: &str) -> Result<Assignment, &'static str> {

@@ -6,13 +6,14 @@ use super::voice::Voice;
 use super::{Definition, Ended, Unable};
 use crate::compare::report::{self, Files};
 use crate::compare::{self, Choice, CompareError, Contender, Plan, Subject, Verdict};
+use crate::engines::Arithmetic;
 use crate::interrupt::Interrupt;
 use crate::machine::check_memory;
+use crate::options::number_in;
 use crate::record::Recorder;
 use clap::{Args, Command};
 use std::path::PathBuf;
 use xca_core::{Precision, RunError};
-use xca_gpu::Arithmetic;
 
 pub(super) const NAME: &str = "compare";
 
@@ -45,7 +46,7 @@ pub(super) struct CompareArguments {
 
     /// How far floating numbers may be apart to count as rounding, in relation to the largest value of their substate; 1e-9 unless it is
     /// given, 1e-4 where f32 takes part
-    #[arg(long, value_name = "X", value_parser = tolerance)]
+    #[arg(long, value_name = "X", value_parser = number_in(0.0..))]
     tolerance: Option<f64>,
 
     /// Float arithmetic of gpu engines
@@ -65,11 +66,6 @@ fn repeats(text: &str) -> Result<usize, &'static str> {
         .ok()
         .filter(|number| (1..=1000).contains(number))
         .ok_or("it must be a whole number from 1 to 1000")
-}
-
-fn tolerance(text: &str) -> Result<f64, &'static str> {
-    let number: Option<f64> = text.parse().ok();
-    number.filter(|number| number.is_finite() && *number >= 0.0).ok_or("it must be a number, at least 0")
 }
 
 pub(super) fn command(definition: &Definition<'_>) -> Command {

@@ -1,17 +1,19 @@
 //! The subcommand `list`.
 
+mod adapters;
+mod text;
+
 use super::parse::{Choice, with_help, with_model};
 use super::{Definition, Ended, Unable};
-use crate::components::type_text;
+use crate::components::state_names;
 use crate::engines::EngineName;
 use crate::report;
-use crate::table::table;
 use crate::terminal;
 use clap::{Args, Command, ValueEnum};
-use serde_json::json;
+use serde_json::{Map, Value, json};
+use text::as_text;
 use xca_core::model::GroupKind;
-use xca_core::{Model, Process, ProcessKind};
-use xca_gpu::GpuError;
+use xca_core::{End, Model, Process, ProcessKind};
 
 pub(super) const NAME: &str = "list";
 
@@ -49,45 +51,51 @@ fn engines() -> impl Iterator<Item = (String, String)> {
     })
 }
 
-/// The adapters of the gpu engine.
-fn adapters() -> String {
-    let adapters = xca_gpu::adapters();
-    if adapters.is_empty() {
-        return GpuError::NoAdapter.to_string();
-    }
-    let rows = adapters.into_iter().map(|adapter| {
-        let name = format!("{}, {}", adapter.name, adapter.kind);
-        let floats = match (adapter.has_f64, adapter.may_be_strict) {
-            (true, true) => "f32, f64, strict if proved",
-            (true, false) => "f32, f64, relaxed",
-            (false, true) => "f32, strict if proved",
-            (false, false) => "f32, relaxed",
+/// What is known of each substate.
+fn substates(model: &Model) -> impl Iterator<Item = Value> {
+    model.groups().iter().flat_map(|group| {
+        let of = match group.kind() {
+            GroupKind::Cells { .. } => "cells",
+            GroupKind::Population { .. } => "items",
         };
-        let megabytes = |bytes: u64| format!("{} MB", bytes >> 20);
-        let (buffer, reach) = (megabytes(adapter.largest_buffer), megabytes(adapter.largest_binding));
-        let number = adapter.number.to_string();
-        [number, name, adapter.interface, floats.to_owned(), buffer, reach, adapter.buffers.to_string()]
-    });
-    let header = ["adapter", "", "interface", "floats", "largest buffer", "in reach at once", "buffers"];
-    table(header, rows, &[])
+        let schema = group.schema();
+        schema.fields.iter().map(move |field| {
+            json!({
+                "name": format!("{}.{}", schema.name, field.name),
+                "of": of,
+                "type": field.value_type.to_string(),
+                "states": state_names(field.value_type.scalar),
+                "unit": field.unit,
+                "documentation": field.documentation,
+            })
+        })
+    })
+}
+
+/// What is known of each parameter, by name.
+fn parameters(model: &Model) -> Map<String, Value> {
+    let parameters = model.parameters();
+    let mut values = report::of_parameters(parameters);
+    for (name, field) in parameters.names().into_iter().zip(parameters.fields()) {
+        let end = |end: Option<End>| end.map(|end| json!({ "number": end.number, "included": end.included }));
+        let value = values.remove(&name);
+        let known = json!({
+            "value": value,
+            "type": field.value_type.to_string(),
+            "states": state_names(field.value_type.scalar),
+            "unit": field.unit,
+            "low": end(field.range.low),
+            "high": end(field.range.high),
+            "computed": field.computed,
+            "documentation": field.documentation,
+        });
+        values.insert(name, known);
+    }
+    values
 }
 
 fn as_json(model: &Model) -> serde_json::Result<String> {
     let engines = engines().map(|(name, about)| json!({ "name": name, "about": about }));
-    let adapters = xca_gpu::adapters().into_iter().map(|adapter| {
-        json!({
-            "number": adapter.number,
-            "name": adapter.name,
-            "driver": adapter.driver,
-            "interface": adapter.interface,
-            "kind": adapter.kind.to_string(),
-            "f64": adapter.has_f64,
-            "may_be_strict": adapter.may_be_strict,
-            "largest_buffer": adapter.largest_buffer,
-            "largest_binding": adapter.largest_binding,
-            "buffers": adapter.buffers,
-        })
-    });
     let processes = model.processes().iter().enumerate().map(|(number, process)| {
         let [reads, reads_elsewhere, writes] = accesses(model, number);
         json!({
@@ -102,55 +110,12 @@ fn as_json(model: &Model) -> serde_json::Result<String> {
     });
     serde_json::to_string_pretty(&json!({
         "engines": engines.collect::<Vec<_>>(),
-        "adapters": adapters.collect::<Vec<_>>(),
+        "adapters": adapters::as_json(),
         "model": report::of_model(model),
-        "parameters": report::of_parameters(model.parameters()),
+        "substates": substates(model).collect::<Vec<_>>(),
+        "parameters": parameters(model),
         "processes": processes.collect::<Vec<_>>(),
     }))
-}
-
-fn as_text(model: &Model) -> String {
-    let geometry = model.geometry();
-    let [x, y, z] = geometry.extents();
-    let space = format!(
-        "{}: {x} x {y} x {z} cells of side {}; boundaries: {}; {}",
-        model.name(),
-        geometry.side(),
-        geometry.boundaries(),
-        geometry.neighbourhood()
-    );
-    let engines = table(["engine", ""], engines().map(|(name, about)| [name, about]), &[]);
-    let adapters = adapters();
-    let substates = model.groups().iter().flat_map(|group| {
-        let of = match group.kind() {
-            GroupKind::Cells { .. } => "cells".to_owned(),
-            GroupKind::Population { slots, .. } => format!("items, {slots} slots in a cell"),
-        };
-        let name = group.schema().name;
-        group
-            .schema()
-            .fields
-            .iter()
-            .map(move |field| [format!("{name}.{}", field.name), type_text(field.value_type), of.clone()])
-    });
-    let parameters = model.parameters();
-    let named = parameters.names().into_iter().zip(parameters.fields()).zip(parameters.values());
-    let fields = named.map(|((name, field), value)| [name, type_text(field.value_type), value.to_string()]);
-    let processes = model.processes().iter().enumerate().map(|(number, process)| {
-        let [reads, elsewhere, writes] = accesses(model, number).map(|names| names.join(" "));
-        let subject = match process.every {
-            1 => subject(process).to_owned(),
-            every => format!("{}, every {every} steps", subject(process)),
-        };
-        [process.name.to_owned(), subject, reads, elsewhere, writes]
-    });
-    let mut parts = vec![space, engines, adapters, table(["substate", "type", "of"], substates, &[])];
-    if parameters.count() > 0 {
-        parts.push(table(["parameter", "type", "value"], fields, &[]));
-    }
-    let header = ["process", "for each", "reads", "reads elsewhere", "writes"];
-    parts.push(table(header, processes, &[]));
-    parts.join("\n\n")
 }
 
 fn subject(process: &Process) -> &'static str {
@@ -184,74 +149,4 @@ fn accesses(model: &Model, number: usize) -> [Vec<String>; 3] {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use serde_json::Value;
-    use xca_core::prelude::*;
-
-    #[derive(Substates, Clone, Copy)]
-    struct Ground {
-        water: Real,
-    }
-
-    #[derive(Substates, Clone, Copy)]
-    struct Sky {
-        water: Real,
-        wind: Real,
-    }
-
-    #[derive(Parameters, Clone, Debug)]
-    struct Soil {
-        rate: Real,
-    }
-
-    #[derive(Parameters, Clone, Debug)]
-    struct Air {
-        rate: Real,
-        calm: Real,
-    }
-
-    #[elementary_process]
-    fn soak(ground: &mut Cell<Ground>, sky: &Cell<Sky>, soil: &Soil) {
-        ground.water += soil.rate * sky.water * sky.neighbour(1).wind;
-    }
-
-    #[elementary_process]
-    fn blow(sky: &mut Cell<Sky>, air: &Air) {
-        sky.wind *= air.rate + air.calm;
-    }
-
-    fn model() -> Model {
-        Model::builder("weather")
-            .extents([3, 3, 1])
-            .neighbourhood(Neighbourhood::von_neumann_2d(1))
-            .substates::<Ground>()
-            .substates::<Sky>()
-            .parameters(Soil { rate: 0.5 })
-            .parameters(Air { rate: 0.25, calm: 1.5 })
-            .process(soak)
-            .process_every(6, blow)
-            .build()
-            .unwrap()
-    }
-
-    /// What several structs share is told apart, and processes say in which steps they are run.
-    #[test]
-    fn several_structs() {
-        let told: Value = serde_json::from_str(&as_json(&model()).unwrap()).unwrap();
-        assert_eq!(told["parameters"], json!({ "Soil.rate": 0.5, "Air.rate": 0.25, "calm": 1.5 }));
-        let [first, second] = [0, 1].map(|number| &told["processes"][number]);
-        assert_eq!(first["reads"], json!(["Sky.water", "Ground.water"]));
-        assert_eq!(first["reads_elsewhere"], json!(["Sky.wind"]));
-        assert_eq!(first["writes"], json!(["Ground.water"]));
-        assert_eq!((&first["every"], &second["every"]), (&json!(1), &json!(6)));
-        assert_eq!(second["writes"], json!(["wind"]));
-        let text = as_text(&model());
-        let row = |first: &str| {
-            let line = text.lines().find(|line| line.trim_start().starts_with(first)).unwrap();
-            line.split_whitespace().map(str::to_owned).collect::<Vec<_>>()
-        };
-        assert_eq!(row("Air.rate"), ["Air.rate", "Real", "0.25"]);
-        assert_eq!(row("blow"), ["blow", "cell,", "every", "6", "steps", "wind", "wind"]);
-    }
-}
+mod tests;

@@ -1,5 +1,7 @@
 //! The options that say what is looked at, in pictures and on the terminal.
 
+use crate::options::number_in;
+#[cfg(feature = "terminal")]
 use crate::record::Look;
 use clap::Args;
 
@@ -24,6 +26,7 @@ pub(super) struct LookArguments {
     range: Option<[f64; 2]>,
 }
 
+#[cfg(feature = "terminal")]
 impl LookArguments {
     pub(super) fn look(&self) -> Look {
         let Self { substate, axis, layer, range } = self.clone();
@@ -38,7 +41,8 @@ pub(super) fn axis(text: &str) -> Result<usize, &'static str> {
 pub(super) fn range(text: &str) -> Result<[f64; 2], &'static str> {
     const WANTED: &str = "it must be two numbers, the lower one first, such as 0,20";
     let (low, high) = text.split_once(',').ok_or(WANTED)?;
-    let ends = [low, high].map(|end| end.trim().parse().unwrap_or(f64::NAN));
-    // Not so for what is no number.
-    if ends[0] < ends[1] && ends.iter().all(|end| end.is_finite()) { Ok(ends) } else { Err(WANTED) }
+    match [low, high].map(number_in(..)) {
+        [Ok(low), Ok(high)] if low < high => Ok([low, high]),
+        _ => Err(WANTED),
+    }
 }

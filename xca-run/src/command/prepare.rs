@@ -97,6 +97,7 @@ fn first_report(
         notes: set_up.notes.clone(),
         model: report::of_model(&set_up.model),
         parameters: report::of_parameters(set_up.model.parameters()),
+        units: report::of_units(&set_up.model),
         engine: engine.name().to_owned(),
         threads: engine.threads(),
         device: engine.facts().into_iter().map(|(fact, which)| (fact.to_owned(), which.into())).collect(),

@@ -12,7 +12,7 @@ use crate::terminal;
 use clap::{Args, Command};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
-use xca_core::{RunError, Simulation};
+use xca_core::{Model, Precision, RunError, Simulation};
 
 pub(super) const NAME: &str = "run";
 
@@ -33,7 +33,7 @@ pub(super) fn run(invocation: RunInvocation<'_>) -> Result<Ended, Unable> {
     if invocation.run.print_wgsl {
         let given = invocation.model.arguments.given(invocation.run.steps);
         let model = invocation.model.set_up(&given)?.model;
-        terminal::say(&xca_gpu::wgsl(&model, given.precision).map_err(Unable::failed)?);
+        terminal::say(&wgsl(&model, given.precision)?);
         return Ok(Ended::Done);
     }
     let Prepared { engine, recorder, options, origin, mut report } =
@@ -65,6 +65,17 @@ pub(super) fn run(invocation: RunInvocation<'_>) -> Result<Ended, Unable> {
         stepping: Duration::ZERO,
     };
     under_way.go()
+}
+
+/// The processes as the gpu engine compiles them.
+#[cfg(feature = "gpu")]
+fn wgsl(model: &Model, precision: Precision) -> Result<String, Unable> {
+    xca_gpu::wgsl(model, precision).map_err(Unable::failed)
+}
+
+#[cfg(not(feature = "gpu"))]
+fn wgsl(_model: &Model, _precision: Precision) -> Result<String, Unable> {
+    Err(Unable::refused(crate::engines::MissingFeature::GPU))
 }
 
 /// An initial state that cannot be made is a mistake in what was given.

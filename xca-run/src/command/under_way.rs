@@ -6,6 +6,7 @@ mod words;
 
 pub(super) use batch::Batch;
 pub(super) use checkpoints::Checkpoints;
+#[cfg(feature = "terminal")]
 pub(super) use words::engine_words;
 
 use super::voice::Voice;

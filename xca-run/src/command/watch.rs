@@ -1,30 +1,14 @@
-//! The subcommand `watch`.
+//! The subcommand `watch`. Its options are known in each program; what shows the run is built with the feature `terminal`.
 
-mod blocks;
-mod pace;
-mod pixels;
-mod screen;
-mod session;
-mod window;
-mod words;
-mod worker;
+#[cfg(feature = "terminal")]
+mod show;
 
 use super::arguments::{EngineArguments, RunArguments, interval, steps};
 use super::look::LookArguments;
 use super::parse::{RunInvocation, with_help, with_model};
-use super::prepare::Prepared;
-use super::run::not_started;
-use super::under_way::engine_words;
 use super::voice::Voice;
 use super::{Definition, Ended, Unable};
-use crate::interrupt::Interrupt;
-use blocks::Colours;
 use clap::{Args, Command};
-use pace::Pace;
-use screen::{Facts, Screen};
-use std::io::{IsTerminal, stdin, stdout};
-use worker::{Shared, Worker};
-use xca_core::Simulation;
 
 pub(super) const NAME: &str = "watch";
 
@@ -47,9 +31,6 @@ Keys:
   r          begin the run anew
   q          quit (also Esc), with exit code 0
   Ctrl-C     quit, with exit code 130";
-
-/// In how many pictures the steps of the model are shown, unless the command line says how many there are from one to the next.
-const PICTURES: u64 = 1000;
 
 /// What is watched.
 #[derive(Args, Debug, Clone)]
@@ -95,32 +76,13 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
 }
 
 /// Shows a run in the terminal.
+#[cfg(feature = "terminal")]
 pub(super) fn watch(invocation: &RunInvocation<'_>, arguments: &WatchArguments) -> Result<Ended, Unable> {
-    let name = invocation.model.definition.name;
-    if !(stdin().is_terminal() && stdout().is_terminal()) {
-        return Err(Unable::refused(format!(
-            "`{name} watch` needs a terminal to draw on and to read keys from; without one, `{name} run` writes files and `{name} render` draws pictures"
-        )));
-    }
-    let Prepared { engine, recorder, options, origin, report } =
-        Prepared::new(invocation, &invocation.engine)?;
-    let look = arguments.look.look();
-    recorder.sighting(&look).map_err(Unable::refused)?;
-    let simulation = Simulation::new(recorder.model(), &*engine, options).map_err(not_started)?;
-    let interrupt = Interrupt::install().map_err(Unable::failed)?;
-    let facts = Facts {
-        title: recorder.set_up().title.clone(),
-        engine: [engine_words(&report), format!("{} engine", report.engine)],
-        note: engine.note(),
-        time_step: recorder.set_up().time_step,
-        wanted: arguments.steps,
-        substates: recorder.substates(),
-    };
-    let every = arguments.every.unwrap_or(origin.steps_wanted / PICTURES);
-    let pace = Pace::new(every, arguments.fps);
-    let mut screen = Screen::new(facts, Colours::of_environment(), pace, look);
-    let shared = Shared::default();
-    let worker =
-        Worker { recorder: &recorder, engine: &*engine, options, wanted: arguments.steps, shared: &shared };
-    session::watch(&mut screen, &worker, simulation, &interrupt).map_err(Unable::Failed)
+    show::show(invocation, arguments)
+}
+
+/// Says that the program cannot.
+#[cfg(not(feature = "terminal"))]
+pub(super) fn watch(_invocation: &RunInvocation<'_>, _arguments: &WatchArguments) -> Result<Ended, Unable> {
+    Err(Unable::refused(crate::engines::MissingFeature::TERMINAL))
 }

@@ -1,12 +1,11 @@
 //! Engines as the command line names them.
 
-use crate::engines::{EngineError, EngineName, EngineOptions};
+use crate::engines::{Arithmetic, EngineError, EngineName, EngineOptions};
 use clap::ValueEnum;
 use std::fmt;
 use std::str::FromStr;
 use std::time::{Duration, Instant};
 use xca_core::{Engine, Precision};
-use xca_gpu::Arithmetic;
 
 /// An engine with what it is given: `reference`, `cpu:2`, `gpu:NVIDIA`, `cpu@f32`.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -48,14 +48,19 @@ use std::path::Path;
 
 use super::atomic::{WriteError, write_atomically};
 
+#[cfg(feature = "terminal")]
 pub(crate) use averaging::fitted;
 pub use block::BlockPicture;
 pub use category::Category;
 pub use colour::ColourMap;
+#[cfg(feature = "terminal")]
 pub(crate) use colour::encode;
+#[cfg(feature = "terminal")]
 pub(crate) use depth::{DepthBuffer, Disc};
 pub use legend::Scalar;
+#[cfg(feature = "terminal")]
 pub(crate) use legend::Scale;
+#[cfg(feature = "terminal")]
 pub(crate) use mosaic::{Mosaic, Palette};
 pub use panels::PanelPicture;
 pub use particles::{Domain, ParticlePicture};
@@ -65,6 +70,7 @@ pub use view::Viewpoint;
 
 /// Data that cannot be shown.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum PictureError {
     /// There is not one value for each particle or cell.
     #[error("cannot draw `{name}`: {found} values for {expected} {of}")]

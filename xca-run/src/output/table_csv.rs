@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 /// A time series that cannot be written.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum SeriesError {
     /// The file cannot be made or written.
     #[error("cannot write the time series {}", path.display())]

@@ -31,6 +31,7 @@ pub use values::{DataArray, Values};
 
 /// Data that cannot be written as a VTK file.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum VtkError {
     /// An array does not have one value, or vector, for each particle or cell.
     #[error("cannot write {}: array `{array}` has {found} entries, not {expected}", path.display())]

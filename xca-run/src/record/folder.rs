@@ -27,6 +27,7 @@ pub(crate) struct RunFolder {
 /// A folder that a run must not or cannot write to.
 #[derive(Debug, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages explain the fields")]
+#[non_exhaustive]
 pub enum FolderError {
     #[error(transparent)]
     Write(#[from] WriteError),

@@ -64,7 +64,8 @@ impl fmt::Display for Inside {
         let path = path.display();
         write!(f, "{path}: {program} {version} after {step} of {steps_wanted} steps, time {time}")?;
         for parameter in parameters {
-            write!(f, "\n  {parameter}")?;
+            let unit = parameter.unit.as_ref().map(|unit| format!(" {unit}"));
+            write!(f, "\n  {parameter}{}", unit.unwrap_or_default())?;
         }
         write!(f, "\n\n{}", of_substates(substates))?;
         for place in places {

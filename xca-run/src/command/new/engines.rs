@@ -1,36 +1,58 @@
-//! The model on all engines: each must come to the same state, cell by cell.
+//! Every engine must come to the same state, to the last bit.
 
-use new_model::{Medium, model};
-use xca_run::prelude::*;
-use xca_run::{EngineError, EngineName, EngineOptions};
+use new_model::{Health, Person, model};
+use xca::prelude::*;
+use xca::run::{EngineError, EngineName, EngineOptions};
+use xca::{Snapshot, StateError};
 
-/// The state after so many steps.
-fn after(steps: u64, engine: EngineName) -> Result<Vec<u32>, EngineError> {
+/// The model after some steps on an engine.
+fn run(steps: u64, engine: EngineName) -> Result<Simulation, EngineError> {
     let engine = engine.engine(&EngineOptions::default())?;
-    let model = model().expect("the model makes sense");
-    let mut simulation = Simulation::new(&model, &*engine, RunOptions::default()).expect("the model begins");
+    let model = model().expect("the model is complete");
+    let mut simulation = Simulation::new(&model, &*engine, RunOptions::default()).expect("the model starts");
     simulation.run(steps).expect("the model runs");
-    Ok(simulation.state().read(Medium::PHASE).expect("the state is read"))
+    Ok(simulation)
+}
+
+fn snapshot(steps: u64, engine: EngineName) -> Result<Snapshot, EngineError> {
+    run(steps, engine).map(|simulation| simulation.snapshot().expect("the state can be read"))
 }
 
 #[test]
-fn all_cores_give_what_the_reference_gives() {
-    let reference = after(50, EngineName::Reference).expect("this engine is always there");
-    assert_eq!(after(50, EngineName::Cpu).expect("this engine is always there"), reference);
-    assert_ne!(after(51, EngineName::Reference).expect("this engine is always there"), reference);
+fn all_cores_agree_with_the_reference() {
+    let reference = snapshot(50, EngineName::Reference).expect("this engine is always there");
+    let cpu = snapshot(50, EngineName::Cpu).expect("this engine is always there");
+    assert!(cpu == reference);
+    let later = snapshot(51, EngineName::Reference).expect("this engine is always there");
+    assert!(later != reference);
 }
 
+/// With `cargo test --features gpu`, on a machine that has a graphics adapter or software Vulkan.
 #[test]
-fn the_gpu_gives_what_the_reference_gives_where_there_is_one() {
-    match after(50, EngineName::Gpu) {
-        Ok(found) => {
-            assert_eq!(found, after(50, EngineName::Reference).expect("this engine is always there"));
+fn the_gpu_agrees_with_the_reference() {
+    match snapshot(50, EngineName::Gpu) {
+        Ok(gpu) => {
+            let reference = snapshot(50, EngineName::Reference).expect("this engine is always there");
+            assert!(gpu == reference);
         }
-        // A machine without an adapter cannot test it; `cargo test -- --nocapture` shows these words.
+        // `cargo test -- --nocapture` shows these words.
         Err(error) => {
             let error = error.to_string();
-            assert!(error.contains("no graphics adapter was found"), "{error}");
+            let expected = ["no graphics adapter was found", "without the feature `gpu`"];
+            assert!(expected.iter().any(|reason| error.contains(reason)), "{error}");
             println!("the gpu engine is NOT tested here: {error}");
         }
     }
+}
+
+#[test]
+fn the_infection_spreads_and_ends_in_immunity() -> Result<(), StateError> {
+    let count = |steps: u64, health: Health| {
+        let mut simulation = run(steps, EngineName::Cpu).expect("this engine is always there");
+        simulation.state().count(Person::HEALTH, health)
+    };
+    assert!(count(20, Health::Infected)? > count(0, Health::Infected)?);
+    assert_eq!(count(7, Health::Immune)?, 0);
+    assert!(count(30, Health::Immune)? > 0);
+    Ok(())
 }

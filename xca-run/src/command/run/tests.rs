@@ -277,7 +277,10 @@ fn mistakes_are_found_before_anything_is_written() {
         assert!(matches!(ended, Err(Unable::Refused(_))) && !out.exists(), "{}", message(&ended));
         message(&ended)
     };
-    assert_eq!(said(&plain, &["--set", "rat=1"]), "no parameter is called `rat`; Growth has rate, limit");
+    assert_eq!(
+        said(&plain, &["--set", "rat=1"]),
+        "no parameter is called `rat`; known parameters: rate, limit"
+    );
     assert!(said(&plain, &["--set", "limit=0.5"]).contains("`0.5` is no value for the parameter `limit`"));
     assert!(said(&plain, &["--engine", "reference", "--threads", "2"]).contains("serial"));
     assert_eq!(said(&|_| Err("no meadow".into()), &[]), "no meadow");

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 /// A grid that cannot be read, or says what cannot be.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ReadGridError {
     /// The file is not there or not readable.
     #[error("cannot open the grid {}", path.display())]

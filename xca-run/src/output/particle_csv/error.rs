@@ -8,6 +8,7 @@ use super::super::atomic::WriteError;
 
 /// Particles that cannot be written as a file.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum WriteParticlesError {
     /// A column has more or fewer values than there are labels.
     #[error("cannot write {}: column `{column}` has {found} values for {labels} labels", path.display())]
@@ -36,6 +37,7 @@ pub enum WriteParticlesError {
 
 /// A particle file that cannot be read, or says what cannot be.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ReadError {
     /// The file is not there or not readable.
     #[error("cannot open the particle file {}", path.display())]

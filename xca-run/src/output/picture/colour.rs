@@ -7,6 +7,7 @@
 ///
 /// The maps are paths through Oklab, in which equal steps look equal, so that a map does not invent edges.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum ColourMap {
     /// From dark violet through blue and green to yellow, ever lighter: for magnitudes.
     #[default]

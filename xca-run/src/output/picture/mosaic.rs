@@ -24,6 +24,7 @@ impl Palette {
     }
 
     /// Without colours: ever lighter, from this lightness to 1, for values and for kinds.
+    #[cfg(any(test, feature = "terminal"))]
     pub(crate) fn shades(darkest: f32, kinds: usize) -> Self {
         let shades = |number: usize| {
             let last = number.saturating_sub(1).max(1) as f32;

@@ -10,6 +10,7 @@ use super::blocks::{Broken, expanded};
 
 /// A VTK file that cannot be used.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ReadVtkError {
     /// The file is not there or not readable.
     #[error("cannot read {}", path.display())]

@@ -5,7 +5,7 @@ mod items;
 mod sizes;
 
 use super::*;
-use crate::command::watch::worker::{Shared, Worker};
+use crate::command::watch::show::worker::{Shared, Worker};
 use crate::record::Recorder;
 use crate::set_up::SetUp;
 use ratatui::Terminal;
