@@ -6,8 +6,8 @@ use crate::ast::{ArgumentNumber, FunctionKind, Loop, LoopKind, Range, Reach, Sta
 use proc_macro2::Span;
 use syn::spanned::Spanned;
 use syn::{
-    Error, Expr, ExprForLoop, ExprLoop, ExprMethodCall, ExprWhile, Ident, Label, Lifetime, Pat, RangeLimits,
-    Result,
+    Error, Expr, ExprForLoop, ExprLit, ExprLoop, ExprMethodCall, ExprWhile, Ident, Label, Lifetime, Lit, Pat,
+    RangeLimits, Result,
 };
 
 impl Scope {
@@ -84,6 +84,10 @@ impl Scope {
         let (over, step) = match strip(over) {
             Expr::MethodCall(call) if call.method == "step_by" => {
                 let [step] = self.arguments(call, "`step_by` takes the step: `(0..n).step_by(2)`")?;
+                if matches!(strip(&call.args[0]), Expr::Lit(ExprLit { lit: Lit::Int(step), .. }) if step.base10_digits() == "0")
+                {
+                    return Err(Error::new_spanned(&call.args[0], "the step of a range is at least 1"));
+                }
                 (strip(&call.receiver), Some(step))
             }
             over => (over, None),
