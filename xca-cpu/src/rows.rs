@@ -267,7 +267,7 @@ fn shared(
         Group::Population(population) => {
             let stored = population.types[substate.field];
             let next = &mut population.next.fields[substate.field];
-            let of = MemoryOf::Items { all: access.others };
+            let of = MemoryOf::Items { all: access.others, count: population.items.labels.len() };
             (&mut population.items.fields[substate.field], Some(next), stored, of, false)
         }
     };
