@@ -2,7 +2,7 @@
 
 use std::any::TypeId;
 use xca_core::ElementaryProcess;
-use xca_core::kernel::{Access, CellsOf, KernelElement, KernelValue, Planes, Row};
+use xca_core::kernel::{Access, KernelElement, Row};
 use xca_core::prelude::*;
 use xca_core::{Argument, Fault, Holds, Process, ProcessKind, ir};
 
@@ -36,48 +36,6 @@ impl KernelElement for Wide {
     fn to_memory(self) -> u128 {
         0
     }
-}
-
-/// One byte in a plane of cells, many among items.
-#[derive(Clone, Copy)]
-struct Long;
-
-impl KernelValue for Long {
-    type Element = u8;
-    const LENGTH: usize = 1;
-    type Memory = [u64; 64];
-    type Cells<'r> = NoCells;
-
-    fn from_elements(_: impl FnMut(usize) -> u8) -> Self {
-        Self
-    }
-
-    fn from_memory(_: [u64; 64]) -> Self {
-        Self
-    }
-
-    fn to_memory(self) -> [u64; 64] {
-        [0; 64]
-    }
-}
-
-struct NoCells;
-
-impl CellsOf<'_, Long> for NoCells {
-    #[allow(unsafe_code, reason = "the trait asks for it; nothing is done here")]
-    unsafe fn new(_: Planes<u8>) -> Self {
-        Self
-    }
-
-    fn first(self, _: usize) -> Self {
-        self
-    }
-
-    fn get(&self, _: usize) -> Long {
-        Long
-    }
-
-    fn set(&mut self, _: usize, _: Long) {}
 }
 
 const LAND: Argument = Argument { type_id: TypeId::of::<Land>, schema: Land::SCHEMA, holds: Holds::Cells };
@@ -161,10 +119,6 @@ forged!(CellsAsItems, &[LAND], &[READ], |row| {
 forged!(ItemsAsCells, &[HARES], &[READ], |row| {
     row.read_cells::<u8>(0);
 });
-forged!(LongItems, &[HARES], &[Access { others: true, ..READ }], |row| {
-    let values = row.read_items::<Long>(0);
-    assert!(values.iter().all(|value| value[63] == 0));
-});
 forged!(OnlyOwnItems, &[HARES], &[READ], |row| {
     row.read_items::<u8>(0);
 });
@@ -198,14 +152,13 @@ fn message<P: ElementaryProcess>(forged: P) -> String {
 fn memory_is_compared_with_what_a_kernel_takes_it_for() {
     assert_eq!(message(AnotherSize), "an entry of another type");
     assert_eq!(message(AnotherLength), "an entry of another type");
-    assert_eq!(message(AnotherAlignment), "a type that memory does not hold");
+    assert_eq!(message(AnotherAlignment), "a type of another alignment");
     assert_eq!(message(NoNeighbours), "an entry whose neighbours cannot be read");
     assert_eq!(message(NotWritten), "an entry that cannot be written");
     assert_eq!(message(WrittenTwice), "an entry that is written already");
     assert_eq!(message(WrittenAndRead), "an entry that is written in place");
     assert_eq!(message(CellsAsItems), "an entry of cells");
     assert_eq!(message(ItemsAsCells), "an entry of items");
-    assert_eq!(message(LongItems), "a type that memory does not hold");
     assert_eq!(message(OnlyOwnItems), "an entry whose other items cannot be read");
     assert_eq!(message(ItemsOfOthers), "an entry of other items");
     assert_eq!(message(NoSuchEntry), "index out of bounds: the len is 1 but the index is 1");

@@ -84,10 +84,7 @@ impl Scope {
         let (over, step) = match strip(over) {
             Expr::MethodCall(call) if call.method == "step_by" => {
                 let [step] = self.arguments(call, "`step_by` takes the step: `(0..n).step_by(2)`")?;
-                if matches!(strip(&call.args[0]), Expr::Lit(ExprLit { lit: Lit::Int(step), .. }) if step.base10_digits() == "0")
-                {
-                    return Err(Error::new_spanned(&call.args[0], "the step of a range is at least 1"));
-                }
+                check_step(strip(&call.args[0]))?;
                 (strip(&call.receiver), Some(step))
             }
             over => (over, None),
@@ -203,6 +200,18 @@ impl Scope {
         let [radius] = self.arguments(call, "give the radius, in metres")?;
         Ok((reach, Some(radius)))
     }
+}
+
+/// Refuses a step that is written as 0 or as a float.
+fn check_step(step: &Expr) -> Result<()> {
+    let Expr::Lit(ExprLit { lit, .. }) = step else { return Ok(()) };
+    let is_none = match lit {
+        Lit::Int(number) => number.base10_digits() == "0",
+        Lit::Float(_) => true,
+        _ => false,
+    };
+    let advice = "the step of a range is a whole number of at least 1";
+    if is_none { Err(Error::new_spanned(step, advice)) } else { Ok(()) }
 }
 
 fn lifetime(label: &Option<Label>) -> Option<&Lifetime> {
