@@ -403,3 +403,23 @@ fn too_large_to_start() -> Result<(), Box<dyn Error>> {
     }
     Ok(())
 }
+
+#[derive(Parameters, Clone, Copy, Debug, PartialEq)]
+struct Share {
+    #[parameter(positive, range = ..=1.0)]
+    first: Real,
+    #[parameter(range = ..1.0, positive)]
+    second: Real,
+}
+
+/// `positive` is the lower end of a range with an upper end, in whatever order they stand.
+#[test]
+fn positive_with_an_upper_end() {
+    let model = |first, second| soil().parameters(Share { first, second }).build();
+    assert!(model(1.0, 0.5).is_ok());
+    for (first, second) in
+        [(0.0, 0.5), (-0.5, 0.5), (1.5, 0.5), (f64::NAN, 0.5), (0.5, 0.0), (0.5, -1.0), (0.5, 1.0)]
+    {
+        assert!(matches!(model(first, second), Err(ModelError::Parameter(_))), "{first} and {second}");
+    }
+}
