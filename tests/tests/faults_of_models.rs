@@ -286,6 +286,18 @@ struct Stream {
 }
 
 #[derive(Substates, Clone, Copy, Debug, PartialEq)]
+struct Weir {
+    flow_1: Real,
+    flow: [Real; 3],
+}
+
+#[derive(Substates, Clone, Copy, Debug, PartialEq)]
+struct Sluice {
+    flow: [Vector2<Real>; 2],
+    flow_1: Vector2<Real>,
+}
+
+#[derive(Substates, Clone, Copy, Debug, PartialEq)]
 struct Ticket {
     label: u32,
 }
@@ -325,6 +337,16 @@ fn names_that_mean_two_things() {
         soil().population::<Kite>(1),
         SameColumn { substates: "Kite", first: "y", second: "position", .. },
         "`y` and `position`"
+    );
+    refused!(
+        soil().substates::<Weir>(),
+        SameColumn { substates: "Weir", first: "flow_1", second: "flow", .. },
+        "`flow_1` and `flow`"
+    );
+    refused!(
+        soil().substates::<Sluice>(),
+        SameColumn { substates: "Sluice", first: "flow", second: "flow_1", .. },
+        "the column `flow_1_x`"
     );
     refused!(soil().population::<Ticket>(1), FieldNamedLabel { substates: "Ticket" }, "`label`", "`Ticket`");
     assert!(soil().substates::<Fine>().build().is_ok());
@@ -380,4 +402,24 @@ fn too_large_to_start() -> Result<(), Box<dyn Error>> {
         }
     }
     Ok(())
+}
+
+#[derive(Parameters, Clone, Copy, Debug, PartialEq)]
+struct Share {
+    #[parameter(positive, range = ..=1.0)]
+    first: Real,
+    #[parameter(range = ..1.0, positive)]
+    second: Real,
+}
+
+/// `positive` is the lower end of a range with an upper end, in whatever order they stand.
+#[test]
+fn positive_with_an_upper_end() {
+    let model = |first, second| soil().parameters(Share { first, second }).build();
+    assert!(model(1.0, 0.5).is_ok());
+    for (first, second) in
+        [(0.0, 0.5), (-0.5, 0.5), (1.5, 0.5), (f64::NAN, 0.5), (0.5, 0.0), (0.5, -1.0), (0.5, 1.0)]
+    {
+        assert!(matches!(model(first, second), Err(ModelError::Parameter(_))), "{first} and {second}");
+    }
 }

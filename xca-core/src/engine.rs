@@ -350,6 +350,17 @@ pub enum Fault {
         /// The indices of its cell.
         cell: [usize; 3],
     },
+    /// A substate that is to stay finite ([`crate::ModelBuilder::watch_finite`]) does not: the first by substate, cell and label.
+    NotFinite {
+        /// The struct and the substate, with the component: `Lava.outflow[3]`.
+        substate: String,
+        /// The indices of the cell.
+        cell: [usize; 3],
+        /// The item, of a population.
+        label: Option<u32>,
+        /// The value: NaN or an infinity.
+        value: f64,
+    },
     /// The code of a process panicked: an integer overflow, a division by zero, an index beyond an array.
     Panicked {
         /// The process.
@@ -423,6 +434,12 @@ impl fmt::Display for Fault {
                     f,
                     "`{process}` moves item {label} of cell {cell:?} out of the space, which this model does not allow"
                 )
+            }
+            Self::NotFinite { substate, cell, label: None, value } => {
+                write!(f, "`{substate}` is {value} in cell {cell:?}")
+            }
+            Self::NotFinite { substate, cell, label: Some(label), value } => {
+                write!(f, "`{substate}` is {value} for item {label} in cell {cell:?}")
             }
             Self::Panicked { process, cell, label: None, message } => {
                 write!(f, "the code of `{process}` panicked in cell {cell:?}: {message}")

@@ -16,10 +16,10 @@ use crate::parameter_set::ParameterSet;
 use crate::parameters::{ParameterError, Parameters};
 use crate::plan::Plan;
 use crate::process::Process;
-use crate::schema::Schema;
-use crate::steering::Steering;
+use crate::schema::{Field, Schema};
+use crate::steering::{Schedule, Steering};
 use crate::substates::Substates;
-use crate::value::{Precision, StoredType};
+use crate::value::{Precision, ScalarType, StoredType};
 use std::any::TypeId;
 use std::fmt;
 use std::sync::Arc;
@@ -34,6 +34,10 @@ pub struct Model {
     parameters: ParameterSet,
     plan: Plan,
     steering: Vec<Steering>,
+    /// When the substates are checked for NaN and infinities.
+    watches: Vec<Schedule>,
+    /// Those that may be NaN or infinite.
+    may_be_non_finite: Vec<SubstateId>,
     fault_texts: Vec<(u32, String)>,
 }
 
@@ -155,6 +159,24 @@ impl Model {
 
     pub(crate) fn steering(&self) -> &[Steering] {
         &self.steering
+    }
+
+    pub(crate) fn watches(&self) -> &[Schedule] {
+        &self.watches
+    }
+
+    /// The floating substates that have to be finite, in the order of the model.
+    pub(crate) fn finite_substates(&self) -> impl Iterator<Item = SubstateId> {
+        let of_group = |(group, definition): (usize, &Group)| {
+            let floating = |(field, description): (usize, &Field)| {
+                let scalar = description.value_type.scalar;
+                matches!(scalar, ScalarType::F32 | ScalarType::F64 | ScalarType::Real)
+                    .then_some(SubstateId { group, field })
+            };
+            definition.schema.fields.iter().enumerate().filter_map(floating).collect::<Vec<_>>()
+        };
+        let all = self.groups.iter().enumerate().flat_map(of_group);
+        all.filter(|substate| !self.may_be_non_finite.contains(substate))
     }
 
     /// What the model says of a fault code.

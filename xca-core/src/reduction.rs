@@ -7,7 +7,7 @@
 //!
 //! NaN is never lost: a sum, product, minimum or maximum of values with a NaN among them is NaN. It equals no
 //! value, so [`Reduction::CountEqual`] does not count it, and it is not zero, so logical reductions take it
-//! for true.
+//! for true. [`Reduction::CountNonFinite`] counts NaN and infinities.
 
 use crate::value::{HostValue, StoredScalar, StoredType};
 
@@ -24,6 +24,8 @@ pub enum Reduction {
     Maximum,
     /// How many equal this value, given as the stored bytes of one lane; the two zeros are equal.
     CountEqual(Vec<u8>),
+    /// How many are NaN or infinite; 0 of integers.
+    CountNonFinite,
     /// 1 where all are non-zero, else 0.
     LogicalAnd,
     /// 1 where any is non-zero, else 0.
@@ -55,7 +57,7 @@ impl Reduced {
         match (self, other) {
             (Self::Nothing, result) | (result, Self::Nothing) => result,
             (Self::Integer(a), Self::Integer(b)) => Self::Integer(match reduction {
-                Reduction::Sum | Reduction::CountEqual(_) => a.wrapping_add(b),
+                Reduction::Sum | Reduction::CountEqual(_) | Reduction::CountNonFinite => a.wrapping_add(b),
                 Reduction::Product => a.wrapping_mul(b),
                 Reduction::Minimum => a.min(b),
                 Reduction::Maximum => a.max(b),
@@ -98,6 +100,11 @@ pub fn append_row(reduction: &Reduction, stored: StoredType, values: &[u8], resu
     let size = stored.scalar.size();
     let first = results.len();
     results.resize(first + stored.components(), Reduced::Nothing);
+    if *reduction == Reduction::CountNonFinite && are_finite(stored.scalar, values) {
+        let none = if values.is_empty() { Reduced::Nothing } else { Reduced::Integer(0) };
+        results[first..].fill(none);
+        return;
+    }
     for value in values.chunks_exact(stored.size()) {
         for (result, lane) in results[first..].iter_mut().zip(value.chunks_exact(size)) {
             *result = result.combine(one(reduction, stored.scalar, lane), reduction);
@@ -120,6 +127,24 @@ pub fn combine_rows<'a>(
     results
 }
 
+/// Whether all numbers are finite, which they nearly always are: a loop over bits, for vector instructions. The exponent has all its bits in
+/// NaN and infinities alone.
+fn are_finite(scalar: StoredScalar, values: &[u8]) -> bool {
+    const SINGLE: u32 = f32::INFINITY.to_bits();
+    const DOUBLE: u64 = f64::INFINITY.to_bits();
+    match scalar {
+        StoredScalar::F32 => {
+            let numbers = values.chunks_exact(4).map(bytemuck::pod_read_unaligned::<u32>);
+            !numbers.fold(false, |found, bits| found | (bits & SINGLE == SINGLE))
+        }
+        StoredScalar::F64 => {
+            let numbers = values.chunks_exact(8).map(bytemuck::pod_read_unaligned::<u64>);
+            !numbers.fold(false, |found, bits| found | (bits & DOUBLE == DOUBLE))
+        }
+        StoredScalar::U8 | StoredScalar::I32 | StoredScalar::U32 => true,
+    }
+}
+
 fn one(reduction: &Reduction, scalar: StoredScalar, bytes: &[u8]) -> Reduced {
     let number = match scalar {
         StoredScalar::U8 => Reduced::Integer(i64::from(bytes[0])),
@@ -131,6 +156,9 @@ fn one(reduction: &Reduction, scalar: StoredScalar, bytes: &[u8]) -> Reduced {
     match reduction {
         Reduction::CountEqual(wanted) => {
             Reduced::Integer(i64::from(number == one(&Reduction::Sum, scalar, wanted)))
+        }
+        Reduction::CountNonFinite => {
+            Reduced::Integer(i64::from(number.number().is_some_and(|number| !number.is_finite())))
         }
         Reduction::LogicalAnd | Reduction::LogicalOr | Reduction::LogicalXor => {
             Reduced::Integer(i64::from(number.number() != Some(0.0)))
@@ -263,6 +291,7 @@ mod tests {
         assert_eq!(reduce(Reduction::Minimum), Reduced::Integer(-3));
         assert_eq!(reduce(Reduction::Maximum), Reduced::Integer(6));
         assert_eq!(reduce(Reduction::CountEqual(6_i32.to_ne_bytes().to_vec())), Reduced::Integer(2));
+        assert_eq!(reduce(Reduction::CountNonFinite), Reduced::Integer(0));
         assert_eq!(reduce(Reduction::LogicalAnd), Reduced::Integer(0));
         assert_eq!(reduce(Reduction::LogicalOr), Reduced::Integer(1));
         assert_eq!(reduce(Reduction::LogicalXor), Reduced::Integer(1));
@@ -293,6 +322,7 @@ mod tests {
             assert!(reduce(reduction.clone()).number().is_some_and(f64::is_nan), "{reduction:?}");
         }
         assert_eq!(reduce(Reduction::LogicalXor), Reduced::Integer(0));
+        assert_eq!(reduce(Reduction::CountNonFinite), Reduced::Integer(1));
         assert_eq!(reduce(Reduction::CountEqual(0.0_f64.to_ne_bytes().to_vec())), Reduced::Integer(2));
     }
 }

@@ -1,5 +1,6 @@
 //! A model on an engine.
 
+mod finite;
 mod snapshot;
 
 pub use snapshot::{GroupSnapshot, Snapshot, SnapshotError};
@@ -69,7 +70,7 @@ pub enum RunError {
     },
     /// A step after a fault.
     #[error(
-        "the run ended with a fault in step {step}; its state is that of an unfinished step and cannot go on"
+        "the run ended with a fault in step {step} and cannot go on; restore a snapshot of an earlier step"
     )]
     Broken {
         /// The number of that step.
@@ -97,7 +98,8 @@ pub struct Simulation {
     parameters: ParameterSet,
     options: RunOptions,
     step: u64,
-    broken: bool,
+    /// The step that ended with a fault.
+    faulty: Option<u64>,
     stop: Option<String>,
 }
 
@@ -109,6 +111,7 @@ impl Simulation {
     pub fn new(model: &Model, engine: &dyn Engine, options: RunOptions) -> Result<Self, RunError> {
         let mut simulation = Self::empty(model, engine, options)?;
         simulation.steer(|schedule| *schedule == Schedule::Start)?;
+        simulation.watch(|schedule| *schedule == Schedule::Start || schedule.is_due(0))?;
         simulation.steer(|schedule| schedule.is_due(0))?;
         Ok(simulation)
     }
@@ -124,7 +127,7 @@ impl Simulation {
             parameters: model.parameters().clone(),
             options,
             step: 0,
-            broken: false,
+            faulty: None,
             stop: None,
         })
     }
@@ -186,13 +189,25 @@ impl Simulation {
         Ok(())
     }
 
+    /// Checks that substates are finite, where the model wants it now. A state that is not cannot go on.
+    fn watch(&mut self, due: impl Fn(&Schedule) -> bool) -> Result<(), RunError> {
+        if !self.model.watches().iter().any(due) {
+            return Ok(());
+        }
+        let result = self.check_finite();
+        if let Err(RunError::Fault { step, .. }) = &result {
+            self.faulty = Some(*step);
+        }
+        result
+    }
+
     /// Has the engine work on the state, and keeps account of the steps that it did.
     fn work(
         &mut self,
         work: impl FnOnce(&mut dyn Execution, &StepContext<'_>) -> Result<u64, Interruption>,
     ) -> Result<(), RunError> {
-        if self.broken {
-            return Err(RunError::Broken { step: self.step + 1 });
+        if let Some(step) = self.faulty {
+            return Err(RunError::Broken { step });
         }
         let parameters = self.parameters.kernel_views(self.options.precision);
         let context = StepContext {
@@ -207,8 +222,8 @@ impl Simulation {
                 Ok(())
             }
             Err(Interruption { done, fault }) => {
-                self.broken = true;
                 self.step += done;
+                self.faulty = Some(self.step + 1);
                 let text = match &fault {
                     Fault::Reported { code, .. } => self.model.fault_text(*code).map(str::to_owned),
                     _ => None,
@@ -222,19 +237,22 @@ impl Simulation {
     fn leap(&mut self, steps: u64) -> Result<(), RunError> {
         self.work(|execution, context| execution.run_steps(steps, context).map(|()| steps))?;
         let step = self.step;
+        self.watch(|schedule| schedule.is_due(step))?;
         self.steer(|schedule| schedule.is_due(step))
     }
 
     /// How many of the next steps have no steering between them.
     fn unsteered(&self, most: u64) -> u64 {
-        let due = self.model.steering().iter().filter_map(|steering| steering.schedule.next_after(self.step));
+        let steering = self.model.steering().iter().map(|steering| &steering.schedule);
+        let all = steering.chain(self.model.watches());
+        let due = all.filter_map(|schedule| schedule.next_after(self.step));
         due.map(|step| step - self.step).fold(most, u64::min)
     }
 
-    /// Does one step: all processes in order, then the steering that is due.
+    /// Does one step: all processes in order, then the checks and the steering that are due.
     ///
     /// # Errors
-    /// A fault of a process, or an error of a steering operation.
+    /// A fault of a process, a substate that is not finite where the model watches it, or an error of a steering operation.
     pub fn step(&mut self) -> Result<(), RunError> {
         self.leap(1)
     }
@@ -266,9 +284,10 @@ impl Simulation {
     /// Runs the steering of [`Schedule::End`].
     ///
     /// # Errors
-    /// Of a steering operation.
+    /// Of a steering operation, and a substate that is not finite, where the model watches it at the end.
     pub fn finish(&mut self) -> Result<(), RunError> {
-        self.steer(|schedule| *schedule == Schedule::End)
+        self.steer(|schedule| *schedule == Schedule::End)?;
+        self.watch(|schedule| *schedule == Schedule::End)
     }
 
     /// Runs one process alone, by its number in the model, for debugging; nothing happens where it is not due in the step that is under

@@ -225,6 +225,17 @@ impl ValueType {
         }
     }
 
+    /// What follows the name of a value for each of its components, for people: nothing for a scalar, `.x` for a lane, `[3]` for an
+    /// element, `[3].x` for a lane of an element.
+    pub fn component_suffixes(self) -> Vec<String> {
+        let suffix = |part: &str| match part.parse::<u32>() {
+            Ok(element) => format!("[{element}]"),
+            Err(_) if part.is_empty() => String::new(),
+            Err(_) => format!(".{part}"),
+        };
+        self.component_names().iter().map(|name| name.split('_').map(suffix).collect()).collect()
+    }
+
     /// The number of the component with this name: as [`Self::component_names`] has it, or written `[3].x`,
     /// `3.x`.
     pub fn component_named(self, name: &str) -> Option<usize> {

@@ -267,7 +267,7 @@ fn shared(
         Group::Population(population) => {
             let stored = population.types[substate.field];
             let next = &mut population.next.fields[substate.field];
-            let of = MemoryOf::Items { all: access.others };
+            let of = MemoryOf::Items { all: access.others, count: population.items.labels.len() };
             (&mut population.items.fields[substate.field], Some(next), stored, of, false)
         }
     };
@@ -430,8 +430,9 @@ impl Pass<'_> {
         work.entries.clear();
         work.entries.extend(prepared.substates.iter().map(|shared| shared.entry(cells.first, cells.own.0)));
         let items = population.map(|population| RowItems {
-            starts: population.starts[cells.first..].as_ptr(),
-            ends: population.ends[cells.first..].as_ptr(),
+            // Not of a part of the list: neighbours lie before the row too.
+            starts: population.starts.as_ptr().wrapping_add(cells.first),
+            ends: population.ends.as_ptr().wrapping_add(cells.first),
             labels: &population.items.labels,
             own: cells.own,
         });

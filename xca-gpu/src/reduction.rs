@@ -136,6 +136,9 @@ impl RowResult {
 fn text(reduction: &Reduction, stored: StoredType, of_items: bool) -> (String, RowResult) {
     let float = matches!(stored.scalar, StoredScalar::F32 | StoredScalar::F64);
     let (scalar, same) = match stored.scalar {
+        // A driver may take for granted that floats are finite: their bits are looked at as integers.
+        StoredScalar::F32 if *reduction == Reduction::CountNonFinite => ("u32", RowResult::Unsigned),
+        StoredScalar::F64 if *reduction == Reduction::CountNonFinite => ("vec2<u32>", RowResult::Unsigned),
         StoredScalar::U8 | StoredScalar::U32 => ("u32", RowResult::Unsigned),
         StoredScalar::I32 => ("i32", RowResult::Signed),
         StoredScalar::F32 => ("f32", RowResult::Single),
@@ -154,6 +157,7 @@ fn text(reduction: &Reduction, stored: StoredType, of_items: bool) -> (String, R
         Reduction::Minimum => ("value", "min(all, one)", same),
         Reduction::Maximum => ("value", "max(all, one)", same),
         Reduction::CountEqual(_) => ("select(0u, 1u, value == wanted[0])", "all + one", RowResult::Unsigned),
+        Reduction::CountNonFinite => (non_finite(stored.scalar), "all + one", RowResult::Unsigned),
         Reduction::LogicalAnd => (NON_ZERO, "all & one", RowResult::Unsigned),
         Reduction::LogicalOr => (NON_ZERO, "all | one", RowResult::Unsigned),
         Reduction::LogicalXor => (NON_ZERO, "all ^ one", RowResult::Unsigned),
@@ -216,6 +220,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) w
     (source, kind)
 }
 
+/// 1 where the exponent has all its bits, which it has in NaN and infinities alone.
+fn non_finite(scalar: StoredScalar) -> &'static str {
+    match scalar {
+        StoredScalar::F32 => "select(0u, 1u, (value & 0x7f800000u) == 0x7f800000u)",
+        StoredScalar::F64 => "select(0u, 1u, (value.y & 0x7ff00000u) == 0x7ff00000u)",
+        StoredScalar::U8 | StoredScalar::I32 | StoredScalar::U32 => "0u",
+    }
+}
+
 /// The items of the cells of a row follow each other.
 const ITEMS: &str = "@group(0) @binding(4) var<storage, read> item_starts: array<u32>;
 @group(0) @binding(5) var<storage, read> item_ends: array<u32>;
@@ -275,6 +288,7 @@ mod tests {
                 LogicalOr,
                 LogicalXor,
                 Reduction::CountEqual(Vec::new()),
+                Reduction::CountNonFinite,
             ];
             if !matches!(scalar, StoredScalar::F32 | StoredScalar::F64) {
                 reductions.extend([BitAnd, BitOr, BitXor]);

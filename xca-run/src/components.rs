@@ -79,20 +79,10 @@ impl DrawnPart {
     }
 }
 
-/// What follows the name of a value for each of its components: nothing for a scalar, `.x` for a lane, `[3]`
-/// for an element, `[3].x` for a lane of an element.
-pub(crate) fn suffixes(value_type: ValueType) -> Vec<String> {
-    let suffix = |part: &str| match part.parse::<u32>() {
-        Ok(element) => format!("[{element}]"),
-        Err(_) if part.is_empty() => String::new(),
-        Err(_) => format!(".{part}"),
-    };
-    value_type.component_names().iter().map(|name| name.split('_').map(suffix).collect()).collect()
-}
-
 /// The name of a component, or of the whole value: `outflow[3].x`.
 pub(crate) fn name_of(field: &Field, component: Option<usize>) -> String {
-    let suffix = component.and_then(|component| suffixes(field.value_type).into_iter().nth(component));
+    let suffix =
+        component.and_then(|component| field.value_type.component_suffixes().into_iter().nth(component));
     format!("{}{}", field.name, suffix.unwrap_or_default())
 }
 
@@ -177,9 +167,9 @@ mod tests {
                 assert_eq!(part.component.unwrap_or(0), component, "{name}");
             }
         }
-        assert_eq!(suffixes(fields[1].value_type)[4..], ["[2].x", "[2].y"]);
-        assert_eq!(suffixes(fields[2].value_type), [".x", ".y", ".z"]);
-        assert_eq!(suffixes(fields[0].value_type), [""]);
+        assert_eq!(fields[1].value_type.component_suffixes()[4..], ["[2].x", "[2].y"]);
+        assert_eq!(fields[2].value_type.component_suffixes(), [".x", ".y", ".z"]);
+        assert_eq!(fields[0].value_type.component_suffixes(), [""]);
     }
 
     #[test]

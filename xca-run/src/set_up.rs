@@ -53,7 +53,7 @@ impl SetUp {
         self
     }
 
-    /// How many seconds a step is. Without it, time is counted in steps.
+    /// How many seconds a step is: a positive number, or the program refuses to run. Without it, time is counted in steps.
     #[must_use]
     pub fn time_step(mut self, seconds: f64) -> Self {
         self.time_step = Some(seconds);
@@ -110,6 +110,22 @@ impl SetUp {
     pub fn note(mut self, name: &str, value: impl Serialize) -> Result<Self, Failure> {
         self.notes.insert(name.to_owned(), serde_json::to_value(value)?);
         Ok(self)
+    }
+}
+
+/// A set-up that makes no sense.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub(crate) enum SetUpError {
+    #[error("the time step is {seconds} s; it must be a positive number")]
+    TimeStep { seconds: f64 },
+}
+
+impl SetUp {
+    pub(crate) fn check(&self) -> Result<(), SetUpError> {
+        match self.time_step {
+            Some(seconds) if !(seconds.is_finite() && seconds > 0.0) => Err(SetUpError::TimeStep { seconds }),
+            _ => Ok(()),
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use xca_core::ir::FunctionKind;
 
 /// What happened, as the record of a fault tells by its number.
 ///
-/// Rust stops a process by a panic where an index lies beyond an array or a division has no result. A shader
+/// Rust stops a process by a panic where an index lies beyond an array, a division has no result or a range runs in steps of 0. A shader
 /// cannot: it records the fault, goes on with a value in range, and an engine throws the step away.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[repr(u32)]
@@ -23,10 +23,12 @@ pub enum FaultKind {
     RemainderByZero = 5,
     /// It asked for the remainder of the least number of its type divided by -1.
     RemainderOverflow = 6,
+    /// It ran over a range in steps of 0.
+    ZeroStep = 7,
 }
 
 impl FaultKind {
-    const ALL: [Self; 7] = [
+    const ALL: [Self; 8] = [
         Self::Reported,
         Self::BeyondNeighbourhood,
         Self::BeyondArray,
@@ -34,6 +36,7 @@ impl FaultKind {
         Self::DivisionOverflow,
         Self::RemainderByZero,
         Self::RemainderOverflow,
+        Self::ZeroStep,
     ];
 
     /// The kind with this number.
@@ -52,6 +55,7 @@ impl FaultKind {
             Self::DivisionOverflow => "attempt to divide with overflow".to_owned(),
             Self::RemainderByZero => "attempt to calculate the remainder with a divisor of zero".to_owned(),
             Self::RemainderOverflow => "attempt to calculate the remainder with overflow".to_owned(),
+            Self::ZeroStep => "assertion failed: step != 0".to_owned(),
         })
     }
 }
@@ -123,6 +127,8 @@ mod tests {
         assert_eq!(told(FaultKind::DivisionOverflow), message(|| i32::MIN / black_box(-1)));
         assert_eq!(told(FaultKind::RemainderByZero), message(|| 1 % black_box(0)));
         assert_eq!(told(FaultKind::RemainderOverflow), message(|| i32::MIN % black_box(-1)));
+        let steps = || (0..3).step_by(black_box(0)).sum();
+        assert_eq!(told(FaultKind::ZeroStep), message(steps));
         assert_eq!(told(FaultKind::Reported), None);
     }
 
@@ -131,6 +137,6 @@ mod tests {
         for kind in FaultKind::ALL {
             assert_eq!(FaultKind::from_number(kind as u32), Some(kind));
         }
-        assert_eq!(FaultKind::from_number(7), None);
+        assert_eq!(FaultKind::from_number(8), None);
     }
 }

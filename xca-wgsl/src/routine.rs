@@ -126,6 +126,24 @@ impl Routines {
         })
     }
 
+    /// The step of a range, unless it is 0.
+    pub(crate) fn need_step(&mut self) -> String {
+        self.checks = true;
+        let kind = FaultKind::ZeroStep as u32;
+        self.need("checked_step".to_owned(), |name| {
+            format!(
+                "fn {name}(step: u32) -> u32 {{
+    if step == 0u {{
+        record_fault({kind}u, 0u, 0u, Real());
+        return 1u;
+    }}
+    return step;
+}}
+"
+            )
+        })
+    }
+
     /// The quotient of integers, or the remainder where it is asked for; of vectors lane by lane.
     pub(crate) fn need_quotient(&mut self, remainder: bool, type_: &Type) -> String {
         self.checks = true;

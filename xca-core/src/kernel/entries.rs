@@ -45,6 +45,8 @@ pub enum MemoryOf {
     Items {
         /// Whether items can be read that are not the row's own.
         all: bool,
+        /// How many values there are: as many as labels, if these are the items of the row.
+        count: usize,
     },
 }
 
@@ -56,7 +58,19 @@ impl Row<'_> {
         let memory = entry.memory;
         let element = size_of::<<T::Element as KernelElement>::Memory>();
         assert!(memory.element == element && memory.length == T::LENGTH, "an entry of another type");
+        // Kernels may bring types of their own; buffers are aligned for scalars.
+        let alignment = align_of::<<T::Element as KernelElement>::Memory>();
+        assert!(alignment <= align_of::<u64>(), "a type of another alignment");
         entry
+    }
+
+    /// The entry of items with this number, which must be those of the row; whether others than its own can be read, and how many there are.
+    #[inline(always)]
+    fn item_entry<T: KernelValue>(&self, number: usize) -> (&Entry, bool, usize) {
+        let entry = self.entry::<T>(number);
+        let MemoryOf::Items { all, count } = entry.memory.of else { panic!("an entry of cells") };
+        assert!(count == self.items.map_or(0, |items| items.labels.len()), "an entry of other items");
+        (entry, all, count)
     }
 
     /// The planes of cells that an entry lets read.
@@ -111,13 +125,9 @@ impl Row<'_> {
     /// A substate of all items, to be read.
     #[inline(always)]
     pub fn read_items<T: KernelValue>(&self, number: usize) -> &[T::Memory] {
-        let entry = self.entry::<T>(number);
-        assert!(
-            entry.memory.of == MemoryOf::Items { all: true },
-            "an entry whose other items cannot be read"
-        );
+        let (entry, all, count) = self.item_entry::<T>(number);
+        assert!(all, "an entry whose other items cannot be read");
         assert!(!entry.read.is_null(), "an entry that is written in place");
-        let count = self.items.map_or(0, |items| items.labels.len());
         // SAFETY: `Row::new`: as many elements as labels, aligned, which no one writes.
         unsafe { std::slice::from_raw_parts(entry.read.cast(), count) }
     }
@@ -125,8 +135,7 @@ impl Row<'_> {
     /// A substate of the row's own items, to be read; element 0 belongs to item [`Self::first_item`].
     #[inline(always)]
     pub fn read_own_items<T: KernelValue>(&self, number: usize) -> &[T::Memory] {
-        let entry = self.entry::<T>(number);
-        assert!(matches!(entry.memory.of, MemoryOf::Items { .. }), "an entry of cells");
+        let (entry, ..) = self.item_entry::<T>(number);
         assert!(!entry.read.is_null(), "an entry that is written in place");
         let (first, end) = self.items.map_or((0, 0), |items| items.own);
         // SAFETY: `Row::new`: the row's own items, aligned, which no one else writes.
@@ -140,8 +149,7 @@ impl Row<'_> {
     #[inline(always)]
     #[allow(clippy::mut_from_ref, reason = "each written entry is asked for once, see `take`")]
     pub fn write_items<T: KernelValue>(&self, number: usize) -> &mut [T::Memory] {
-        let entry = self.entry::<T>(number);
-        assert!(matches!(entry.memory.of, MemoryOf::Items { .. }), "an entry of cells");
+        let (entry, ..) = self.item_entry::<T>(number);
         self.take(number);
         let (first, end) = self.items.map_or((0, 0), |items| items.own);
         // SAFETY: `Row::new`: where they can be written, the row's own items, aligned, this row's alone. They are, and are asked for once,

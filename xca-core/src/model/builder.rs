@@ -3,6 +3,7 @@
 use super::filling::Filling;
 use super::names::check_names;
 use super::{Group, GroupKind, Model, ModelError, WriteOutside};
+use crate::engine::SubstateId;
 use crate::geometry::{Boundary, Face, Faces, Geometry};
 use crate::kernel::NOWHERE;
 use crate::neighbourhood::{Neighbourhood, Parity};
@@ -13,8 +14,8 @@ use crate::process::{Holds, Process, Processes};
 use crate::random::Stream;
 use crate::state::State;
 use crate::steering::{Schedule, Steering, SteeringError};
-use crate::substates::Substates;
-use crate::value::Precision;
+use crate::substates::{Substate, Substates};
+use crate::value::{HostValue, Precision};
 use std::any::TypeId;
 use std::fmt;
 use std::sync::Arc;
@@ -33,6 +34,8 @@ pub struct ModelBuilder {
     processes: Vec<Process>,
     parameters: ParameterSet,
     steering: Vec<Steering>,
+    watches: Vec<Schedule>,
+    may_be_non_finite: Vec<SubstateId>,
     pub(super) fillings: Vec<Filling>,
     fault_texts: Vec<(u32, String)>,
     mistake: Option<ModelError>,
@@ -59,6 +62,8 @@ impl ModelBuilder {
             processes: Vec::new(),
             parameters: ParameterSet::default(),
             steering: Vec::new(),
+            watches: Vec::new(),
+            may_be_non_finite: Vec::new(),
             fillings: Vec::new(),
             fault_texts: Vec::new(),
             mistake: None,
@@ -213,11 +218,15 @@ impl ModelBuilder {
         schedule: Schedule,
         operation: impl Fn(&mut State<'_>) -> Result<(), SteeringError> + Send + Sync + 'static,
     ) -> Self {
+        self.check_schedule(&schedule);
+        self.steering.push(Steering::new(schedule, operation));
+        self
+    }
+
+    fn check_schedule(&mut self, schedule: &Schedule) {
         if matches!(schedule, Schedule::Every(0) | Schedule::EveryFromStart(0)) {
             self.mistake.get_or_insert(ModelError::ZeroInterval);
         }
-        self.steering.push(Steering::new(schedule, operation));
-        self
     }
 
     /// Adds a global operation that makes the initial state, before the first step.
@@ -240,6 +249,28 @@ impl ModelBuilder {
             }
             Ok(())
         })
+    }
+
+    /// Checks at these times that all floating substates of cells and items are finite. NaN or an infinity is a fault that names step,
+    /// substate, cell and item ([`crate::Fault::NotFinite`]).
+    ///
+    /// A check comes before the steering of its step, so no stop criterion sees a NaN; that of `Start` follows the initial state, that of
+    /// `End` the last steering. It reads each substate once. [`crate::Simulation::check_finite`] checks at any other time.
+    pub fn watch_finite(mut self, schedule: Schedule) -> Self {
+        self.check_schedule(&schedule);
+        self.watches.push(schedule);
+        self
+    }
+
+    /// Says that a substate may be NaN or infinite, for which it has a meaning of its own. No check looks at it.
+    pub fn allow_non_finite<S: Substates, V: HostValue>(mut self, substate: Substate<S, V>) -> Self {
+        match self.groups.iter().position(|group| group.type_id == TypeId::of::<S>()) {
+            Some(group) => self.may_be_non_finite.push(SubstateId { group, field: substate.index() }),
+            None => {
+                self.mistake.get_or_insert(ModelError::NotAdded { substates: S::SCHEMA.name });
+            }
+        }
+        self
     }
 
     /// Says what a fault code means, for messages.
@@ -296,6 +327,8 @@ impl ModelBuilder {
             processes: self.processes,
             parameters,
             steering: self.steering,
+            watches: self.watches,
+            may_be_non_finite: self.may_be_non_finite,
             fault_texts: self.fault_texts,
         })
     }

@@ -142,7 +142,7 @@ impl ReferenceExecution {
             group.planes[field].as_ptr().wrapping_add(place * size)
         };
         let of = match (group.is_population(), pass.access.others) {
-            (true, all) => MemoryOf::Items { all },
+            (true, all) => MemoryOf::Items { all, count: group.labels.len() },
             // What is gathered stands element after element; the elements of one cell, one after the other.
             (false, true) => MemoryOf::Cells { read_stride: around.len(), write_stride: 1, around: true },
             (false, false) => MemoryOf::Cells { read_stride: 1, write_stride: 1, around: false },

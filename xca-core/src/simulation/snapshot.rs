@@ -79,7 +79,7 @@ impl Simulation {
             groups: self.model.groups().iter().enumerate().map(of_group).collect::<Result<_, _>>()?,
             parameters: self.parameters.values().map(bits).collect(),
             stop: self.stop.clone(),
-            broken: self.broken,
+            broken: self.faulty.is_some_and(|step| step > self.step),
         })
     }
 
@@ -161,7 +161,7 @@ impl Simulation {
         }
         self.step = snapshot.step;
         self.stop.clone_from(&snapshot.stop);
-        self.broken = false;
+        self.faulty = None;
         Ok(())
     }
 }

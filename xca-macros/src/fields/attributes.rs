@@ -3,7 +3,10 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 use syn::meta::ParseNestedMeta;
-use syn::{Attribute, Error, Expr, ExprLit, ExprRange, Lit, LitStr, Meta, RangeLimits, Result};
+use syn::{
+    Attribute, Error, Expr, ExprLit, ExprRange, ExprUnary, Lit, LitStr, Meta, Path, RangeLimits, Result,
+    Token, Type, UnOp,
+};
 
 /// What a struct is derived for.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -35,6 +38,8 @@ impl Wanted {
 #[derive(Default)]
 pub(super) struct About {
     unit: Option<LitStr>,
+    range: Option<Expr>,
+    positive: Option<Path>,
     low: Option<End>,
     high: Option<End>,
     computed: bool,
@@ -56,31 +61,62 @@ impl About {
                 return Err(Error::new_spanned(attribute, wanted.usage()));
             }
         }
+        about.limit(&field.ty)?;
         Ok(about)
+    }
+
+    /// What `range` and `positive` say together.
+    fn limit(&mut self, type_: &Type) -> Result<()> {
+        let is_bool = matches!(type_, Type::Path(path) if path.path.is_ident("bool"));
+        if let Some(range) = self.range.clone() {
+            if is_bool {
+                return Err(Error::new_spanned(range, "a `bool` has no range; leave it out"));
+            }
+            self.read_range(&range)?;
+        }
+        let Some(positive) = &self.positive else { return Ok(()) };
+        if is_bool {
+            return Err(Error::new_spanned(positive, "a `bool` has no range; leave it out"));
+        }
+        if self.low.is_some() {
+            let advice = "`positive` is a lower end: leave it out, or give the upper end alone: `positive, range = ..=1.0`";
+            return Err(Error::new_spanned(positive, advice));
+        }
+        self.low = Some(End { number: quote!(0.0), included: false });
+        Ok(())
     }
 
     fn read(&mut self, meta: &ParseNestedMeta<'_>, wanted: Wanted) -> Result<()> {
         if meta.path.is_ident("unit") {
-            self.unit = Some(meta.value()?.parse()?);
+            let text = meta.value()?.parse::<LitStr>();
+            let text = text.map_err(|error| Error::new(error.span(), "a unit is a text: `unit = \"m\"`"))?;
+            once(self.unit.replace(text).is_some(), meta)?;
         } else if wanted == Wanted::Parameter && meta.path.is_ident("range") {
-            let range: Expr = meta.value()?.parse()?;
-            self.range(&range)?;
+            once(self.range.replace(meta.value()?.parse()?).is_some(), meta)?;
         } else if wanted == Wanted::Parameter && meta.path.is_ident("positive") {
-            self.low = Some(End { number: quote!(0.0), included: false });
+            alone(meta)?;
+            once(self.positive.replace(meta.path.clone()).is_some(), meta)?;
         } else if wanted == Wanted::Parameter && meta.path.is_ident("computed") {
-            self.computed = true;
+            alone(meta)?;
+            once(std::mem::replace(&mut self.computed, true), meta)?;
         } else {
             return Err(meta.error(wanted.usage()));
         }
         Ok(())
     }
 
-    fn range(&mut self, range: &Expr) -> Result<()> {
+    fn read_range(&mut self, range: &Expr) -> Result<()> {
         let Expr::Range(ExprRange { start, limits, end, .. }) = range else {
             return Err(Error::new_spanned(range, "a range is `0.0..`, `..=1.0`, `0.0..1.0` or `0.0..=1.0`"));
         };
         self.low = start.as_deref().map(|start| End { number: quote!(#start), included: true });
         let included = matches!(limits, RangeLimits::Closed(_));
+        let numbers = (start.as_deref().and_then(number), end.as_deref().and_then(number));
+        if let (Some(low), Some(high)) = numbers
+            && (low > high || low == high && !included)
+        {
+            return Err(Error::new_spanned(range, "no number lies in this range"));
+        }
         self.high = end.as_deref().map(|end| End { number: quote!(#end), included });
         Ok(())
     }
@@ -103,6 +139,30 @@ impl About {
             range: ::xca_core::Interval { low: #low, high: #high },
             computed: #computed,
         }
+    }
+}
+
+/// Refuses a word that was said before.
+fn once(again: bool, meta: &ParseNestedMeta<'_>) -> Result<()> {
+    if again { Err(meta.error("this word is given twice; once is enough")) } else { Ok(()) }
+}
+
+/// Refuses a value of a word that has none.
+fn alone(meta: &ParseNestedMeta<'_>) -> Result<()> {
+    if meta.input.peek(Token![=]) {
+        Err(meta.error("this word has no value; leave out what follows it"))
+    } else {
+        Ok(())
+    }
+}
+
+/// The number that an end of a range is, where it is written as one.
+fn number(end: &Expr) -> Option<f64> {
+    match end {
+        Expr::Lit(ExprLit { lit: Lit::Float(float), .. }) => float.base10_parse().ok(),
+        Expr::Lit(ExprLit { lit: Lit::Int(integer), .. }) => integer.base10_parse().ok(),
+        Expr::Unary(ExprUnary { op: UnOp::Neg(_), expr, .. }) => number(expr).map(|number| -number),
+        _ => None,
     }
 }
 

@@ -6,8 +6,8 @@ use crate::ast::{ArgumentNumber, FunctionKind, Loop, LoopKind, Range, Reach, Sta
 use proc_macro2::Span;
 use syn::spanned::Spanned;
 use syn::{
-    Error, Expr, ExprForLoop, ExprLoop, ExprMethodCall, ExprWhile, Ident, Label, Lifetime, Pat, RangeLimits,
-    Result,
+    Error, Expr, ExprForLoop, ExprLit, ExprLoop, ExprMethodCall, ExprWhile, Ident, Label, Lifetime, Lit, Pat,
+    RangeLimits, Result,
 };
 
 impl Scope {
@@ -84,6 +84,7 @@ impl Scope {
         let (over, step) = match strip(over) {
             Expr::MethodCall(call) if call.method == "step_by" => {
                 let [step] = self.arguments(call, "`step_by` takes the step: `(0..n).step_by(2)`")?;
+                check_step(strip(&call.args[0]))?;
                 (strip(&call.receiver), Some(step))
             }
             over => (over, None),
@@ -199,6 +200,18 @@ impl Scope {
         let [radius] = self.arguments(call, "give the radius, in metres")?;
         Ok((reach, Some(radius)))
     }
+}
+
+/// Refuses a step that is written as 0 or as a float.
+fn check_step(step: &Expr) -> Result<()> {
+    let Expr::Lit(ExprLit { lit, .. }) = step else { return Ok(()) };
+    let is_none = match lit {
+        Lit::Int(number) => number.base10_digits() == "0",
+        Lit::Float(_) => true,
+        _ => false,
+    };
+    let advice = "the step of a range is a whole number of at least 1";
+    if is_none { Err(Error::new_spanned(step, advice)) } else { Ok(()) }
 }
 
 fn lifetime(label: &Option<Label>) -> Option<&Lifetime> {

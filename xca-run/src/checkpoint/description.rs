@@ -1,6 +1,6 @@
 //! What a checkpoint says of itself: whose it is, and what its data are.
 
-use crate::components::{state_names, suffixes, text};
+use crate::components::{state_names, text};
 use crate::numbers::Exact;
 use crate::record::{Recorded, Recorder};
 use crate::report;
@@ -144,7 +144,7 @@ impl GroupShape {
             name: field.name.to_owned(),
             value_type: field.value_type.to_string(),
             states: state_names(field.value_type.scalar),
-            components: suffixes(field.value_type),
+            components: field.value_type.component_suffixes(),
             stored: field.value_type.stored(precision),
         });
         Self { name: group.schema().name.to_owned(), kind, substates: substates.collect() }

@@ -87,6 +87,10 @@ pub(crate) struct RunArguments {
     #[arg(long)]
     pub(crate) grids: bool,
 
+    /// Run on where a substate becomes NaN or infinite. Without it, that ends the run at the next output or checkpoint
+    #[arg(long)]
+    pub(crate) allow_non_finite: bool,
+
     /// Print the processes as the gpu engine compiles them, and do nothing else
     #[arg(long)]
     pub(crate) print_wgsl: bool,
@@ -126,6 +130,10 @@ pub(crate) struct ResumeArguments {
     /// an uninterrupted run
     #[arg(long)]
     pub(crate) allow_rounding: bool,
+
+    /// Go on where a substate becomes NaN or infinite; as the run was told unless it is given
+    #[arg(long)]
+    pub(crate) allow_non_finite: bool,
 
     /// Write a checkpoint every so many steps or after so much time; as often as the run was told unless it is given
     #[arg(long, value_name = "N|TIME")]

@@ -61,6 +61,7 @@ impl<'a> Choice<'a> {
     /// Makes the model, with its parameters set.
     pub(super) fn set_up(&self, given: &Given) -> Result<SetUp, Unable> {
         let mut set_up = (self.definition.set_up)(&self.matches, given.clone())?;
+        set_up.check().map_err(Unable::refused)?;
         if let (Some(parameter), 0) = (given.parameters.first(), set_up.model.parameters().count()) {
             return Err(Unable::refused(format!(
                 "this model has no parameters; `{parameter}` cannot be set"

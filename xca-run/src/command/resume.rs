@@ -118,6 +118,7 @@ impl Found<'_> {
             folder,
             origin,
             checkpoints,
+            allow_non_finite: self.arguments.allow_non_finite || run.run.allow_non_finite,
             voice: self.arguments.voice,
             note: engine.note(),
             earlier,

@@ -57,6 +57,7 @@ pub(super) fn run(invocation: RunInvocation<'_>) -> Result<Ended, Unable> {
         folder,
         origin,
         checkpoints,
+        allow_non_finite: run.allow_non_finite,
         voice: run.voice,
         note: engine.note(),
         earlier: Earlier::default(),

@@ -2,6 +2,7 @@
 
 mod batch;
 mod checkpoints;
+mod finite;
 mod words;
 
 pub(super) use batch::Batch;
@@ -28,6 +29,8 @@ pub(super) struct UnderWay {
     pub(super) folder: RunFolder,
     pub(super) origin: Origin,
     pub(super) checkpoints: Option<Checkpoints>,
+    /// Whether states with NaN or infinities are written too.
+    pub(super) allow_non_finite: bool,
     pub(super) voice: Voice,
     /// What has to be known of the engine.
     pub(super) note: Option<String>,
@@ -69,6 +72,7 @@ impl UnderWay {
     fn steps(&mut self, interrupt: &Interrupt) -> Result<Ended, Failure> {
         let wanted = self.origin.steps_wanted;
         if !self.recorder.has_begun() {
+            self.check_finite()?;
             self.recorder.begin(self.folder.clone(), &mut self.simulation)?;
         }
         let line = self.voice.line(wanted);
@@ -87,10 +91,11 @@ impl UnderWay {
             let done = self.simulation.step_number();
             line.at(done);
             if done.is_multiple_of(self.origin.every) {
+                self.check_finite().inspect_err(|_| line.finish())?;
                 self.recorder.record(&mut self.simulation)?;
             }
             if self.is_unfinished() && self.checkpoints.as_ref().is_some_and(|all| all.is_due(done)) {
-                self.keep()?;
+                self.keep().inspect_err(|_| line.finish())?;
             }
         }
         line.finish();
@@ -99,6 +104,7 @@ impl UnderWay {
             self.keep()?;
         }
         self.simulation.finish()?;
+        self.check_finite()?;
         self.recorder.finish(&mut self.simulation)?;
         let done = self.simulation.step_number();
         let progress = &mut self.report.progress;
@@ -114,6 +120,10 @@ impl UnderWay {
         Ok(Ended::Done)
     }
 
+    fn check_finite(&self) -> Result<(), Failure> {
+        if self.allow_non_finite { Ok(()) } else { finite::check(&self.simulation) }
+    }
+
     fn is_unfinished(&self) -> bool {
         self.simulation.step_number() < self.origin.steps_wanted && self.simulation.stop_reason().is_none()
     }
@@ -127,6 +137,9 @@ impl UnderWay {
 
     /// Writes a checkpoint, where the run has any, and how far it has come.
     fn keep(&mut self) -> Result<(), Failure> {
+        if self.checkpoints.is_some() {
+            self.check_finite()?;
+        }
         let Some(checkpoints) = &mut self.checkpoints else { return Ok(()) };
         let snapshot = self.simulation.snapshot()?;
         let recorded = self.recorder.recorded()?;

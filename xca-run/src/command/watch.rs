@@ -61,6 +61,7 @@ impl WatchArguments {
             every: None,
             checkpoint_every: None,
             grids: false,
+            allow_non_finite: true,
             print_wgsl: false,
             voice: Voice::default(),
         }

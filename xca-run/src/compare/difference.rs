@@ -6,7 +6,7 @@ mod pairs;
 mod tests;
 
 use super::verdict::Verdict;
-use crate::components::{state_names, suffixes, text};
+use crate::components::{state_names, text};
 use numbers::Numbers;
 use pairs::Pairs;
 use serde::Serialize;
@@ -178,7 +178,7 @@ impl Difference {
         value_type: ValueType,
         place: &dyn Fn(usize) -> Place,
     ) {
-        let suffixes = suffixes(value_type);
+        let suffixes = value_type.component_suffixes();
         self.compare_components(both, pairs, 0..suffixes.len(), place);
         let states = state_names(value_type.scalar);
         let name = |worst: Worst, first: usize| {

@@ -1,7 +1,7 @@
 //! A substate as an array of a frame.
 
 use super::values::Plane;
-use crate::components::{state_names, suffixes};
+use crate::components::state_names;
 use crate::output::vtk::DataArray;
 use xca_core::Field;
 
@@ -16,7 +16,7 @@ pub(super) struct FrameField {
 
 impl FrameField {
     pub(super) fn new(field: &Field, plane: Plane) -> Self {
-        let components = field.value_type.length.map(|_| suffixes(field.value_type));
+        let components = field.value_type.length.map(|_| field.value_type.component_suffixes());
         Self {
             name: field.name,
             plane,

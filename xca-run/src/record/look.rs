@@ -3,7 +3,7 @@
 use super::Recorder;
 use super::drawing::Panel;
 use super::shown::Shown;
-use crate::components::{DrawnPart, Part, suffixes};
+use crate::components::{DrawnPart, Part};
 use crate::view::{AnyView, Drawn};
 use clap::ValueEnum;
 
@@ -123,11 +123,12 @@ impl Recorder {
                 return Ok((shown, Some(Drawn { part, label })));
             }
         }
-        let known =
-            self.shown.iter().flat_map(fields).map(|field| match suffixes(field.value_type).as_slice() {
+        let known = self.shown.iter().flat_map(fields).map(|field| {
+            match field.value_type.component_suffixes().as_slice() {
                 [first, .., last] => format!("{} ({first} to {last})", field.name),
                 _ => field.name.to_owned(),
-            });
+            }
+        });
         let known = known.collect::<Vec<_>>().join(", ");
         Err(LookError::NoSubstate { name: name.clone(), known })
     }

@@ -261,14 +261,15 @@ impl Writer<'_, '_> {
         self.note_range(number, numbers);
         let first = self.keep("first", &type_, &texts[0]);
         let end = self.keep("end", &type_, &texts[1]);
-        let step = match texts.get(2) {
-            // A step of 0 ends the run in Rust.
-            Some(step) => {
-                let step = Text::primary(format!("max({}, 1u)", step.argument()));
-                Some(self.keep("step", &Type::U32, &step))
-            }
-            None => None,
-        };
+        let step = range.step.as_ref().zip(texts.get(2)).map(|(step, text)| {
+            let text = if self.range(step).may_be_zero() {
+                let routine = self.shared.routines.need_step();
+                Text::primary(format!("{routine}({})", text.argument()))
+            } else {
+                text.clone()
+            };
+            self.keep("step", &Type::U32, &text)
+        });
         self.note_neighbour(statement, range)?;
         let (first, end) = (first.plain(), end.plain());
         let sign = if range.inclusive { "<=" } else { "<" };

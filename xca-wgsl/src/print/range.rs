@@ -61,6 +61,10 @@ impl Range {
         Self::new(a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
     }
 
+    pub(super) fn may_be_zero(self) -> bool {
+        self.contains(0)
+    }
+
     /// Whether a division by these numbers may have no result.
     pub(super) fn may_stop_division_of(self, dividend: Self, type_: &Type) -> bool {
         let signed = type_.scalar() == Some(ScalarType::I32);

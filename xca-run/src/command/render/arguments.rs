@@ -134,6 +134,7 @@ impl RenderArguments {
             every: self.every,
             checkpoint_every: None,
             grids: false,
+            allow_non_finite: true,
             print_wgsl: false,
             voice: self.voice,
         }

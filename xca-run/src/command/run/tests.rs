@@ -305,3 +305,73 @@ fn observables_must_stay_the_same() {
         "the observables after step 2 are not those of the start: late instead of early"
     );
 }
+
+/// 0/0 in step 7, in one cell.
+#[elementary_process]
+fn wither(cell: &mut Cell<Grass>, p: &Growth, space: &Space) {
+    if space.step() == 6 && cell.index().x == 2 && cell.index().y == 1 {
+        cell.height = (p.rate - p.rate) / (p.rate - p.rate);
+    }
+}
+
+fn withering(_: Given) -> Result<SetUp, Failure> {
+    let model = Model::builder("meadow")
+        .extents([4, 3, 2])
+        .substates::<Grass>()
+        .parameters(Growth { rate: 0.5, limit: 0 })
+        .process(wither)
+        .build()?;
+    Ok(SetUp::new(model, 20))
+}
+
+#[test]
+fn nan_ends_the_run_and_the_last_good_checkpoint_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    let words = ["--every", "20", "--checkpoint-every", "5"];
+    let (ended, report) = run_model(&withering, &words, folder.path());
+    assert!(matches!(&ended, Err(Unable::FailedLeaving(..))));
+    let said = message(&ended);
+    assert!(
+        said.starts_with("step 10: `Grass.height` is NaN in cell [2, 1, 0]; add --allow-non-finite"),
+        "{said}"
+    );
+    assert_eq!(report["progress"]["outcome"], "failed");
+    assert_eq!(report["progress"]["reason"], said);
+    let checkpoints = || -> Vec<_> {
+        let names = fs::read_dir(folder.path().join("checkpoints")).unwrap();
+        let names = names.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        names.filter(|name| name.starts_with("step_")).collect()
+    };
+    assert_eq!(checkpoints(), ["step_00000005.checkpoint"]);
+
+    let (ended, report) =
+        run_model(&withering, &[&words[..], &["--allow-non-finite"]].concat(), folder.path());
+    assert!(matches!(ended, Ok(Ended::Done)), "{}", message(&ended));
+    assert_eq!(report["progress"]["steps"], 20);
+    assert!(checkpoints().contains(&"step_00000015.checkpoint".to_owned()));
+}
+
+#[test]
+fn nan_ends_the_run_at_an_output() {
+    let folder = tempfile::tempdir().unwrap();
+    let (ended, _) = run_model(&withering, &["--every", "2"], folder.path());
+    assert!(message(&ended).starts_with("step 8: `Grass.height` is NaN in cell [2, 1, 0]"));
+    // Steps 0, 2, 4 and 6, below the names.
+    assert_eq!(lines(&folder.path().join("observables.csv")).len(), 5);
+    // The last state is one too.
+    let (ended, _) = run_model(&withering, &["--steps", "7", "--every", "100"], folder.path());
+    assert!(message(&ended).starts_with("step 7: `Grass.height` is NaN in cell [2, 1, 0]"));
+    assert!(!folder.path().join("final.png").exists());
+}
+
+#[test]
+fn a_time_step_must_be_positive() {
+    let folder = tempfile::tempdir().unwrap();
+    for (seconds, text) in [(f64::NAN, "NaN"), (0.0, "0"), (-0.5, "-0.5"), (f64::INFINITY, "inf")] {
+        let make = move |given| Ok(plain(given)?.time_step(seconds));
+        let (ended, report) = run_model(&make, &[], folder.path());
+        assert!(matches!(ended, Err(Unable::Refused(_))), "{seconds}");
+        assert_eq!(message(&ended), format!("the time step is {text} s; it must be a positive number"));
+        assert_eq!(report, Value::Null);
+    }
+}
