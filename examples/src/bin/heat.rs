@@ -1,9 +1,9 @@
 //! Heat in a cube of copper whose faces are kept at 0 °C, compared with the solution in closed form.
 //!
-//! The temperature starts as T0 sin(pi x / L) sin(pi y / L) sin(pi z / L). Under the heat equation this shape
-//! only fades, by exp(-3 pi^2 D t / L^2). Each cell stands for a point; N of them along each axis, and the
-//! faces, divide L into N + 1 parts h. In the explicit scheme, with alpha = D dt / h^2, the same shape fades by
-//! 1 - 12 alpha sin^2(pi / (2 (N + 1))) in each step. The time step follows from alpha.
+//! The temperature starts as T0 sin(pi x / L) sin(pi y / L) sin(pi z / L). Under the heat equation this
+//! shape only fades, by exp(-3 pi^2 D t / L^2). Each cell stands for a point; N of them along each axis,
+//! and the faces, divide L into N + 1 parts h. In the explicit scheme, with alpha = D dt / h^2, the same
+//! shape fades by 1 - 12 alpha sin^2(pi / (2 (N + 1))) in each step. The time step follows from alpha.
 use std::f64::consts::PI;
 use xca_run::prelude::*;
 

@@ -1,4 +1,5 @@
-//! The Ising model near its critical temperature: `--set temperature=2` orders it, `--set temperature=3` does not.
+//! The Ising model near its critical temperature: `--set temperature=2` orders it, `--set temperature=3`
+//! does not.
 use xca_examples::models::ising::{Bath, Lattice, exact_magnetisation, model};
 use xca_run::prelude::*;
 

@@ -1,8 +1,8 @@
 //! A landslide that runs down a valley: debris levels out with the ground, cell by cell.
 //!
 //! The model is SCIDDICA-T in its simplest form. Debris above a layer that sticks to the ground (the
-//! adherence) can move. The minimisation of differences shares it with the four neighbours. A step moves a part
-//! of that (the rate). The volume of debris is conserved.
+//! adherence) can move. The minimisation of differences shares it with the four neighbours. A step moves a
+//! part of that (the rate). The volume of debris is conserved.
 use std::path::{Path, PathBuf};
 use xca_examples::models::flows::shares;
 use xca_run::prelude::*;
@@ -89,7 +89,8 @@ struct Map {
 }
 
 impl Map {
-    /// A valley that falls to the south, has bends, and ends at another slope; and a slab of debris at its head.
+    /// A valley that falls to the south, has bends, and ends at another slope; and a slab of debris at its
+    /// head.
     fn made_up() -> Option<Self> {
         let (extents, side) = ([160, 240], 10.0);
         let metres = |cell: usize| (cell as f64 + 0.5) * side;

@@ -9,7 +9,7 @@ struct Eruption {
     /// The ground: an ESRI ASCII grid of altitudes, in m; a volcano is made up without it
     #[arg(long, value_name = "FILE")]
     dem: Option<PathBuf>,
-    /// A vent: column from the west and row from the south; can be given several times. Default: the highest cell of a map
+    /// A vent: column and row from the south-west; can be given several times. Default: the highest cell
     #[arg(long, value_name = "X,Y")]
     vent: Vec<Place>,
     /// What a vent gives at its height, in m³/s

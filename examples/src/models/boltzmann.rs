@@ -1,4 +1,5 @@
-//! The lattice Boltzmann method in space (D3Q19, one relaxation time): Qian, d'Humières and Lallemand, Europhysics Letters 17, 1992.
+//! The lattice Boltzmann method in space (D3Q19, one relaxation time): Qian, d'Humières and Lallemand,
+//! Europhysics Letters 17, 1992.
 
 use xca_core::NeighbourhoodError;
 use xca_core::prelude::*;
@@ -75,7 +76,8 @@ pub fn neighbourhood() -> Result<Neighbourhood, NeighbourhoodError> {
     Neighbourhood::custom(cube.displacements([0; 3]).iter().filter(near).copied().collect())
 }
 
-/// A periodic box of fluid at density 1, whose cells begin at equilibrium with the velocity that the function says.
+/// A periodic box of fluid at density 1, whose cells begin at equilibrium with the velocity that the
+/// function says.
 ///
 /// # Errors
 /// Where the viscosity is not above 0.

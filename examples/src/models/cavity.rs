@@ -1,6 +1,7 @@
 //! A lid-driven cavity by the lattice Boltzmann method (D2Q9, one relaxation time, half-way bounce-back).
 //!
-//! The walls are the faces of the space. At a wall the particles come back the way they went; the lid, the north face, gives them its speed.
+//! The walls are the faces of the space. At a wall the particles come back the way they went; the lid, the
+//! north face, gives them its speed.
 
 use xca_core::prelude::*;
 

@@ -1,5 +1,5 @@
-//! A debris flow over hexagons that tears soil from its bed: SCIDDICA-S3hex (D'Ambrosio, Di Gregorio and Iovine, Natural Hazards and Earth System
-//! Sciences 3, 2003).
+//! A debris flow over hexagons that tears soil from its bed: SCIDDICA-S3hex (D'Ambrosio, Di Gregorio and
+//! Iovine, Natural Hazards and Earth System Sciences 3, 2003).
 
 use crate::models::flows::shares;
 use xca_core::prelude::*;

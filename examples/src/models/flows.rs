@@ -1,12 +1,12 @@
-//! The minimisation of differences (Di Gregorio and Serra, Future Generation Computer Systems 16, 1999), which
-//! lava, debris and landslides share.
+//! The minimisation of differences (Di Gregorio and Serra, Future Generation Computer Systems 16, 1999),
+//! which lava, debris and landslides share.
 
 use xca_core::prelude::*;
 
 /// What goes to each place so that the heights of all that take part differ as little as possible.
 ///
-/// Place 0 is the cell itself; its height is that of what cannot move. A place above the common level takes no
-/// part.
+/// Place 0 is the cell itself; its height is that of what cannot move. A place above the common level takes
+/// no part.
 #[helper]
 pub fn shares<const N: usize>(heights: [Real; N], takes_part: [bool; N], mobile: Real) -> [Real; N] {
     let mut taking_part = takes_part;

@@ -1,9 +1,9 @@
-//! Lava that flows down a volcano, cools and becomes rock: SCIARA-fv2 (Spataro, Avolio, Lupiano, Trunfio, Rongo
-//! and D'Ambrosio, ICCS 2010).
+//! Lava that flows down a volcano, cools and becomes rock: SCIARA-fv2 (Spataro, Avolio, Lupiano, Trunfio,
+//! Rongo and D'Ambrosio, ICCS 2010).
 //!
-//! The minimisation of differences shares the lava of a cell with its neighbours, if it is thicker than what the
-//! yield strength holds back. Yield strength and flow rate follow from the temperature. Vents give lava at a rate
-//! that changes with time.
+//! The minimisation of differences shares the lava of a cell with its neighbours, if it is thicker than
+//! what the yield strength holds back. Yield strength and flow rate follow from the temperature. Vents give
+//! lava at a rate that changes with time.
 
 use crate::models::flows::shares;
 use xca_core::prelude::*;

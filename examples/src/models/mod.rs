@@ -1,6 +1,7 @@
 //! Models of several sciences, each of which leans on another part of the language.
 //!
-//! Each file names its source. The suites run them on every engine and compare them with what is known of them.
+//! Each file names its source. The suites run them on every engine and compare them with what is known of
+//! them.
 
 pub mod boltzmann;
 pub mod cavity;

@@ -1,11 +1,12 @@
 //! Predators and prey that wander over a torus, breed, hunt and starve.
 //!
-//! The scheme is that of McKane and Newman (Physical Review Letters 94, 2005): individuals and free places are
-//! fixed in number together, and react in pairs. Here each kind has free places of its own, and a patch is a cell
-//! (as in Lugo and McKane, Physical Review E 78, 2008). A free place becomes prey as often as it meets prey.
-//! Prey is eaten as often as it meets a predator. A free place becomes a predator as often as it meets a
-//! predator with prey. A predator dies at a constant rate. In a well-mixed meadow the shares `x` of prey and `y`
-//! of predators follow `x' = breeding x (1 - x) - hunting x y`, `y' = growth x y (1 - y) - death y` a step.
+//! The scheme is that of McKane and Newman (Physical Review Letters 94, 2005): individuals and free places
+//! are fixed in number together, and react in pairs. Here each kind has free places of its own, and a patch
+//! is a cell (as in Lugo and McKane, Physical Review E 78, 2008). A free place becomes prey as often as it
+//! meets prey. Prey is eaten as often as it meets a predator. A free place becomes a predator as often as
+//! it meets a predator with prey. A predator dies at a constant rate. In a well-mixed meadow the shares `x`
+//! of prey and `y` of predators follow `x' = breeding x (1 - x) - hunting x y`, `y' = growth x y (1 - y) -
+//! death y` a step.
 
 use xca_core::prelude::*;
 

@@ -1,4 +1,5 @@
-//! The abelian sandpile (Bak, Tang and Wiesenfeld, Physical Review Letters 59, 1987): a heap topples until it is stable.
+//! The abelian sandpile (Bak, Tang and Wiesenfeld, Physical Review Letters 59, 1987): a heap topples until
+//! it is stable.
 
 use xca_core::prelude::*;
 

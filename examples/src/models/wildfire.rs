@@ -1,4 +1,5 @@
-//! A forest fire with wind and slope (Alexandridis, Vakalis, Siettos and Bafas, Applied Mathematics and Computation 204, 2008).
+//! A forest fire with wind and slope (Alexandridis, Vakalis, Siettos and Bafas, Applied Mathematics and
+//! Computation 204, 2008).
 
 use xca_core::prelude::*;
 

@@ -1,4 +1,5 @@
-//! Predators and prey: mean-field rates where all are mixed, diffusion of those that wander, and places that stay.
+//! Predators and prey: mean-field rates where all are mixed, diffusion of those that wander, and places
+//! that stay.
 
 use crate::common::{assert_same_bits, run};
 use std::collections::BTreeMap;
@@ -40,7 +41,8 @@ fn mixed_populations_follow_the_mean_field() {
     assert!(most > 0.3 && least < 0.2, "{most} {least}");
 }
 
-/// Without predators, prey that neither dies nor breeds goes `stride² / 3` along each axis in a step, squared.
+/// Without predators, prey that neither dies nor breeds goes `stride² / 3` along each axis in a step,
+/// squared.
 #[test]
 fn those_that_wander_diffuse() {
     let (size, steps) = (61, 60);
