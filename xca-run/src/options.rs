@@ -45,10 +45,12 @@ fn end(bound: Bound<&f64>) -> Option<End> {
 }
 
 fn parse(text: &str, interval: Interval) -> Result<f64, String> {
-    text.parse().ok().filter(|number: &f64| number.is_finite() && interval.contains(*number)).ok_or_else(|| match interval {
-        Interval::ALL => "it must be a finite number".to_owned(),
-        _ => format!("it must be a finite number {interval}"),
-    })
+    text.parse().ok().filter(|number: &f64| number.is_finite() && interval.contains(*number)).ok_or_else(
+        || match interval {
+            Interval::ALL => "it must be a finite number".to_owned(),
+            _ => format!("it must be a finite number {interval}"),
+        },
+    )
 }
 
 #[cfg(test)]

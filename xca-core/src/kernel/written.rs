@@ -220,8 +220,8 @@ impl<T: KernelElement, const N: usize> Lanes<[T; N]> for &mut Stage<T::Memory, N
 
     #[inline(always)]
     fn set(&mut self, lane: usize, value: [T; N]) {
-        for element in 0..N {
-            self.0[element][lane] = KernelElement::to_memory(value[element]);
+        for (lanes, value) in self.0.iter_mut().zip(&value) {
+            lanes[lane] = KernelElement::to_memory(*value);
         }
     }
 }
