@@ -111,7 +111,7 @@ fn a_range_holds_in_the_precision_of_the_run() {
     assert_eq!(start(huge.clone(), Precision::F64), Ok(()));
     assert_eq!(
         start(huge, Precision::F32),
-        Err(format!("the parameter `free` is {} (inf in f32), but must be any number", 1e300))
+        Err("the parameter `free` is 1e300 (inf in f32), but must be any number".to_owned())
     );
 }
 
