@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use std::error::Error;
 use std::f64::consts::TAU;
 use std::ops::{Div, Neg};
+use xca_core::kernel::{Work, run};
 use xca_core::prelude::*;
 use xca_core::{Float, Precision};
 use xca_cpu::Cpu;
@@ -54,23 +55,40 @@ impl<T: Number> Lattice<T> {
                     ((z * whole as isize + y) * whole as isize + x) as usize
                 };
                 let from: [&[T]; DIRECTIONS] = std::array::from_fn(|n| &now[n][first(n)..first(n) + size]);
-                let here = y * whole + 1;
-                for begin in (0..size).step_by(LANES) {
-                    let count = LANES.min(size - begin);
-                    let mut f: Lanes<T> = [[T::from_f64(1.0); LANES]; DIRECTIONS];
-                    for (f, from) in f.iter_mut().zip(from) {
-                        f[..count].copy_from_slice(&from[begin..begin + count]);
-                    }
-                    collide(&mut f, omega);
-                    for (f, to) in f.iter().zip(&mut *to) {
-                        to[here + begin..][..count].copy_from_slice(&f[..count]);
-                    }
-                }
+                run(FluidRow { from, to, here: y * whole + 1, size, omega });
             }
         });
         drop(layers);
         std::mem::swap(&mut self.now, &mut self.next);
         self.now.par_iter_mut().for_each(|plane| wrap(plane, size));
+    }
+}
+
+/// A row of fluid, compiled for the same processors as the engine's kernels.
+struct FluidRow<'a, 'b, T> {
+    from: [&'a [T]; DIRECTIONS],
+    to: &'a mut [&'b mut [T]],
+    /// Where the row begins in the layers that are written.
+    here: usize,
+    size: usize,
+    omega: T,
+}
+
+impl<T: Number> Work for FluidRow<'_, '_, T> {
+    #[inline(always)]
+    fn run(self) {
+        let Self { from, to, here, size, omega } = self;
+        for begin in (0..size).step_by(LANES) {
+            let count = LANES.min(size - begin);
+            let mut f: Lanes<T> = [[T::from_f64(1.0); LANES]; DIRECTIONS];
+            for (f, from) in f.iter_mut().zip(from) {
+                f[..count].copy_from_slice(&from[begin..begin + count]);
+            }
+            collide(&mut f, omega);
+            for (f, to) in f.iter().zip(&mut *to) {
+                to[here + begin..][..count].copy_from_slice(&f[..count]);
+            }
+        }
     }
 }
 

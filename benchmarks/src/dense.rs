@@ -4,6 +4,7 @@ use crate::comparison::Comparison;
 use crate::timing::interleaved;
 use rayon::prelude::*;
 use std::error::Error;
+use xca_core::kernel::{Work, run};
 use xca_core::prelude::*;
 use xca_cpu::Cpu;
 
@@ -49,19 +50,39 @@ fn heat_by_hand(size: usize, old: &[f64], new: &mut [f64]) {
     new.par_chunks_mut(layer).enumerate().skip(1).take(size).for_each(|(z, new)| {
         for y in 1..=size {
             let at = z * layer + y * line + 1;
-            let centre = &old[at..at + size];
             let sides =
                 [at - layer, at - line, at - 1, at + 1, at + line, at + layer].map(|at| &old[at..at + size]);
             let out = &mut new[y * line + 1..y * line + 1 + size];
-            for x in 0..size {
-                let mut flux = 0.0;
-                for side in sides {
-                    flux += side[x] - centre[x];
-                }
-                out[x] = centre[x] + ALPHA * flux;
-            }
+            run(HeatRow { centre: &old[at..at + size], sides, out });
         }
     });
+}
+
+/// A row of heat, compiled for the same processors as the engine's kernels.
+struct HeatRow<'a> {
+    centre: &'a [f64],
+    sides: [&'a [f64]; 6],
+    out: &'a mut [f64],
+}
+
+impl Work for HeatRow<'_> {
+    #[inline(always)]
+    fn run(self) {
+        heat_row(self.centre, self.sides, self.out);
+    }
+}
+
+#[inline(always)]
+fn heat_row(centre: &[f64], sides: [&[f64]; 6], out: &mut [f64]) {
+    let size = out.len();
+    let (centre, sides) = (&centre[..size], sides.map(|side| &side[..size]));
+    for x in 0..size {
+        let mut flux = 0.0;
+        for side in sides {
+            flux += side[x] - centre[x];
+        }
+        out[x] = centre[x] + ALPHA * flux;
+    }
 }
 
 /// A step of Life on a torus, written by hand in the same way; the halo is filled first.
@@ -75,16 +96,32 @@ fn life_by_hand(size: usize, old: &mut [u8], new: &mut [u8]) {
     old.copy_within(line..2 * line, (size + 1) * line);
     let old = &*old;
     new.par_chunks_mut(line).enumerate().skip(1).take(size).for_each(|(y, new)| {
-        let out = &mut new[1..1 + size];
-        let row = |y: usize, x: usize| &old[y * line + x..y * line + x + size];
-        let (a, b, c) = (row(y - 1, 0), row(y - 1, 1), row(y - 1, 2));
-        let (d, here, e) = (row(y, 0), row(y, 1), row(y, 2));
-        let (f, g, h) = (row(y + 1, 0), row(y + 1, 1), row(y + 1, 2));
-        for x in 0..size {
-            let count = a[x] + b[x] + c[x] + d[x] + e[x] + f[x] + g[x] + h[x];
-            out[x] = u8::from((count == 3) | ((count == 2) & (here[x] == 1)));
-        }
+        let rows = [y - 1, y, y + 1].map(|y| &old[y * line..(y + 1) * line]);
+        run(LifeRow { rows, out: &mut new[1..1 + size] });
     });
+}
+
+/// A row of Life with those below and above it, halo included.
+struct LifeRow<'a> {
+    rows: [&'a [u8]; 3],
+    out: &'a mut [u8],
+}
+
+impl Work for LifeRow<'_> {
+    #[inline(always)]
+    fn run(self) {
+        life_row(self.rows, self.out);
+    }
+}
+
+#[inline(always)]
+fn life_row(rows: [&[u8]; 3], out: &mut [u8]) {
+    let size = out.len();
+    let [[a, b, c], [d, here, e], [f, g, h]] = rows.map(|row| [0, 1, 2].map(|x| &row[x..x + size]));
+    for x in 0..size {
+        let count = a[x] + b[x] + c[x] + d[x] + e[x] + f[x] + g[x] + h[x];
+        out[x] = u8::from((count == 3) | ((count == 2) & (here[x] == 1)));
+    }
 }
 
 fn heat_at([x, y, z]: [usize; 3]) -> f64 {

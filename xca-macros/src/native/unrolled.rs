@@ -2,10 +2,12 @@
 //!
 //! The compiler writes out a loop only up to a size that it chooses. A loop over the directions of a lattice is beyond that, and what is
 //! left as a loop keeps its arrays in memory and the cells from being computed side by side.
+//!
+//! Loops that count to the number of neighbours stay loops: there are kernels for many neighbourhoods, and few of these are large.
 
 use super::body::Writer;
 use super::loops::hidden_label;
-use crate::ast::{Block, Builtin, Expression, Range};
+use crate::ast::{Block, Expression, Range};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 use syn::{BinOp, Lifetime};
@@ -112,7 +114,6 @@ fn literal(expression: &Expression) -> Option<usize> {
 fn is_fixed(expression: &Expression) -> bool {
     match expression {
         Expression::Integer(_) | Expression::Constant(_) => true,
-        Expression::Builtin(builtin, ..) => *builtin == Builtin::NeighbourCount,
         Expression::Binary(BinOp::Add(_) | BinOp::Sub(_) | BinOp::Mul(_), left, right) => {
             is_fixed(left) && is_fixed(right)
         }
