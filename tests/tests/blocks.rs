@@ -44,9 +44,12 @@ fn begin(x: usize, y: usize) -> Ring {
     Ring { values: [number, number % 5, -number], marks: [x % 3 == 0, y % 2 == 0], sum: number % 4 }
 }
 
-/// Both processes, as loops over a torus of two rows.
+/// The rows of the torus.
+const ROWS: usize = 3;
+
+/// Both processes, as loops over the torus.
 fn by_hand(width: usize, steps: usize) -> Vec<Ring> {
-    let mut cells: Vec<Ring> = (0..2 * width).map(|cell| begin(cell % width, cell / width)).collect();
+    let mut cells: Vec<Ring> = (0..ROWS * width).map(|cell| begin(cell % width, cell / width)).collect();
     for _ in 0..steps {
         for cell in &mut cells {
             let first = cell.values[0];
@@ -58,10 +61,10 @@ fn by_hand(width: usize, steps: usize) -> Vec<Ring> {
         for (number, cell) in cells.iter_mut().enumerate().filter(|(_, cell)| !cell.marks[0]) {
             let (x, y) = (number % width, number / width);
             let around = [
-                old[(1 - y) * width + x],
+                old[(y + ROWS - 1) % ROWS * width + x],
                 old[y * width + (x + width - 1) % width],
                 old[y * width + (x + 1) % width],
-                old[(1 - y) * width + x],
+                old[(y + 1) % ROWS * width + x],
             ];
             for (n, from) in (1..).zip(around) {
                 let value = &mut cell.values[n % LANES];
@@ -77,7 +80,7 @@ fn by_hand(width: usize, steps: usize) -> Vec<Ring> {
 fn rows_of_every_length() -> TestResult {
     for width in [3, 31, 32, 33, 63, 64, 65, 97] {
         let model = Model::builder("rings")
-            .extents([width, 2, 1])
+            .extents([width, ROWS, 1])
             .neighbourhood(Neighbourhood::von_neumann_2d(1))
             .boundary(Boundary::Toroidal)
             .substates::<Ring>()

@@ -170,7 +170,7 @@ fn parameters_of_a_built_model_are_checked_at_the_start() -> TestResult {
     assert_eq!(items.iter().filter(|item| item.state.position.z == 0.0006).count(), 9);
     model.set_parameter("radius", "0.0011")?;
     let error = Simulation::new(&model, &Reference, RunOptions::default()).expect_err("wider than a cell");
-    assert!(error.to_string().contains("less than two radii of 0.0011 m"), "{error}");
+    assert!(error.to_string().contains("at least two radii of 0.0011 m"), "{error}");
     Ok(())
 }
 

@@ -61,6 +61,9 @@ impl fmt::Display for Interval {
             format!("{word} {}", Shortest(end.number))
         });
         let high = self.high.map(|end| {
+            if !end.included && end.number == f64::INFINITY {
+                return "finite".to_owned();
+            }
             let word = if end.included { "at most" } else { "below" };
             format!("{word} {}", Shortest(end.number))
         });
@@ -105,6 +108,7 @@ mod tests {
         for (low, high, words, notation) in [
             (end(0.0, true), end(1.0, false), "at least 0 and below 1", "[0, 1)"),
             (end(0.0, false), None, "above 0", "> 0"),
+            (end(0.0, true), end(f64::INFINITY, false), "at least 0 and finite", "[0, inf)"),
             (None, end(1e300, true), "at most 1e300", "≤ 1e300"),
             (
                 end(-1e15, false),

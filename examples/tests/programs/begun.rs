@@ -35,8 +35,8 @@ fn nothing_is_written_where_something_is_or_no_crate_can_be() {
         ("waves", "waves is there already"),
         ("2d", "the name of a crate"),
         ("../waves", "the name of a crate"),
-        ("fn", "a meaning of its own"),
-        ("ripples --xca waves", "waves is not the folder of xca"),
+        ("fn", "is a keyword of Rust"),
+        ("ripples --xca-path waves", "waves is not a folder of xca"),
     ] {
         let output = place.invocation(LIFE, &format!("new {words}")).output().unwrap();
         let said = String::from_utf8(output.stderr).unwrap();

@@ -84,7 +84,7 @@ fn maps_of_the_gallery() {
     assert_eq!(rows, ["0 0 0 0", "0 4.5 0 0", "0 0 0 0"]);
     assert!(place.fail(2, lava, "--dem ground.asc --vent 4,0").contains("no cell 4,0 for a vent"));
     assert!(place.fail(2, lava, "--vent 4").contains("it must be a column and a row"));
-    assert!(place.fail(2, lava, "--rate=-1").contains("it must be a number at least 0"));
+    assert!(place.fail(2, lava, "--rate=-1").contains("it must be a finite number at least 0"));
     place.succeed(wildfire, "--fuel fuel.asc --steps 1");
     let said = place.fail(2, wildfire, "--fuel much.asc");
     assert!(said.contains("much.asc: fuel of 1.5; it must be from 0 to 1"), "{said}");

@@ -35,9 +35,9 @@ fn a_program_lists_its_parts() {
     let text = told(&place, HEAT, "list --size 12 --set alpha=0.15");
     assert!(text.starts_with("heat: 12 x 12 x 12 cells of side 0.00769"), "{text}");
     assert!(text.contains("boundaries: flat\n  neighbourhood: von Neumann"), "{text}");
-    assert_eq!(row(&text, "Heat.temperature"), ["Real", "cells"]);
+    assert_eq!(row(&text, "Heat.temperature"), ["Real", "°C", "cells"]);
     assert_eq!(row(&text, "alpha"), ["Real", "0.15", "(0,", "0.16666666666666666]"]);
-    assert_eq!(row(&text, "diffusivity"), ["Real", "0.000111", "m2/s", ">", "0"]);
+    assert_eq!(row(&text, "diffusivity"), ["Real", "0.000111", "m2/s", "(0,", "inf)"]);
     assert!(text.contains("\n    Thermal diffusivity D.\n"), "{text}");
     assert_eq!(row(&text, "diffuse"), ["cell", "each"]);
     assert_eq!(row(&text, "writes"), ["temperature"]);

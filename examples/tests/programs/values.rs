@@ -55,7 +55,7 @@ fn parameters_of_every_type_are_set_told_and_kept() {
     let said = succeed(&place, "list --set shares=0.5,0,0,0.25 --set source=Soil");
     assert_eq!(rows(&said, "Pond.ground")[0][1..], ["Ground", "cells"]);
     assert_eq!(rows(&said, "Pond.currents")[0][1..3], ["[Vector2<Real>;", "2]"]);
-    assert_eq!(rows(&said, "shares")[0][3..], ["0.5,", "0,", "0,", "0.25"]);
+    assert_eq!(rows(&said, "shares")[0][3..], ["0.5,", "0,", "0,", "0.25", "[0,", "1]"]);
     assert_eq!(rows(&said, "source")[0].last().unwrap(), "Soil");
     assert_eq!(said.matches("\n    states: Rock, Soil, Mud\n").count(), 2, "{said}");
     for (wrong, message) in [

@@ -175,7 +175,9 @@ fn short(n: i32) -> i32 {
     for i in 2..TURNS - 24 {
         sum += 1000 * i;
     }
-    'outer: loop {
+    let mut turn = 0;
+    'outer: while turn < 50 {
+        turn += 1;
         for i in 0..4 {
             sum = sum.wrapping_add(i);
             if sum & 7 == 0 {

@@ -99,7 +99,7 @@ fn what_makes_no_sense_is_refused() {
         (&["--engines", "cpu,cup"][..], "there is no engine `cup`"),
         (&["--engines", "reference:2"], "serial"),
         (&["--repeats", "0"], "it must be a whole number from 1 to 1000"),
-        (&["--tolerance", "-1"], "it must be a finite number, at least 0"),
+        (&["--tolerance", "-1"], "it must be a finite number at least 0"),
         (&["--check-every", "0"], "every 0 steps never comes"),
         (&["--set", "speed=1"], "has no parameters"),
     ] {
