@@ -41,7 +41,11 @@ fn pull(cell: &mut Cell<Ring>) {
 
 fn begin(x: usize, y: usize) -> Ring {
     let number = (x * 7 + y * 13) as i32;
-    Ring { values: [number, number % 5, -number], marks: [x % 3 == 0, y % 2 == 0], sum: number % 4 }
+    Ring {
+        values: [number, number % 5, -number],
+        marks: [x.is_multiple_of(3), y.is_multiple_of(2)],
+        sum: number % 4,
+    }
 }
 
 /// The rows of the torus.
