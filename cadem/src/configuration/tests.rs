@@ -16,7 +16,7 @@ fn values_that_make_no_sense() {
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert_eq!(
             refused(Configuration { stiffness: bad, ..table1() }),
-            format!("the parameter `stiffness` is {bad}, but must be above 0 and below inf (N/m)")
+            format!("the parameter `stiffness` is {bad}, but must be above 0 and finite (N/m)")
         );
         assert!(refused(Configuration { mass: bad, ..table1() }).starts_with("the parameter `mass` is"));
         assert!(refused(Configuration { radius: bad, ..table1() }).starts_with("the parameter `radius` is"));
@@ -31,7 +31,7 @@ fn values_that_make_no_sense() {
     );
     assert_eq!(
         refused(Configuration { damping: -0.1, ..table1() }),
-        "the parameter `damping` is -0.1, but must be at least 0 and below inf (kg/s)"
+        "the parameter `damping` is -0.1, but must be at least 0 and finite (kg/s)"
     );
     assert!(refused(Configuration { gravity: f64::NAN, ..table1() }).contains("`gravity` is NaN"));
     for fine in [Configuration { damping: 0.0, ..table1() }, Configuration { gravity: 0.0, ..table1() }] {

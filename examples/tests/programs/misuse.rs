@@ -49,7 +49,7 @@ fn values_that_make_no_sense() {
         (CADEM, "--engine gpu --arithmetic lax", "`lax` is no arithmetic; use best, strict or relaxed"),
         (CADEM, "--adapter 0", "--adapter and --arithmetic are for --engine gpu"),
         (CADEM, "--precision f16", "`f16` is not a precision; use f32 or f64"),
-        (CADEM, "--set stiffness=-1", "`stiffness` is -1, but must be above 0 and below inf (N/m)"),
+        (CADEM, "--set stiffness=-1", "`stiffness` is -1, but must be above 0 and finite (N/m)"),
         (CADEM, "--set stiffness=nan", "`nan` is no value for the parameter `stiffness`"),
         (CADEM, "--set stiffness", "must be of the form NAME=VALUE"),
         (CADEM, "--steps -5", "it must be a whole number of steps"),
