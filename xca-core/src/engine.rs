@@ -143,7 +143,7 @@ pub struct Population {
 /// Nothing may carry over from step to step but what these methods give and take: a run goes on from a snapshot made of them, on this engine
 /// or another, as if it had never been interrupted.
 pub trait Execution: Send {
-    /// Runs those of these processes that are due in the step ([`Process::is_due`]), by their numbers in the model, in order.
+    /// Runs those of these processes that are due in the step ([`crate::Process::is_due`]), by their numbers in the model, in order.
     ///
     /// # Errors
     /// The first fault, by process, then cell, then label. The state is then that of an unfinished step.
