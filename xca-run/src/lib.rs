@@ -56,7 +56,7 @@
 //! |---|---|
 //! | [`output`] | the files of a run: particles and time series as CSV, VTK files for ParaView, ESRI ASCII grids, PNG pictures |
 //! | [`progress`] | the line that shows how far a run has come, and the table at its end |
-//! | [`options`] | value parsers for a model's own options |
+//! | [`number_in`], [`positive_number`] | value parsers for a model's own options |
 //! | [`interrupt`] | Ctrl-C and termination: the run ends after its current step |
 //!
 //! These work on plain data (slices of numbers, texts) and know nothing of models and engines.
