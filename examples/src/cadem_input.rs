@@ -3,9 +3,8 @@
 use cadem::{Configuration, Face, Opening, Particle, ParticleError, Rectangle};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-use xca_core::ScalarType;
 use xca_run::Failure;
-use xca_run::output::particle_csv;
+use xca_run::io::particle_csv::{self, ColumnType};
 
 /// The columns of a file of particles, beside the label.
 pub const COLUMNS: [&str; 6] = ["x", "y", "z", "vx", "vy", "vz"];
@@ -36,7 +35,7 @@ impl std::error::Error for LineError {}
 /// # Errors
 /// With the file and the line, where the file cannot be read, is malformed, or holds a particle that does not fit the system.
 pub fn particles(path: &Path, configuration: &Configuration) -> Result<Vec<Particle>, Failure> {
-    let table = particle_csv::read(path, &COLUMNS.map(|name| (name, ScalarType::F64)))?;
+    let table = particle_csv::read(path, &COLUMNS.map(|name| (name, ColumnType::Number)))?;
     let [x, y, z, vx, vy, vz] = [0, 1, 2, 3, 4, 5].map(|column| &table.columns[column]);
     let particles: Vec<Particle> = (0..table.labels.len())
         .map(|i| Particle {

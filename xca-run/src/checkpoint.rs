@@ -13,9 +13,9 @@ pub(crate) use description::{
 pub use file::CheckpointError;
 pub(crate) use folder::{CHECKPOINTS, CheckpointFolder};
 
-use crate::output::atomic::WriteError;
 use std::path::Path;
 use xca_core::Snapshot;
+use xca_io::atomic::WriteError;
 
 /// A run at some step.
 #[derive(Debug, Clone)]

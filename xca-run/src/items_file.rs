@@ -1,9 +1,10 @@
 //! Items read back from the table that a run has left.
 
-use crate::output::particle_csv::{self, ReadError};
+use crate::record::column_type;
 use crate::view::TableColumn;
 use std::path::Path;
 use xca_core::{HostScalar, Precision, StoredScalar, Substates};
+use xca_io::particle_csv::{self, ReadError};
 
 /// An item of a file.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,7 +58,7 @@ pub fn read_items<S: Substates>(path: &Path) -> Result<Vec<ReadItem<S>>, ReadErr
     let columns = TableColumn::all(S::SCHEMA);
     let wanted: Vec<_> = columns
         .iter()
-        .map(|column| (column.header.as_str(), fields[column.field].value_type.scalar))
+        .map(|column| (column.header.as_str(), column_type(fields[column.field].value_type.scalar)))
         .collect();
     let table = particle_csv::read(path, &wanted)?;
     let item = |row: usize| {

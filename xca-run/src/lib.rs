@@ -54,7 +54,7 @@
 //! # The parts
 //! | module | holds |
 //! |---|---|
-//! | [`output`] | the files of a run: particles and time series as CSV, VTK files for ParaView, ESRI ASCII grids, PNG pictures |
+//! | [`io`] | the files: particles and time series as CSV, VTK files for ParaView, ESRI ASCII grids, PNG pictures |
 //! | [`progress`] | the line that shows how far a run has come, and the table at its end |
 //! | [`number_in`], [`positive_number`] | value parsers for a model's own options |
 //! | [`interrupt`] | Ctrl-C and termination: the run ends after its current step |
@@ -73,7 +73,6 @@ mod items_file;
 mod machine;
 mod numbers;
 mod options;
-pub mod output;
 mod program;
 pub mod progress;
 mod record;
@@ -97,15 +96,17 @@ pub use program::{Assignment, Failure, Given, NoAssignment, Observable, Program}
 pub use record::{FolderError, RecordError};
 pub use set_up::SetUp;
 pub use view::{CellView, ItemView, ViewError};
+#[doc(no_inline)]
+pub use xca_io as io;
 
 /// What a model's program needs: the words of [`xca_core::prelude`] and those of the frame.
 pub mod prelude {
-    pub use crate::output::ascii_grid::AsciiGrid;
-    pub use crate::output::picture::ColourMap;
     pub use crate::{
         CellView, Failure, Given, ItemView, Observable, Program, SetUp, number_in, positive_number,
     };
     pub use clap::{self, Args};
     pub use std::process::ExitCode;
     pub use xca_core::prelude::*;
+    pub use xca_io::ascii_grid::AsciiGrid;
+    pub use xca_io::picture::ColourMap;
 }

@@ -16,7 +16,7 @@ pub struct NotEnoughMemory {
 }
 
 fn gigabytes(bytes: u128) -> String {
-    format!("{} GB", crate::numbers::significant(bytes as f64 / 1e9, 3))
+    format!("{} GB", xca_io::numbers::significant(bytes as f64 / 1e9, 3))
 }
 
 /// Checks that something can fit into the memory that the machine has left. Where the system does not say how much that is, everything fits.

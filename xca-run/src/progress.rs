@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
-use crate::numbers::significant;
 use crate::table::table;
+use xca_io::numbers::significant;
 
 /// The line that shows how far a run has come: steps done and to do, steps a second, time left.
 ///

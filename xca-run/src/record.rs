@@ -20,6 +20,7 @@ mod values;
 pub(crate) use drawing::{Drawing, Scales};
 pub use folder::FolderError;
 pub(crate) use folder::{FRAMES, REPORT, RunFolder, numbered_files};
+pub(crate) use items::column_type;
 pub(crate) use look::{Look, ViewKind};
 pub(crate) use recorded::Recorded;
 pub(crate) use saved::SavedError;
@@ -27,11 +28,6 @@ pub(crate) use seen::Seen;
 #[cfg(feature = "terminal")]
 pub(crate) use sight::{Sight, Subject};
 
-use crate::output::atomic::WriteError;
-use crate::output::particle_csv::WriteParticlesError;
-use crate::output::picture::PictureError;
-use crate::output::table_csv::{SeriesError, SeriesWriter};
-use crate::output::vtk::{Collection, VtkError};
 use crate::program::{Failure, Observable};
 use crate::set_up::SetUp;
 use crate::view::{ViewError, complete};
@@ -39,6 +35,11 @@ use painting::Frame;
 use shown::Shown;
 pub(crate) use values::Plane;
 use xca_core::{Model, Precision, RunError, Simulation, Snapshot};
+use xca_io::atomic::WriteError;
+use xca_io::particle_csv::WriteParticlesError;
+use xca_io::picture::PictureError;
+use xca_io::table_csv::{SeriesError, SeriesWriter};
+use xca_io::vtk::{Collection, VtkError};
 
 /// A part of a run's record that cannot be made or written.
 #[derive(Debug, thiserror::Error)]
@@ -275,7 +276,7 @@ impl Recorder {
     fn caption(&self, step: u64) -> String {
         match self.set_up.time_step {
             Some(_) => {
-                format!("step {step}, time {} s", crate::numbers::significant(self.time(step), 4))
+                format!("step {step}, time {} s", xca_io::numbers::significant(self.time(step), 4))
             }
             None => format!("step {step}"),
         }

@@ -3,7 +3,6 @@
 use crate::checkpoint::Difference;
 use crate::components::{json, type_text};
 use crate::machine::cores;
-use crate::output::atomic::{WriteError, write_atomically};
 use crate::program::Observable;
 use crate::record::REPORT;
 use serde::{Deserialize, Serialize};
@@ -13,6 +12,7 @@ use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 use xca_core::model::GroupKind;
 use xca_core::{Boundary, Faces, Model, ParameterSet, ParameterValue, Precision, ValueType};
+use xca_io::atomic::{WriteError, write_atomically};
 
 /// The report of a run.
 #[derive(Debug, Clone, Serialize)]

@@ -1,11 +1,11 @@
 //! What of a model's substates is saved and drawn, and how.
 
 use crate::components::{DrawnPart, Part};
-use crate::output::picture::{Category, ColourMap};
 use std::any::TypeId;
 use std::marker::PhantomData;
 use xca_core::model::GroupKind;
 use xca_core::{Field, Geometry, HostScalar, HostValue, Model, Schema, Substate, Substates};
+use xca_io::picture::{Category, ColourMap};
 
 /// How the items of a population are saved and drawn.
 ///

@@ -2,10 +2,10 @@
 
 use super::Description;
 use super::planes::Plane;
-use crate::output::atomic::{WriteError, write_atomically};
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, Write};
 use std::path::{Path, PathBuf};
+use xca_io::atomic::{WriteError, write_atomically};
 
 /// The format that this program writes and reads.
 const FORMAT: u32 = 1;

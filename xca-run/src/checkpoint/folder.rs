@@ -1,12 +1,12 @@
 //! The checkpoints of a run: the last two.
 
 use super::Checkpoint;
-use crate::output::atomic::{OutputFolder, WriteError};
 use crate::record::numbered_files;
 use std::ffi::OsString;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use xca_io::atomic::{OutputFolder, WriteError};
 
 /// The folder, below the run's own, that holds them.
 pub(crate) const CHECKPOINTS: &str = "checkpoints";

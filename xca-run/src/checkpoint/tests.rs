@@ -1,11 +1,11 @@
 use super::*;
-use crate::output::atomic::OutputFolder;
 use crate::record::Recorder;
 use crate::set_up::SetUp;
 use std::fs;
 use std::io::Cursor;
 use xca_core::prelude::*;
 use xca_core::{GroupSnapshot, ModelBuilder, ParameterError};
+use xca_io::atomic::OutputFolder;
 
 #[derive(Substates, Clone, Copy)]
 struct Field {

@@ -9,12 +9,12 @@ mod sheets;
 mod tests;
 
 use super::result::Comparison;
-use crate::output::atomic::{OutputFolder, WriteError, write_atomically};
 use crate::table::table;
 use sheets::Sheet;
 use std::fmt::Write as _;
 use std::io::{self, Write as _};
 use std::path::PathBuf;
+use xca_io::atomic::{OutputFolder, WriteError, write_atomically};
 
 /// A report that cannot be made.
 #[derive(Debug, thiserror::Error)]

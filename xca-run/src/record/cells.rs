@@ -5,11 +5,11 @@ use super::frame_field::FrameField;
 use super::seen::Seen;
 use super::values::Plane;
 use crate::components::{DrawnPart, Part};
-use crate::output::vtk::{DataArray, Grid, write_dense};
 use crate::view::AnyCellView;
 use std::path::Path;
 use xca_core::model::Group;
 use xca_core::{Geometry, Precision, StoredType};
+use xca_io::vtk::{DataArray, Grid, write_dense};
 
 /// The substates of cells in one state.
 pub(super) struct Cells<'a> {

@@ -6,10 +6,10 @@ use super::saved::SavedError;
 use super::seen::{Seen, wider};
 use super::shown::Shown;
 use super::{RecordError, Recorder};
-use crate::output::atomic::OutputFolder;
-use crate::output::picture::{PanelPicture, Picture};
 use crate::view::AnyView;
 use xca_core::{Model, Precision, Snapshot};
+use xca_io::atomic::OutputFolder;
+use xca_io::picture::{PanelPicture, Picture};
 
 /// What is drawn of every state: one panel, or several side by side.
 pub(crate) struct Drawing<'a> {

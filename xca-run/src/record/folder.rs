@@ -1,11 +1,11 @@
 //! The folder of a run, and what an earlier run left in it.
 
 use crate::checkpoint::CHECKPOINTS;
-use crate::output::atomic::{OutputFolder, WriteError, remove_leftovers};
 use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use xca_io::atomic::{OutputFolder, WriteError, remove_leftovers};
 
 /// The folder, below the run's own, that holds the frames.
 pub(crate) const FRAMES: &str = "frames";

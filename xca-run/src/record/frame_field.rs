@@ -2,8 +2,8 @@
 
 use super::values::Plane;
 use crate::components::state_names;
-use crate::output::vtk::DataArray;
 use xca_core::Field;
+use xca_io::vtk::DataArray;
 
 /// The values of a substate, with the names that a frame keeps.
 pub(super) struct FrameField {

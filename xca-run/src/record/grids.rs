@@ -3,11 +3,11 @@
 
 use super::values::Plane;
 use super::{RecordError, Recorder};
-use crate::output::ascii_grid::AsciiGrid;
 use std::path::PathBuf;
 use xca_core::engine::SubstateId;
 use xca_core::model::GroupKind;
 use xca_core::{GroupSnapshot, Model, Precision, Snapshot, StoredScalar};
+use xca_io::ascii_grid::AsciiGrid;
 
 /// One component of a substate of cells, and the file that it is written to.
 struct Component {

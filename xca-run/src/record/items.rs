@@ -5,13 +5,13 @@ use super::frame_field::FrameField;
 use super::seen::Seen;
 use super::values::Plane;
 use crate::components::DrawnPart;
-use crate::output::particle_csv::{self, Column};
-use crate::output::vtk::{DataArray, write_particles};
 use crate::view::{AnyItemView, Drawn, TableColumn};
 use std::path::Path;
 use xca_core::engine::Population;
 use xca_core::model::Group;
 use xca_core::{Geometry, Precision, ScalarType, StoredType};
+use xca_io::particle_csv::{self, Column, ColumnType};
+use xca_io::vtk::{DataArray, write_particles};
 
 /// The items of one state that a view shows, by label.
 pub(super) struct Items<'a> {
@@ -80,8 +80,10 @@ impl<'a> Items<'a> {
                 (header.as_str(), scalar, self.plane(*field).component(*component))
             })
             .collect();
-        let columns: Vec<(&str, Column<'_>)> =
-            values.iter().map(|(header, scalar, values)| (*header, column(*scalar, values))).collect();
+        let columns: Vec<(&str, Column<'_>)> = values
+            .iter()
+            .map(|(header, scalar, values)| (*header, Column::Typed(column_type(*scalar), values)))
+            .collect();
         Ok(particle_csv::write(path, &self.labels, &columns)?)
     }
 
@@ -114,9 +116,13 @@ impl<'a> Items<'a> {
 }
 
 /// Floating numbers keep all their bits, whatever the precision of the run; bool and states have names.
-fn column(scalar: ScalarType, values: &[f64]) -> Column<'_> {
+pub(crate) fn column_type(scalar: ScalarType) -> ColumnType<'static> {
     match scalar {
-        ScalarType::F32 | ScalarType::F64 | ScalarType::Real => Column::F64(values),
-        scalar => Column::Typed(scalar, values),
+        ScalarType::F32 | ScalarType::F64 | ScalarType::Real => ColumnType::Number,
+        ScalarType::U8 => ColumnType::Whole { least: 0, largest: u8::MAX.into() },
+        ScalarType::I32 => ColumnType::Whole { least: i32::MIN.into(), largest: i32::MAX.into() },
+        ScalarType::U32 => ColumnType::Whole { least: 0, largest: u32::MAX.into() },
+        ScalarType::Bool => ColumnType::Bool,
+        ScalarType::State(names) => ColumnType::State { name: names.name, states: names.states },
     }
 }

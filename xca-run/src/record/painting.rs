@@ -2,13 +2,13 @@
 
 use super::seen::{Seen, wider};
 use super::shown::Shown;
-use crate::output::picture::{
-    BlockPicture, Category, ColourMap, Domain, ParticlePicture, Picture, PictureError, Relief, Scalar,
-    SlicePicture,
-};
 use crate::view::{AnyCellView, AnyItemView, AnyView, Drawn};
 use xca_core::model::Group;
 use xca_core::{Geometry, Model, Schema};
+use xca_io::picture::{
+    BlockPicture, Category, ColourMap, Domain, ParticlePicture, Picture, PictureError, Relief, Scalar,
+    SlicePicture,
+};
 
 /// The texts above a picture, its scale and its size.
 #[derive(Clone, Copy)]

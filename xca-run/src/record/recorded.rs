@@ -3,12 +3,12 @@
 use super::folder::remove;
 use super::{RecordError, Recorder, RunFolder, SERIES};
 use crate::numbers::Exact;
-use crate::output::table_csv::{SeriesWriter, Written};
-use crate::output::vtk::Collection;
 use crate::program::Observable;
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 use std::path::PathBuf;
+use xca_io::table_csv::{SeriesWriter, Written};
+use xca_io::vtk::Collection;
 
 /// What a recorder has written, as a checkpoint keeps it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -6,11 +6,11 @@ use super::seen::Seen;
 use super::shown::Shown;
 use super::values::{Plane, stored_of};
 use crate::components::{DrawnPart, Part, state_names};
-use crate::output::vtk::{ReadArray, ReadVtkError, read_dense, read_particles};
 use crate::view::{AnyCellView, AnyItemView, AnyView, Drawn};
 use std::path::{Path, PathBuf};
 use xca_core::model::Group;
 use xca_core::{Geometry, GroupSnapshot, Model, Precision, Snapshot};
+use xca_io::vtk::{ReadArray, ReadVtkError, read_dense, read_particles};
 
 /// A saved state that cannot be drawn.
 #[derive(Debug, thiserror::Error)]

@@ -4,11 +4,11 @@ use super::cells::Cells;
 use super::items::Items;
 use super::numbered_files;
 use super::seen::Seen;
-use crate::output::atomic::OutputFolder;
-use crate::output::vtk::Collection;
 use crate::view::AnyView;
 use std::path::PathBuf;
 use xca_core::{GroupSnapshot, Model, Precision, Snapshot};
+use xca_io::atomic::OutputFolder;
+use xca_io::vtk::Collection;
 
 /// A view with its files.
 pub(super) struct Shown {

@@ -6,9 +6,9 @@ use super::painting::Field;
 use super::seen::{Seen, wider};
 use super::{Recorder, Shown};
 use crate::components::{Part, name_of};
-use crate::output::picture::{Category, ColourMap, Scalar};
 use crate::view::{AnyView, Drawn};
 use xca_core::{Model, Precision, Snapshot};
+use xca_io::picture::{Category, ColourMap, Scalar};
 
 /// What is seen of one state.
 #[derive(Debug, Clone, PartialEq)]

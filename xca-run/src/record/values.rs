@@ -1,8 +1,8 @@
 //! Stored bytes as numbers.
 
 use crate::components::DrawnPart;
-use crate::output::vtk::{NumberType, ReadArray, Values};
 use xca_core::{StoredScalar, StoredType};
+use xca_io::vtk::{NumberType, ReadArray, Values};
 
 /// The type of the numbers of an array. How its components belong together only the model knows.
 pub(super) fn stored_of(array: &ReadArray) -> StoredType {

@@ -3,12 +3,12 @@
 use super::state::{Described, NamedValue, Place, Statistics, linear};
 use super::{Inside, InspectArguments, Unable};
 use crate::numbers::Exact;
-use crate::output::particle_csv::LABEL;
-use crate::output::vtk::{DenseFile, NumberType, ReadArray, read_dense, read_particles};
 use crate::record::{FRAMES, Plane};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
+use xca_io::particle_csv::LABEL;
+use xca_io::vtk::{DenseFile, NumberType, ReadArray, read_dense, read_particles};
 
 /// A frame by its name, `NAME_STEP.vti` or `.vtp`.
 struct Frame {

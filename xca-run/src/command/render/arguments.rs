@@ -5,12 +5,12 @@ use crate::command::Unable;
 use crate::command::arguments::{RunArguments, interval, steps};
 use crate::command::look::{axis, range};
 use crate::command::voice::Voice;
-use crate::output::animation::{write_apng, write_gif};
-use crate::output::atomic::WriteError;
 use crate::record::{Drawing, Look, Recorder, ViewKind};
 use clap::builder::Resettable;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
+use xca_io::animation::{write_apng, write_gif};
+use xca_io::atomic::WriteError;
 
 /// How pictures are put in motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -7,12 +7,12 @@ use crate::checkpoint::{Checkpoint, CheckpointFolder};
 use crate::command::voice::Voice;
 use crate::command::{Definition, Ended, Unable};
 use crate::interrupt::Interrupt;
-use crate::output::atomic::{OutputFolder, write_atomically};
 use crate::program::Failure;
 use crate::record::{Drawing, FRAMES, RunFolder, SavedError};
 use serde_json::{Value, json};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+use xca_io::atomic::{OutputFolder, write_atomically};
 
 /// Draws the saved states of a run, or the state of a checkpoint.
 pub(in crate::command) fn draw(

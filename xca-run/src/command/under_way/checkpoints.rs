@@ -2,10 +2,10 @@
 
 use crate::checkpoint::{Checkpoint, CheckpointFolder};
 use crate::command::interval::Interval;
-use crate::output::atomic::WriteError;
 use crate::record::RunFolder;
 use std::path::Path;
 use std::time::Instant;
+use xca_io::atomic::WriteError;
 
 /// The checkpoints of a run.
 pub(in crate::command) struct Checkpoints {

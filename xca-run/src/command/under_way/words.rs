@@ -1,11 +1,11 @@
 //! What a run says of itself at its start and at its end.
 
 use super::UnderWay;
-use crate::numbers::significant;
 use crate::progress::{self, Diagnostic};
 use crate::report::Report;
 use std::time::Duration;
 use xca_core::Model;
+use xca_io::numbers::significant;
 
 impl UnderWay {
     /// The line at the start.

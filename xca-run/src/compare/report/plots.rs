@@ -3,8 +3,8 @@
 use super::{ReportError, sheets};
 use crate::compare::lane::Check;
 use crate::compare::result::{Comparison, EngineResult};
-use crate::numbers::significant;
 use plotters::prelude::*;
+use xca_io::numbers::significant;
 
 const TEXT: RGBColor = RGBColor(0x2b, 0x2f, 0x36);
 const GRID: RGBColor = RGBColor(0xe3, 0xe6, 0xea);

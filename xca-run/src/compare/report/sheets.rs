@@ -4,7 +4,7 @@ use crate::compare::difference::{Difference, Kind};
 use crate::compare::lane::FirstDifference;
 use crate::compare::result::{Comparison, EngineResult};
 use crate::compare::timing::Spread;
-use crate::numbers::significant;
+use xca_io::numbers::significant;
 
 /// What has to be known where engines differ.
 pub(super) const CHAOS: &str = "Where engines differ, how far they are apart says little about their quality: a system \

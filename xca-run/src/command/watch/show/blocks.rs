@@ -1,12 +1,12 @@
 //! Pixels as characters: two above each other are the halves of one.
 
 use super::pixels::Pixels;
-use crate::output::picture::encode;
 use anstyle::RgbColor;
 use anstyle_lossy::rgb_to_xterm;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Color;
+use xca_io::picture::encode;
 
 const UPPER: &str = "▀";
 const LOWER: &str = "▄";

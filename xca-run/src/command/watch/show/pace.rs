@@ -54,7 +54,7 @@ impl Pace {
             format!("{steps} a picture")
         } else {
             let rate = f64::from(self.full) / f64::from(2_u32.pow(self.slowed));
-            format!("{steps} a picture, {} pictures/s", crate::numbers::significant(rate, 2))
+            format!("{steps} a picture, {} pictures/s", xca_io::numbers::significant(rate, 2))
         }
     }
 }

@@ -4,14 +4,14 @@ use super::blocks::Colours;
 use super::pixels::{looked_along, scale};
 use super::screen::Screen;
 use super::worker::News;
-use crate::numbers::significant;
-use crate::output::picture::Palette;
 use crate::progress::rate_text;
 use crate::record::{Sight, Subject};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Style, Stylize};
 use ratatui::text::{Line, Span};
+use xca_io::numbers::significant;
+use xca_io::picture::Palette;
 
 /// The widest bar of colours.
 const BAR: usize = 24;

@@ -1,8 +1,8 @@
 //! Cells, and the keys.
 
 use super::*;
-use crate::output::picture::ColourMap;
 use crate::view::CellView;
+use xca_io::picture::ColourMap;
 
 #[test]
 fn a_blinker_blinks() {

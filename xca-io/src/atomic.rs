@@ -75,7 +75,7 @@ fn fill_and_rename(
 }
 
 /// Removes what [`write_atomically`] left in a folder when the process that called it was killed.
-pub(crate) fn remove_leftovers(folder: &Path) {
+pub fn remove_leftovers(folder: &Path) {
     let Ok(entries) = fs::read_dir(folder) else { return };
     for entry in entries.filter_map(Result::ok) {
         if entry.file_name().to_str().is_some_and(is_temporary) {
@@ -112,7 +112,7 @@ fn temporary_name(path: &Path) -> io::Result<PathBuf> {
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// # let temporary = tempfile::tempdir()?;
 /// # let somewhere = temporary.path();
-/// use xca_run::output::atomic::OutputFolder;
+/// use xca_io::atomic::OutputFolder;
 ///
 /// let out = OutputFolder::create(somewhere.join("runs/first"))?;
 /// assert!(out.file("final.csv").ends_with("runs/first/final.csv"));
@@ -146,7 +146,7 @@ impl OutputFolder {
     }
 
     /// A folder whose files are read, not made; it need not be there.
-    pub(crate) fn to_read(path: impl Into<PathBuf>) -> Self {
+    pub fn to_read(path: impl Into<PathBuf>) -> Self {
         Self { path: path.into() }
     }
 

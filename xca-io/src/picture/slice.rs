@@ -152,8 +152,8 @@ impl<'a> SlicePicture<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::picture::ColourMap;
-    use crate::output::picture::mosaic::GREY;
+    use crate::picture::ColourMap;
+    use crate::picture::mosaic::GREY;
 
     fn colour(t: f64) -> [u8; 3] {
         encode(ColourMap::Sequential.linear(t)).map(|x| (x * 255.0).round() as u8)

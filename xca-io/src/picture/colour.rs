@@ -90,7 +90,7 @@ fn linear_of_oklab([l, a, b]: [f32; 3]) -> [f32; 3] {
 }
 
 /// Encoded from linear RGB.
-pub(crate) fn encode(linear: [f32; 3]) -> [f32; 3] {
+pub fn encode(linear: [f32; 3]) -> [f32; 3] {
     linear.map(|x| {
         let x = x.clamp(0.0, 1.0);
         if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 }

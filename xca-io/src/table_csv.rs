@@ -56,7 +56,7 @@ pub enum SeriesError {
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// # let temporary = tempfile::tempdir()?;
 /// # let path = temporary.path().join("observables.csv");
-/// use xca_run::output::table_csv::SeriesWriter;
+/// use xca_io::table_csv::SeriesWriter;
 ///
 /// let mut series = SeriesWriter::create(&path, &["particles", "kinetic energy"])?;
 /// series.append(0, 0.0, &[2602.0, 0.0])?;

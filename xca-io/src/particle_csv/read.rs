@@ -7,9 +7,9 @@ use std::io::BufReader;
 use std::path::Path;
 
 use super::LABEL;
+use super::column_type::ColumnType;
 use super::error::ReadError;
 use super::lines::MeaningfulLines;
-use xca_core::ScalarType;
 
 /// Particles as they stand in a file, in its order.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,7 +32,7 @@ pub struct ParticleTable {
 ///
 /// # Errors
 /// [`ReadError`], with the path, the line and the column.
-pub fn read(path: &Path, columns: &[(&str, ScalarType)]) -> Result<ParticleTable, ReadError> {
+pub fn read(path: &Path, columns: &[(&str, ColumnType<'_>)]) -> Result<ParticleTable, ReadError> {
     let file = File::open(path).map_err(|source| ReadError::Open { path: path.to_owned(), source })?;
     let broken = |error: csv::Error| ReadError::Read { path: path.to_owned(), source: error.into() };
     let mut csv = csv::ReaderBuilder::new()
@@ -59,8 +59,9 @@ pub fn read(path: &Path, columns: &[(&str, ScalarType)]) -> Result<ParticleTable
         }
         table.labels.push(label);
         table.lines.push(line);
-        for ((values, &place), (name, scalar)) in table.columns.iter_mut().zip(&places[1..]).zip(columns) {
-            values.push(row.value(place, name, *scalar)?);
+        for ((values, &place), (name, column_type)) in table.columns.iter_mut().zip(&places[1..]).zip(columns)
+        {
+            values.push(row.value(place, name, *column_type)?);
         }
     }
     Ok(table)
@@ -71,7 +72,7 @@ fn header(
     path: &Path,
     line: u64,
     record: &csv::ByteRecord,
-    columns: &[(&str, ScalarType)],
+    columns: &[(&str, ColumnType<'_>)],
 ) -> Result<Vec<usize>, ReadError> {
     let wanted: Vec<&str> = std::iter::once(LABEL).chain(columns.iter().map(|(name, _)| *name)).collect();
     let names: Vec<Cow<'_, str>> = record.iter().map(String::from_utf8_lossy).collect();
@@ -124,17 +125,17 @@ impl<'a> Row<'a> {
         })
     }
 
-    fn value(&self, place: usize, column: &str, scalar: ScalarType) -> Result<f64, ReadError> {
-        if matches!(scalar, ScalarType::F32 | ScalarType::F64 | ScalarType::Real) {
+    fn value(&self, place: usize, column: &str, column_type: ColumnType<'_>) -> Result<f64, ReadError> {
+        if column_type == ColumnType::Number {
             return self.number(place, column);
         }
         let text = self.field(place)?;
-        scalar.parse(&text).ok_or_else(|| ReadError::Value {
+        column_type.parse(&text).ok_or_else(|| ReadError::Value {
             path: self.path.to_owned(),
             line: self.line,
             column: column.to_owned(),
             text: text.into_owned(),
-            wanted: wanted(scalar),
+            wanted: column_type.to_string(),
         })
     }
 
@@ -157,32 +158,19 @@ impl<'a> Row<'a> {
     }
 }
 
-/// What a text must be to be a value of this type.
-fn wanted(scalar: ScalarType) -> String {
-    match scalar {
-        ScalarType::Bool => "must be true or false".to_owned(),
-        ScalarType::State(names) => format!("must be a {}: {}", names.name, names.states.join(", ")),
-        ScalarType::U8 => format!("must be a whole number from 0 to {}", u8::MAX),
-        ScalarType::I32 => format!("must be a whole number from {} to {}", i32::MIN, i32::MAX),
-        ScalarType::U32 => format!("must be a whole number from 0 to {}", u32::MAX),
-        ScalarType::F32 | ScalarType::F64 | ScalarType::Real => "must be a finite number".to_owned(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::Column;
     use super::*;
-    use xca_core::StateNames;
 
     fn read_text(text: &[u8]) -> Result<ParticleTable, ReadError> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("p.csv");
         std::fs::write(&path, text).unwrap();
-        read(&path, &[("x", ScalarType::F64), ("y", ScalarType::Real)])
+        read(&path, &[("x", ColumnType::Number), ("y", ColumnType::Number)])
     }
 
-    const PHASE: ScalarType = ScalarType::State(&StateNames { name: "Phase", states: &["Solid", "Liquid"] });
+    const PHASE: ColumnType<'static> = ColumnType::State { name: "Phase", states: &["Solid", "Liquid"] };
 
     #[test]
     fn values_are_read_by_the_types_of_their_columns() {
@@ -190,10 +178,10 @@ mod tests {
         let path = folder.path().join("p.csv");
         let columns = [
             ("phase", PHASE),
-            ("wet", ScalarType::Bool),
-            ("age", ScalarType::U8),
-            ("charge", ScalarType::I32),
-            ("hits", ScalarType::U32),
+            ("wet", ColumnType::Bool),
+            ("age", ColumnType::Whole { least: 0, largest: 255 }),
+            ("charge", ColumnType::Whole { least: i32::MIN as i64, largest: i32::MAX as i64 }),
+            ("hits", ColumnType::Whole { least: 0, largest: u32::MAX as i64 }),
         ];
         let values: [&[f64]; 5] =
             [&[1.0, 0.0], &[0.0, 1.0], &[255.0, 0.0], &[-2_147_483_648.0, 7.0], &[4_294_967_295.0, 0.0]];

@@ -267,7 +267,7 @@ struct Hit {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::picture::ColourMap;
+    use crate::picture::ColourMap;
 
     fn eye(extents: [usize; 3]) -> Eye {
         Eye::new(extents.map(|n| n as f64), [40.0, 92.0], [800.0 - 176.0, 560.0])

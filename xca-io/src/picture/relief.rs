@@ -19,6 +19,7 @@ const SKY: f64 = 0.25;
 const SLOPE: f64 = 0.5;
 
 /// How light the ground is, cell by cell.
+#[derive(Debug)]
 pub(super) struct Ground {
     lightness: Vec<f32>,
     bare: f64,

@@ -19,7 +19,7 @@ use super::{super::atomic::write_atomically, VtkError};
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// # let temporary = tempfile::tempdir()?;
 /// # let path = temporary.path().join("particles.vtp");
-/// use xca_run::output::vtk::{DataArray, write_particles};
+/// use xca_io::vtk::{DataArray, write_particles};
 ///
 /// let positions = [[0.0, 0.0, 0.5], [1.0, 0.0, 0.5]];
 /// let velocities = [[0.0, 0.0, -1.0]; 2];

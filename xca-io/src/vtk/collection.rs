@@ -16,7 +16,7 @@ use super::appended::escaped;
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// # let temporary = tempfile::tempdir()?;
 /// # let out = temporary.path();
-/// use xca_run::output::vtk::{Collection, write_particles};
+/// use xca_io::vtk::{Collection, write_particles};
 ///
 /// let mut collection = Collection::create(&out.join("particles.pvd"))?;
 /// for step in 0..3_u32 {

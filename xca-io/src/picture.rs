@@ -13,7 +13,7 @@
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! # let temporary = tempfile::tempdir()?;
 //! # let out = temporary.path();
-//! use xca_run::output::picture::{Domain, ParticlePicture, Scalar};
+//! use xca_io::picture::{Domain, ParticlePicture, Scalar};
 //!
 //! let positions = [[0.01, 0.01, 0.001], [0.03, 0.02, 0.001]];
 //! let domain = Domain { lower: [0.0; 3], upper: [0.04; 3] };
@@ -48,20 +48,15 @@ use std::path::Path;
 
 use super::atomic::{WriteError, write_atomically};
 
-#[cfg(feature = "terminal")]
-pub(crate) use averaging::fitted;
+pub use averaging::fitted;
 pub use block::BlockPicture;
 pub use category::Category;
 pub use colour::ColourMap;
-#[cfg(feature = "terminal")]
-pub(crate) use colour::encode;
-#[cfg(feature = "terminal")]
-pub(crate) use depth::{DepthBuffer, Disc};
+pub use colour::encode;
+pub use depth::{DepthBuffer, Disc};
 pub use legend::Scalar;
-#[cfg(feature = "terminal")]
-pub(crate) use legend::Scale;
-#[cfg(feature = "terminal")]
-pub(crate) use mosaic::{Mosaic, Palette};
+pub use legend::Scale;
+pub use mosaic::{Mosaic, Palette};
 pub use panels::PanelPicture;
 pub use particles::{Domain, ParticlePicture};
 pub use relief::Relief;

@@ -1,6 +1,6 @@
 //! Pictures that follow each other, and what changes between them.
 
-use crate::output::picture::Picture;
+use crate::picture::Picture;
 use std::fs::File;
 use std::io::{self, BufReader};
 use std::path::{Path, PathBuf};

@@ -1,7 +1,8 @@
 //! Which sphere is in front.
 
 /// For each sample the nearest sphere and its depth.
-pub(crate) struct DepthBuffer {
+#[derive(Debug)]
+pub struct DepthBuffer {
     pub(super) width: usize,
     pub(super) height: usize,
     depth: Vec<f32>,
@@ -10,14 +11,15 @@ pub(crate) struct DepthBuffer {
 
 /// A sphere as a surface sees it.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Disc {
+pub struct Disc {
     /// The middle, in samples from the top left.
-    pub(crate) at: [f32; 2],
+    pub at: [f32; 2],
     /// The radius in samples.
-    pub(crate) radius: f32,
-    /// The depth of the middle, and the radius in units of depth.
-    pub(crate) depth: f32,
-    pub(crate) thickness: f32,
+    pub radius: f32,
+    /// The depth of the middle.
+    pub depth: f32,
+    /// The radius in units of depth.
+    pub thickness: f32,
 }
 
 impl Disc {
@@ -28,7 +30,7 @@ impl Disc {
     }
 
     /// The direction of the surface at a sample: right, up and towards the eye.
-    pub(crate) fn normal(&self, x: usize, y: usize) -> [f32; 3] {
+    pub fn normal(&self, x: usize, y: usize) -> [f32; 3] {
         let disc = self.visible();
         let u = (x as f32 + 0.5 - disc.at[0]) / disc.radius;
         let v = (disc.at[1] - y as f32 - 0.5) / disc.radius;
@@ -40,7 +42,8 @@ impl DepthBuffer {
     /// The owner of a sample that shows no sphere.
     const NONE: u32 = u32::MAX;
 
-    pub(crate) fn new(width: usize, height: usize) -> Self {
+    /// Nothing, in so many samples.
+    pub fn new(width: usize, height: usize) -> Self {
         Self {
             width,
             height,
@@ -50,7 +53,7 @@ impl DepthBuffer {
     }
 
     /// Draws sphere `owner` where it is in front of what is there.
-    pub(crate) fn draw(&mut self, disc: Disc, owner: u32) {
+    pub fn draw(&mut self, disc: Disc, owner: u32) {
         let disc = disc.visible();
         let [cx, cy] = disc.at;
         let r = disc.radius;
@@ -96,10 +99,10 @@ impl DepthBuffer {
         self.depth(x, y)
     }
 
-    /// The sphere at a sample. The sample must be inside.
-    pub(crate) fn owner(&self, x: usize, y: usize) -> Option<usize> {
-        let owner = self.owner[y * self.width + x];
-        (owner != Self::NONE).then_some(owner as usize)
+    /// The sphere at a sample; none outside.
+    pub fn owner(&self, x: usize, y: usize) -> Option<usize> {
+        let owner = *self.owner.get(y * self.width + x)?;
+        (x < self.width && owner != Self::NONE).then_some(owner as usize)
     }
 }
 

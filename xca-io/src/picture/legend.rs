@@ -55,7 +55,7 @@ impl<'a> Scalar<'a> {
     }
 
     /// The scale from values to places on the map.
-    pub(crate) fn scale(&self) -> Scale {
+    pub fn scale(&self) -> Scale {
         let found = || {
             let finite = self.values.iter().copied().filter(|value| value.is_finite());
             finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
@@ -71,14 +71,16 @@ impl<'a> Scalar<'a> {
 
 /// The values at the ends of a colour map.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Scale {
-    pub(crate) low: f64,
-    pub(crate) high: f64,
+pub struct Scale {
+    /// The value at the low end.
+    pub low: f64,
+    /// The value at the high end.
+    pub high: f64,
 }
 
 impl Scale {
     /// The place of a value on the map, from 0 to 1; `None` if it is not finite.
-    pub(crate) fn place(&self, value: f64) -> Option<f64> {
+    pub fn place(&self, value: f64) -> Option<f64> {
         if !value.is_finite() {
             return None;
         }

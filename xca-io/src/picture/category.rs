@@ -23,7 +23,7 @@ impl Category {
     }
 
     /// The colour in linear RGB.
-    pub(crate) fn linear(&self) -> [f32; 3] {
+    pub fn linear(&self) -> [f32; 3] {
         decode(self.colour)
     }
 
@@ -33,7 +33,7 @@ impl Category {
     }
 
     /// The number of the category of a value.
-    pub(crate) fn number_of(categories: &[Self], value: f64) -> Option<usize> {
+    pub fn number_of(categories: &[Self], value: f64) -> Option<usize> {
         categories.iter().position(|category| category.value == value)
     }
 }

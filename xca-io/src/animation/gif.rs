@@ -2,7 +2,7 @@
 
 use super::film::{Film, Part};
 use super::palette::Histogram;
-use crate::output::atomic::{WriteError, write_atomically};
+use crate::atomic::{WriteError, write_atomically};
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use std::borrow::Cow;
 use std::io;

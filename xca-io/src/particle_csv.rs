@@ -7,6 +7,7 @@
 //!
 //! [`write()`] makes such a file, [`read()`] takes one, by hand or from a run, with errors that say the line.
 
+mod column_type;
 mod error;
 mod lines;
 mod read;
@@ -15,8 +16,8 @@ use std::fmt::{self, Write as _};
 use std::path::Path;
 
 use super::atomic::write_atomically;
-use xca_core::ScalarType;
 
+pub use column_type::ColumnType;
 pub use error::{ReadError, WriteParticlesError};
 pub use read::{ParticleTable, read};
 
@@ -30,9 +31,8 @@ pub enum Column<'a> {
     F64(&'a [f64]),
     /// Written with 9 significant digits.
     F32(&'a [f32]),
-    /// Values of this type, as numbers: whole ones written as such, `bool` as `true` and `false`, states by
-    /// name.
-    Typed(ScalarType, &'a [f64]),
+    /// Values of this type, as numbers.
+    Typed(ColumnType<'a>, &'a [f64]),
 }
 
 impl Column<'_> {
@@ -49,7 +49,7 @@ impl Column<'_> {
         match self {
             Self::F64(values) => write!(text, "{:.16e}", values[index]),
             Self::F32(values) => write!(text, "{:.8e}", values[index]),
-            Self::Typed(scalar, values) => text.write_str(&scalar.text(values[index])),
+            Self::Typed(column_type, values) => text.write_str(&column_type.text(values[index])),
         }
     }
 }
@@ -142,7 +142,7 @@ mod tests {
         }
         let labels: Vec<u32> = (1..=2000).collect();
         write(&path, &labels, &[("x", Column::F64(&values))]).unwrap();
-        let table = read(&path, &[("x", ScalarType::F64)]).unwrap();
+        let table = read(&path, &[("x", ColumnType::Number)]).unwrap();
         assert_eq!(table.labels, labels);
         for (written, back) in values.iter().zip(&table.columns[0]) {
             assert_eq!(written.to_bits(), back.to_bits(), "{written:e}");
@@ -161,7 +161,7 @@ mod tests {
         }
         let labels: Vec<u32> = (1..=2000).collect();
         write(&path, &labels, &[("x", Column::F32(&values))]).unwrap();
-        let table = read(&path, &[("x", ScalarType::F64)]).unwrap();
+        let table = read(&path, &[("x", ColumnType::Number)]).unwrap();
         for (written, &back) in values.iter().zip(&table.columns[0]) {
             assert_eq!(written.to_bits(), (back as f32).to_bits(), "{written:e}");
         }
@@ -173,7 +173,7 @@ mod tests {
         let path = folder.path().join("p.csv");
         write(&path, &[], &[("x", Column::F64(&[]))]).unwrap();
         assert_eq!(fs::read_to_string(&path).unwrap(), "label,x\n");
-        assert!(read(&path, &[("x", ScalarType::F64)]).unwrap().labels.is_empty());
+        assert!(read(&path, &[("x", ColumnType::Number)]).unwrap().labels.is_empty());
     }
 
     #[test]

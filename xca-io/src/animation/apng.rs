@@ -1,7 +1,7 @@
 //! Animated PNG files (APNG), which browsers play and every other program shows the first picture of.
 
 use super::film::{Film, Part};
-use crate::output::atomic::{WriteError, write_atomically};
+use crate::atomic::{WriteError, write_atomically};
 use std::io;
 use std::path::{Path, PathBuf};
 

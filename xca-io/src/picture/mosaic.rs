@@ -11,7 +11,7 @@ pub(super) const GREY: [f32; 3] = [0.35, 0.35, 0.35];
 
 /// What values look like, in linear RGB.
 #[derive(Debug, Clone)]
-pub(crate) struct Palette {
+pub struct Palette {
     map: Vec<[f32; 3]>,
     kinds: Vec<[f32; 3]>,
     unknown: [f32; 3],
@@ -19,13 +19,12 @@ pub(crate) struct Palette {
 
 impl Palette {
     /// The colours of a map, and of kinds.
-    pub(crate) fn coloured(map: ColourMap, kinds: &[Category]) -> Self {
+    pub fn coloured(map: ColourMap, kinds: &[Category]) -> Self {
         Self { map: map.table(), kinds: kinds.iter().map(Category::linear).collect(), unknown: GREY }
     }
 
     /// Without colours: ever lighter, from this lightness to 1, for values and for kinds.
-    #[cfg(any(test, feature = "terminal"))]
-    pub(crate) fn shades(darkest: f32, kinds: usize) -> Self {
+    pub fn shades(darkest: f32, kinds: usize) -> Self {
         let shades = |number: usize| {
             let last = number.saturating_sub(1).max(1) as f32;
             (0..number).map(|i| [darkest + (1.0 - darkest) * i as f32 / last; 3]).collect()
@@ -34,19 +33,20 @@ impl Palette {
     }
 
     /// The colour at a place of the scale, from 0 to 1.
-    pub(crate) fn of(&self, place: Option<f64>) -> [f32; 3] {
+    pub fn of(&self, place: Option<f64>) -> [f32; 3] {
         let entry = place.and_then(|place| self.map.get((place * 255.0).round() as usize));
         entry.copied().unwrap_or(self.unknown)
     }
 
     /// The colour of the kind with this number.
-    pub(crate) fn kind(&self, number: Option<usize>) -> [f32; 3] {
+    pub fn kind(&self, number: Option<usize>) -> [f32; 3] {
         number.and_then(|number| self.kinds.get(number)).copied().unwrap_or(self.unknown)
     }
 }
 
-/// A layer of cells, x fastest, the lowest y first.
-pub(crate) struct Mosaic<'a> {
+/// A layer of cells, x fastest, the lowest y first. A cell without a value has no colour of its own.
+#[derive(Debug)]
+pub struct Mosaic<'a> {
     columns: usize,
     rows: usize,
     values: &'a [f64],
@@ -60,7 +60,7 @@ pub(crate) struct Mosaic<'a> {
 
 impl<'a> Mosaic<'a> {
     /// A layer of magnitudes, or of kinds, on no ground.
-    pub(crate) fn new(
+    pub fn new(
         [columns, rows]: [usize; 2],
         values: &'a [f64],
         kinds: &'a [f64],
@@ -76,8 +76,10 @@ impl<'a> Mosaic<'a> {
     }
 
     /// Calls `set` with the column and the row of each pixel, from the top left, and its colour: that of its cell, or of the mean of its cells.
-    /// There must be a value for each cell, and a cell.
-    pub(crate) fn draw(&self, [width, height]: [usize; 2], mut set: impl FnMut(usize, usize, [f32; 3])) {
+    pub fn draw(&self, [width, height]: [usize; 2], mut set: impl FnMut(usize, usize, [f32; 3])) {
+        if self.columns == 0 || self.rows == 0 {
+            return;
+        }
         let across: Vec<Share> = (0..width).map(|x| Share::new(x, width, self.columns)).collect();
         for y in 0..height {
             // The first row of cells is at the bottom.
@@ -88,13 +90,17 @@ impl<'a> Mosaic<'a> {
         }
     }
 
+    fn value(&self, cell: usize) -> f64 {
+        self.values.get(cell).copied().unwrap_or(f64::NAN)
+    }
+
     fn colour(&self, across: &Share, down: &Share) -> [f32; 3] {
         let cells = down
             .cells()
             .flat_map(|(row, a)| across.cells().map(move |(column, b)| (row * self.columns + column, a * b)));
         if self.kinds.is_empty() && self.ground.is_none() {
             let (sum, weight) = cells
-                .map(|(cell, weight)| (self.values[cell], weight))
+                .map(|(cell, weight)| (self.value(cell), weight))
                 .filter(|(value, _)| value.is_finite())
                 .fold((0.0, 0.0), |(sum, weight), (value, w)| (sum + value * w, weight + w));
             return self.palette.of(self.scale.place(sum / weight));
@@ -108,7 +114,7 @@ impl<'a> Mosaic<'a> {
 
     /// The colour of a single cell.
     fn colour_of(&self, cell: usize) -> [f32; 3] {
-        let value = self.values[cell];
+        let value = self.value(cell);
         let own = if self.kinds.is_empty() {
             self.palette.of(self.scale.place(value))
         } else {

@@ -37,8 +37,9 @@ impl Share {
     }
 }
 
-/// The pixels across and down that show cells in a room: whole ones for each cell where there are as many. There must be cells.
-pub(crate) fn fitted(cells: [usize; 2], room: [usize; 2]) -> [usize; 2] {
+/// The pixels across and down that show cells in a room: whole ones for each cell where there are as many.
+pub fn fitted(cells: [usize; 2], room: [usize; 2]) -> [usize; 2] {
+    let (cells, room) = (cells.map(|n| n.max(1)), room.map(|n| n.max(1)));
     let side = (room[0] / cells[0]).min(room[1] / cells[1]);
     if side > 0 {
         return cells.map(|n| n * side);

@@ -1,0 +1,26 @@
+//! Readers and writers of scientific files.
+//!
+//! Every module takes plain data (slices of numbers, texts) and writes one kind of file. A file either appears
+//! complete under its name or not at all ([`atomic`]); the one exception is the time series ([`table_csv`]),
+//! which grows by whole rows. No simulation is needed.
+//!
+//! | module | file | for |
+//! |---|---|---|
+//! | [`particle_csv`] | `.csv` | particles, exact to the last bit; can be read back as an initial state |
+//! | [`table_csv`] | `.csv` | time series |
+//! | [`ascii_grid`] | `.asc` | a layer of cells for geographic information systems, also to begin from |
+//! | [`vtk`] | `.vtp`, `.vti`, `.pvd` | particles and dense substates in ParaView |
+//! | [`picture`] | `.png` | pictures, made without a display |
+//! | [`animation`] | `.png`, `.gif` | the same in motion |
+//! | [`numbers`] | | numbers as people read them |
+
+#![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
+
+pub mod animation;
+pub mod ascii_grid;
+pub mod atomic;
+pub mod numbers;
+pub mod particle_csv;
+pub mod picture;
+pub mod table_csv;
+pub mod vtk;
