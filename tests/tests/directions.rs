@@ -8,7 +8,7 @@ use toml::{Table, Value};
 type TestResult = Result<(), Box<dyn Error>>;
 
 /// For each member, the members that it may depend on. A new member finds its place here first.
-const DIRECTIONS: [(&str, &[&str]); 15] = [
+const DIRECTIONS: [(&str, &[&str]); 16] = [
     ("xca-methods", &[]),
     ("xca-macros", &["xca-methods"]),
     ("xca-core", &["xca-macros", "xca-methods"]),
@@ -16,7 +16,8 @@ const DIRECTIONS: [(&str, &[&str]); 15] = [
     ("xca-cpu", &["xca-core"]),
     ("xca-gpu", &["xca-core", "xca-wgsl"]),
     ("xca-io", &[]),
-    ("xca-run", &["xca-core", "xca-cpu", "xca-gpu", "xca-io", "xca-wgsl"]),
+    ("xca-record", &["xca-core", "xca-io", "xca-wgsl"]),
+    ("xca-run", &["xca-core", "xca-cpu", "xca-gpu", "xca-io", "xca-record"]),
     ("xca", &["xca-core", "xca-cpu", "xca-gpu", "xca-run"]),
     ("cadem", &["xca-core"]),
     ("xca-examples", &["xca-core", "xca-run", "xca", "cadem"]),

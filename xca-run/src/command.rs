@@ -6,7 +6,6 @@ mod compare;
 mod config;
 mod initial;
 mod inspect;
-mod interval;
 mod list;
 mod look;
 mod new;
@@ -24,8 +23,7 @@ pub(crate) use arguments::threads;
 pub use config::ConfigError;
 
 use crate::interrupt::EXIT_INTERRUPTED;
-use crate::program::{Failure, Given, Program};
-use crate::set_up::SetUp;
+use crate::program::{Given, Program};
 use crate::terminal;
 use clap::{ArgMatches, Command};
 use parse::Invocation;
@@ -33,6 +31,8 @@ use std::ffi::OsString;
 use std::panic::{self, RefUnwindSafe};
 use std::process::ExitCode;
 use std::sync::{Mutex, PoisonError};
+use xca_record::Failure;
+use xca_record::SetUp;
 
 /// What every program's `--help` says of its exit codes.
 const EXIT_CODES: &str = "\

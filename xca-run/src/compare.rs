@@ -16,9 +16,9 @@ pub(crate) use contender::{Choice, Contender};
 pub(crate) use result::{Comparison, Subject};
 pub(crate) use verdict::Verdict;
 
-use crate::record::{RecordError, Recorder};
 use lane::Lane;
 use xca_core::RunError;
+use xca_record::record::{RecordError, Recorder};
 
 /// A comparison that does not come to its end.
 #[derive(Debug, thiserror::Error)]

@@ -63,50 +63,38 @@
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
-mod checkpoint;
 mod command;
 mod compare;
-mod components;
 mod engines;
 pub mod interrupt;
-mod items_file;
-mod machine;
-mod numbers;
 mod options;
 mod program;
 pub mod progress;
-mod record;
-mod report;
-mod set_up;
 mod table;
 mod terminal;
-mod view;
 
-pub use checkpoint::CheckpointError;
 pub use command::ConfigError;
 #[doc(hidden)]
 pub use command::{run_model, run_program};
 pub use engines::{
     Arithmetic, EngineError, EngineName, EngineOptions, MOST_THREADS, MissingFeature, UnknownArithmetic,
 };
-pub use items_file::{ReadItem, read_items};
-pub use machine::{NotEnoughMemory, check_memory};
 pub use options::{number_in, positive_number};
-pub use program::{Assignment, Failure, Given, NoAssignment, Observable, Program};
-pub use record::{FolderError, RecordError};
-pub use set_up::SetUp;
-pub use view::{CellView, ItemView, ViewError};
+pub use program::{Assignment, Given, NoAssignment, Program};
 #[doc(no_inline)]
 pub use xca_io as io;
+#[doc(no_inline)]
+pub use xca_record::{
+    self as record, CellView, Failure, ItemView, Observable, ReadItem, SetUp, check_memory, read_items,
+};
 
 /// What a model's program needs: the words of [`xca_core::prelude`] and those of the frame.
 pub mod prelude {
-    pub use crate::{
-        CellView, Failure, Given, ItemView, Observable, Program, SetUp, number_in, positive_number,
-    };
+    pub use crate::{Given, Program, number_in, positive_number};
     pub use clap::{self, Args};
     pub use std::process::ExitCode;
     pub use xca_core::prelude::*;
     pub use xca_io::ascii_grid::AsciiGrid;
     pub use xca_io::picture::ColourMap;
+    pub use xca_record::{CellView, Failure, ItemView, Observable, SetUp};
 }

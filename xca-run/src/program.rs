@@ -1,12 +1,9 @@
 //! What a model's program is made of.
 
-use crate::set_up::SetUp;
 use std::fmt;
 use std::str::FromStr;
 use xca_core::{ParameterError, Parameters, Precision};
-
-/// Any error. Its causes are shown below it, each on a line of its own.
-pub type Failure = Box<dyn std::error::Error + Send + Sync>;
+use xca_record::{Failure, SetUp};
 
 /// A model's program: a struct whose fields are the options that only this model has. A model without such options needs no struct:
 /// see [`crate::main_of!`].
@@ -133,43 +130,6 @@ impl FromStr for Assignment {
 impl fmt::Display for Assignment {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}={}", self.name, self.value)
-    }
-}
-
-/// A quantity that a run reports: a number that the whole state has.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Observable {
-    /// Its name, such as `kinetic energy`.
-    pub name: String,
-    /// Its unit, such as `J`; empty for a number.
-    pub unit: String,
-    /// Its value.
-    pub value: f64,
-    /// Whether the model keeps it: then how far it drifts is told.
-    pub is_conserved: bool,
-}
-
-impl Observable {
-    /// A quantity with its unit.
-    pub fn new(name: impl Into<String>, unit: impl Into<String>, value: f64) -> Self {
-        Self { name: name.into(), unit: unit.into(), value, is_conserved: false }
-    }
-
-    /// A number without a unit.
-    pub fn number(name: impl Into<String>, value: f64) -> Self {
-        Self::new(name, "", value)
-    }
-
-    /// The same quantity, which the model keeps: at the end of a run, and where engines are compared, its drift is told.
-    #[must_use]
-    pub fn conserved(self) -> Self {
-        Self { is_conserved: true, ..self }
-    }
-
-    /// How far a conserved quantity has come from its first value, as a part of that; of one that was 0, as a number.
-    pub(crate) fn drift(&self, last: f64) -> Option<f64> {
-        let scale = if self.value == 0.0 { 1.0 } else { self.value.abs() };
-        self.is_conserved.then(|| (last - self.value) / scale)
     }
 }
 

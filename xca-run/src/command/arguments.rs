@@ -1,12 +1,12 @@
 //! The options that every model's program has.
 
-use super::interval::Interval;
 use super::voice::Voice;
 use crate::engines::{Arithmetic, EngineName, EngineOptions, MOST_THREADS};
 use crate::program::{Assignment, Given};
 use clap::Args;
 use std::path::PathBuf;
 use xca_core::Precision;
+use xca_record::Interval;
 
 /// What bears on the model itself.
 #[derive(Args, Debug, Clone)]

@@ -8,12 +8,12 @@ use crate::compare::report::{self, Files};
 use crate::compare::{self, Choice, CompareError, Contender, Plan, Subject, Verdict};
 use crate::engines::Arithmetic;
 use crate::interrupt::Interrupt;
-use crate::machine::check_memory;
 use crate::options::number_in;
-use crate::record::Recorder;
 use clap::{Args, Command};
 use std::path::PathBuf;
 use xca_core::{Precision, RunError};
+use xca_record::machine::check_memory;
+use xca_record::record::Recorder;
 
 pub(super) const NAME: &str = "compare";
 

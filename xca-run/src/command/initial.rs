@@ -1,10 +1,10 @@
 //! Initial values from ESRI ASCII grids.
 
 use crate::program::Assignment;
-use crate::set_up::SetUp;
 use std::path::PathBuf;
 use xca_core::InitialError;
 use xca_io::ascii_grid::{AsciiGrid, ReadGridError};
+use xca_record::SetUp;
 
 /// A grid that a model cannot begin with.
 #[derive(Debug, thiserror::Error)]

@@ -6,9 +6,6 @@ mod words;
 
 use super::parse::with_help;
 use super::{Definition, Ended, Unable};
-use crate::checkpoint::{Checkpoint, CheckpointFolder, Parameter};
-use crate::numbers::Exact;
-use crate::record::REPORT;
 use crate::terminal;
 use clap::{Args, Command};
 use serde::Serialize;
@@ -16,6 +13,9 @@ use serde_json::Value;
 use state::{Place, Statistics};
 use std::fs;
 use std::path::{Path, PathBuf};
+use xca_record::checkpoint::{Checkpoint, CheckpointFolder, Parameter};
+use xca_record::numbers::Exact;
+use xca_record::record::REPORT;
 
 pub(super) const NAME: &str = "inspect";
 

@@ -5,15 +5,15 @@ mod text;
 
 use super::parse::{Choice, with_help, with_model};
 use super::{Definition, Ended, Unable};
-use crate::components::state_names;
 use crate::engines::EngineName;
-use crate::report;
 use crate::terminal;
 use clap::{Args, Command, ValueEnum};
 use serde_json::{Map, Value, json};
 use text::as_text;
 use xca_core::model::GroupKind;
 use xca_core::{End, Model, Process, ProcessKind};
+use xca_record::components::state_names;
+use xca_record::report;
 
 pub(super) const NAME: &str = "list";
 

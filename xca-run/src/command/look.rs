@@ -1,9 +1,9 @@
 //! The options that say what is looked at, in pictures and on the terminal.
 
 use crate::options::number_in;
-#[cfg(feature = "terminal")]
-use crate::record::Look;
 use clap::Args;
+#[cfg(feature = "terminal")]
+use xca_record::record::Look;
 
 /// What is looked at.
 #[derive(Args, Debug, Clone)]

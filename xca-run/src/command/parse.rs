@@ -12,12 +12,12 @@ use super::{
     run, watch,
 };
 use crate::program::Given;
-use crate::set_up::SetUp;
 use clap::error::ErrorKind;
 use clap::{ArgMatches, Args, Command, FromArgMatches};
 use serde_json::{Map, Value};
 use std::ffi::OsString;
 use std::path::PathBuf;
+use xca_record::SetUp;
 
 /// What a command line asks for.
 pub(super) enum Invocation<'a> {

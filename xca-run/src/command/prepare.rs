@@ -1,58 +1,19 @@
-//! What comes before a run, whether it begins or goes on: the engine, the model with its parameters, the report.
+//! What comes before a run, whether it begins or goes on: the engine, and the model with its parameters.
 
 use super::Unable;
 use super::arguments::EngineArguments;
 use super::initial::one_layer;
 use super::parse::RunInvocation;
-use crate::checkpoint::Origin;
-use crate::machine::check_memory;
 use crate::program::Given;
-use crate::record::Recorder;
-use crate::report::{self, Report};
-use crate::set_up::SetUp;
 use xca_core::{Engine, RunOptions};
-
-/// How many times in a run something is written, unless the command line says how often.
-const OUTPUTS: u64 = 20;
+use xca_record::machine::check_memory;
+use xca_record::report::Identity;
+use xca_record::{BeginError, Run, SetUp};
 
 /// A run that can begin.
 pub(super) struct Prepared {
     pub(super) engine: Box<dyn Engine>,
-    pub(super) recorder: Recorder,
-    pub(super) options: RunOptions,
-    pub(super) origin: Origin,
-    pub(super) report: Report,
-}
-
-/// A run as its command line says it, on no engine.
-pub(super) struct Described {
-    pub(super) recorder: Recorder,
-    pub(super) options: RunOptions,
-    pub(super) origin: Origin,
-}
-
-impl Described {
-    /// Makes the model of a run.
-    pub(super) fn new(invocation: &RunInvocation<'_>) -> Result<Self, Unable> {
-        let given = invocation.model.arguments.given(invocation.run.steps);
-        Self::of(invocation, &given, invocation.model.set_up(&given)?)
-    }
-
-    fn of(invocation: &RunInvocation<'_>, given: &Given, set_up: SetUp) -> Result<Self, Unable> {
-        let steps = given.steps.unwrap_or(set_up.steps);
-        let every = invocation.run.every.unwrap_or(steps.div_ceil(OUTPUTS).max(1));
-        let recorder = Recorder::new(set_up).map_err(Unable::refused)?;
-        let options = RunOptions { precision: given.precision, seed: given.seed };
-        let definition = invocation.model.definition;
-        let origin = Origin::new(
-            definition.identity(),
-            invocation.command_line.clone(),
-            recorder.model(),
-            options,
-            [steps, every],
-        );
-        Ok(Self { recorder, options, origin })
-    }
+    pub(super) run: Run,
 }
 
 impl Prepared {
@@ -61,11 +22,37 @@ impl Prepared {
         let engine = on.engine.engine(&on.options()).map_err(Unable::refused)?;
         let given = invocation.model.arguments.given(invocation.run.steps);
         let set_up = set_up(invocation, &*engine, &given)?;
-        let Described { recorder, options, origin } = Described::of(invocation, &given, set_up)?;
-        let origin = origin.on(&*engine);
-        let report = first_report(invocation, &recorder, &*engine, &origin);
-        Ok(Self { engine, recorder, options, origin, report })
+        Ok(Self { engine, run: run_of(invocation, &given, set_up)? })
     }
+}
+
+/// A run as its command line says it, on no engine.
+pub(super) fn described(invocation: &RunInvocation<'_>) -> Result<Run, Unable> {
+    let given = invocation.model.arguments.given(invocation.run.steps);
+    run_of(invocation, &given, invocation.model.set_up(&given)?)
+}
+
+fn run_of(invocation: &RunInvocation<'_>, given: &Given, set_up: SetUp) -> Result<Run, Unable> {
+    let definition = invocation.model.definition;
+    let identity = Identity {
+        program: definition.name.to_owned(),
+        version: definition.version.to_owned(),
+        command_line: invocation.command_line.clone(),
+        options: invocation.model.options.clone(),
+    };
+    let arguments = &invocation.run;
+    let options = RunOptions { precision: given.precision, seed: given.seed };
+    let mut run = Run::new(set_up).map_err(Unable::refused)?.identity(identity).options(options);
+    if let Some(steps) = given.steps {
+        run = run.steps(steps);
+    }
+    if let Some(every) = arguments.every {
+        run = run.every(every);
+    }
+    if let Some(interval) = arguments.checkpoint_every {
+        run = run.checkpoint_every(interval);
+    }
+    Ok(if arguments.allow_non_finite { run.allow_non_finite() } else { run })
 }
 
 /// The model, where the machine has room for it.
@@ -80,51 +67,10 @@ fn set_up(invocation: &RunInvocation<'_>, engine: &dyn Engine, given: &Given) ->
     Ok(set_up)
 }
 
-fn first_report(
-    invocation: &RunInvocation<'_>,
-    recorder: &Recorder,
-    engine: &dyn Engine,
-    origin: &Origin,
-) -> Report {
-    let set_up = recorder.set_up();
-    let definition = invocation.model.definition;
-    Report {
-        xca: env!("CARGO_PKG_VERSION"),
-        program: definition.name,
-        version: definition.version,
-        command_line: invocation.command_line.clone(),
-        options: invocation.model.options.clone(),
-        notes: set_up.notes.clone(),
-        model: report::of_model(&set_up.model),
-        parameters: report::of_parameters(set_up.model.parameters()),
-        units: report::of_units(&set_up.model),
-        engine: engine.name().to_owned(),
-        threads: engine.threads(),
-        device: engine.facts().into_iter().map(|(fact, which)| (fact.to_owned(), which.into())).collect(),
-        precision: origin.precision,
-        seed: origin.seed,
-        every: origin.every,
-        checkpoint_every: None,
-        host: report::of_host(),
-        started: report::now(),
-        resumed: Vec::new(),
-        progress: report::Progress {
-            outcome: "running",
-            reason: None,
-            steps: 0,
-            steps_wanted: origin.steps_wanted,
-            time: 0.0,
-            time_step: set_up.time_step,
-            frames: 0,
-            set_up_seconds: 0.0,
-            step_seconds: 0.0,
-            output_seconds: 0.0,
-            wall_seconds: 0.0,
-            steps_per_second: None,
-            state_bytes: None,
-            peak_memory_bytes: None,
-        },
-        observables: Vec::new(),
-        files: recorder.files(),
+/// What cannot begin is a mistake in what was given.
+pub(super) fn not_begun(error: BeginError) -> Unable {
+    match error {
+        BeginError::Start(error) => super::run::not_started(error),
+        other => Unable::refused(other),
     }
 }

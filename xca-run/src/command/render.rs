@@ -14,14 +14,14 @@ use super::parse::{RunInvocation, with_help, with_model};
 use super::prepare::Prepared;
 use super::{Definition, Ended, Unable};
 use crate::interrupt::Interrupt;
-use crate::record::RunFolder;
-use crate::report::Earlier;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command};
 use film::Film;
 use running::Running;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+use xca_record::record::RunFolder;
+use xca_record::report::Earlier;
 
 pub(super) const NAME: &str = "render";
 
@@ -114,8 +114,10 @@ fn pictures_folder(path: &Path, files: &[String], inputs: &[PathBuf]) -> Result<
 /// Runs a model, and draws it.
 pub(super) fn render(invocation: &RunInvocation<'_>, arguments: &RenderArguments) -> Result<Ended, Unable> {
     let begin = Instant::now();
-    let Prepared { engine, recorder, options, origin, mut report } =
-        Prepared::new(invocation, &invocation.engine)?;
+    let Prepared { engine, run } = Prepared::new(invocation, &invocation.engine)?;
+    let origin = run.origin().on(&*engine);
+    let (mut report, options) = (run.report(&*engine, &origin), run.run_options());
+    let recorder = run.into_recorder();
     let steps = origin.steps_wanted;
     report.every = arguments.every.unwrap_or(steps.div_ceil(PICTURES).max(1));
     let drawing = arguments.drawing(&recorder)?;

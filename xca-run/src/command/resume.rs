@@ -3,16 +3,14 @@
 use super::arguments::ResumeArguments;
 use super::parse::{self, with_help};
 use super::prepare::Prepared;
-use super::under_way::{Checkpoints, UnderWay};
+use super::under_way::UnderWay;
 use super::{Definition, Ended, Unable};
-use crate::checkpoint::{Checkpoint, CheckpointError, CheckpointFolder, Description, Difference};
-use crate::program::Failure;
-use crate::record::RunFolder;
-use crate::report::Earlier;
 use clap::{Args, Command};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
-use xca_core::Simulation;
+use xca_record::Failure;
+use xca_record::checkpoint::{Checkpoint, CheckpointError, CheckpointFolder, Description, Difference};
+use xca_record::report::Earlier;
+use xca_record::{BeginError, Resumed};
 
 pub(super) const NAME: &str = "resume";
 
@@ -36,7 +34,6 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
 
 /// Goes on with a run.
 pub(super) fn resume(definition: &Definition<'_>, arguments: &ResumeArguments) -> Result<Ended, Unable> {
-    let begin = Instant::now();
     let folder = &arguments.folder;
     if !folder.is_dir() {
         return Err(Unable::refused(format!("there is no folder {}", folder.display())));
@@ -51,17 +48,7 @@ pub(super) fn resume(definition: &Definition<'_>, arguments: &ResumeArguments) -
     let path = chosen(arguments)?;
     let found = Found { definition, arguments, path: &path };
     let checkpoint = Checkpoint::read(&path).map_err(|error| found.refused(error.into(), None))?;
-    found.under_way(checkpoint, earlier, begin)?.go()
-}
-
-/// A run that should not go on in this way.
-#[derive(Debug, thiserror::Error)]
-enum ResumeError {
-    #[error(
-        "the run was begun with rounding that is {found}, and would go on with rounding that is {wanted}, to other files; choose the engine with \
-         --engine, --adapter and --arithmetic, or add --allow-rounding"
-    )]
-    Rounding { found: String, wanted: String },
+    found.under_way(checkpoint, earlier)?.go()
 }
 
 fn chosen(arguments: &ResumeArguments) -> Result<PathBuf, Unable> {
@@ -81,51 +68,38 @@ struct Found<'a> {
 
 impl Found<'_> {
     /// Puts the run together as it was.
-    fn under_way(
-        &self,
-        checkpoint: Checkpoint,
-        earlier: Earlier,
-        begin: Instant,
-    ) -> Result<UnderWay, Unable> {
-        let Checkpoint { description, snapshot } = &checkpoint;
+    fn under_way(&self, checkpoint: Checkpoint, earlier: Earlier) -> Result<UnderWay, Unable> {
+        let description = &checkpoint.description;
         let of_program = description.run.other_program(self.definition.identity());
         self.same(of_program, description)?;
         self.same(earlier.difference(&description.run.command_line), description)?;
-        let run = parse::recorded(self.definition, &description.run.command_line, "checkpoint")?;
-        let on = self.arguments.engine(&run.engine);
-        let Prepared { engine, mut recorder, options, origin, mut report } = Prepared::new(&run, &on)?;
-        self.same(description.run.mismatch(&origin), description)?;
-        if !self.arguments.allow_rounding
-            && let Some(Difference { found, wanted, .. }) = description.run.other_rounding(&origin)
-        {
-            return Err(Unable::refused(ResumeError::Rounding { found, wanted }));
+        let invocation = parse::recorded(self.definition, &description.run.command_line, "checkpoint")?;
+        let on = self.arguments.engine(&invocation.engine);
+        let Prepared { engine, mut run } = Prepared::new(&invocation, &on)?;
+        if let Some(interval) = self.arguments.checkpoint_every {
+            run = run.checkpoint_every(interval);
         }
-        let refused = |error: Failure| self.refused(error, Some(description));
-        let folder = RunFolder::open(&self.arguments.folder).map_err(Unable::refused)?;
-        let simulation = Simulation::resume(recorder.model(), &*engine, options, snapshot);
-        let simulation = simulation.map_err(|error| refused(error.into()))?;
-        let every = self.arguments.checkpoint_every.or(run.run.checkpoint_every);
-        let checkpoints = every.map(|interval| Checkpoints::new(interval, &folder, Some(self.path)));
-        let checkpoints = checkpoints.transpose().map_err(Unable::refused)?;
-        recorder.resume(folder.clone(), &description.recorded).map_err(|error| refused(error.into()))?;
-        report.checkpoint_every = every.map(|interval| interval.to_string());
-        report.files.insert(0, CheckpointFolder::files());
-        report.go_on(&earlier, description.step, self.path);
-        Ok(UnderWay {
-            simulation,
-            recorder,
-            report,
-            folder,
-            origin,
-            checkpoints,
-            allow_non_finite: self.arguments.allow_non_finite || run.run.allow_non_finite,
-            voice: self.arguments.voice,
-            note: engine.note(),
-            earlier,
-            begin,
-            set_up: begin.elapsed(),
-            stepping: Duration::ZERO,
-        })
+        if self.arguments.allow_non_finite {
+            run = run.allow_non_finite();
+        }
+        if self.arguments.allow_rounding {
+            run = run.allow_rounding();
+        }
+        let resumed = Resumed { path: self.path, checkpoint: &checkpoint, earlier };
+        let recording = run.resume_from(&self.arguments.folder, &*engine, resumed);
+        let recording = recording.map_err(|error| self.not_resumed(error, description))?;
+        Ok(UnderWay { recording, voice: self.arguments.voice, note: engine.note() })
+    }
+
+    /// What stands in the way of a run that is to go on.
+    fn not_resumed(&self, error: BeginError, description: &Description) -> Unable {
+        match error {
+            BeginError::Rounding { .. } => Unable::refused(format!(
+                "{error}; choose the engine with --engine, --adapter and --arithmetic, or add --allow-rounding"
+            )),
+            BeginError::Folder(_) | BeginError::Write(_) => Unable::refused(error),
+            other => self.refused(other.into(), Some(description)),
+        }
     }
 
     /// Refuses a checkpoint that differs from what this program would have written.

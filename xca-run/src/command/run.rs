@@ -2,17 +2,13 @@
 
 use super::arguments::{EngineArguments, RunArguments};
 use super::parse::{RunInvocation, with_help, with_model};
-use super::prepare::Prepared;
-use super::under_way::{Checkpoints, UnderWay};
+use super::prepare::{Prepared, not_begun};
+use super::under_way::UnderWay;
 use super::{Definition, Ended, Unable};
-use crate::checkpoint::CheckpointFolder;
-use crate::record::RunFolder;
-use crate::report::Earlier;
 use crate::terminal;
 use clap::{Args, Command};
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
-use xca_core::{Model, Precision, RunError, Simulation};
+use xca_core::{Model, Precision, RunError};
 
 pub(super) const NAME: &str = "run";
 
@@ -29,43 +25,17 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
 
 /// Runs the model of a program.
 pub(super) fn run(invocation: RunInvocation<'_>) -> Result<Ended, Unable> {
-    let begin = Instant::now();
     if invocation.run.print_wgsl {
         let given = invocation.model.arguments.given(invocation.run.steps);
         let model = invocation.model.set_up(&given)?.model;
         terminal::say(&wgsl(&model, given.precision)?);
         return Ok(Ended::Done);
     }
-    let Prepared { engine, recorder, options, origin, mut report } =
-        Prepared::new(&invocation, &invocation.engine)?;
-    let RunInvocation { model, run, .. } = invocation;
-    report.checkpoint_every = run.checkpoint_every.map(|interval| interval.to_string());
-    if run.checkpoint_every.is_some() {
-        // The first, so that they are gone first when another run takes the folder: without their files they are of no use.
-        report.files.insert(0, CheckpointFolder::files());
-    }
-    let path = run.out.unwrap_or_else(|| PathBuf::from("out").join(model.definition.name));
-    let folder = RunFolder::prepare(&path, &report.files, &recorder.set_up().inputs);
-    let folder = folder.map_err(Unable::refused)?;
-    let simulation = Simulation::new(recorder.model(), &*engine, options).map_err(not_started)?;
-    let checkpoints = run.checkpoint_every.map(|interval| Checkpoints::new(interval, &folder, None));
-    let checkpoints = checkpoints.transpose().map_err(Unable::refused)?;
-    let under_way = UnderWay {
-        simulation,
-        recorder,
-        report,
-        folder,
-        origin,
-        checkpoints,
-        allow_non_finite: run.allow_non_finite,
-        voice: run.voice,
-        note: engine.note(),
-        earlier: Earlier::default(),
-        begin,
-        set_up: begin.elapsed(),
-        stepping: Duration::ZERO,
-    };
-    under_way.go()
+    let Prepared { engine, run } = Prepared::new(&invocation, &invocation.engine)?;
+    let RunInvocation { model, run: arguments, .. } = invocation;
+    let folder = arguments.out.unwrap_or_else(|| PathBuf::from("out").join(model.definition.name));
+    let recording = run.begin(folder, &*engine).map_err(not_begun)?;
+    UnderWay { recording, voice: arguments.voice, note: engine.note() }.go()
 }
 
 /// The processes as the gpu engine compiles them.

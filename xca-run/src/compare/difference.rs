@@ -6,7 +6,6 @@ mod pairs;
 mod tests;
 
 use super::verdict::Verdict;
-use crate::components::{state_names, text};
 use numbers::Numbers;
 use pairs::Pairs;
 use serde::Serialize;
@@ -14,6 +13,7 @@ use std::fmt;
 use std::ops::Range;
 use xca_core::model::Group;
 use xca_core::{GroupSnapshot, Model, Precision, ScalarType, Snapshot, ValueType};
+use xca_record::components::{state_names, text};
 
 /// A state with what its `Real` is.
 #[derive(Debug, Clone, Copy)]

@@ -4,10 +4,10 @@ use super::CompareError;
 use super::contender::Contender;
 use super::difference::{Differences, Side, Worst};
 use super::verdict::Verdict;
-use crate::program::Observable;
 use serde::Serialize;
 use std::time::{Duration, Instant};
 use xca_core::{Model, RunOptions, Simulation, Snapshot};
+use xca_record::Observable;
 
 /// A contender on its way.
 pub(crate) struct Lane<'a> {

@@ -1,8 +1,6 @@
 //! Differences that are planted into an engine are found where and when they were planted.
 
 use super::*;
-use crate::program::Observable;
-use crate::set_up::SetUp;
 use difference::{Kind, Place};
 use std::ops::Range;
 use std::time::Duration;
@@ -11,6 +9,8 @@ use xca_core::prelude::*;
 use xca_core::reduction::{Reduced, Reduction};
 use xca_core::{EngineFailure, Fault, StartError};
 use xca_cpu::Cpu;
+use xca_record::Observable;
+use xca_record::SetUp;
 
 #[derive(Substates, Clone, Copy)]
 struct Heat {

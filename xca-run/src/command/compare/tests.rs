@@ -2,12 +2,13 @@
 
 use super::*;
 use crate::command::{execute, parse};
-use crate::program::{Failure, Given};
-use crate::set_up::SetUp;
+use crate::program::Given;
 use serde_json::Value;
 use std::ffi::OsString;
 use std::fs;
 use xca_core::prelude::*;
+use xca_record::Failure;
+use xca_record::SetUp;
 
 #[derive(Substates, Clone, Copy)]
 struct Drop {

@@ -2,13 +2,13 @@
 
 use super::state::{Described, NamedValue, Place, Statistics, linear};
 use super::{Inside, InspectArguments, Unable};
-use crate::numbers::Exact;
-use crate::record::{FRAMES, Plane};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 use xca_io::particle_csv::LABEL;
 use xca_io::vtk::{DenseFile, NumberType, ReadArray, read_dense, read_particles};
+use xca_record::numbers::Exact;
+use xca_record::record::{FRAMES, Plane};
 
 /// A frame by its name, `NAME_STEP.vti` or `.vtp`.
 struct Frame {

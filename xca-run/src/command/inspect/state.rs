@@ -1,13 +1,13 @@
 //! What a checkpoint says of the state.
 
-use crate::checkpoint::{Checkpoint, GroupShape};
-use crate::components::{state_name, text};
-use crate::numbers::Exact;
-use crate::record::Plane;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
 use xca_core::GroupSnapshot;
+use xca_record::checkpoint::{Checkpoint, GroupShape};
+use xca_record::components::{state_name, text};
+use xca_record::numbers::Exact;
+use xca_record::record::Plane;
 
 /// One component of a substate over all cells or items.
 #[derive(Debug, Serialize)]

@@ -1,10 +1,10 @@
 //! A model as tables of at most 80 columns, where its names allow it.
 
 use super::{accesses, adapters, engines, subject};
-use crate::components::state_names;
 use crate::table::{table, table_with_notes};
 use xca_core::model::GroupKind;
 use xca_core::{Field, Model, ScalarType};
+use xca_record::components::state_names;
 
 /// Everything about a model, and the engines.
 pub(super) fn as_text(model: &Model) -> String {

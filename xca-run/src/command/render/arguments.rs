@@ -5,12 +5,33 @@ use crate::command::Unable;
 use crate::command::arguments::{RunArguments, interval, steps};
 use crate::command::look::{axis, range};
 use crate::command::voice::Voice;
-use crate::record::{Drawing, Look, Recorder, ViewKind};
 use clap::builder::Resettable;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use xca_io::animation::{write_apng, write_gif};
 use xca_io::atomic::WriteError;
+use xca_record::record::{Drawing, Look, Recorder, ViewKind};
+
+/// How a state is drawn.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum ViewArgument {
+    /// One layer of cells
+    Slice,
+    /// All cells as cubes; those that are not 0 of a whole number, else with an octant cut out
+    Isometric,
+    /// The items of a population
+    Spheres,
+}
+
+impl From<ViewArgument> for ViewKind {
+    fn from(view: ViewArgument) -> Self {
+        match view {
+            ViewArgument::Slice => Self::Slice,
+            ViewArgument::Isometric => Self::Isometric,
+            ViewArgument::Spheres => Self::Spheres,
+        }
+    }
+}
 
 /// How pictures are put in motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -45,7 +66,7 @@ pub(in crate::command) struct RenderArguments {
 
     /// How it is drawn; cells as a slice and items as spheres unless it is given
     #[arg(long, value_enum, value_name = "VIEW", value_delimiter = ',')]
-    view: Vec<ViewKind>,
+    view: Vec<ViewArgument>,
 
     /// Of a slice: the axis that layers are counted along
     #[arg(long, value_name = "x|y|z", value_parser = axis, value_delimiter = ',')]
@@ -116,7 +137,7 @@ impl RenderArguments {
         }
         let look = |panel| Look {
             substate: of_panel(substate, panel),
-            view: of_panel(view, panel),
+            view: of_panel(view, panel).map(ViewKind::from),
             axis: of_panel(axis, panel),
             layer: of_panel(layer, panel),
             // Said once, it is for those panels that are slices.

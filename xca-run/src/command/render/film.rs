@@ -1,8 +1,8 @@
 //! Pictures of states, and the animation of them.
 
 use super::arguments::Animation;
-use crate::program::Failure;
-use crate::record::{Drawing, FRAMES, RunFolder, Scales, Seen};
+use xca_record::Failure;
+use xca_record::record::{Drawing, FRAMES, RunFolder, Scales, Seen};
 
 /// What is done with a state: with the number of its step, and what each panel shows of it.
 pub(super) type Look<'a> = dyn FnMut(u64, &[Seen]) -> Result<(), Failure> + 'a;

@@ -1,14 +1,14 @@
 //! What a run's folder, or a checkpoint, says of the run that it is of.
 
-use crate::checkpoint::{Description, Difference, Parameter, other_model, other_program};
-use crate::command::prepare::Described;
+use crate::command::prepare::described;
 use crate::command::{Definition, Unable, parse};
-use crate::record::{REPORT, Recorder};
-use crate::report;
 use serde::Deserialize;
 use serde_json::{Map, Value};
 use std::fs;
 use std::path::Path;
+use xca_record::checkpoint::{Description, Difference, Parameter, other_model, other_program};
+use xca_record::record::{REPORT, Recorder};
+use xca_record::report;
 
 /// What a run was: enough to make its model again.
 pub(super) struct Kept<'a> {
@@ -82,16 +82,17 @@ impl<'a> Kept<'a> {
         let identity = self.identity.each_ref().map(String::as_str);
         self.same(other_program(identity, definition.identity()))?;
         let run = parse::recorded(definition, &self.command_line, "run")?;
-        let Described { recorder, origin, .. } = Described::new(&run)?;
+        let run = described(&run)?;
+        let origin = run.origin();
         self.same(other_model(&self.model, &origin.model))?;
         // A checkpoint writes them in another way than a report.
-        let of_report = of_report(&report::of_parameters(recorder.model().parameters()));
+        let of_report = of_report(&report::of_parameters(run.model().parameters()));
         let of_checkpoint: Vec<String> = origin.parameters.iter().map(Parameter::to_string).collect();
         if ![&of_report, &of_checkpoint].contains(&&self.parameters) {
             let [found, wanted] = [&self.parameters, &of_report].map(|parameters| parameters.join(", "));
             self.same(Some(Difference { what: "set of parameters", found, wanted }))?;
         }
-        Ok(recorder)
+        Ok(run.into_recorder())
     }
 
     fn same(&self, difference: Option<Difference>) -> Result<(), Unable> {

@@ -1,13 +1,13 @@
 //! The states of a run that is done for its pictures.
 
 use super::film::{Look, States};
-use crate::command::under_way::Batch;
 use crate::command::voice::Voice;
 use crate::interrupt::Interrupt;
-use crate::program::Failure;
-use crate::record::Drawing;
 use std::time::Instant;
 use xca_core::{Engine, RunOptions, Simulation};
+use xca_record::Failure;
+use xca_record::record::Drawing;
+use xca_record::recording::Batch;
 
 /// A run from its beginning, each time that its states are wanted.
 pub(super) struct Running<'a> {

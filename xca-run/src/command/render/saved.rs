@@ -3,16 +3,16 @@
 use super::film::{Film, Look, States};
 use super::kept::Kept;
 use super::{RenderArguments, default_folder, pictures_folder};
-use crate::checkpoint::{Checkpoint, CheckpointFolder};
 use crate::command::voice::Voice;
 use crate::command::{Definition, Ended, Unable};
 use crate::interrupt::Interrupt;
-use crate::program::Failure;
-use crate::record::{Drawing, FRAMES, RunFolder, SavedError};
 use serde_json::{Value, json};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use xca_io::atomic::{OutputFolder, write_atomically};
+use xca_record::Failure;
+use xca_record::checkpoint::{Checkpoint, CheckpointFolder};
+use xca_record::record::{Drawing, FRAMES, RunFolder, SavedError};
 
 /// Draws the saved states of a run, or the state of a checkpoint.
 pub(in crate::command) fn draw(

@@ -2,10 +2,10 @@
 
 mod pond;
 
-use crate::record::Recorder;
 use pond::{Place, pond};
 use std::fs;
 use xca_core::{GroupSnapshot, Precision, Reference, RunOptions, Simulation};
+use xca_record::record::Recorder;
 
 const SMALL: &str = "--pixels 700x320";
 

@@ -2,14 +2,15 @@
 
 use super::*;
 use crate::command::{Definition, execute, parse};
-use crate::program::{Failure, Given, Observable};
-use crate::set_up::SetUp;
-use crate::view::{CellView, ItemView};
+use crate::program::Given;
 use serde_json::Value;
 use std::ffi::OsString;
 use std::fs;
 use std::path::Path;
 use xca_core::prelude::*;
+use xca_record::SetUp;
+use xca_record::{CellView, ItemView};
+use xca_record::{Failure, Observable};
 
 #[derive(Substates, Clone, Copy)]
 struct Grass {

@@ -2,23 +2,23 @@
 
 use super::UnderWay;
 use crate::progress::{self, Diagnostic};
-use crate::report::Report;
 use std::time::Duration;
 use xca_core::Model;
 use xca_io::numbers::significant;
+use xca_record::report::Report;
 
 impl UnderWay {
     /// The line at the start.
     pub(super) fn headline(&self) -> String {
-        let Report { progress, resumed, .. } = &self.report;
-        let resumed =
-            (!resumed.is_empty()).then(|| format!(", resumed after step {}", self.simulation.step_number()));
+        let Report { progress, resumed, .. } = self.recording.report();
+        let resumed = (!resumed.is_empty())
+            .then(|| format!(", resumed after step {}", self.recording.simulation().step_number()));
         let time_step = progress.time_step.map(|seconds| format!(" of {} s", significant(seconds, 4)));
         format!(
             "{}, {}, {}, {} steps{}{}",
-            self.recorder.set_up().title,
-            cells(self.recorder.model()),
-            engine_words(&self.report),
+            self.recording.recorder().set_up().title,
+            cells(self.recording.recorder().model()),
+            engine_words(self.recording.report()),
             progress.steps_wanted,
             time_step.unwrap_or_default(),
             resumed.unwrap_or_default(),
@@ -27,21 +27,21 @@ impl UnderWay {
 
     /// What is left of a run that failed.
     pub(super) fn remains(&self) -> String {
-        let folder = self.folder.top.path().display();
+        let folder = self.recording.folder().display();
         format!(
             "{} steps are done; what was written until then is in {folder}",
-            self.simulation.step_number()
+            self.recording.simulation().step_number()
         )
     }
 
     fn how_to_go_on(&self) -> String {
-        let folder = self.folder.top.path().display();
-        format!("; `{} resume {folder}` goes on", self.report.program)
+        let folder = self.recording.folder().display();
+        format!("; `{} resume {folder}` goes on", self.recording.report().program)
     }
 
     /// The table of observables, how it ended, and where the files are.
     pub(super) fn summary(&self) -> String {
-        let (frames, first, last) = self.recorder.results();
+        let (frames, first, last) = self.recording.recorder().results();
         let pairs = first.iter().zip(last);
         let diagnostics: Vec<Diagnostic> = pairs
             .map(|(first, last)| Diagnostic {
@@ -52,8 +52,8 @@ impl UnderWay {
                 drift: first.drift(last.value),
             })
             .collect();
-        let progress = &self.report.progress;
-        let again = self.checkpoints.as_ref().map(|_| self.how_to_go_on()).unwrap_or_default();
+        let progress = &self.recording.report().progress;
+        let again = if self.recording.has_checkpoints() { self.how_to_go_on() } else { String::new() };
         let end = match (progress.outcome, &progress.reason) {
             ("interrupted", _) => {
                 format!("interrupted after {} of {} steps", progress.steps, progress.steps_wanted)
@@ -64,7 +64,8 @@ impl UnderWay {
         let time = progress.time_step.map(|_| format!(", {} s simulated", significant(progress.time, 6)));
         let rate = progress.steps_per_second.map(|rate| format!(", {}", progress::rate_text(rate)));
         let wall = progress::duration_text(Duration::from_secs_f64(progress.wall_seconds));
-        let plain = self.report.files.iter().filter(|file| !file.contains('*')).map(String::as_str);
+        let plain =
+            self.recording.report().files.iter().filter(|file| !file.contains('*')).map(String::as_str);
         let files: Vec<&str> = plain.chain(["run.json"]).collect();
         format!(
             "\n{}\n\n{end}{} in {wall}{}{}\n{}: {}; {frames} {}",
@@ -72,7 +73,7 @@ impl UnderWay {
             time.unwrap_or_default(),
             rate.unwrap_or_default(),
             if progress.outcome == "interrupted" { again } else { String::new() },
-            self.folder.top.path().display(),
+            self.recording.folder().display(),
             files.join(", "),
             if frames == 1 { "frame" } else { "frames" },
         )

@@ -34,8 +34,10 @@ pub(super) fn show(invocation: &RunInvocation<'_>, arguments: &WatchArguments) -
             "`{name} watch` needs a terminal to draw on and to read keys from; without one, `{name} run` writes files and `{name} render` draws pictures"
         )));
     }
-    let Prepared { engine, recorder, options, origin, report } =
-        Prepared::new(invocation, &invocation.engine)?;
+    let Prepared { engine, run } = Prepared::new(invocation, &invocation.engine)?;
+    let origin = run.origin().on(&*engine);
+    let (report, options) = (run.report(&*engine, &origin), run.run_options());
+    let recorder = run.into_recorder();
     let look = arguments.look.look();
     recorder.sighting(&look).map_err(Unable::refused)?;
     let simulation = Simulation::new(recorder.model(), &*engine, options).map_err(not_started)?;

@@ -1,15 +1,16 @@
 //! A model with cells and two populations, and a program of it.
 
 use crate::command::{Definition, Ended, Unable, execute, parse};
-use crate::program::{Failure, Given};
-use crate::set_up::SetUp;
-use crate::view::{CellView, ItemView};
+use crate::program::Given;
 use clap::{Args, FromArgMatches};
 use std::ffi::OsString;
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
 use xca_core::prelude::*;
+use xca_record::Failure;
+use xca_record::SetUp;
+use xca_record::{CellView, ItemView};
 
 #[derive(Substates, Clone, Copy)]
 struct Water {

@@ -2,8 +2,8 @@
 
 use super::blocks::Colours;
 use super::window::Window;
-use crate::record::{Sight, Subject};
 use xca_io::picture::{Category, DepthBuffer, Disc, Mosaic, Palette, Scalar, Scale};
+use xca_record::record::{Sight, Subject};
 
 /// What is behind items, in linear RGB.
 const BEHIND: [f32; 3] = [0.010, 0.012, 0.018];

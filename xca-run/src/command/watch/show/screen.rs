@@ -6,11 +6,11 @@ use super::pixels::{looked_along, pixels, plane};
 use super::window::{Place, Window};
 use super::words;
 use super::worker::{Advance, News, Order};
-use crate::record::{Look, Subject};
 use ratatui::buffer::Buffer;
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 use ratatui::layout::Rect;
 use xca_io::picture::Palette;
+use xca_record::record::{Look, Subject};
 
 /// The lightness of items that have no colours: they must stand out from what is behind them.
 const DARKEST_ITEM: f32 = 0.5;

@@ -4,7 +4,6 @@ use super::screen::{Reaction, Screen};
 use super::worker::{Advance, News, Order, Shared, Worker};
 use crate::command::Ended;
 use crate::interrupt::Interrupt;
-use crate::program::Failure;
 use crate::terminal::FullScreen;
 use ratatui::crossterm::event::{self, Event};
 use std::collections::VecDeque;
@@ -14,6 +13,7 @@ use std::sync::mpsc::{self, Receiver, Sender, TryRecvError};
 use std::thread;
 use std::time::{Duration, Instant};
 use xca_core::Simulation;
+use xca_record::Failure;
 
 /// How long one waits for a key before one looks for other things: while steps are done, and else.
 const BUSY: Duration = Duration::from_millis(8);

@@ -5,13 +5,13 @@ use super::pixels::{looked_along, scale};
 use super::screen::Screen;
 use super::worker::News;
 use crate::progress::rate_text;
-use crate::record::{Sight, Subject};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Style, Stylize};
 use ratatui::text::{Line, Span};
 use xca_io::numbers::significant;
 use xca_io::picture::Palette;
+use xca_record::record::{Sight, Subject};
 
 /// The widest bar of colours.
 const BAR: usize = 24;

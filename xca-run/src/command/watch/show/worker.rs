@@ -1,12 +1,12 @@
 //! The simulation that is watched, on a thread of its own: a long step must not keep the keys from being heard.
 
-use crate::command::under_way::Batch;
-use crate::program::{Failure, Observable};
-use crate::record::{Look, Recorder, Sight};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender};
 use std::time::{Duration, Instant};
 use xca_core::{Engine, RunOptions, Simulation, Snapshot};
+use xca_record::record::{Look, Recorder, Sight};
+use xca_record::recording::Batch;
+use xca_record::{Failure, Observable};
 
 /// The next picture comes after this time even if not all steps to it are done.
 const PATIENCE: Duration = Duration::from_millis(500);

@@ -6,8 +6,6 @@ mod sizes;
 
 use super::*;
 use crate::command::watch::show::worker::{Shared, Worker};
-use crate::record::Recorder;
-use crate::set_up::SetUp;
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::style::Color;
@@ -15,6 +13,8 @@ use std::sync::atomic::Ordering;
 use std::sync::mpsc;
 use xca_core::prelude::*;
 use xca_core::{Reference, RunOptions, Simulation};
+use xca_record::SetUp;
+use xca_record::record::Recorder;
 
 /// The colours of a dead and a living cell: Oklab (0.97, 0.005, 250°) and (0.38, 0.09, 265°) in sRGB.
 const DEAD: Color = Color::Rgb(246, 246, 250);

@@ -1,8 +1,8 @@
 //! Cells, and the keys.
 
 use super::*;
-use crate::view::CellView;
 use xca_io::picture::ColourMap;
+use xca_record::CellView;
 
 #[test]
 fn a_blinker_blinks() {

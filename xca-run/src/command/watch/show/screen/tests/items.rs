@@ -1,7 +1,7 @@
 //! Items.
 
 use super::*;
-use crate::view::ItemView;
+use xca_record::ItemView;
 
 #[derive(Substates, Clone, Copy)]
 struct Grain {

@@ -1,9 +1,9 @@
 //! Terminals of any size.
 
 use super::*;
-use crate::record::Sight;
 use proptest::prelude::*;
 use xca_io::picture::{Category, ColourMap};
+use xca_record::record::Sight;
 
 /// A state of any model: `kinds` and `is_layer` as they may be.
 fn any_news() -> impl Strategy<Value = News> {

@@ -1,0 +1,41 @@
+//! Checkpoints: the whole of a run in one file, from which it can go on.
+//!
+//! What such a file holds, byte by byte, is in `docs/checkpoints.md`.
+
+mod description;
+mod file;
+mod folder;
+mod planes;
+
+pub use description::{Description, Difference, GroupShape, Origin, Parameter, other_model, other_program};
+pub use file::CheckpointError;
+pub use folder::{CHECKPOINTS, CheckpointFolder};
+
+use std::path::Path;
+use xca_core::Snapshot;
+use xca_io::atomic::WriteError;
+
+/// A run at some step.
+#[derive(Debug, Clone)]
+pub struct Checkpoint {
+    pub description: Description,
+    pub snapshot: Snapshot,
+}
+
+impl Checkpoint {
+    /// Writes the file, in place of an earlier one of this name.
+    pub fn write(&self, path: &Path) -> Result<(), WriteError> {
+        let planes = planes::of(&self.description, &self.snapshot);
+        file::write(path, &self.description, &planes, self.description.data_bytes())
+    }
+
+    /// Reads a file. Nothing of a file that is not whole is used.
+    pub fn read(path: &Path) -> Result<Self, CheckpointError> {
+        let (description, data) = file::read(path)?;
+        let snapshot = planes::snapshot(&description, &data).ok_or_else(|| file::inconsistent(path))?;
+        Ok(Self { description, snapshot })
+    }
+}
+
+#[cfg(test)]
+mod tests;

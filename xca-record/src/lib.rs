@@ -1,0 +1,85 @@
+//! Records of a simulation: frames, time series, tables, pictures and checkpoints, from a `main` of your own.
+//!
+//! A [`SetUp`] says what of a model is recorded; a [`Run`] says how often, and writes it.
+//!
+//! ```
+//! # let temporary = tempfile::tempdir()?;
+//! # let out = temporary.path().join("heat");
+//! use xca_core::prelude::*;
+//! use xca_record::{CellView, Run, SetUp};
+//!
+//! #[derive(Substates, Clone)]
+//! struct Plate {
+//!     temperature: Real,
+//! }
+//!
+//! #[elementary_process]
+//! fn conduct(cell: &mut Cell<Plate>) {
+//!     let mut sum = 0.0;
+//!     for n in 1..cell.neighbour_count() {
+//!         sum += cell.neighbour(n).temperature - cell.temperature;
+//!     }
+//!     cell.temperature += 0.2 * sum;
+//! }
+//!
+//! let model = Model::builder("heat")
+//!     .extents([64, 64, 1])
+//!     .neighbourhood(Neighbourhood::von_neumann_2d(1))
+//!     .substates::<Plate>()
+//!     .process(conduct)
+//!     .fill(|site| Plate { temperature: if site.cell()[0] < 32 { 100.0 } else { 0.0 } })
+//!     .build()?;
+//! let view = CellView::named("plate").draw(Plate::TEMPERATURE, "temperature (K)");
+//! let run = Run::new(SetUp::new(model, 1000).cells(view))?.every(100);
+//! run.begin(&out, &Reference)?.go(&mut ())?;
+//! assert!(out.join("final.png").is_file() && out.join("frames/plate_00000500.vti").is_file());
+//! # Ok::<(), Box<dyn std::error::Error + Send + Sync>>(())
+//! ```
+//!
+//! # The parts
+//! | item | for |
+//! |---|---|
+//! | [`SetUp`], [`CellView`], [`ItemView`], [`Observable`] | what is recorded |
+//! | [`Run`], [`Recording`] | a run, from its beginning or from a checkpoint, and its files |
+//! | [`Monitor`] | who watches a run, and can end it |
+//! | [`read_items`] | a table of items, read back |
+//!
+//! The formats themselves are in `xca_io`; a program with a command line is made by `xca_run`.
+
+#![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
+
+#[doc(hidden)]
+pub mod checkpoint;
+#[doc(hidden)]
+pub mod components;
+mod interval;
+mod items_file;
+#[doc(hidden)]
+pub mod machine;
+mod monitor;
+#[doc(hidden)]
+pub mod numbers;
+mod observable;
+#[doc(hidden)]
+pub mod record;
+#[doc(hidden)]
+pub mod recording;
+#[doc(hidden)]
+pub mod report;
+mod run;
+mod set_up;
+mod view;
+
+pub use checkpoint::CheckpointError;
+pub use interval::Interval;
+pub use items_file::{ReadItem, read_items};
+pub use machine::{NotEnoughMemory, check_memory};
+pub use monitor::Monitor;
+pub use observable::{Failure, Observable};
+pub use record::{FolderError, RecordError};
+pub use recording::{Outcome, Recording};
+#[doc(hidden)]
+pub use run::Resumed;
+pub use run::{BeginError, Run};
+pub use set_up::{SetUp, SetUpError};
+pub use view::{CellView, ItemView, ViewError};

@@ -1,0 +1,85 @@
+//! What is known of the machine and of the memory that this process has used.
+
+use std::fs;
+
+/// Something that does not fit into the memory of this machine.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "{what} would need {} of memory, and this machine has {} left; use fewer cells",
+    gigabytes(*needed),
+    gigabytes(u128::from(*free))
+)]
+pub struct NotEnoughMemory {
+    what: String,
+    needed: u128,
+    free: u64,
+}
+
+fn gigabytes(bytes: u128) -> String {
+    format!("{} GB", xca_io::numbers::significant(bytes as f64 / 1e9, 3))
+}
+
+/// Checks that something can fit into the memory that the machine has left. Where the system does not say how much that is, everything fits.
+///
+/// For a set-up that makes something large before the model exists: memory that is not there ends a program without a word.
+///
+/// # Errors
+/// Where it does not fit.
+pub fn check_memory(needed: u128, what: &str) -> Result<(), NotEnoughMemory> {
+    match free_memory() {
+        Some(free) if needed > u128::from(free) => {
+            Err(NotEnoughMemory { what: what.to_owned(), needed, free })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The bytes of memory that the system could still give.
+fn free_memory() -> Option<u64> {
+    kilobytes("/proc/meminfo", "MemAvailable:")
+}
+
+/// The most bytes that this process has had in memory.
+pub fn peak_memory() -> Option<u64> {
+    kilobytes("/proc/self/status", "VmHWM:")
+}
+
+/// A number of bytes from one of Linux's tables; other systems have none.
+fn kilobytes(table: &str, name: &str) -> Option<u64> {
+    let text = fs::read_to_string(table).ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix(name))?;
+    let number: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    number.checked_mul(1024)
+}
+
+/// The bytes of memory that the machine has.
+pub fn memory() -> Option<u64> {
+    kilobytes("/proc/meminfo", "MemTotal:")
+}
+
+/// What the processor calls itself.
+pub fn processor() -> Option<String> {
+    let text = fs::read_to_string("/proc/cpuinfo").ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix("model name"))?;
+    Some(line.trim_start().trim_start_matches(':').trim().to_owned())
+}
+
+/// The number of cores that this process may use.
+pub fn cores() -> Option<usize> {
+    std::thread::available_parallelism().ok().map(std::num::NonZero::get)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_too_large_is_refused() {
+        assert_eq!(check_memory(1000, "a cell"), Ok(()));
+        if cfg!(target_os = "linux") {
+            let error = check_memory(1 << 60, "the model").unwrap_err().to_string();
+            assert!(error.starts_with("the model would need 1.15e9 GB of memory"), "{error}");
+            assert!(peak_memory().is_some_and(|bytes| bytes > 100_000));
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! What a view sees of the states that a run has saved: its frames.
+
+use super::Recorder;
+use super::cells;
+use super::seen::Seen;
+use super::shown::Shown;
+use super::values::{Plane, stored_of};
+use crate::components::{DrawnPart, Part, state_names};
+use crate::view::{AnyCellView, AnyItemView, AnyView, Drawn};
+use std::path::{Path, PathBuf};
+use xca_core::model::Group;
+use xca_core::{Geometry, GroupSnapshot, Model, Precision, Snapshot};
+use xca_io::vtk::{ReadArray, ReadVtkError, read_dense, read_particles};
+
+/// A saved state that cannot be drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum SavedError {
+    #[error(transparent)]
+    Vtk(#[from] ReadVtkError),
+    #[error(
+        "{} does not hold the substate `{substate}`, but {saved}: the model's view of `{view}` saves no more; \
+         a checkpoint holds everything",
+        path.display()
+    )]
+    NotSaved { path: PathBuf, substate: &'static str, saved: String, view: String },
+    #[error("{} does not fit the model: {what}", path.display())]
+    OtherShape { path: PathBuf, what: String },
+}
+
+impl Recorder {
+    /// Whether a state has all values that the model's views may look at.
+    pub fn fits(&self, precision: Precision, snapshot: &Snapshot) -> bool {
+        let cells = self.model().geometry().cells();
+        let of_group = |(group, state): (&Group, &GroupSnapshot)| {
+            let (count, fields) = match state {
+                GroupSnapshot::Cells(fields) => (cells, fields),
+                GroupSnapshot::Population(population, _) => {
+                    let items = population.counts.iter().map(|count| *count as usize).sum::<usize>();
+                    if population.counts.len() != cells || population.labels.len() != items {
+                        return false;
+                    }
+                    (items, &population.fields)
+                }
+            };
+            let stored = group.stored(precision);
+            let lengths = fields.iter().map(Vec::len);
+            lengths.eq(stored.iter().map(|stored| count * stored.size()))
+        };
+        let groups = self.model().groups();
+        groups.len() == snapshot.groups.len() && groups.iter().zip(&snapshot.groups).all(of_group)
+    }
+}
+
+impl Shown {
+    /// What it draws of the frame in a file.
+    pub(super) fn seen_in(&self, model: &Model, path: &Path) -> Result<Seen, SavedError> {
+        let (group, geometry) = (&model.groups()[self.group], model.geometry());
+        match &self.view {
+            AnyView::Items(view) => items(view, group, path),
+            AnyView::Cells(view) => of_cells(view, group, geometry, path),
+        }
+    }
+}
+
+fn of_cells(view: &AnyCellView, group: &Group, geometry: &Geometry, path: &Path) -> Result<Seen, SavedError> {
+    let file = read_dense(path)?;
+    if file.grid.cells != geometry.extents() {
+        let what = format!("it has {:?} cells, not {:?}", file.grid.cells, geometry.extents());
+        return Err(SavedError::OtherShape { path: path.to_owned(), what });
+    }
+    let arrays = Arrays { path, view: &view.name, group, arrays: &file.arrays };
+    let plane = |field: usize| -> Result<Plane, SavedError> {
+        let array = arrays.of_field(field)?;
+        Ok(cells::drawn(view, geometry, stored_of(array), &array.bytes))
+    };
+    let heights = view.relief.map(|(field, _)| plane(field)).transpose()?;
+    let Part { field, component } = view.part();
+    let part = DrawnPart::of(group.schema().fields[field].value_type, component);
+    Ok(cells::seen(&plane(field)?, part, heights))
+}
+
+fn items(view: &AnyItemView, group: &Group, path: &Path) -> Result<Seen, SavedError> {
+    let file = read_particles(path)?;
+    let arrays = Arrays { path, view: &view.name, group, arrays: &file.arrays };
+    let schema = group.schema();
+    let positions = Plane::of_array(&file.positions);
+    let values = match view.colour(schema) {
+        None => Vec::new(),
+        Some(Drawn { part: Part { field, component }, .. }) => {
+            let drawn = DrawnPart::of(schema.fields[field].value_type, component);
+            if schema.position == Some(field) {
+                positions.drawn(drawn)
+            } else {
+                Plane::of_array(arrays.of_field(field)?).drawn(drawn)
+            }
+        }
+    };
+    Ok(Seen::Items { positions: positions.to_points(), values })
+}
+
+/// The arrays of a frame.
+struct Arrays<'a> {
+    path: &'a Path,
+    view: &'a str,
+    group: &'a Group,
+    arrays: &'a [ReadArray],
+}
+
+impl<'a> Arrays<'a> {
+    /// The array of a substate.
+    fn of_field(&self, field: usize) -> Result<&'a ReadArray, SavedError> {
+        let definition = &self.group.schema().fields[field];
+        let array = self.arrays.iter().find(|array| array.name == definition.name).ok_or_else(|| {
+            let saved: Vec<&str> = self.arrays.iter().map(|array| array.name.as_str()).collect();
+            SavedError::NotSaved {
+                path: self.path.to_owned(),
+                substate: definition.name,
+                saved: saved.join(", "),
+                view: self.view.to_owned(),
+            }
+        })?;
+        let components = definition.value_type.components();
+        if array.components != components {
+            let what = format!("`{}` has {} components, not {components}", array.name, array.components);
+            return Err(SavedError::OtherShape { path: self.path.to_owned(), what });
+        }
+        let (states, found) = (state_names(definition.value_type.scalar), &array.states);
+        if *found != states {
+            let what = format!("`{}` has the states {}, not {}", array.name, listed(found), listed(&states));
+            return Err(SavedError::OtherShape { path: self.path.to_owned(), what });
+        }
+        Ok(array)
+    }
+}
+
+fn listed(states: &[String]) -> String {
+    if states.is_empty() { "of numbers".to_owned() } else { states.join(", ") }
+}

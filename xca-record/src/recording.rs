@@ -1,0 +1,193 @@
+//! A run under way: the steps, and what is written meanwhile.
+
+mod batch;
+mod checkpoints;
+mod finite;
+
+#[doc(hidden)]
+pub use batch::Batch;
+pub(crate) use checkpoints::Checkpoints;
+
+use crate::checkpoint::{Checkpoint, Description, Origin};
+use crate::machine::peak_memory;
+use crate::monitor::Monitor;
+use crate::observable::Failure;
+use crate::record::{Recorder, RunFolder};
+use crate::report::{self, Earlier, Report};
+use std::path::Path;
+use std::time::{Duration, Instant};
+use xca_core::Simulation;
+
+/// A run under way.
+#[derive(Debug)]
+pub struct Recording {
+    pub(crate) simulation: Simulation,
+    pub(crate) recorder: Recorder,
+    pub(crate) report: Report,
+    pub(crate) folder: RunFolder,
+    pub(crate) origin: Origin,
+    pub(crate) checkpoints: Option<Checkpoints>,
+    /// Whether states with NaN or infinities are written too.
+    pub(crate) allow_non_finite: bool,
+    /// What the run had taken before it was resumed.
+    pub(crate) earlier: Earlier,
+    pub(crate) begin: Instant,
+    pub(crate) set_up: Duration,
+    pub(crate) stepping: Duration,
+}
+
+/// How a run ended that did not fail.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Outcome {
+    /// After its last step.
+    Done,
+    /// The model stopped it: [`Simulation::stop_reason`] says why.
+    Stopped,
+    /// Its monitor said so; it can go on from its last checkpoint, if it has any.
+    Interrupted,
+}
+
+impl Recording {
+    /// The simulation.
+    pub fn simulation(&self) -> &Simulation {
+        &self.simulation
+    }
+
+    /// The folder that is written to.
+    pub fn folder(&self) -> &Path {
+        self.folder.top.path()
+    }
+
+    /// Whether there are checkpoints.
+    pub fn has_checkpoints(&self) -> bool {
+        self.checkpoints.is_some()
+    }
+
+    #[doc(hidden)]
+    pub fn recorder(&self) -> &Recorder {
+        &self.recorder
+    }
+
+    #[doc(hidden)]
+    pub fn report(&self) -> &Report {
+        &self.report
+    }
+
+    /// Does all steps that are left, and writes the final state. `run.json` tells how it went, also of a run
+    /// that failed.
+    ///
+    /// # Errors
+    /// Where a process faults, a state is not finite, or a file cannot be written. What was written before
+    /// is whole.
+    pub fn go(&mut self, monitor: &mut dyn Monitor) -> Result<Outcome, Failure> {
+        self.complete_report();
+        self.report.write(&self.folder.report())?;
+        let result = self.steps(monitor);
+        if let Err(error) = &result {
+            self.report.progress.outcome = "failed";
+            self.report.progress.reason = Some(error.to_string());
+        }
+        self.complete_report();
+        let written = self.report.write(&self.folder.report());
+        // The first error is the one to tell.
+        let outcome = result?;
+        written?;
+        Ok(outcome)
+    }
+
+    /// Records the initial state, does the steps, and records the final state.
+    fn steps(&mut self, monitor: &mut dyn Monitor) -> Result<Outcome, Failure> {
+        let wanted = self.origin.steps_wanted;
+        if !self.recorder.has_begun() {
+            self.check_finite()?;
+            self.recorder.begin(self.folder.clone(), &mut self.simulation)?;
+        }
+        monitor.begin(self.simulation.step_number());
+        let mut batch = Batch::default();
+        while self.is_unfinished() && !monitor.is_interrupted() {
+            let done = self.simulation.step_number();
+            let begin = Instant::now();
+            let result = self.simulation.run(batch.steps.min(self.next_output(done) - done));
+            self.stepping += begin.elapsed();
+            batch.adapt(begin.elapsed());
+            result?;
+            let done = self.simulation.step_number();
+            monitor.at(done);
+            if done.is_multiple_of(self.origin.every) {
+                self.check_finite()?;
+                self.recorder.record(&mut self.simulation)?;
+            }
+            if self.is_unfinished() && self.checkpoints.as_ref().is_some_and(|all| all.is_due(done)) {
+                self.keep()?;
+            }
+        }
+        if self.is_unfinished() {
+            // Before the end is recorded: the run that goes on from here does not end here.
+            self.keep()?;
+        }
+        self.simulation.finish()?;
+        self.check_finite()?;
+        self.recorder.finish(&mut self.simulation)?;
+        let done = self.simulation.step_number();
+        let progress = &mut self.report.progress;
+        if let Some(reason) = self.simulation.stop_reason() {
+            progress.outcome = "stopped";
+            progress.reason = Some(reason.to_owned());
+            return Ok(Outcome::Stopped);
+        } else if done < wanted {
+            progress.outcome = "interrupted";
+            return Ok(Outcome::Interrupted);
+        } else {
+            progress.outcome = "done";
+        }
+        Ok(Outcome::Done)
+    }
+
+    fn check_finite(&self) -> Result<(), Failure> {
+        if self.allow_non_finite { Ok(()) } else { finite::check(&self.simulation) }
+    }
+
+    fn is_unfinished(&self) -> bool {
+        self.simulation.step_number() < self.origin.steps_wanted && self.simulation.stop_reason().is_none()
+    }
+
+    /// The step up to which nothing has to be written.
+    fn next_output(&self, done: u64) -> u64 {
+        let record = (done / self.origin.every + 1).saturating_mul(self.origin.every);
+        let checkpoint = self.checkpoints.as_ref().map_or(u64::MAX, |all| all.next(done));
+        record.min(checkpoint).min(self.origin.steps_wanted)
+    }
+
+    /// Writes a checkpoint, where the run has any, and how far it has come.
+    fn keep(&mut self) -> Result<(), Failure> {
+        if self.checkpoints.is_some() {
+            self.check_finite()?;
+        }
+        let Some(checkpoints) = &mut self.checkpoints else { return Ok(()) };
+        let snapshot = self.simulation.snapshot()?;
+        let recorded = self.recorder.recorded()?;
+        let description = Description::new(self.origin.clone(), &self.recorder, &snapshot, recorded);
+        checkpoints.write(&Checkpoint { description, snapshot })?;
+        self.complete_report();
+        self.report.write(&self.folder.report())?;
+        Ok(())
+    }
+
+    fn complete_report(&mut self) {
+        let (frames, first, last) = self.recorder.results();
+        self.report.observables = report::of_observables(first, last);
+        let steps = self.simulation.step_number();
+        let (progress, taken) = (&mut self.report.progress, self.earlier.taken());
+        progress.steps = steps;
+        progress.time = self.recorder.time(steps);
+        progress.frames = frames;
+        progress.set_up_seconds = taken.set_up_seconds + self.set_up.as_secs_f64();
+        progress.step_seconds = taken.step_seconds + self.stepping.as_secs_f64();
+        progress.wall_seconds = taken.wall_seconds + self.begin.elapsed().as_secs_f64();
+        progress.output_seconds = progress.wall_seconds - progress.set_up_seconds - progress.step_seconds;
+        progress.steps_per_second = (steps > 0).then(|| steps as f64 / progress.step_seconds.max(1e-9));
+        progress.state_bytes = Some(self.simulation.memory());
+        progress.peak_memory_bytes = peak_memory();
+    }
+}

@@ -1,0 +1,322 @@
+//! How a model is run and recorded.
+
+use crate::checkpoint::{Checkpoint, CheckpointError, CheckpointFolder, Difference, Origin};
+use crate::interval::Interval;
+use crate::record::{FolderError, RecordError, Recorder, RunFolder};
+use crate::recording::{Checkpoints, Recording};
+use crate::report::{Earlier, Identity, Report};
+use crate::set_up::{SetUp, SetUpError};
+use crate::view::ViewError;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+use xca_core::{Engine, RunError, RunOptions, Simulation};
+use xca_io::atomic::WriteError;
+
+/// How many times in a run something is written, unless it is said how often.
+const OUTPUTS: u64 = 20;
+
+/// A run of a set-up, before it begins: how often what is written.
+///
+/// ```
+/// # let temporary = tempfile::tempdir()?;
+/// # let out = temporary.path().join("growth");
+/// use xca_core::prelude::*;
+/// use xca_record::{Interval, Outcome, Run, SetUp};
+///
+/// #[derive(Substates, Clone)]
+/// struct Colony {
+///     size: Real,
+/// }
+///
+/// #[elementary_process]
+/// fn grow(cell: &mut Cell<Colony>) {
+///     cell.size *= 1.01;
+/// }
+///
+/// fn run() -> Result<Run, Box<dyn std::error::Error + Send + Sync>> {
+///     let model = Model::builder("growth")
+///         .extents([8, 8, 1])
+///         .neighbourhood(Neighbourhood::von_neumann_2d(1))
+///         .substates::<Colony>()
+///         .process(grow)
+///         .fill(|_| Colony { size: 1.0 })
+///         .build()?;
+///     Ok(Run::new(SetUp::new(model, 100))?.every(10).checkpoint_every(Interval::Steps(40)))
+/// }
+///
+/// let mut recording = run()?.begin(&out, &Reference)?;
+/// assert_eq!(recording.go(&mut ())?, Outcome::Done);
+/// drop(recording);
+/// // A run that was killed goes on from its last checkpoint.
+/// let mut recording = run()?.resume(&out, &Reference)?;
+/// assert_eq!(recording.simulation().step_number(), 80);
+/// recording.go(&mut ())?;
+/// # Ok::<(), Box<dyn std::error::Error + Send + Sync>>(())
+/// ```
+#[derive(Debug)]
+pub struct Run {
+    recorder: Recorder,
+    identity: Identity,
+    options: RunOptions,
+    steps: u64,
+    every: Option<u64>,
+    checkpoint_every: Option<Interval>,
+    allow_non_finite: bool,
+    allow_rounding: bool,
+}
+
+/// A run that cannot begin, or go on.
+#[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages explain the fields")]
+#[non_exhaustive]
+pub enum BeginError {
+    #[error(transparent)]
+    View(#[from] ViewError),
+    #[error(transparent)]
+    SetUp(#[from] SetUpError),
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    #[error("there is no checkpoint in {}", folder.display())]
+    NoCheckpoint { folder: PathBuf },
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
+    #[error(
+        "the run was begun with rounding that is {found}, and would go on with rounding that is {wanted}, to other files"
+    )]
+    Rounding { found: String, wanted: String },
+    #[error(transparent)]
+    Start(#[from] RunError),
+    #[error(transparent)]
+    Record(#[from] RecordError),
+}
+
+/// Where a run goes on.
+#[derive(Debug)]
+pub struct Resumed<'a> {
+    /// The file.
+    pub path: &'a Path,
+    /// What it holds.
+    pub checkpoint: &'a Checkpoint,
+    /// What `run.json` tells of the run until then.
+    pub earlier: Earlier,
+}
+
+impl Run {
+    /// A run of all steps of the set-up, in `f64`, with the seed 0, and with 20 frames.
+    ///
+    /// # Errors
+    /// Where a view or the time step of the set-up makes no sense.
+    pub fn new(set_up: SetUp) -> Result<Self, BeginError> {
+        set_up.check()?;
+        let steps = set_up.steps;
+        let recorder = Recorder::new(set_up)?;
+        let identity = Identity { program: recorder.model().name().to_owned(), ..Identity::default() };
+        Ok(Self {
+            recorder,
+            identity,
+            options: RunOptions::default(),
+            steps,
+            every: None,
+            checkpoint_every: None,
+            allow_non_finite: false,
+            allow_rounding: false,
+        })
+    }
+
+    /// Precision and seed.
+    #[must_use]
+    pub fn options(self, options: RunOptions) -> Self {
+        Self { options, ..self }
+    }
+
+    /// Does so many steps.
+    #[must_use]
+    pub fn steps(self, steps: u64) -> Self {
+        Self { steps, ..self }
+    }
+
+    /// Writes a row of observables and a frame every so many steps, at least 1.
+    #[must_use]
+    pub fn every(self, steps: u64) -> Self {
+        Self { every: Some(steps.max(1)), ..self }
+    }
+
+    /// Writes a row of observables and a frame every so many seconds of simulated time, rounded to whole
+    /// steps. A model without [`SetUp::time_step`] counts its time in steps.
+    #[must_use]
+    pub fn every_seconds(self, seconds: f64) -> Self {
+        let steps = seconds / self.recorder.set_up().time_step.unwrap_or(1.0);
+        self.every(steps.round() as u64)
+    }
+
+    /// Writes checkpoints, of which the last two are kept.
+    #[must_use]
+    pub fn checkpoint_every(self, interval: Interval) -> Self {
+        Self { checkpoint_every: Some(interval), ..self }
+    }
+
+    /// Writes states with NaN or infinities too, instead of failing at the first.
+    #[must_use]
+    pub fn allow_non_finite(self) -> Self {
+        Self { allow_non_finite: true, ..self }
+    }
+
+    /// Goes on also on an engine whose floating numbers are rounded otherwise than before.
+    #[must_use]
+    pub fn allow_rounding(self) -> Self {
+        Self { allow_rounding: true, ..self }
+    }
+
+    #[doc(hidden)]
+    #[must_use]
+    pub fn identity(self, identity: Identity) -> Self {
+        Self { identity, ..self }
+    }
+
+    /// The model.
+    pub fn model(&self) -> &xca_core::Model {
+        self.recorder.model()
+    }
+
+    #[doc(hidden)]
+    pub fn recorder(&self) -> &Recorder {
+        &self.recorder
+    }
+
+    #[doc(hidden)]
+    pub fn into_recorder(self) -> Recorder {
+        self.recorder
+    }
+
+    #[doc(hidden)]
+    pub fn run_options(&self) -> RunOptions {
+        self.options
+    }
+
+    /// The run as its checkpoints name it, on an exact engine.
+    #[doc(hidden)]
+    pub fn origin(&self) -> Origin {
+        let every = self.every.unwrap_or(self.steps.div_ceil(OUTPUTS).max(1));
+        Origin::new(&self.identity, self.recorder.model(), self.options, [self.steps, every])
+    }
+
+    /// The report of the run on this engine, before its first step.
+    #[doc(hidden)]
+    pub fn report(&self, engine: &dyn Engine, origin: &Origin) -> Report {
+        let mut report = Report::new(&self.identity, self.recorder.set_up(), engine, origin);
+        report.files = self.recorder.files();
+        if let Some(interval) = self.checkpoint_every {
+            report.checkpoint_every = Some(interval.to_string());
+            // The first, so that they are gone first when another run takes the folder: without their files they are of no use.
+            report.files.insert(0, CheckpointFolder::files());
+        }
+        report
+    }
+
+    /// Makes the folder ready, replacing what an earlier run has left there, and the initial state.
+    ///
+    /// # Errors
+    /// Where the folder holds files that no run has made, another run writes there, or the engine does not
+    /// take the model.
+    pub fn begin(self, folder: impl AsRef<Path>, engine: &dyn Engine) -> Result<Recording, BeginError> {
+        let begin = Instant::now();
+        let origin = self.origin().on(engine);
+        let report = self.report(engine, &origin);
+        let inputs = &self.recorder.set_up().inputs;
+        let folder = RunFolder::prepare(folder.as_ref(), &report.files, inputs)?;
+        let simulation = Simulation::new(self.recorder.model(), engine, self.options)?;
+        let checkpoints = self.checkpoint_every.map(|interval| Checkpoints::new(interval, &folder, None));
+        Ok(Recording {
+            simulation,
+            checkpoints: checkpoints.transpose()?,
+            recorder: self.recorder,
+            report,
+            folder,
+            origin,
+            allow_non_finite: self.allow_non_finite,
+            earlier: Earlier::default(),
+            begin,
+            set_up: begin.elapsed(),
+            stepping: Duration::ZERO,
+        })
+    }
+
+    /// Goes on from the latest checkpoint in the folder of a run of the same model, on any engine. The files
+    /// become those that the run would have had without the interruption, byte by byte.
+    ///
+    /// # Errors
+    /// Where there is no checkpoint, it is not whole, or it is one of another run.
+    pub fn resume(self, folder: impl AsRef<Path>, engine: &dyn Engine) -> Result<Recording, BeginError> {
+        let folder = folder.as_ref();
+        let latest = CheckpointFolder::of_run(folder).into_iter().next();
+        let path = latest.ok_or_else(|| BeginError::NoCheckpoint { folder: folder.to_owned() })?;
+        let checkpoint = Checkpoint::read(&path)?;
+        let resumed = Resumed { path: &path, checkpoint: &checkpoint, earlier: Earlier::read(folder) };
+        self.resume_from(folder, engine, resumed)
+    }
+
+    /// As [`Self::resume`], where there is a checkpoint in the folder; else as [`Self::begin`].
+    ///
+    /// # Errors
+    /// As of these.
+    pub fn resume_or_begin(
+        self,
+        folder: impl AsRef<Path>,
+        engine: &dyn Engine,
+    ) -> Result<Recording, BeginError> {
+        if CheckpointFolder::of_run(folder.as_ref()).is_empty() {
+            self.begin(folder, engine)
+        } else {
+            self.resume(folder, engine)
+        }
+    }
+
+    #[doc(hidden)]
+    pub fn resume_from(
+        mut self,
+        folder: &Path,
+        engine: &dyn Engine,
+        Resumed { path, checkpoint, earlier }: Resumed<'_>,
+    ) -> Result<Recording, BeginError> {
+        let begin = Instant::now();
+        let Checkpoint { description, snapshot } = checkpoint;
+        let origin = self.origin().on(engine);
+        let difference = description.run.other_program(origin.identity());
+        if let Some(Difference { what, found, wanted }) =
+            difference.or_else(|| description.run.mismatch(&origin))
+        {
+            return Err(CheckpointError::Foreign { path: path.to_owned(), what, found, wanted }.into());
+        }
+        if !self.allow_rounding
+            && let Some(Difference { found, wanted, .. }) = description.run.other_rounding(&origin)
+        {
+            return Err(BeginError::Rounding { found, wanted });
+        }
+        let mut report = self.report(engine, &origin);
+        let folder = RunFolder::open(folder)?;
+        let simulation = Simulation::resume(self.recorder.model(), engine, self.options, snapshot)?;
+        let checkpoints =
+            self.checkpoint_every.map(|interval| Checkpoints::new(interval, &folder, Some(path)));
+        let checkpoints = checkpoints.transpose()?;
+        self.recorder.resume(folder.clone(), &description.recorded)?;
+        if self.checkpoint_every.is_none() {
+            report.files.insert(0, CheckpointFolder::files());
+        }
+        report.go_on(&earlier, description.step, path);
+        Ok(Recording {
+            simulation,
+            recorder: self.recorder,
+            report,
+            folder,
+            origin,
+            checkpoints,
+            allow_non_finite: self.allow_non_finite,
+            earlier,
+            begin,
+            set_up: begin.elapsed(),
+            stepping: Duration::ZERO,
+        })
+    }
+}

@@ -1,0 +1,523 @@
+//! What of a model's substates is saved and drawn, and how.
+
+use crate::components::{DrawnPart, Part};
+use std::any::TypeId;
+use std::marker::PhantomData;
+use xca_core::model::GroupKind;
+use xca_core::{Field, Geometry, HostScalar, HostValue, Model, Schema, Substate, Substates};
+use xca_io::picture::{Category, ColourMap};
+
+/// How the items of a population are saved and drawn.
+///
+/// Default: all items with all substates, as spheres with a diameter of half a cell side, coloured by the
+/// first vector beside the position, else by the first other substate.
+#[derive(Debug, Clone)]
+pub struct ItemView<S> {
+    view: AnyItemView,
+    of: PhantomData<fn() -> S>,
+}
+
+/// How the substates of cells are saved and drawn.
+///
+/// Default: all substates are saved, and the first is drawn, in the middle layer. `bool` and states have one
+/// colour a value and a legend.
+#[derive(Debug, Clone)]
+pub struct CellView<S> {
+    view: AnyCellView,
+    of: PhantomData<fn() -> S>,
+}
+
+/// A view of any substates.
+#[derive(Debug, Clone)]
+pub(crate) enum AnyView {
+    Items(AnyItemView),
+    Cells(AnyCellView),
+}
+
+/// [`ItemView`] with its substates by number.
+#[derive(Debug, Clone)]
+pub(crate) struct AnyItemView {
+    pub(crate) group: TypeId,
+    pub(crate) name: String,
+    /// The items that are shown: those where this substate has this value.
+    pub(crate) only: Option<(usize, f64)>,
+    /// The columns of the table; all substates where there are none.
+    pub(crate) columns: Vec<TableColumn>,
+    pub(crate) radius: Option<f64>,
+    pub(crate) colour: Option<Drawn>,
+    pub(crate) colours: Vec<ValueColour>,
+}
+
+/// A column of a table of items.
+#[derive(Debug, Clone)]
+pub(crate) struct TableColumn {
+    pub(crate) header: String,
+    /// The number of the substate.
+    pub(crate) field: usize,
+    pub(crate) component: usize,
+}
+
+impl TableColumn {
+    /// A column for each component of each substate. Those of the position are `x`, `y` and `z`.
+    pub(crate) fn all(schema: &Schema) -> Vec<Self> {
+        let of_field = |(field, definition): (usize, &Field)| {
+            let is_position = schema.position == Some(field);
+            let names = definition.value_type.component_names().into_iter().enumerate();
+            let columns = names.map(move |(component, name)| {
+                let header = match name.as_str() {
+                    "" => definition.name.to_owned(),
+                    lane if is_position => lane.to_owned(),
+                    component => format!("{}_{component}", definition.name),
+                };
+                Self { header, field, component }
+            });
+            columns.collect::<Vec<_>>()
+        };
+        schema.fields.iter().enumerate().flat_map(of_field).collect()
+    }
+}
+
+/// A substate or a component of it that is drawn, and what the scale calls it.
+#[derive(Debug, Clone)]
+pub(crate) struct Drawn {
+    pub(crate) part: Part,
+    pub(crate) label: String,
+}
+
+/// The colour of a value of a substate.
+#[derive(Debug, Clone)]
+pub(crate) struct ValueColour {
+    /// The number of the substate.
+    field: usize,
+    value: f64,
+    colour: [u8; 3],
+}
+
+impl ValueColour {
+    fn all<S: Substates, V: HostValue>(
+        substate: Substate<S, V>,
+        colours: &[(V::Scalar, [u8; 3])],
+    ) -> impl Iterator<Item = Self> {
+        let field = substate.index();
+        colours.iter().map(move |(value, colour)| Self { field, value: value.to_number(), colour: *colour })
+    }
+}
+
+/// The states of what is drawn with their colours, from the colour with this number in the palette on; none
+/// where it is a number.
+fn categories(schema: &Schema, part: Part, colours: &[ValueColour], first: usize) -> Vec<Category> {
+    let states = schema.fields.get(part.field).map(|field| {
+        let drawn = DrawnPart::of(field.value_type, part.component);
+        drawn.states(field.value_type)
+    });
+    let names = states.unwrap_or_default().into_iter().enumerate();
+    coloured(names.map(|(number, name)| (number as f64, name)), part.field, colours, first)
+}
+
+/// Values with their names, in the colours that the author gives them, else in those of the palette.
+fn coloured(
+    names: impl Iterator<Item = (f64, String)>,
+    field: usize,
+    colours: &[ValueColour],
+    first: usize,
+) -> Vec<Category> {
+    let category = |(number, (value, name)): (usize, (f64, String))| {
+        let given = colours.iter().find(|given| given.field == field && given.value == value);
+        let plain = Category::new(first + number, value, name);
+        given.map_or(plain.clone(), |given| Category { colour: given.colour, ..plain })
+    };
+    names.enumerate().map(category).collect()
+}
+
+/// [`CellView`] with its substates by number.
+#[derive(Debug, Clone)]
+pub(crate) struct AnyCellView {
+    pub(crate) group: TypeId,
+    pub(crate) name: String,
+    pub(crate) drawn: Option<Drawn>,
+    pub(crate) layer: Option<usize>,
+    /// The axis that the layers are counted along: z but for `render`.
+    pub(crate) axis: usize,
+    pub(crate) range: Option<[f64; 2]>,
+    pub(crate) map: Option<ColourMap>,
+    pub(crate) kinds: Vec<(f64, String)>,
+    pub(crate) colours: Vec<ValueColour>,
+    /// The substate that it is drawn over, and the value up to which that is seen.
+    pub(crate) relief: Option<(usize, f64)>,
+    /// Whether all cells are drawn, as cubes: only by `render`.
+    pub(crate) block: bool,
+}
+
+impl<S: Substates> ItemView<S> {
+    /// A view of the items of `S`, whose files begin with this name.
+    pub fn named(name: impl Into<String>) -> Self {
+        Self { view: AnyItemView::plain(TypeId::of::<S>(), name.into()), of: PhantomData }
+    }
+
+    /// Shows only the items where a substate has this value.
+    #[must_use]
+    pub fn only<V: HostValue + Into<f64>>(mut self, substate: Substate<S, V>, value: V) -> Self {
+        self.view.only = Some((substate.index(), value.into()));
+        self
+    }
+
+    /// Adds columns to the table of items, one for each component of a substate. Substates without a column
+    /// are then saved nowhere.
+    #[must_use]
+    pub fn columns<V: HostValue, const N: usize>(
+        mut self,
+        substate: Substate<S, V>,
+        headers: [&str; N],
+    ) -> Self {
+        const { assert!(N == V::COMPONENTS, "one header for each component of the substate") };
+        let field = substate.index();
+        let columns = headers.iter().enumerate();
+        self.view.columns.extend(columns.map(|(component, header)| TableColumn {
+            header: (*header).to_owned(),
+            field,
+            component,
+        }));
+        self
+    }
+
+    /// The radius of an item, in metres.
+    #[must_use]
+    pub fn radius(mut self, metres: f64) -> Self {
+        self.view.radius = Some(metres);
+        self
+    }
+
+    /// Colours items by a substate: a number, `bool` or a state; of a vector its length, of an array the sum
+    /// of its elements. `^` in the label raises what follows: `speed (m s^-1)`.
+    #[must_use]
+    pub fn colour<V: HostValue>(mut self, substate: Substate<S, V>, label: impl Into<String>) -> Self {
+        self.view.colour =
+            Some(Drawn { part: Part { field: substate.index(), component: None }, label: label.into() });
+        self
+    }
+
+    /// Colours items by one component of a substate: a lane of a vector, an element of an array. The lanes of
+    /// an array of vectors are numbered one element after the other.
+    #[must_use]
+    pub fn colour_component<V: HostValue>(
+        mut self,
+        substate: Substate<S, V>,
+        component: usize,
+        label: impl Into<String>,
+    ) -> Self {
+        let part = Part { field: substate.index(), component: Some(component) };
+        self.view.colour = Some(Drawn { part, label: label.into() });
+        self
+    }
+
+    /// The colours (sRGB) of some values of a substate: of states, `true` and `false`. Others keep those of
+    /// the palette.
+    #[must_use]
+    pub fn colours<V: HostValue>(
+        mut self,
+        substate: Substate<S, V>,
+        colours: &[(V::Scalar, [u8; 3])],
+    ) -> Self {
+        self.view.colours.extend(ValueColour::all(substate, colours));
+        self
+    }
+
+    pub(crate) fn into_any(self) -> AnyItemView {
+        self.view
+    }
+}
+
+impl<S: Substates> CellView<S> {
+    /// A view of the substates `S`, whose files begin with this name.
+    pub fn named(name: impl Into<String>) -> Self {
+        Self { view: AnyCellView::plain(TypeId::of::<S>(), name.into()), of: PhantomData }
+    }
+
+    /// Draws a substate: a number, `bool` or a state; of a vector its length, of an array the sum of its
+    /// elements (of vectors, the length of the sum; of `bool`, how many are true; of states, the first
+    /// element).
+    #[must_use]
+    pub fn draw<V: HostValue>(mut self, substate: Substate<S, V>, label: impl Into<String>) -> Self {
+        self.view.drawn =
+            Some(Drawn { part: Part { field: substate.index(), component: None }, label: label.into() });
+        self
+    }
+
+    /// Draws one component of a substate: a lane of a vector, an element of an array. The lanes of an array
+    /// of vectors are numbered one element after the other.
+    #[must_use]
+    pub fn draw_component<V: HostValue>(
+        mut self,
+        substate: Substate<S, V>,
+        component: usize,
+        label: impl Into<String>,
+    ) -> Self {
+        let part = Part { field: substate.index(), component: Some(component) };
+        self.view.drawn = Some(Drawn { part, label: label.into() });
+        self
+    }
+
+    /// The colours (sRGB) of some values of a substate: of states, `true` and `false`, or of [`Self::kinds`].
+    /// Others keep those of the palette.
+    ///
+    /// ```
+    /// use xca_core::prelude::*;
+    /// use xca_record::CellView;
+    ///
+    /// #[derive(States, Clone, Copy, PartialEq)]
+    /// enum Ground {
+    ///     Rock,
+    ///     Water,
+    /// }
+    ///
+    /// #[derive(Substates, Clone)]
+    /// struct Land {
+    ///     ground: Ground,
+    /// }
+    ///
+    /// let view = CellView::<Land>::named("land").colours(Land::GROUND, &[(Ground::Water, [60, 120, 200])]);
+    /// ```
+    #[must_use]
+    pub fn colours<V: HostValue>(
+        mut self,
+        substate: Substate<S, V>,
+        colours: &[(V::Scalar, [u8; 3])],
+    ) -> Self {
+        self.view.colours.extend(ValueColour::all(substate, colours));
+        self
+    }
+
+    /// Draws the layer with this index along z.
+    #[must_use]
+    pub fn layer(mut self, z: usize) -> Self {
+        self.view.layer = Some(z);
+        self
+    }
+
+    /// Draws over the relief of the ground, whose heights in metres are another substate: where the drawn one is not more than `bare`, the
+    /// ground is seen.
+    #[must_use]
+    pub fn relief<V: HostValue + Into<f64>>(mut self, heights: Substate<S, V>, bare: f64) -> Self {
+        self.view.relief = Some((heights.index(), bare));
+        self
+    }
+
+    /// The values at the ends of the scale. Without it, they are the least and the largest of the initial state, or of the state that is drawn
+    /// where it goes beyond.
+    #[must_use]
+    pub fn range(mut self, low: f64, high: f64) -> Self {
+        self.view.range = Some([low, high]);
+        self
+    }
+
+    /// The colours of the scale.
+    #[must_use]
+    pub fn map(mut self, map: ColourMap) -> Self {
+        self.view.map = Some(map);
+        self
+    }
+
+    /// Names for the values of a number that stands for kinds. States and `bool` have names of their own.
+    #[must_use]
+    pub fn kinds<K: Into<f64> + Copy>(mut self, kinds: &[(K, &str)]) -> Self {
+        self.view.kinds = kinds.iter().map(|(value, name)| ((*value).into(), (*name).to_owned())).collect();
+        self
+    }
+
+    pub(crate) fn into_any(self) -> AnyCellView {
+        self.view
+    }
+}
+
+impl AnyItemView {
+    fn plain(group: TypeId, name: String) -> Self {
+        let (columns, colours) = (Vec::new(), Vec::new());
+        Self { group, name, only: None, columns, radius: None, colour: None, colours }
+    }
+
+    /// What colours the items.
+    pub(crate) fn colour(&self, schema: &Schema) -> Option<Drawn> {
+        let default = || {
+            let other = |field: &usize| schema.position != Some(*field);
+            let vector = (0..schema.fields.len())
+                .filter(other)
+                .find(|&field| schema.fields[field].value_type.lanes > 1);
+            let field = vector.or_else(|| (0..schema.fields.len()).find(other))?;
+            let value_type = schema.fields[field].value_type;
+            let label = DrawnPart::of(value_type, None).label(&schema.fields[field]);
+            Some(Drawn { part: Part { field, component: None }, label })
+        };
+        self.colour.clone().or_else(default)
+    }
+
+    /// The states that colour the items; none where a number does.
+    pub(crate) fn categories(&self, schema: &Schema) -> Vec<Category> {
+        let colour = self.colour(schema);
+        // White spheres are hard to see on the ground.
+        colour.map(|drawn| categories(schema, drawn.part, &self.colours, 1)).unwrap_or_default()
+    }
+}
+
+impl AnyCellView {
+    fn plain(group: TypeId, name: String) -> Self {
+        Self {
+            group,
+            name,
+            drawn: None,
+            layer: None,
+            axis: 2,
+            range: None,
+            map: None,
+            kinds: Vec::new(),
+            colours: Vec::new(),
+            relief: None,
+            block: false,
+        }
+    }
+
+    /// What is drawn.
+    pub(crate) fn part(&self) -> Part {
+        self.drawn.as_ref().map_or(Part { field: 0, component: None }, |drawn| drawn.part)
+    }
+
+    /// What the scale calls it.
+    pub(crate) fn label(&self, schema: &Schema) -> String {
+        let default = || {
+            let field = schema.fields.first();
+            field.map_or_else(String::new, |field| DrawnPart::of(field.value_type, None).label(field))
+        };
+        self.drawn.as_ref().map_or_else(default, |drawn| drawn.label.clone())
+    }
+
+    /// The kinds or states of what is drawn; none where it is a number.
+    pub(crate) fn categories(&self, schema: &Schema) -> Vec<Category> {
+        let part = self.part();
+        if self.kinds.is_empty() {
+            categories(schema, part, &self.colours, 0)
+        } else {
+            coloured(self.kinds.iter().cloned(), part.field, &self.colours, 0)
+        }
+    }
+
+    /// The layer that is drawn.
+    pub(crate) fn drawn_layer(&self, geometry: &Geometry) -> usize {
+        self.layer.unwrap_or(geometry.extents()[self.axis] / 2)
+    }
+}
+
+impl AnyView {
+    pub(crate) fn name(&self) -> &str {
+        match self {
+            Self::Items(view) => &view.name,
+            Self::Cells(view) => &view.name,
+        }
+    }
+
+    fn group(&self) -> TypeId {
+        match self {
+            Self::Items(view) => view.group,
+            Self::Cells(view) => view.group,
+        }
+    }
+}
+
+/// A view that does not fit its model.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ViewError {
+    /// The model does not have its substates, or they are not of the kind that the view shows.
+    #[error("the view `{view}` shows substates that the model does not have as {kind}")]
+    NotInModel {
+        /// The name of the view.
+        view: String,
+        /// `cells` or `items`.
+        kind: &'static str,
+    },
+    /// Two views whose files would have the same names.
+    #[error("two views are named `{0}`; their files would have the same names")]
+    SameName(String),
+    /// A component that the substate does not have.
+    #[error("the view `{view}` draws component {component} of `{substate}`, which has {components}")]
+    Component {
+        /// The name of the view.
+        view: String,
+        /// The substate.
+        substate: &'static str,
+        /// The number of the component.
+        component: usize,
+        /// How many there are.
+        components: usize,
+    },
+    /// A layer that the space does not have.
+    #[error("the view `{view}` draws layer {layer}, but the space has {layers} layers")]
+    Layer {
+        /// The name of the view.
+        view: String,
+        /// The layer.
+        layer: usize,
+        /// How many there are.
+        layers: usize,
+    },
+}
+
+/// The given views, with the number of the group that each shows, and after them plain views of what no one shows.
+pub(crate) fn complete(model: &Model, given: Vec<AnyView>) -> Result<Vec<(usize, AnyView)>, ViewError> {
+    let mut views = Vec::new();
+    for view in given {
+        let found = model.group_number(view.group());
+        let fits = found.is_some_and(|group| {
+            matches!(
+                (&view, model.groups()[group].kind()),
+                (AnyView::Items(_), GroupKind::Population { .. })
+                    | (AnyView::Cells(_), GroupKind::Cells { .. })
+            )
+        });
+        let (Some(group), true) = (found, fits) else {
+            let kind = if matches!(view, AnyView::Items(_)) { "items" } else { "cells" };
+            return Err(ViewError::NotInModel { view: view.name().to_owned(), kind });
+        };
+        if let AnyView::Cells(AnyCellView { layer: Some(layer), name, .. }) = &view {
+            let [_, _, layers] = model.geometry().extents();
+            if *layer >= layers {
+                return Err(ViewError::Layer { view: name.clone(), layer: *layer, layers });
+            }
+        }
+        if let Some(error) = wrong_component(&view, model.groups()[group].schema()) {
+            return Err(error);
+        }
+        views.push((group, view));
+    }
+    for (number, group) in model.groups().iter().enumerate() {
+        if views.iter().all(|(shown, _)| *shown != number) {
+            let name = group.schema().name.to_lowercase();
+            let view = match group.kind() {
+                GroupKind::Population { .. } => AnyView::Items(AnyItemView::plain(group.type_id(), name)),
+                GroupKind::Cells { .. } => AnyView::Cells(AnyCellView::plain(group.type_id(), name)),
+            };
+            views.push((number, view));
+        }
+    }
+    for (number, (_, view)) in views.iter().enumerate() {
+        if views[..number].iter().any(|(_, other)| other.name() == view.name()) {
+            return Err(ViewError::SameName(view.name().to_owned()));
+        }
+    }
+    Ok(views)
+}
+
+/// A component that is drawn and that its substate does not have.
+fn wrong_component(view: &AnyView, schema: &Schema) -> Option<ViewError> {
+    let drawn = match view {
+        AnyView::Items(view) => view.colour.as_ref(),
+        AnyView::Cells(view) => view.drawn.as_ref(),
+    };
+    let Part { field, component } = drawn?.part;
+    let (field, component) = (schema.fields.get(field)?, component?);
+    let components = field.value_type.components();
+    (component >= components).then(|| ViewError::Component {
+        view: view.name().to_owned(),
+        substate: field.name,
+        component,
+        components,
+    })
+}
