@@ -8,7 +8,7 @@ use toml::{Table, Value};
 type TestResult = Result<(), Box<dyn Error>>;
 
 /// For each member, the members that it may depend on. A new member finds its place here first.
-const DIRECTIONS: [(&str, &[&str]); 16] = [
+const DIRECTIONS: [(&str, &[&str]); 17] = [
     ("xca-methods", &[]),
     ("xca-macros", &["xca-methods"]),
     ("xca-core", &["xca-macros", "xca-methods"]),
@@ -18,10 +18,11 @@ const DIRECTIONS: [(&str, &[&str]); 16] = [
     ("xca-io", &[]),
     ("xca-record", &["xca-core", "xca-io", "xca-wgsl"]),
     ("xca-run", &["xca-core", "xca-cpu", "xca-gpu", "xca-io", "xca-record"]),
-    ("xca", &["xca-core", "xca-cpu", "xca-gpu", "xca-run"]),
+    ("xca", &["xca-core", "xca-cpu", "xca-gpu", "xca-io", "xca-record", "xca-run"]),
     ("cadem", &["xca-core"]),
     ("xca-examples", &["xca-core", "xca-run", "xca", "cadem"]),
     ("new-model", &["xca"]),
+    ("xca-tests-library", &["xca"]),
     ("xca-benchmarks", &["xca-core", "xca-cpu", "xca-gpu", "cadem", "xca-examples"]),
     (
         "xca-tests",

@@ -2,6 +2,9 @@
 
 use std::process::Command;
 
+/// What a main of one's own need not build.
+const COMMAND_LINE: &[&str] = &["xca-run", "clap", "ratatui", "wgpu", "plotters", "indicatif", "maud"];
+
 type TestResult = Result<(), Box<dyn std::error::Error>>;
 
 /// All crates that a crate of the workspace depends on.
@@ -28,6 +31,8 @@ fn a_program_has_what_its_features_ask_for() -> TestResult {
         ("xca", "terminal", &["xca-run", "ratatui"], &["wgpu"]),
         ("new-model", "", &["xca", "xca-run"], &["wgpu", "ratatui"]),
         ("new-model", "gpu,terminal", &["wgpu", "ratatui"], &[]),
+        ("xca", "record", &["xca-record", "xca-io", "xca-cpu"], COMMAND_LINE),
+        ("xca-tests-library", "", &["xca-record", "xca-io", "xca-cpu"], COMMAND_LINE),
         ("xca-examples", "", &["wgpu", "ratatui"], &[]),
     ] {
         let found = dependencies(of, features)?;

@@ -54,6 +54,11 @@ impl Recording {
         &self.simulation
     }
 
+    /// The simulation, to read its state or to go on with it unrecorded.
+    pub fn into_simulation(self) -> Simulation {
+        self.simulation
+    }
+
     /// The folder that is written to.
     pub fn folder(&self) -> &Path {
         self.folder.top.path()
