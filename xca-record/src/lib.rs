@@ -41,6 +41,7 @@
 //! |---|---|
 //! | [`SetUp`], [`CellView`], [`ItemView`], [`Observable`] | what is recorded |
 //! | [`Run`], [`Recording`] | a run, from its beginning or from a checkpoint, and its files |
+//! | [`Ensemble`] | many runs with other parameters and seeds, and one table of them |
 //! | [`Monitor`] | who watches a run, and can end it |
 //! | [`read_items`] | a table of items, read back |
 //!
@@ -52,6 +53,7 @@
 pub mod checkpoint;
 #[doc(hidden)]
 pub mod components;
+mod ensemble;
 mod interval;
 mod items_file;
 #[doc(hidden)]
@@ -71,6 +73,10 @@ mod set_up;
 mod view;
 
 pub use checkpoint::CheckpointError;
+pub use ensemble::{
+    Assigned, End, Ensemble, EnsembleError, EnsembleMonitor, Finished, MEMBERS, Member, SUMMARY, Summary,
+    TableError,
+};
 pub use interval::Interval;
 pub use items_file::{ReadItem, read_items};
 pub use machine::{NotEnoughMemory, check_memory};

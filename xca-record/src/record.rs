@@ -18,6 +18,7 @@ mod values;
 
 pub use drawing::{Drawing, Scales};
 pub use folder::FolderError;
+pub(crate) use folder::lock;
 pub use folder::{FRAMES, REPORT, RunFolder, numbered_files};
 pub use items::column_type;
 pub use look::{Look, ViewKind};

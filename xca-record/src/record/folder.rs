@@ -96,7 +96,7 @@ impl RunFolder {
 }
 
 /// Locks a folder for this process.
-fn lock(folder: &Path) -> Result<Option<Arc<File>>, FolderError> {
+pub(crate) fn lock(folder: &Path) -> Result<Option<Arc<File>>, FolderError> {
     let Ok(file) = File::open(folder) else { return Ok(None) };
     match file.try_lock() {
         Ok(()) => Ok(Some(Arc::new(file))),
