@@ -7,19 +7,21 @@ mod work;
 pub use member::{Assigned, End, Finished, Member};
 pub use table::{Summary, TableError};
 
+use crate::checkpoint::Origin;
 use crate::observable::Failure;
 use crate::record::{FolderError, REPORT};
-use crate::report;
+use crate::report::{self, Identity};
 use crate::set_up::SetUp;
 use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::num::NonZero;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use table::Table;
 use work::Work;
-use xca_core::{Engine, Precision};
+use xca_core::{Engine, Precision, RunOptions};
 use xca_io::atomic::{OutputFolder, WriteError, write_atomically};
 
 /// The file that has a row for each member.
@@ -79,7 +81,7 @@ pub struct Ensemble {
     jobs: usize,
     precision: Precision,
     steps: Option<u64>,
-    program: [String; 2],
+    identity: Identity,
 }
 
 /// A parameter and the values that it takes.
@@ -97,6 +99,25 @@ struct Plan {
     seeds: u64,
     precision: Precision,
     steps: Option<u64>,
+    /// The options of the program.
+    options: Map<String, Value>,
+    /// Of the first member, where it can be made.
+    model: Option<Modelled>,
+}
+
+/// The model of a member, as far as files can tell it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Modelled {
+    /// Shape, processes and parameters, as checkpoints have them.
+    origin: Origin,
+    inputs: Vec<Input>,
+}
+
+/// A file that the set-up has read.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Input {
+    path: String,
+    crc32: Option<u32>,
 }
 
 /// `run.json` of an ensemble.
@@ -142,16 +163,14 @@ pub enum EnsembleError {
     #[error(transparent)]
     Table(#[from] TableError),
     #[error("{} holds another ensemble; give another folder", folder.display())]
-    Other { folder: std::path::PathBuf },
+    Other { folder: PathBuf },
     #[error("`{parameter}` has no values to take")]
     NoValues { parameter: String },
     #[error("`{parameter}` is swept twice")]
     Twice { parameter: String },
-    #[error("no member could be made")]
-    SetUp { source: Failure },
 }
 
-/// How many members finish at most before the table is written again; and how long it waits.
+/// How long members wait at most until they stand in the table.
 const PAUSE: Duration = Duration::from_secs(1);
 
 impl Default for Ensemble {
@@ -163,7 +182,7 @@ impl Default for Ensemble {
             jobs: std::thread::available_parallelism().map_or(1, NonZero::get),
             precision: Precision::default(),
             steps: None,
-            program: Default::default(),
+            identity: Identity::default(),
         }
     }
 }
@@ -211,11 +230,11 @@ impl Ensemble {
         Self { steps: Some(steps), ..self }
     }
 
-    /// The name and version of the program, for `run.json`.
+    /// The program, for `run.json`.
     #[doc(hidden)]
     #[must_use]
-    pub fn program(self, name: &str, version: &str) -> Self {
-        Self { program: [name.to_owned(), version.to_owned()], ..self }
+    pub fn identity(self, identity: Identity) -> Self {
+        Self { identity, ..self }
     }
 
     /// All members in the order of the table: the seeds vary fastest, then the last parameter.
@@ -239,7 +258,8 @@ impl Ensemble {
 
     /// Runs the members that are not in the table of the folder yet, and gives all that have come to their end.
     ///
-    /// `set_up` makes the model of a member, on the calling thread; its parameters are set after that.
+    /// `set_up` makes the model of a member, on the calling thread; its parameters are set after that. It is
+    /// called once more for the first member, to see whether the table is one of this model.
     /// `engine` makes an engine, on the thread that uses it.
     ///
     /// # Errors
@@ -253,8 +273,10 @@ impl Ensemble {
         monitor: &mut dyn EnsembleMonitor,
     ) -> Result<Vec<Finished>, EnsembleError> {
         self.check()?;
-        let folder = self.open(folder)?;
         let members = self.members();
+        let model =
+            members.first().and_then(|member| set_up(member).ok()).map(|set_up| self.modelled(&set_up));
+        let folder = self.open(folder, self.plan(model))?;
         let mut table = Table::open(&folder.output.file(MEMBERS), &members)?;
         monitor.begin(table.len(), members.len());
         let mut written = Instant::now();
@@ -291,13 +313,26 @@ impl Ensemble {
         Ok(())
     }
 
-    fn plan(&self) -> Plan {
-        let Self { axes, first_seed, seeds, precision, steps, .. } = self.clone();
-        Plan { axes, first_seed, seeds, precision, steps }
+    fn plan(&self, model: Option<Modelled>) -> Plan {
+        let Self { axes, first_seed, seeds, precision, steps, identity, .. } = self.clone();
+        Plan { axes, first_seed, seeds, precision, steps, options: identity.options, model }
+    }
+
+    fn modelled(&self, set_up: &SetUp) -> Modelled {
+        let options = RunOptions { precision: self.precision, seed: self.first_seed };
+        // Command lines may say the same in other words.
+        let identity = Identity { command_line: Vec::new(), ..self.identity.clone() };
+        let steps = self.steps.unwrap_or(set_up.steps);
+        let origin = Origin::new(&identity, &set_up.model, options, [steps, 0]);
+        let input = |path: &PathBuf| Input {
+            path: path.display().to_string(),
+            crc32: fs::read(path).ok().map(|bytes| crc32fast::hash(&bytes)),
+        };
+        Modelled { origin, inputs: set_up.inputs.iter().map(input).collect() }
     }
 
     /// The folder of this ensemble, new or known again.
-    fn open(&self, path: &Path) -> Result<Folder, EnsembleError> {
+    fn open(&self, path: &Path, plan: Plan) -> Result<Folder, EnsembleError> {
         let other = || EnsembleError::Other { folder: path.to_owned() };
         let report = path.join(REPORT);
         let is_new = !report.exists();
@@ -312,19 +347,19 @@ impl Ensemble {
             let text =
                 fs::read(&report).map_err(|source| WriteError::File { path: report.clone(), source })?;
             let told: Told = serde_json::from_slice(&text).map_err(|_| other())?;
-            if told.ensemble != self.plan() || told.program != self.program[0] {
+            if told.ensemble != plan || told.program != self.identity.program {
                 return Err(other());
             }
         }
         let output = OutputFolder::create(path)?;
         let lock = crate::record::lock(path)?;
         if is_new {
-            let [program, version] = self.program.clone();
+            let Identity { program, version, .. } = self.identity.clone();
             let told = Told {
                 xca: env!("CARGO_PKG_VERSION").to_owned(),
                 program,
                 version,
-                ensemble: self.plan(),
+                ensemble: plan,
                 started: report::now(),
                 files: [MEMBERS, SUMMARY].map(str::to_owned).to_vec(),
             };

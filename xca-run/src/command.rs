@@ -14,6 +14,7 @@ mod prepare;
 mod render;
 mod resume;
 mod run;
+mod sweep;
 mod under_way;
 mod voice;
 mod watch;
@@ -78,6 +79,17 @@ enum Unable {
 impl Unable {
     fn refused(error: impl Into<Failure>) -> Self {
         Self::Refused(error.into())
+    }
+
+    /// What went wrong, where others tell it.
+    fn into_failure(self) -> Failure {
+        match self {
+            Self::Refused(error)
+            | Self::RefusedOffering(error, _)
+            | Self::Failed(error)
+            | Self::FailedLeaving(error, _) => error,
+            Self::CommandLine(error) => error.into(),
+        }
     }
 
     fn failed(error: impl Into<Failure>) -> Self {
@@ -209,6 +221,7 @@ fn execute(invocation: Invocation<'_>) -> Result<Ended, Unable> {
         Invocation::Compare(choice, arguments, command_line) => {
             compare::compare(&choice, *arguments, command_line)
         }
+        Invocation::Sweep(choice, on, arguments) => sweep::sweep(&choice, on, arguments),
         Invocation::Inspect(arguments) => inspect::inspect(&arguments),
         Invocation::Resume(definition, arguments) => resume::resume(definition, &arguments),
     }

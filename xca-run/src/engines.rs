@@ -127,6 +127,11 @@ pub struct EngineOptions {
 }
 
 impl EngineName {
+    /// How many threads the engine uses where many of them work side by side; none where it has none.
+    pub(crate) fn default_threads(self) -> Option<usize> {
+        (self == Self::Cpu).then_some(1)
+    }
+
     /// The engine.
     ///
     /// # Errors

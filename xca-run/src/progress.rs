@@ -39,6 +39,17 @@ impl Progress {
         }
     }
 
+    /// A line for so many things, which are called so.
+    #[must_use]
+    pub fn counting(total: u64, things: &str) -> Self {
+        let line = Self::new(Some(total));
+        let template = format!("{{bar:32}} {{pos}}/{{len}} {things}, {{elapsed}}  {{msg}}");
+        if let Ok(style) = ProgressStyle::with_template(&template) {
+            line.bar.set_style(style.progress_chars("━╸─"));
+        }
+        line
+    }
+
     /// A line that no one sees.
     #[must_use]
     pub fn hidden() -> Self {

@@ -92,10 +92,10 @@ fn a_member_that_fails_does_not_end_the_others_and_is_tried_again() {
     assert_eq!(failed, [false, true, true, false]);
     let further = finished[3].observables[0].value - finished[0].observables[0].value;
     assert!((further - 20.0).abs() < 1e-12, "{further}");
-    assert_eq!(tried.load(Ordering::Relaxed), 4);
+    assert_eq!(tried.load(Ordering::Relaxed), 1 + 4);
     let first = fs::read_to_string(folder.path().join(MEMBERS)).unwrap();
     let again = ensemble.run(folder.path(), &engine, &mut counted, &mut ()).unwrap();
-    assert_eq!(tried.load(Ordering::Relaxed), 6);
+    assert_eq!(tried.load(Ordering::Relaxed), 1 + 4 + 1 + 2);
     assert_eq!(again.len(), 4);
     assert_eq!(fs::read_to_string(folder.path().join(MEMBERS)).unwrap(), first);
 }
@@ -126,7 +126,7 @@ fn what_was_interrupted_goes_on_and_ends_with_the_same_table() {
         set_up()
     };
     ensemble().run(&parts, &engine, &mut counted, &mut ()).unwrap();
-    assert_eq!(tried, 12 - first.len());
+    assert_eq!(tried, 1 + 12 - first.len());
     for file in [MEMBERS, SUMMARY] {
         assert_eq!(fs::read(whole.join(file)).unwrap(), fs::read(parts.join(file)).unwrap(), "{file}");
     }
@@ -138,6 +138,20 @@ fn other_ensembles_and_foreign_files_are_kept() {
     ensemble().run(folder.path(), &engine, &mut |_| set_up(), &mut ()).unwrap();
     let error = ensemble().seeds(0, 3).run(folder.path(), &engine, &mut |_| set_up(), &mut ()).unwrap_err();
     assert!(error.to_string().contains("holds another ensemble"), "{error}");
+    // The same axes over another model, and over an input that has changed.
+    let mut other = |_: &Member| {
+        let mut set_up = set_up()?;
+        set_up.model.set_parameter("drift", "3")?;
+        Ok(set_up)
+    };
+    let error = ensemble().run(folder.path(), &engine, &mut other, &mut ()).unwrap_err();
+    assert!(error.to_string().contains("holds another ensemble"), "{error}");
+    let [input, out] = ["map", "of_map"].map(|name| folder.path().join(name));
+    for (text, goes_on) in [("1 2", true), ("1 2", true), ("1 3", false)] {
+        fs::write(&input, text).unwrap();
+        let result = ensemble().run(&out, &engine, &mut |_| Ok(set_up()?.input(&input)), &mut ());
+        assert_eq!(result.is_ok(), goes_on, "{text}");
+    }
     fs::remove_file(folder.path().join(REPORT)).unwrap();
     let error = ensemble().run(folder.path(), &engine, &mut |_| set_up(), &mut ()).unwrap_err();
     assert!(error.to_string().contains("holds `members.csv`"), "{error}");

@@ -6,10 +6,11 @@ use super::inspect::InspectArguments;
 use super::list::ListArguments;
 use super::new::NewArguments;
 use super::render::RenderArguments;
+use super::sweep::SweepArguments;
 use super::watch::WatchArguments;
 use super::{
     Definition, EXIT_CODES, Unable, clashes, compare, config, initial, inspect, list, new, render, resume,
-    run, watch,
+    run, sweep, watch,
 };
 use crate::program::Given;
 use clap::error::ErrorKind;
@@ -31,6 +32,7 @@ pub(super) enum Invocation<'a> {
     Inspect(InspectArguments),
     /// With the whole command line.
     Compare(Box<Choice<'a>>, Box<CompareArguments>, Vec<String>),
+    Sweep(Box<Choice<'a>>, EngineArguments, SweepArguments),
     New(NewArguments),
 }
 
@@ -79,7 +81,7 @@ impl<'a> Choice<'a> {
 pub(super) fn command(definition: &Definition<'_>) -> Command {
     let Definition { name, about, version, .. } = definition;
     let examples = format!(
-        "Examples:\n  {name} run\n  {name} resume out/{name}\n  {name} compare\n  {name} render\n  {name} watch\n  {name} list\n  {name} inspect out/{name}\n  {name} new waves"
+        "Examples:\n  {name} run\n  {name} resume out/{name}\n  {name} compare\n  {name} sweep --seeds 10\n  {name} render\n  {name} watch\n  {name} list\n  {name} inspect out/{name}\n  {name} new waves"
     );
     Command::new(*name)
         .about(*about)
@@ -97,6 +99,7 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
             list::command(definition),
             inspect::command(definition),
             compare::command(definition),
+            sweep::command(definition),
             new::command(definition),
         ])
 }
@@ -182,6 +185,9 @@ fn complete<'a>(
             Box::new(from(matches)?),
             words(arguments),
         )),
+        Some((sweep::NAME, matches)) => {
+            Ok(Invocation::Sweep(Box::new(Choice::new(definition, matches)?), from(matches)?, from(matches)?))
+        }
         Some((render::NAME, matches)) => {
             let render: RenderArguments = from(matches)?;
             if let Some(path) = render.saved() {

@@ -36,6 +36,11 @@ impl Voice {
         Ok(())
     }
 
+    /// The line that shows how many of so many things are done.
+    pub(super) fn count(self, all: u64, things: &str) -> Progress {
+        if self.quiet { Progress::hidden() } else { Progress::counting(all, things) }
+    }
+
     /// The line that shows how far so many steps have come.
     pub(super) fn line(self, steps: u64) -> Progress {
         if self.quiet { Progress::hidden() } else { Progress::new(Some(steps)) }

@@ -1,0 +1,233 @@
+//! The subcommand `sweep`.
+
+mod values;
+
+use super::arguments::{EngineArguments, steps};
+use super::parse::{Choice, with_help, with_model};
+use super::voice::Voice;
+use super::{Definition, Ended, Unable};
+use crate::interrupt::Interrupt;
+use crate::program::{Assignment, Given};
+use crate::progress::{Progress, duration_text};
+use clap::{Args, Command};
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+use values::{Values, ValuesError};
+use xca_core::Engine;
+use xca_record::machine::{check_memory, cores};
+use xca_record::report::Identity;
+use xca_record::{
+    End, Ensemble, EnsembleError, EnsembleMonitor, Failure, Finished, MEMBERS, Member, SUMMARY, SetUp,
+};
+
+pub(super) const NAME: &str = "sweep";
+
+const ABOUT: &str = "Run the model with many parameters and seeds, side by side, and write one table";
+
+const FILES: &str = "\
+--set gives a parameter many values: LOW..HIGH:COUNT are equal steps from LOW to
+HIGH, A|B|C are these. All combinations are run, each with so many seeds.
+
+members.csv has a row for each run: its parameters, its seed, how it ended, and
+what is observed at its end. summary.csv has mean, deviation, least and largest
+over the seeds. The same command goes on with a sweep that was interrupted or
+killed; runs that have failed are tried again.";
+
+/// How many failed runs are told on the terminal.
+const TOLD: usize = 5;
+
+/// Which runs are done, and how.
+#[derive(Args, Debug, Clone)]
+pub(super) struct SweepArguments {
+    /// How many seeds each combination of parameters is run with, from --seed on
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
+    seeds: u64,
+
+    /// How many runs are done side by side; the number of cores divided by --threads unless it is given
+    #[arg(long, value_name = "N", value_parser = super::threads)]
+    jobs: Option<usize>,
+
+    /// How many steps each run does; the model says how many unless it is given
+    #[arg(long, value_name = "N", value_parser = steps)]
+    steps: Option<u64>,
+
+    /// The folder of the tables; out/NAME-sweep unless it is given
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    #[command(flatten)]
+    voice: Voice,
+}
+
+pub(super) fn command(definition: &Definition<'_>) -> Command {
+    let name = definition.name;
+    let command = EngineArguments::augment_args(with_model(Command::new(NAME), definition));
+    let command = SweepArguments::augment_args(command).next_help_heading(None::<&str>);
+    let examples = [
+        format!("{name} sweep --seeds 10"),
+        format!("{name} sweep --set NAME=0.1..0.5:20 --seeds 10 --jobs 4"),
+        format!("{name} sweep --set 'NAME=0.1|0.2|0.5' --set OTHER=3"),
+    ];
+    with_help(command, ABOUT, &examples).long_about(format!("{ABOUT}.\n\n{FILES}"))
+}
+
+/// What a sweep tells as JSON.
+#[derive(Serialize)]
+struct Told<'a> {
+    folder: &'a Path,
+    members: usize,
+    done: usize,
+    failed: usize,
+    seconds: f64,
+}
+
+/// What cannot be swept.
+#[derive(Debug, thiserror::Error)]
+enum SweepError {
+    #[error(transparent)]
+    Values(#[from] ValuesError),
+    #[error("{failed} of {all} runs failed; {} says why", table.display())]
+    Failed { failed: usize, all: usize, table: PathBuf },
+}
+
+/// The line that shows how many runs are done, and Ctrl-C.
+struct Terminal<'a> {
+    line: Progress,
+    done: u64,
+    interrupt: &'a Interrupt,
+}
+
+impl EnsembleMonitor for Terminal<'_> {
+    fn begin(&mut self, done: usize, _: usize) {
+        self.done = done as u64;
+        self.line.begin_at(self.done);
+    }
+
+    fn ended(&mut self, _: &Finished) {
+        self.done += 1;
+        self.line.at(self.done);
+    }
+
+    fn is_interrupted(&self) -> bool {
+        self.interrupt.is_raised()
+    }
+}
+
+/// Runs a model many times.
+pub(super) fn sweep(
+    model: &Choice<'_>,
+    mut on: EngineArguments,
+    arguments: SweepArguments,
+) -> Result<Ended, Unable> {
+    let begin = Instant::now();
+    let given = model.arguments.given(arguments.steps);
+    let (swept, fixed) = sorted(&given).map_err(Unable::refused)?;
+    let given = Given { parameters: fixed, ..given };
+    let set_up = model.set_up(&given)?;
+    check(&set_up, &swept)?;
+    let needs_threads = on.engine.default_threads();
+    on.threads = on.threads.or(needs_threads);
+    let jobs = arguments.jobs.unwrap_or_else(|| (cores().unwrap_or(1) / on.threads.unwrap_or(1)).max(1));
+    let engine = on.engine.engine(&on.options()).map_err(Unable::refused)?;
+    let memory = engine.least_memory(&set_up.model, given.precision).saturating_mul(jobs as u128);
+    check_memory(memory, &format!("{jobs} runs side by side")).map_err(Unable::refused)?;
+    drop((engine, set_up));
+    let definition = model.definition;
+    let mut ensemble = Ensemble::new()
+        .identity(Identity {
+            program: definition.name.to_owned(),
+            version: definition.version.to_owned(),
+            command_line: Vec::new(),
+            options: model.options.clone(),
+        })
+        .seeds(given.seed, arguments.seeds)
+        .jobs(jobs)
+        .precision(given.precision);
+    if let Some(steps) = arguments.steps {
+        ensemble = ensemble.steps(steps);
+    }
+    for Values { parameter, values } in swept {
+        ensemble = ensemble.sweep(parameter, values);
+    }
+    let folder =
+        arguments.out.unwrap_or_else(|| PathBuf::from("out").join(format!("{}-sweep", definition.name)));
+    let all = ensemble.members().len();
+    let interrupt = Interrupt::install().map_err(Unable::failed)?;
+    let line = arguments.voice.count(all as u64, "runs");
+    let mut terminal = Terminal { line, done: 0, interrupt: &interrupt };
+    let options = on.options();
+    let make = || -> Result<Box<dyn Engine>, Failure> { Ok(on.engine.engine(&options)?) };
+    let mut set_up = |member: &Member| model.set_up(&with(&given, member)).map_err(Unable::into_failure);
+    let result = ensemble.run(&folder, &make, &mut set_up, &mut terminal);
+    terminal.line.finish();
+    let finished = result.map_err(not_run)?;
+    let failed: Vec<&Finished> =
+        finished.iter().filter(|finished| matches!(finished.end, End::Failed(_))).collect();
+    let seconds = begin.elapsed();
+    let told = Told {
+        folder: &folder,
+        members: all,
+        done: finished.len() - failed.len(),
+        failed: failed.len(),
+        seconds: seconds.as_secs_f64(),
+    };
+    arguments.voice.tell(&told, || {
+        let mut text = failed.iter().take(TOLD).map(|failed| told_of(failed)).collect::<String>();
+        let (done, wall) = (told.done, duration_text(seconds));
+        text += &format!("{done} of {all} runs in {wall}\n{}: {MEMBERS}, {SUMMARY}", folder.display());
+        text
+    })?;
+    if finished.len() < all {
+        return Ok(Ended::Interrupted);
+    }
+    if failed.is_empty() {
+        return Ok(Ended::Done);
+    }
+    Err(Unable::failed(SweepError::Failed { failed: failed.len(), all, table: folder.join(MEMBERS) }))
+}
+
+/// The parameters that take many values, and those that take one.
+fn sorted(given: &Given) -> Result<(Vec<Values>, Vec<Assignment>), SweepError> {
+    let (mut swept, mut fixed) = (Vec::new(), Vec::new());
+    for assignment in &given.parameters {
+        match Values::of(assignment)? {
+            Some(values) => swept.push(values),
+            None => fixed.push(assignment.clone()),
+        }
+    }
+    Ok((swept, fixed))
+}
+
+/// Refuses values that the model does not take before anything is run.
+fn check(set_up: &SetUp, swept: &[Values]) -> Result<(), Unable> {
+    for Values { parameter, values } in swept {
+        let mut model = set_up.model.clone();
+        for value in values {
+            model.set_parameter(parameter, value).map_err(Unable::refused)?;
+        }
+    }
+    Ok(())
+}
+
+/// What is given for a member.
+fn with(given: &Given, member: &Member) -> Given {
+    let mut given = Given { seed: member.seed, ..given.clone() };
+    let own = member.parameters.iter().cloned();
+    given.parameters.extend(own.map(|own| Assignment { name: own.parameter, value: own.value }));
+    given
+}
+
+fn told_of(failed: &Finished) -> String {
+    let End::Failed(reason) = &failed.end else { return String::new() };
+    let parameters = failed.member.parameters.iter();
+    let parameters: String = parameters.map(|own| format!("{}={}, ", own.parameter, own.value)).collect();
+    format!("failed after {} steps: {parameters}seed {}: {reason}\n", failed.steps, failed.member.seed)
+}
+
+fn not_run(error: EnsembleError) -> Unable {
+    match error {
+        EnsembleError::Write(_) => Unable::failed(error),
+        other => Unable::refused(other),
+    }
+}
