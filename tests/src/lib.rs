@@ -12,3 +12,7 @@ pub mod guide {}
 /// The page on mathematical functions, whose program is compiled as a test of the documentation.
 #[doc = include_str!("../../docs/mathematics.md")]
 pub mod mathematics_page {}
+
+/// The page on recording and ensembles, whose programs are compiled as tests of the documentation.
+#[doc = include_str!("../../docs/recording.md")]
+pub mod recording_page {}

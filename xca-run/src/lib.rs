@@ -48,7 +48,7 @@
 //!
 //! Every program has the same command line: `--engine`, `--threads`, `--precision`, `--steps`, `--seed`, `--set`, `--config`, `--out`, `--every`,
 //! `--initial`, `--checkpoint-every`, `--quiet`, `--json`; and `life resume out/life` goes on with a run that was interrupted or killed,
-//! `life inspect out/life` tells what it holds, `life render` draws a run and animates it, `life watch` shows it in the terminal, and `life list` tells what there is. A model that has options of its own is a struct that implements [`Program`]; what is saved and drawn is refined with
+//! `life sweep --seeds 10` runs it many times, `life inspect out/life` tells what it holds, `life render` draws a run and animates it, `life watch` shows it in the terminal, and `life list` tells what there is. A model that has options of its own is a struct that implements [`Program`]; what is saved and drawn is refined with
 //! [`ItemView`] and [`CellView`].
 //!
 //! # The parts

@@ -19,6 +19,7 @@ mod running;
 mod same_bits;
 mod scripted;
 mod shaders;
+mod swept;
 mod values;
 mod vtk_library;
 mod watched;
