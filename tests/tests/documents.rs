@@ -1,4 +1,4 @@
-//! The documents speak of what is there: links, paths, tests, programs, unsafe code, dependencies.
+//! The documents speak of what is there: links, paths, tests, programs, unsafe code.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -164,35 +164,6 @@ fn unsafe_code_is_where_the_architecture_says() -> TestResult {
         }
     }
     assert!(found > 2, "{found}");
-    Ok(())
-}
-
-/// docs/architecture.md says who may depend on whom. Tests may use more.
-#[test]
-fn crates_depend_on_each_other_as_the_architecture_says() -> TestResult {
-    for (folder, allowed) in [
-        ("xca-methods", &[][..]),
-        ("xca-macros", &["xca-methods"]),
-        ("xca-core", &["xca-macros", "xca-methods"]),
-        ("xca-cpu", &["xca-core"]),
-        ("xca-wgsl", &["xca-core", "xca-methods"]),
-        ("cadem", &["xca-core"]),
-        ("xca-gpu", &["xca-core", "xca-wgsl"]),
-        ("xca-run", &["xca-core", "xca-cpu", "xca-gpu", "xca-wgsl"]),
-    ] {
-        let manifest = fs::read_to_string(root().join(folder).join("Cargo.toml"))?;
-        let dependencies = manifest
-            .split("\n[")
-            .filter(|section| {
-                section.starts_with("dependencies]") || section.starts_with("build-dependencies]")
-            })
-            .flat_map(str::lines)
-            .filter_map(|line| line.split(['.', ' ', '=']).next())
-            .filter(|name| name.starts_with("xca-") || *name == "cadem");
-        for dependency in dependencies {
-            assert!(allowed.contains(&dependency), "{folder} must not depend on {dependency}");
-        }
-    }
     Ok(())
 }
 
