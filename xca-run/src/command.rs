@@ -185,9 +185,15 @@ fn main_with(definition: &Definition<'_>) -> ExitCode {
             ExitCode::from(FAILED)
         }
         Ok(Err(Unable::CommandLine(error))) => {
-            // That no one reads the help to its end is no error.
-            let _ = error.print();
-            if error.use_stderr() { ExitCode::from(REFUSED) } else { ExitCode::SUCCESS }
+            let shown = terminal::show(&error);
+            match shown {
+                _ if error.use_stderr() => ExitCode::from(REFUSED),
+                Ok(()) => ExitCode::SUCCESS,
+                Err(error) => {
+                    terminal::complain(&error);
+                    ExitCode::from(FAILED)
+                }
+            }
         }
         Err(_) => {
             terminal::remark(&format!("error: {}", panics.last()));

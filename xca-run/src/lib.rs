@@ -94,7 +94,8 @@ pub use items_file::{ReadItem, read_items};
 pub use machine::{NotEnoughMemory, check_memory};
 pub use options::{number_in, positive_number};
 pub use program::{Assignment, Failure, Given, NoAssignment, Observable, Program};
-pub use record::{FolderError, RecordError};
+pub use record::{FolderError, Kind as FolderKind, RecordError};
+pub use report::ReadReportError;
 pub use set_up::SetUp;
 pub use view::{CellView, ItemView, ViewError};
 

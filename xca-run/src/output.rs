@@ -11,11 +11,13 @@
 //! | [`vtk`] | `.vtp`, `.vti`, `.pvd` | particles and dense substates in ParaView |
 //! | [`picture`] | `.png` | pictures, made without a display |
 //! | [`animation`] | `.png`, `.gif` | the same in motion |
+//! | [`regular_file`] | | how files are opened to be read: regular ones alone |
 
 pub mod animation;
 pub mod ascii_grid;
 pub mod atomic;
 pub mod particle_csv;
 pub mod picture;
+pub mod regular_file;
 pub mod table_csv;
 pub mod vtk;

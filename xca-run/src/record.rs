@@ -18,8 +18,8 @@ mod sight;
 mod values;
 
 pub(crate) use drawing::{Drawing, Scales};
-pub use folder::FolderError;
-pub(crate) use folder::{FRAMES, REPORT, RunFolder, numbered_files};
+pub(crate) use folder::{Claim, FRAMES, LockedFolder, REPORT, RunFolder, numbered_files};
+pub use folder::{FolderError, Kind};
 pub(crate) use look::{Look, ViewKind};
 pub(crate) use recorded::Recorded;
 pub(crate) use saved::SavedError;

@@ -3,7 +3,7 @@
 use super::Description;
 use super::planes::Plane;
 use crate::output::atomic::{WriteError, write_atomically};
-use std::fs::File;
+use crate::output::regular_file;
 use std::io::{self, BufReader, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
@@ -98,7 +98,7 @@ impl Lengths {
 /// The description and the data of a checkpoint, once its checksum is known to be right.
 pub(super) fn read(path: &Path) -> Result<(Description, Vec<u8>), CheckpointError> {
     let failed = |source| CheckpointError::Read { path: path.to_owned(), source };
-    let file = File::open(path).map_err(failed)?;
+    let file = regular_file::open(path).map_err(failed)?;
     let found = file.metadata().map_err(failed)?.len();
     read_from(path, BufReader::with_capacity(1 << 18, file), found)
 }

@@ -14,8 +14,7 @@ use super::parse::{RunInvocation, with_help, with_model};
 use super::prepare::Prepared;
 use super::{Definition, Ended, Unable};
 use crate::interrupt::Interrupt;
-use crate::record::RunFolder;
-use crate::report::Earlier;
+use crate::record::{Claim, Kind, RunFolder};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command};
 use film::Film;
@@ -100,15 +99,9 @@ fn default_folder(definition: &Definition<'_>) -> PathBuf {
     PathBuf::from("out").join(format!("{}_pictures", definition.name))
 }
 
-/// Makes the folder for these files. That of a run is not taken: its files would be gone.
+/// Makes the folder for these files.
 fn pictures_folder(path: &Path, files: &[String], inputs: &[PathBuf]) -> Result<RunFolder, Unable> {
-    if Earlier::read(path).is_of(super::run::NAME) {
-        let path = path.display();
-        return Err(Unable::refused(format!(
-            "{path} is the folder of a run, whose files would be replaced; give another one with --out"
-        )));
-    }
-    RunFolder::prepare(path, files, inputs).map_err(Unable::refused)
+    RunFolder::prepare(path, &Claim { kind: Kind::Pictures, files, inputs }).map_err(Unable::refused)
 }
 
 /// Runs a model, and draws it.

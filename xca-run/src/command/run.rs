@@ -6,7 +6,7 @@ use super::prepare::Prepared;
 use super::under_way::{Checkpoints, UnderWay};
 use super::{Definition, Ended, Unable};
 use crate::checkpoint::CheckpointFolder;
-use crate::record::RunFolder;
+use crate::record::{Claim, Kind, RunFolder};
 use crate::report::Earlier;
 use crate::terminal;
 use clap::{Args, Command};
@@ -33,7 +33,7 @@ pub(super) fn run(invocation: RunInvocation<'_>) -> Result<Ended, Unable> {
     if invocation.run.print_wgsl {
         let given = invocation.model.arguments.given(invocation.run.steps);
         let model = invocation.model.set_up(&given)?.model;
-        terminal::say(&wgsl(&model, given.precision)?);
+        terminal::say(&wgsl(&model, given.precision)?).map_err(Unable::failed)?;
         return Ok(Ended::Done);
     }
     let Prepared { engine, recorder, options, origin, mut report } =
@@ -45,8 +45,8 @@ pub(super) fn run(invocation: RunInvocation<'_>) -> Result<Ended, Unable> {
         report.files.insert(0, CheckpointFolder::files());
     }
     let path = run.out.unwrap_or_else(|| PathBuf::from("out").join(model.definition.name));
-    let folder = RunFolder::prepare(&path, &report.files, &recorder.set_up().inputs);
-    let folder = folder.map_err(Unable::refused)?;
+    let claim = Claim { kind: Kind::Run, files: &report.files, inputs: &recorder.set_up().inputs };
+    let folder = RunFolder::prepare(&path, &claim).map_err(Unable::refused)?;
     let simulation = Simulation::new(recorder.model(), &*engine, options).map_err(not_started)?;
     let checkpoints = run.checkpoint_every.map(|interval| Checkpoints::new(interval, &folder, None));
     let checkpoints = checkpoints.transpose().map_err(Unable::refused)?;

@@ -61,10 +61,10 @@ impl UnderWay {
         match (result, written) {
             (Err(error), _) => Err(Unable::FailedLeaving(error, self.remains())),
             (Ok(_), Err(error)) => Err(Unable::FailedLeaving(error.into(), self.remains())),
-            (Ok(ended), Ok(())) => {
-                self.voice.tell(&self.report, || self.summary())?;
-                Ok(ended)
-            }
+            (Ok(ended), Ok(())) => match self.voice.tell(&self.report, || self.summary()) {
+                Err(Unable::Failed(error)) => Err(Unable::FailedLeaving(error, self.remains())),
+                told => told.map(|()| ended),
+            },
         }
     }
 

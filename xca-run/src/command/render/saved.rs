@@ -9,7 +9,7 @@ use crate::command::{Definition, Ended, Unable};
 use crate::interrupt::Interrupt;
 use crate::output::atomic::{OutputFolder, write_atomically};
 use crate::program::Failure;
-use crate::record::{Drawing, FRAMES, RunFolder, SavedError};
+use crate::record::{Drawing, FRAMES, LockedFolder, RunFolder, SavedError};
 use serde_json::{Value, json};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -58,7 +58,7 @@ fn folder(
     let folder = pictures_folder(&out, &film.files(), &recorder.set_up().inputs)?;
     let mut report = Report { of_run, folder: &folder };
     report.of_run["command_line"] = json!(command_line);
-    report.of_run["drawn"] = json!(path);
+    report.of_run["drawn"] = json!(path.display().to_string());
     report.of_run["files"] = json!(film.files());
     report.write("running", 0)?;
     let made = film.make(&folder);
@@ -182,13 +182,15 @@ fn checkpoint(
         let run = path.parent().and_then(Path::parent).filter(is_of);
         run.map_or_else(|| default_folder(definition), pictures_of)
     });
-    let folder = OutputFolder::create(out).map_err(Unable::refused)?;
     let step = description.step;
-    let file = folder.numbered("step", step, "png");
+    let file = OutputFolder::to_read(&out).numbered("step", step, "png");
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    let _locked = LockedFolder::beside(&out, &name).map_err(Unable::refused)?;
     if let Some(picture) = drawing.picture(step, &seen, &scales).map_err(Unable::failed)? {
         picture.write(&file).map_err(Unable::failed)?;
     }
-    arguments.voice.tell(&json!({ "drawn": path, "step": step, "files": [&file] }), || {
+    let (drawn, files) = (path.display().to_string(), [file.display().to_string()]);
+    arguments.voice.tell(&json!({ "drawn": drawn, "step": step, "files": files }), || {
         format!("the state after {step} steps is drawn in {}", file.display())
     })?;
     Ok(Ended::Done)

@@ -2,13 +2,13 @@
 
 use std::borrow::Cow;
 use std::collections::HashMap;
-use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
 use super::LABEL;
 use super::error::ReadError;
 use super::lines::MeaningfulLines;
+use crate::output::regular_file;
 use xca_core::ScalarType;
 
 /// Particles as they stand in a file, in its order.
@@ -33,7 +33,8 @@ pub struct ParticleTable {
 /// # Errors
 /// [`ReadError`], with the path, the line and the column.
 pub fn read(path: &Path, columns: &[(&str, ScalarType)]) -> Result<ParticleTable, ReadError> {
-    let file = File::open(path).map_err(|source| ReadError::Open { path: path.to_owned(), source })?;
+    let file =
+        regular_file::open(path).map_err(|source| ReadError::Open { path: path.to_owned(), source })?;
     let broken = |error: csv::Error| ReadError::Read { path: path.to_owned(), source: error.into() };
     let mut csv = csv::ReaderBuilder::new()
         .has_headers(false)

@@ -1,12 +1,12 @@
 //! Reading back the files that this crate writes: these, and no other forms that VTK knows.
 
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use super::Grid;
 use super::appended::{COMPONENT_NAME, DATA, END, STATES_OF, escaped, head, read_names, unescaped};
 use super::blocks::{Broken, expanded};
+use crate::output::regular_file;
 
 /// A VTK file that cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -132,8 +132,8 @@ struct Parts<'a> {
 
 impl<'a> Parts<'a> {
     fn read(path: &'a Path, kind: &str) -> Result<Self, ReadVtkError> {
-        let mut bytes =
-            fs::read(path).map_err(|source| ReadVtkError::Read { path: path.to_owned(), source })?;
+        let mut bytes = regular_file::read(path, u64::MAX)
+            .map_err(|source| ReadVtkError::Read { path: path.to_owned(), source })?;
         let foreign = |what| ReadVtkError::Foreign { path: path.to_owned(), what };
         let truncated = || ReadVtkError::Truncated { path: path.to_owned(), found: bytes.len() };
         let first = head(kind);
