@@ -105,7 +105,7 @@ impl Recorder {
     pub(crate) fn files(&self) -> Vec<String> {
         let mut files = vec![SERIES.to_owned()];
         for (number, shown) in self.shown.iter().enumerate() {
-            let name = shown.view.name();
+            let name = shown.stem();
             if shown.is_of_items() {
                 files.push(self.numbered_file("final", number, "csv"));
             }
@@ -129,7 +129,7 @@ impl Recorder {
         if first {
             format!("{stem}.{extension}")
         } else {
-            format!("{stem}_{}.{extension}", self.shown[number].view.name())
+            format!("{stem}_{}.{extension}", self.shown[number].stem())
         }
     }
 
