@@ -38,7 +38,8 @@ use std::sync::{Mutex, PoisonError};
 const EXIT_CODES: &str = "\
 Exit codes:
   0    what was asked for is done: of a run, all steps, or the model stopped it
-  1    the run failed: a fault of the model, or files that could not be written
+  1    the run failed: a fault of the model, or files or results that could not be
+       written
   2    the command line, a file, a checkpoint or the model makes no sense, or does
        not fit; nothing was run
   3    of a comparison: an engine differs from the first one by more than rounding

@@ -57,7 +57,7 @@ fn folders_that_are_not_utf_8_can_be_worked_in() {
     for words in [
         "run --size 6 --until 0 --steps 4 --checkpoint-every 2 --out .",
         "render . --pixels 400x300 --animation none",
-        "render checkpoints/step_00000002.checkpoint --pixels 400x300 --json",
+        "render ./checkpoints/step_00000002.checkpoint --pixels 400x300 --json",
         "inspect . --json",
     ] {
         let output = place.invocation(HEAT, words).current_dir(&folder).output().unwrap();

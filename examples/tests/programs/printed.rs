@@ -68,7 +68,7 @@ fn files_do_not_control_the_terminal() {
     assert!(said.len() < 3000 && said.contains("in column `x` is not a number"), "{}", said.len());
     place.write("run.toml", "\"\\u001b]0;gone\\u0007\" = 1\n");
     assert!(place.fail(2, HEAT, "--config run.toml").contains(r"unknown key `\u001b]0;gone\u0007`"));
-    place.write("ground.asc", "ncols \u{1b}[31m\nnrows 1\n");
+    place.write("ground.asc", "ncols 1\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\n\u{1b}[31m\n");
     let said = place.fail(2, LIFE, "--initial alive=ground.asc");
     assert!(said.contains(r"\u001b[31m") && !said.contains('\u{1b}'), "{said}");
     // What a run has been called.

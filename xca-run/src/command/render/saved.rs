@@ -99,9 +99,13 @@ fn steps(
 
 /// Where the pictures of a run go: beside its folder.
 fn pictures_of(run: &Path) -> PathBuf {
-    // `.` has no name of its own.
-    let whole =
-        if run.file_name().is_some() { run.to_owned() } else { run.canonicalize().unwrap_or_default() };
+    // `.` has no name of its own, and the folder of `checkpoints/…` is not even written.
+    let written = if run.as_os_str().is_empty() { Path::new(".") } else { run };
+    let whole = if written.file_name().is_some() {
+        written.to_owned()
+    } else {
+        written.canonicalize().unwrap_or_default()
+    };
     let mut name = whole.file_name().unwrap_or_default().to_owned();
     name.push("_pictures");
     whole.with_file_name(name)
