@@ -1,5 +1,4 @@
 //! What the engines cost. `cargo run --release -p xca-benchmarks -- --help` lists the benchmarks.
-#![allow(clippy::print_stdout, reason = "printing is what this program does")]
 
 mod boltzmann;
 mod comparison;
@@ -11,7 +10,16 @@ mod timing;
 
 use clap::{Parser, Subcommand};
 use std::error::Error;
+use std::io::{self, Write};
+use std::process::ExitCode;
 use xca_core::Precision;
+
+/// Prints a line; that it is lost is an error.
+macro_rules! say {
+    ($($text:tt)*) => {
+        writeln!(io::stdout(), $($text)*)
+    };
+}
 
 /// What the engines of xca cost on this machine.
 #[derive(Parser, Debug)]
@@ -61,32 +69,45 @@ enum Benchmark {
     Mathematics,
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
-    let arguments = Arguments::parse();
+fn main() -> ExitCode {
+    match run(Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        // No one reads on, as after `| head -1`.
+        Err(error) if is_broken_pipe(&*error) => ExitCode::SUCCESS,
+        Err(error) => {
+            // There is no other place to tell that it is lost.
+            let _ = writeln!(io::stderr(), "error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn is_broken_pipe(error: &(dyn Error + 'static)) -> bool {
+    error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+}
+
+fn run(arguments: Arguments) -> Result<(), Box<dyn Error>> {
     match arguments.benchmark {
         Benchmark::Dense => {
             for comparison in [
                 dense::heat(256, arguments.threads, arguments.rounds, 10)?,
                 dense::life(4096, arguments.threads, arguments.rounds, 20)?,
             ] {
-                println!("{comparison}");
+                say!("{comparison}")?;
             }
         }
         Benchmark::Boltzmann { size, steps } => {
             for precision in [Precision::F32, Precision::F64] {
-                println!(
-                    "{}",
-                    boltzmann::fluid(size, precision, arguments.threads, arguments.rounds, steps)?
-                );
+                say!("{}", boltzmann::fluid(size, precision, arguments.threads, arguments.rounds, steps)?)?;
             }
         }
         Benchmark::Engines { steps } => {
             for comparison in engines::compare(arguments.threads, arguments.rounds, steps)? {
                 let bits = if comparison.same { "the same bits" } else { "OTHER BITS" };
-                println!("{} ({}), {bits}:", comparison.name, comparison.things);
+                say!("{} ({}), {bits}:", comparison.name, comparison.things)?;
                 for cost in &comparison.costs {
                     let (low, high) = cost.step.spread();
-                    println!(
+                    say!(
                         "  {}: set-up {:.2} s, transfer {:.3} s, {:.2} ms a step ({:.2} to {:.2}), {:.1} million a second; state {:.0} MB",
                         cost.engine,
                         cost.set_up,
@@ -96,7 +117,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                         high * 1e3,
                         comparison.things as f64 / cost.step.median() / 1e6,
                         cost.memory as f64 / 1e6,
-                    );
+                    )?;
                 }
             }
         }
@@ -106,7 +127,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 simulation.run(after)?;
                 let cost = particles::cost(&mut simulation, steps)?;
                 let [median, low, high] = cost.seconds;
-                println!(
+                say!(
                     "cadem, {} particles in {cells}^3 cells, after {} steps: {:.2} ms a step ({:.2} to {:.2}), {:.1} ns a particle; state {:.1} MB",
                     cost.particles,
                     cost.step,
@@ -115,19 +136,19 @@ fn main() -> Result<(), Box<dyn Error>> {
                     high * 1e3,
                     median * 1e9 / cost.particles as f64,
                     cost.memory as f64 / 1e6,
-                );
+                )?;
             }
         }
         Benchmark::Mathematics => {
             for precision in [Precision::F32, Precision::F64] {
                 for (name, times) in mathematics::costs(precision, arguments.rounds)? {
                     let (low, high) = times.spread();
-                    println!(
+                    say!(
                         "{name} {precision}: {:.1} ns ({:.1} to {:.1})",
                         times.median() * 1e9,
                         low * 1e9,
                         high * 1e9
-                    );
+                    )?;
                 }
             }
         }

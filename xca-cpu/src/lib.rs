@@ -30,23 +30,36 @@ pub struct Cpu {
 }
 
 impl Cpu {
-    /// With one thread for each core that the process may use.
+    /// The most threads that an engine has; many more than cores only cost memory.
+    pub const MOST_THREADS: usize = 1024;
+
+    /// With one thread for each core that the process may use, or as many as the environment variable
+    /// `RAYON_NUM_THREADS` says.
     ///
     /// # Errors
-    /// Where the system does not start the threads.
+    /// Where the variable asks for more than [`Cpu::MOST_THREADS`], and where the system does not start the
+    /// threads.
     pub fn new() -> Result<Self, CpuError> {
-        Self::build(0)
+        let chosen = std::env::var("RAYON_NUM_THREADS").ok().and_then(|text| text.parse().ok());
+        match chosen.filter(|threads| *threads > 0) {
+            Some(threads) => Self::with_threads(threads),
+            None => {
+                let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+                Self::with_threads(cores.min(Self::MOST_THREADS))
+            }
+        }
     }
 
     /// With so many threads.
     ///
     /// # Errors
-    /// For 0 threads, and where the system does not start the threads.
+    /// For 0 threads and more than [`Cpu::MOST_THREADS`], and where the system does not start the threads.
     pub fn with_threads(threads: usize) -> Result<Self, CpuError> {
-        if threads == 0 { Err(CpuError::NoThreads) } else { Self::build(threads) }
-    }
-
-    fn build(threads: usize) -> Result<Self, CpuError> {
+        match threads {
+            0 => return Err(CpuError::NoThreads),
+            threads if threads > Self::MOST_THREADS => return Err(CpuError::TooManyThreads { threads }),
+            _ => {}
+        }
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .thread_name(|number| format!("xca-cpu-{number}"))
@@ -68,10 +81,16 @@ pub enum CpuError {
     /// No thread at all.
     #[error("the cpu engine needs at least 1 thread")]
     NoThreads,
+    /// Threads without end.
+    #[error("{threads} threads are too many for the cpu engine; take at most {}", Cpu::MOST_THREADS)]
+    TooManyThreads {
+        /// How many were wanted.
+        threads: usize,
+    },
     /// The system does not start the threads.
     #[error("the cpu engine could not start {threads} threads")]
     Threads {
-        /// How many were wanted; 0 for one a core.
+        /// How many were wanted.
         threads: usize,
         /// The system's reason.
         source: rayon::ThreadPoolBuildError,
@@ -93,5 +112,19 @@ impl Engine for Cpu {
 
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {
         Ok(Box::new(CpuExecution::new(model, precision, Arc::clone(&self.pool))?))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_of_threads_are_checked_before_any_is_started() {
+        assert!(matches!(Cpu::with_threads(0), Err(CpuError::NoThreads)));
+        for threads in [Cpu::MOST_THREADS + 1, usize::MAX] {
+            let error = Cpu::with_threads(threads).unwrap_err().to_string();
+            assert!(error.contains(&format!("{threads} threads are too many")), "{error}");
+        }
     }
 }

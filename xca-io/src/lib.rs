@@ -12,6 +12,7 @@
 //! | [`vtk`] | `.vtp`, `.vti`, `.pvd` | particles and dense substates in ParaView |
 //! | [`picture`] | `.png` | pictures, made without a display |
 //! | [`animation`] | `.png`, `.gif` | the same in motion |
+//! | [`regular_file`] | | how files are opened to be read: regular ones alone |
 //! | [`numbers`] | | numbers as people read them |
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
@@ -22,5 +23,6 @@ pub mod atomic;
 pub mod numbers;
 pub mod particle_csv;
 pub mod picture;
+pub mod regular_file;
 pub mod table_csv;
 pub mod vtk;

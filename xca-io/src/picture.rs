@@ -44,9 +44,11 @@ mod slice;
 mod text;
 mod view;
 
+use std::io::BufReader;
 use std::path::Path;
 
 use super::atomic::{WriteError, write_atomically};
+use super::regular_file;
 
 pub use averaging::fitted;
 pub use block::BlockPicture;
@@ -157,11 +159,25 @@ impl Picture {
             encoder.set_color(png::ColorType::Rgb);
             encoder.set_depth(png::BitDepth::Eight);
             encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+            encoder.add_text_chunk(SOFTWARE.to_owned(), XCA.to_owned())?;
             let mut writer = encoder.write_header()?;
             writer.write_image_data(&self.rgb)?;
             Ok(writer.finish()?)
         })
     }
+}
+
+/// By what a PNG file tells what has made it.
+const SOFTWARE: &str = "Software";
+const XCA: &str = "xca";
+
+/// Whether a file is a picture that [`Picture::write`] has written.
+#[must_use]
+pub fn is_picture_of_xca(path: &Path) -> bool {
+    let Ok(file) = regular_file::open(path) else { return false };
+    let Ok(reader) = png::Decoder::new(BufReader::new(file)).read_info() else { return false };
+    let texts = &reader.info().uncompressed_latin1_text;
+    texts.iter().any(|text| text.keyword == SOFTWARE && text.text == XCA)
 }
 
 fn check_size(size: [usize; 2]) -> Result<(), PictureError> {
@@ -172,7 +188,6 @@ fn check_size(size: [usize; 2]) -> Result<(), PictureError> {
 mod tests {
     use super::*;
     use std::fs::File;
-    use std::io::BufReader;
 
     #[test]
     fn a_png_decodes_to_the_same_pixels() {

@@ -9,20 +9,20 @@ pub use table::{Summary, TableError};
 
 use crate::checkpoint::Origin;
 use crate::observable::Failure;
-use crate::record::{FolderError, REPORT};
-use crate::report::{self, Identity};
+use crate::record::{Claim, ENSEMBLE, FolderError, Kind, LockedFolder};
+use crate::report::{self, Identity, ReadReportError};
 use crate::set_up::SetUp;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
-use std::fs::{self, File};
+use std::fs;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use table::Table;
 use work::Work;
 use xca_core::{Engine, Precision, RunOptions};
-use xca_io::atomic::{OutputFolder, WriteError, write_atomically};
+use xca_io::atomic::{WriteError, write_atomically};
 
 /// The file that has a row for each member.
 pub const MEMBERS: &str = "members.csv";
@@ -91,7 +91,7 @@ struct Axis {
     values: Vec<String>,
 }
 
-/// What makes two ensembles one: the part of `run.json` by which a table is known again.
+/// What makes two ensembles one: the part of the report by which a table is known again.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Plan {
     axes: Vec<Axis>,
@@ -120,7 +120,7 @@ struct Input {
     crc32: Option<u32>,
 }
 
-/// `run.json` of an ensemble.
+/// The report of an ensemble.
 #[derive(Debug, Serialize, Deserialize)]
 struct Told {
     xca: String,
@@ -160,6 +160,8 @@ pub enum EnsembleError {
     Folder(#[from] FolderError),
     #[error(transparent)]
     Write(#[from] WriteError),
+    #[error(transparent)]
+    Report(#[from] ReadReportError),
     #[error(transparent)]
     Table(#[from] TableError),
     #[error("{} holds another ensemble; give another folder", folder.display())]
@@ -230,7 +232,7 @@ impl Ensemble {
         Self { steps: Some(steps), ..self }
     }
 
-    /// The program, for `run.json`.
+    /// The program, for the report.
     #[doc(hidden)]
     #[must_use]
     pub fn identity(self, identity: Identity) -> Self {
@@ -277,7 +279,7 @@ impl Ensemble {
         let model =
             members.first().and_then(|member| set_up(member).ok()).map(|set_up| self.modelled(&set_up));
         let folder = self.open(folder, self.plan(model))?;
-        let mut table = Table::open(&folder.output.file(MEMBERS), &members)?;
+        let mut table = Table::open(&folder.top.file(MEMBERS), &members)?;
         monitor.begin(table.len(), members.len());
         let mut written = Instant::now();
         let work = Work { jobs: self.jobs, precision: self.precision, steps: self.steps, engine };
@@ -296,7 +298,7 @@ impl Ensemble {
         });
         result?;
         table.write()?;
-        Summary::of(&table).write(&folder.output.file(SUMMARY))?;
+        Summary::of(&table).write(&folder.top.file(SUMMARY))?;
         Ok(table.into_finished())
     }
 
@@ -332,49 +334,33 @@ impl Ensemble {
     }
 
     /// The folder of this ensemble, new or known again.
-    fn open(&self, path: &Path, plan: Plan) -> Result<Folder, EnsembleError> {
-        let other = || EnsembleError::Other { folder: path.to_owned() };
-        let report = path.join(REPORT);
-        let is_new = !report.exists();
-        if is_new {
-            let mut files = [MEMBERS, SUMMARY].into_iter().map(|file| path.join(file));
-            if let Some(file) = files.find(|file| file.exists()) {
-                let file = file.file_name().map(|name| name.to_string_lossy().into_owned());
-                let (folder, file) = (path.to_owned(), file.unwrap_or_default());
-                return Err(FolderError::Foreign { folder, file }.into());
-            }
-        } else {
-            let text =
-                fs::read(&report).map_err(|source| WriteError::File { path: report.clone(), source })?;
-            let told: Told = serde_json::from_slice(&text).map_err(|_| other())?;
-            if told.ensemble != plan || told.program != self.identity.program {
-                return Err(other());
-            }
+    fn open(&self, path: &Path, plan: Plan) -> Result<LockedFolder, EnsembleError> {
+        let report = path.join(ENSEMBLE);
+        if report.exists() {
+            let folder = LockedFolder::again(path)?;
+            let other = || EnsembleError::Other { folder: path.to_owned() };
+            let found = report::read(&report)?.ok_or_else(other)?;
+            let told: Told = serde_json::from_value(found).map_err(|_| other())?;
+            let is_own = told.ensemble == plan && told.program == self.identity.program;
+            return if is_own { Ok(folder) } else { Err(other()) };
         }
-        let output = OutputFolder::create(path)?;
-        let lock = crate::record::lock(path)?;
-        if is_new {
-            let Identity { program, version, .. } = self.identity.clone();
-            let told = Told {
-                xca: env!("CARGO_PKG_VERSION").to_owned(),
-                program,
-                version,
-                ensemble: plan,
-                started: report::now(),
-                files: [MEMBERS, SUMMARY].map(str::to_owned).to_vec(),
-            };
-            write_atomically(&report, |file| {
-                serde_json::to_writer_pretty(&mut *file, &told).map_err(std::io::Error::from)
-            })?;
-        }
-        Ok(Folder { output, _lock: lock })
+        let files = [MEMBERS, SUMMARY].map(str::to_owned);
+        let folder =
+            LockedFolder::prepare(path, &Claim { kind: Kind::Ensemble, files: &files, inputs: &[] })?;
+        let Identity { program, version, .. } = self.identity.clone();
+        let told = Told {
+            xca: env!("CARGO_PKG_VERSION").to_owned(),
+            program,
+            version,
+            ensemble: plan,
+            started: report::now(),
+            files: files.to_vec(),
+        };
+        write_atomically(&report, |file| {
+            serde_json::to_writer_pretty(&mut *file, &told).map_err(std::io::Error::from)
+        })?;
+        Ok(folder)
     }
-}
-
-/// The folder of an ensemble, locked.
-struct Folder {
-    output: OutputFolder,
-    _lock: Option<std::sync::Arc<File>>,
 }
 
 /// The rows of one combination of parameters.

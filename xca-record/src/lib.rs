@@ -82,8 +82,9 @@ pub use items_file::{ReadItem, read_items};
 pub use machine::{NotEnoughMemory, check_memory};
 pub use monitor::Monitor;
 pub use observable::{Failure, Observable};
-pub use record::{FolderError, RecordError};
+pub use record::{FolderError, Kind as FolderKind, RecordError};
 pub use recording::{Outcome, Recording};
+pub use report::ReadReportError;
 #[doc(hidden)]
 pub use run::Resumed;
 pub use run::{BeginError, Run};

@@ -1,51 +1,51 @@
 //! What is known of the machine and of the memory that this process has used.
 
-use std::fs;
+mod limits;
 
-/// Something that does not fit into the memory of this machine.
+use limits::Free;
+use std::fs;
+use std::path::Path;
+
+/// Something that does not fit into the memory that there is.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "{what} would need {} of memory, and this machine has {} left; use fewer cells",
+    "{what} would need {} of memory, and {} {} left; use fewer cells",
     gigabytes(*needed),
-    gigabytes(u128::from(*free))
+    free.limit.words(),
+    gigabytes(u128::from(free.bytes))
 )]
 pub struct NotEnoughMemory {
     what: String,
     needed: u128,
-    free: u64,
+    free: Free,
 }
 
 fn gigabytes(bytes: u128) -> String {
     format!("{} GB", xca_io::numbers::significant(bytes as f64 / 1e9, 3))
 }
 
-/// Checks that something can fit into the memory that the machine has left. Where the system does not say how much that is, everything fits.
+/// Checks that something can fit into the memory that is left. Where the system does not say how much that is, everything fits.
 ///
 /// For a set-up that makes something large before the model exists: memory that is not there ends a program without a word.
 ///
 /// # Errors
-/// Where it does not fit.
+/// Where it does not fit into what the machine has, or what the process or its group may use.
 pub fn check_memory(needed: u128, what: &str) -> Result<(), NotEnoughMemory> {
-    match free_memory() {
-        Some(free) if needed > u128::from(free) => {
+    match limits::free_memory(Path::new("/")) {
+        Some(free) if needed > u128::from(free.bytes) => {
             Err(NotEnoughMemory { what: what.to_owned(), needed, free })
         }
         _ => Ok(()),
     }
 }
 
-/// The bytes of memory that the system could still give.
-fn free_memory() -> Option<u64> {
-    kilobytes("/proc/meminfo", "MemAvailable:")
-}
-
 /// The most bytes that this process has had in memory.
 pub fn peak_memory() -> Option<u64> {
-    kilobytes("/proc/self/status", "VmHWM:")
+    kilobytes(Path::new("/proc/self/status"), "VmHWM:")
 }
 
 /// A number of bytes from one of Linux's tables; other systems have none.
-fn kilobytes(table: &str, name: &str) -> Option<u64> {
+fn kilobytes(table: &Path, name: &str) -> Option<u64> {
     let text = fs::read_to_string(table).ok()?;
     let line = text.lines().find_map(|line| line.strip_prefix(name))?;
     let number: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
@@ -54,7 +54,7 @@ fn kilobytes(table: &str, name: &str) -> Option<u64> {
 
 /// The bytes of memory that the machine has.
 pub fn memory() -> Option<u64> {
-    kilobytes("/proc/meminfo", "MemTotal:")
+    kilobytes(Path::new("/proc/meminfo"), "MemTotal:")
 }
 
 /// What the processor calls itself.

@@ -17,9 +17,9 @@ mod sight;
 mod values;
 
 pub use drawing::{Drawing, Scales};
-pub use folder::FolderError;
-pub(crate) use folder::lock;
-pub use folder::{FRAMES, REPORT, RunFolder, numbered_files};
+pub use folder::{
+    COMPARISON, Claim, ENSEMBLE, FRAMES, FolderError, Kind, LockedFolder, REPORT, RunFolder, numbered_files,
+};
 pub use items::column_type;
 pub use look::{Look, ViewKind};
 pub use recorded::Recorded;
@@ -106,7 +106,7 @@ impl Recorder {
     pub fn files(&self) -> Vec<String> {
         let mut files = vec![SERIES.to_owned()];
         for (number, shown) in self.shown.iter().enumerate() {
-            let name = shown.view.name();
+            let name = shown.stem();
             if shown.is_of_items() {
                 files.push(self.numbered_file("final", number, "csv"));
             }
@@ -130,7 +130,7 @@ impl Recorder {
         if first {
             format!("{stem}.{extension}")
         } else {
-            format!("{stem}_{}.{extension}", self.shown[number].view.name())
+            format!("{stem}_{}.{extension}", self.shown[number].stem())
         }
     }
 

@@ -1,12 +1,16 @@
 //! `run.json`: everything about a run but its results.
 
-use crate::checkpoint::{Difference, Origin};
+mod earlier;
+
+pub use earlier::ReadReportError;
+pub use earlier::{Earlier, parts, read};
+
+use crate::checkpoint::Origin;
 use crate::components::{json, type_text};
 use crate::machine::cores;
 use crate::observable::Observable;
-use crate::record::REPORT;
 use crate::set_up::SetUp;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use serde_json::{Map, Value};
 use std::io::{self, Write as _};
 use std::path::Path;
@@ -149,61 +153,6 @@ impl Report {
             "engine": self.engine,
             "threads": self.threads,
         }));
-    }
-}
-
-/// What `run.json` tells of a run before it was resumed; all nothing where there is no such file.
-#[derive(Debug, Clone, Default, Deserialize)]
-#[serde(default)]
-pub struct Earlier {
-    command_line: Option<Vec<String>>,
-    started: Option<String>,
-    resumed: Vec<Value>,
-    progress: EarlierProgress,
-}
-
-/// What the run had taken when this was written last: after its last checkpoint, or at its end.
-#[derive(Debug, Clone, Default, Deserialize)]
-#[serde(default)]
-pub struct EarlierProgress {
-    outcome: String,
-    pub set_up_seconds: f64,
-    pub step_seconds: f64,
-    pub wall_seconds: f64,
-}
-
-impl Earlier {
-    /// Reads the report in the folder of a run.
-    pub fn read(folder: &Path) -> Self {
-        let text = std::fs::read(folder.join(REPORT)).unwrap_or_default();
-        serde_json::from_slice(&text).unwrap_or_default()
-    }
-
-    /// Whether it is the report of what this subcommand did.
-    pub fn is_of(&self, subcommand: &str) -> bool {
-        self.command_line.as_ref().and_then(|words| words.get(1)).is_some_and(|word| word == subcommand)
-    }
-
-    /// All that the report in the folder of a run tells.
-    pub fn whole(folder: &Path) -> Value {
-        let text = std::fs::read(folder.join(REPORT)).unwrap_or_default();
-        serde_json::from_slice(&text).unwrap_or_default()
-    }
-
-    /// Whether there is nothing left to do.
-    pub fn has_ended(&self) -> bool {
-        ["done", "stopped"].contains(&self.progress.outcome.as_str())
-    }
-
-    /// How this is the report of another run than one with this command line.
-    pub fn difference(&self, command_line: &[String]) -> Option<Difference> {
-        let own = self.command_line.as_ref().filter(|own| *own != command_line)?;
-        Some(Difference { what: "command line", found: command_line.join(" "), wanted: own.join(" ") })
-    }
-
-    /// What the run had taken.
-    pub fn taken(&self) -> &EarlierProgress {
-        &self.progress
     }
 }
 

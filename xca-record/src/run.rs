@@ -2,9 +2,9 @@
 
 use crate::checkpoint::{Checkpoint, CheckpointError, CheckpointFolder, Difference, Origin};
 use crate::interval::Interval;
-use crate::record::{FolderError, RecordError, Recorder, RunFolder};
+use crate::record::{Claim, FolderError, Kind, REPORT, RecordError, Recorder, RunFolder};
 use crate::recording::{Checkpoints, Recording};
-use crate::report::{Earlier, Identity, Report};
+use crate::report::{Earlier, Identity, ReadReportError, Report};
 use crate::set_up::{SetUp, SetUpError};
 use crate::view::ViewError;
 use std::path::{Path, PathBuf};
@@ -78,6 +78,8 @@ pub enum BeginError {
     Folder(#[from] FolderError),
     #[error(transparent)]
     Write(#[from] WriteError),
+    #[error(transparent)]
+    Report(#[from] ReadReportError),
     #[error("there is no checkpoint in {}", folder.display())]
     NoCheckpoint { folder: PathBuf },
     #[error(transparent)]
@@ -225,7 +227,8 @@ impl Run {
         let origin = self.origin().on(engine);
         let report = self.report(engine, &origin);
         let inputs = &self.recorder.set_up().inputs;
-        let folder = RunFolder::prepare(folder.as_ref(), &report.files, inputs)?;
+        let claim = Claim { kind: Kind::Run, files: &report.files, inputs };
+        let folder = RunFolder::prepare(folder.as_ref(), &claim)?;
         let simulation = Simulation::new(self.recorder.model(), engine, self.options)?;
         let checkpoints = self.checkpoint_every.map(|interval| Checkpoints::new(interval, &folder, None));
         Ok(Recording {
@@ -253,7 +256,8 @@ impl Run {
         let latest = CheckpointFolder::of_run(folder).into_iter().next();
         let path = latest.ok_or_else(|| BeginError::NoCheckpoint { folder: folder.to_owned() })?;
         let checkpoint = Checkpoint::read(&path)?;
-        let resumed = Resumed { path: &path, checkpoint: &checkpoint, earlier: Earlier::read(folder) };
+        let earlier = Earlier::read(&folder.join(REPORT))?.unwrap_or_default();
+        let resumed = Resumed { path: &path, checkpoint: &checkpoint, earlier };
         self.resume_from(folder, engine, resumed)
     }
 

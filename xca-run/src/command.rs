@@ -39,7 +39,8 @@ use xca_record::SetUp;
 const EXIT_CODES: &str = "\
 Exit codes:
   0    what was asked for is done: of a run, all steps, or the model stopped it
-  1    the run failed: a fault of the model, or files that could not be written
+  1    the run failed: a fault of the model, or files or results that could not be
+       written
   2    the command line, a file, a checkpoint or the model makes no sense, or does
        not fit; nothing was run
   3    of a comparison: an engine differs from the first one by more than rounding
@@ -197,9 +198,15 @@ fn main_with(definition: &Definition<'_>) -> ExitCode {
             ExitCode::from(FAILED)
         }
         Ok(Err(Unable::CommandLine(error))) => {
-            // That no one reads the help to its end is no error.
-            let _ = error.print();
-            if error.use_stderr() { ExitCode::from(REFUSED) } else { ExitCode::SUCCESS }
+            let shown = terminal::show(&error);
+            match shown {
+                _ if error.use_stderr() => ExitCode::from(REFUSED),
+                Ok(()) => ExitCode::SUCCESS,
+                Err(error) => {
+                    terminal::complain(&error);
+                    ExitCode::from(FAILED)
+                }
+            }
         }
         Err(_) => {
             terminal::remark(&format!("error: {}", panics.last()));

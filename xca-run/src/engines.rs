@@ -9,7 +9,7 @@ use xca_cpu::{Cpu, CpuError};
 use xca_gpu::{AdapterChoice, Gpu, GpuError, GpuOptions};
 
 /// The most threads that can be asked for; many more than cores only cost memory.
-pub const MOST_THREADS: usize = 1024;
+pub const MOST_THREADS: usize = Cpu::MOST_THREADS;
 
 /// An engine by its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, ValueEnum)]

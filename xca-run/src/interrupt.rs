@@ -1,5 +1,6 @@
 //! Ctrl-C and termination: the run ends after its current step, with its files complete.
 
+use std::io;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
@@ -13,13 +14,14 @@ pub const EXIT_INTERRUPTED: u8 = 130;
 pub struct InterruptError {
     /// What the system said.
     #[source]
-    source: Arc<ctrlc::Error>,
+    source: Arc<io::Error>,
 }
 
 /// A flag that a signal raises and the run loop polls.
 ///
 /// The first Ctrl-C (or SIGTERM, or SIGHUP) raises the flag, so the run can end after its step. A second one ends the
 /// program at once with [`EXIT_INTERRUPTED`]; a file that is being written then stays behind under its temporary name.
+/// On Linux a SIGHUP that is ignored, as below `nohup`, stays ignored.
 ///
 /// ```
 /// use xca_run::interrupt::Interrupt;
@@ -43,16 +45,13 @@ impl Interrupt {
     /// The flag of this process, connected to its signals. Later calls give the same flag.
     ///
     /// # Errors
-    /// [`InterruptError`] when the system refuses, or when another part of the program handles signals through the
-    /// same crate.
+    /// [`InterruptError`] when the system refuses.
     pub fn install() -> Result<Self, InterruptError> {
         static INSTALLED: OnceLock<Result<Interrupt, InterruptError>> = OnceLock::new();
         INSTALLED
             .get_or_init(|| {
                 let interrupt = Self::unconnected();
-                let raised = Arc::clone(&interrupt.raised);
-                // Not `try_set_handler`: a shell that starts a program in the background lets it ignore SIGINT, which is a handler too.
-                ctrlc::set_handler(move || on_signal(&raised))
+                listen(Arc::clone(&interrupt.raised))
                     .map_err(|source| InterruptError { source: Arc::new(source) })?;
                 Ok(interrupt)
             })
@@ -81,6 +80,39 @@ impl Interrupt {
     pub fn exit_code(&self) -> ExitCode {
         if self.is_raised() { ExitCode::from(EXIT_INTERRUPTED) } else { ExitCode::SUCCESS }
     }
+}
+
+/// Calls [`on_signal`] for each signal, from a thread of its own.
+#[cfg(unix)]
+fn listen(raised: Arc<AtomicBool>) -> io::Result<()> {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    // An ignored SIGINT is taken all the same: a shell that starts a program in the background lets it ignore that, and `kill -INT` should work.
+    let mut all = vec![SIGINT, SIGTERM];
+    if !is_ignored(SIGHUP) {
+        all.push(SIGHUP);
+    }
+    let mut signals = signal_hook::iterator::Signals::new(all)?;
+    let listener = move || {
+        for _ in signals.forever() {
+            on_signal(&raised);
+        }
+    };
+    std::thread::Builder::new().name("xca-signals".to_owned()).spawn(listener)?;
+    Ok(())
+}
+
+/// Whether this process was started with a signal ignored. Only Linux tells that without unsafe code.
+#[cfg(unix)]
+fn is_ignored(signal: i32) -> bool {
+    let table = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = table.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0);
+    mask >> (signal - 1) & 1 == 1
+}
+
+#[cfg(not(unix))]
+fn listen(raised: Arc<AtomicBool>) -> io::Result<()> {
+    ctrlc::set_handler(move || on_signal(&raised)).map_err(io::Error::other)
 }
 
 fn on_signal(raised: &AtomicBool) {
@@ -123,7 +155,7 @@ mod tests {
             }
             let interrupt = Interrupt::install().unwrap();
             assert!(Arc::ptr_eq(&interrupt.raised, &Interrupt::install().unwrap().raised));
-            let mut out = std::io::stdout();
+            let mut out = io::stdout();
             writeln!(out, "ready").unwrap();
             let start = Instant::now();
             while !interrupt.is_raised() && start.elapsed() < Duration::from_secs(60) {
@@ -138,13 +170,13 @@ mod tests {
             assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
         }
 
-        fn wait_for(lines: &mut impl Iterator<Item = std::io::Result<String>>, word: &str) {
+        fn wait_for(lines: &mut impl Iterator<Item = io::Result<String>>, word: &str) {
             assert!(lines.any(|line| line.unwrap().contains(word)), "the child never said `{word}`");
         }
 
         #[test]
         fn the_first_signal_raises_the_flag_and_the_second_ends_the_program() {
-            for signal in ["-INT", "-TERM"] {
+            for signal in ["-INT", "-TERM", "-HUP"] {
                 let mut child = Command::new(std::env::current_exe().unwrap())
                     .args(["--exact", "interrupt::tests::signals::child", "--nocapture"])
                     .env(ROLE, "1")

@@ -1,24 +1,49 @@
 //! The only place where the frame prints.
 //!
-//! Results go to stdout and are left out by `--quiet`; errors and what happens meanwhile go to stderr. That no one listens any more, as
-//! after `| head`, is no error.
+//! Results go to stdout and are left out by `--quiet`; errors and what happens meanwhile go to stderr. A result that is lost, as on a full
+//! disk, is an error; that no one listens any more, as after `| head`, is none.
+//!
+//! What is printed may come from files of anyone: characters that control terminals are escaped, and errors are cut to what one can read.
 
 #[cfg(feature = "terminal")]
 mod full_screen;
+mod plain;
 
 #[cfg(feature = "terminal")]
 pub(crate) use full_screen::{FullScreen, give_back};
 
+pub(crate) use plain::short_lines;
+
+use plain::{escaped, shortened};
 use std::io::{self, Write};
 
+/// Stdout cannot be written to.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot write to the standard output; what was to be told there is lost")]
+pub(crate) struct Unsaid(#[source] io::Error);
+
 /// A line of the results.
-pub(crate) fn say(text: &str) {
-    let _ = writeln!(io::stdout().lock(), "{text}");
+pub(crate) fn say(text: &str) -> Result<(), Unsaid> {
+    let mut out = io::stdout().lock();
+    heard(writeln!(out, "{}", escaped(text)).and_then(|()| out.flush()))
+}
+
+/// The help that was asked for, or what is wrong with a command line.
+pub(crate) fn show(message: &clap::Error) -> Result<(), Unsaid> {
+    heard(message.print().and_then(|()| io::stdout().flush()))
+}
+
+fn heard(result: io::Result<()>) -> Result<(), Unsaid> {
+    match result {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Unsaid(error)),
+        _ => Ok(()),
+    }
 }
 
 /// A line of what happens meanwhile.
 pub(crate) fn remark(text: &str) {
-    let _ = writeln!(io::stderr().lock(), "{text}");
+    // There is no other place to tell that it is lost.
+    let _ = writeln!(io::stderr().lock(), "{}", shortened(&escaped(text)));
 }
 
 /// An error, and below it what caused it.

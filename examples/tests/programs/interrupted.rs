@@ -41,3 +41,34 @@ fn by_ctrl_c() {
 fn by_a_request_to_terminate() {
     interrupt("-TERM", HEAT, "--size 20 --until 0 --steps 1000000000 --every 10");
 }
+
+/// Below `nohup` a run outlives its terminal.
+#[cfg(target_os = "linux")]
+#[test]
+fn not_by_a_terminal_that_closes_below_nohup() {
+    let place = Workplace::new();
+    let script = r#"trap '' HUP; exec "$0" "$@""#;
+    let mut command = Command::new("sh");
+    let words = "run --size 20 --until 0 --steps 1000000000 --every 10 --out here";
+    command.args(["-c", script, HEAT]).args(words.split(' ')).current_dir(place.path(""));
+    let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let begin = Instant::now();
+    let rows =
+        || fs::read_to_string(place.path("here/observables.csv")).map_or(0, |text| text.lines().count());
+    let id = child.id();
+    let mut wait_for = |wanted: usize| {
+        while rows() < wanted {
+            assert!(begin.elapsed() < Duration::from_secs(60), "the run does not get on");
+            assert!(child.try_wait().unwrap().is_none(), "the run has ended");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    };
+    let send = |signal: &str| {
+        assert!(Command::new("kill").args([signal, &id.to_string()]).status().unwrap().success());
+    };
+    wait_for(4);
+    send("-HUP");
+    wait_for(rows() + 4);
+    send("-TERM");
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+}

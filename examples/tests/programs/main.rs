@@ -5,14 +5,17 @@
 mod begun;
 mod checkpoints;
 mod compared;
+mod doors;
 mod files;
 mod gallery;
 mod interrupted;
 mod killed;
+mod limits;
 mod looked_at;
 mod maps;
 mod misuse;
 mod physics;
+mod printed;
 mod rendered;
 mod resumed;
 mod running;

@@ -43,7 +43,7 @@ fn a_sweep_that_was_killed_goes_on() {
     let words = "sweep --set initial=10..90:9 --seeds 3 --size 24 --steps 400 --jobs 1 --out";
     told(place.invocation(HEAT, &format!("{words} whole")));
     let mut child = place.invocation(HEAT, &format!("{words} parts")).stdout(Stdio::null()).spawn().unwrap();
-    while !place.path("parts/run.json").exists() {
+    while !place.path("parts/sweep.json").exists() {
         assert!(child.try_wait().unwrap().is_none(), "it ended before it wrote its report");
         std::thread::yield_now();
     }

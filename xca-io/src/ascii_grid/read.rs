@@ -2,6 +2,7 @@
 
 use super::header::{Header, Place};
 use super::{AsciiGrid, ReadGridError};
+use crate::regular_file;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -62,8 +63,8 @@ struct Lines<'a> {
 
 impl<'a> Lines<'a> {
     fn open(path: &'a Path) -> Result<Self, ReadGridError> {
-        let file =
-            File::open(path).map_err(|source| ReadGridError::Open { path: path.to_owned(), source })?;
+        let file = regular_file::open(path)
+            .map_err(|source| ReadGridError::Open { path: path.to_owned(), source })?;
         let file = BufReader::with_capacity(1 << 18, file);
         Ok(Self { file, place: Place { path, line: 0 }, text: String::new() })
     }

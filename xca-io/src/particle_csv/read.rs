@@ -2,7 +2,6 @@
 
 use std::borrow::Cow;
 use std::collections::HashMap;
-use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
@@ -10,6 +9,7 @@ use super::LABEL;
 use super::column_type::ColumnType;
 use super::error::ReadError;
 use super::lines::MeaningfulLines;
+use crate::regular_file;
 
 /// Particles as they stand in a file, in its order.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,7 +33,8 @@ pub struct ParticleTable {
 /// # Errors
 /// [`ReadError`], with the path, the line and the column.
 pub fn read(path: &Path, columns: &[(&str, ColumnType<'_>)]) -> Result<ParticleTable, ReadError> {
-    let file = File::open(path).map_err(|source| ReadError::Open { path: path.to_owned(), source })?;
+    let file =
+        regular_file::open(path).map_err(|source| ReadError::Open { path: path.to_owned(), source })?;
     let broken = |error: csv::Error| ReadError::Read { path: path.to_owned(), source: error.into() };
     let mut csv = csv::ReaderBuilder::new()
         .has_headers(false)

@@ -1,12 +1,18 @@
 //! Reading back the files that this crate writes: these, and no other forms that VTK knows.
 
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use super::Grid;
 use super::appended::{COMPONENT_NAME, DATA, END, STATES_OF, escaped, head, read_names, unescaped};
 use super::blocks::{Broken, expanded};
+use crate::regular_file;
+
+/// The array that tells the time.
+const TIME: &str = "TimeValue";
+
+/// No value has more components: their names alone would fill the memory.
+const MOST_COMPONENTS: usize = 1 << 20;
 
 /// A VTK file that cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -132,8 +138,8 @@ struct Parts<'a> {
 
 impl<'a> Parts<'a> {
     fn read(path: &'a Path, kind: &str) -> Result<Self, ReadVtkError> {
-        let mut bytes =
-            fs::read(path).map_err(|source| ReadVtkError::Read { path: path.to_owned(), source })?;
+        let mut bytes = regular_file::read(path, u64::MAX)
+            .map_err(|source| ReadVtkError::Read { path: path.to_owned(), source })?;
         let foreign = |what| ReadVtkError::Foreign { path: path.to_owned(), what };
         let truncated = || ReadVtkError::Truncated { path: path.to_owned(), found: bytes.len() };
         let first = head(kind);
@@ -199,7 +205,7 @@ impl<'a> Parts<'a> {
             });
         }
         match arrays.first() {
-            Some(ReadArray { name, bytes, .. }) if name == "TimeValue" && bytes.len() == 8 => {
+            Some(ReadArray { name, bytes, .. }) if name == TIME && bytes.len() == 8 => {
                 let time = arrays.remove(0).bytes.as_chunks().0[0];
                 Ok((f64::from_ne_bytes(time), arrays))
             }
@@ -249,10 +255,20 @@ impl Element {
             _ => return None,
         };
         let number = |name: &str| attribute(element, name).map(|text| text.parse::<usize>());
-        let components = number("NumberOfComponents").unwrap_or(Ok(1)).ok().filter(|number| *number > 0)?;
-        let count = number("NumberOfTuples").unwrap_or(Ok(count)).ok()?;
-        let length = count.checked_mul(components)?.checked_mul(size)?;
+        let components = number("NumberOfComponents").unwrap_or(Ok(1)).ok()?;
+        if !(1..=MOST_COMPONENTS).contains(&components) {
+            return None;
+        }
+        // The time alone is one number in a file of many values.
+        let given = number("NumberOfTuples").transpose().ok()?;
         let name = attribute(element, "Name")?;
+        let is_time = name == TIME && given == Some(1);
+        let count = if is_time {
+            1
+        } else {
+            Some(count).filter(|count| given.is_none_or(|given| given == *count))?
+        };
+        let length = count.checked_mul(components)?.checked_mul(size)?;
         let component_name = |number: usize| {
             let given = attribute(element, &format!("{COMPONENT_NAME}{number}"));
             given.unwrap_or_else(|| default_name(number, components))

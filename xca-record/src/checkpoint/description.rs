@@ -117,6 +117,24 @@ impl Description {
         }
     }
 
+    /// The cells along each axis.
+    pub fn extents(&self) -> Option<[usize; 3]> {
+        serde_json::from_value(self.run.model.get("cells")?.clone()).ok()
+    }
+
+    /// How many cells there are; nothing where that is no number of this machine.
+    pub(super) fn cells(&self) -> Option<usize> {
+        self.extents()?.into_iter().try_fold(1, usize::checked_mul)
+    }
+
+    /// Whether a run can have come to this: the whole has a checksum, but anyone can forge that.
+    pub(super) fn makes_sense(&self) -> bool {
+        let components = self.parameters.iter().flat_map(|parameter| &parameter.components);
+        self.step <= self.run.steps_wanted
+            && self.recorded.can_be_after(self.step)
+            && components.into_iter().all(|component| !component.0.is_nan())
+    }
+
     /// How many bytes the data are.
     pub(super) fn data_bytes(&self) -> usize {
         let number = size_of::<u32>();

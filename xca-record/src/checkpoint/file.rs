@@ -2,10 +2,10 @@
 
 use super::Description;
 use super::planes::Plane;
-use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 use xca_io::atomic::{WriteError, write_atomically};
+use xca_io::regular_file;
 
 /// The format that this program writes and reads.
 const FORMAT: u32 = 1;
@@ -98,7 +98,7 @@ impl Lengths {
 /// The description and the data of a checkpoint, once its checksum is known to be right.
 pub(super) fn read(path: &Path) -> Result<(Description, Vec<u8>), CheckpointError> {
     let failed = |source| CheckpointError::Read { path: path.to_owned(), source };
-    let file = File::open(path).map_err(failed)?;
+    let file = regular_file::open(path).map_err(failed)?;
     let found = file.metadata().map_err(failed)?.len();
     read_from(path, BufReader::with_capacity(1 << 18, file), found)
 }

@@ -84,13 +84,21 @@ impl Data<'_> {
 
 /// The snapshot that these data are; nothing where the description says otherwise.
 pub(super) fn snapshot(description: &Description, data: &[u8]) -> Option<Snapshot> {
+    let space = description.cells()?;
+    if !description.makes_sense() {
+        return None;
+    }
     let mut data = Data { rest: data };
     let mut groups = Vec::new();
     for shape in &description.groups {
         groups.push(match shape.kind {
+            Kind::Cells { cells } | Kind::Items { cells, .. } if cells != space => return None,
             Kind::Cells { cells } => GroupSnapshot::Cells(data.substates(shape, cells)?),
             Kind::Items { cells, items, left, .. } => {
                 let (counts, labels) = (data.numbers(cells)?, data.numbers(items)?);
+                if counts.iter().map(|count| u64::from(*count)).sum::<u64>() != items as u64 {
+                    return None;
+                }
                 let fields = data.substates(shape, items)?;
                 GroupSnapshot::Population(Population { counts, labels, fields }, left)
             }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::record::Recorder;
+use crate::record::{Recorded, Recorder};
 use crate::report::Identity;
 use crate::set_up::SetUp;
 use std::fs;
@@ -216,6 +216,45 @@ fn parts_that_contradict_each_other_are_refused() {
     let read = Checkpoint::read(&path).unwrap();
     let error = Simulation::resume(&model(), &Reference, RunOptions::default(), &read.snapshot).unwrap_err();
     assert!(error.to_string().contains("it has 1 structs of substates, not 2"), "{error}");
+}
+
+/// Whoever forges a checkpoint can make its checksum right.
+#[test]
+fn forged_checkpoints_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.checkpoint");
+    let changes: [fn(&mut Checkpoint); 8] = [
+        |forged| forged.description.run.model["cells"] = serde_json::json!([1000, 1000, 1]),
+        |forged| forged.description.run.model["cells"] = serde_json::json!([1_u64 << 32, 1_u64 << 32, 1]),
+        |forged| forged.description.run.model["cells"] = serde_json::json!("many"),
+        |forged| forged.description.step = forged.description.run.steps_wanted + 1,
+        |forged| forged.description.recorded = recorded(&[0, 2, 2]),
+        |forged| forged.description.recorded = recorded(&[0, 99]),
+        |forged| forged.description.parameters[0].components[0] = crate::numbers::Exact(f64::NAN),
+        |forged| {
+            let GroupSnapshot::Population(population, _) = &mut forged.snapshot.groups[1] else {
+                panic!("no items")
+            };
+            population.counts[0] += 1000;
+        },
+    ];
+    for (number, change) in changes.into_iter().enumerate() {
+        let mut forged = checkpoint(&simulation());
+        forged.write(&path).unwrap();
+        Checkpoint::read(&path).unwrap();
+        change(&mut forged);
+        forged.write(&path).unwrap();
+        let read = Checkpoint::read(&path);
+        assert!(matches!(read, Err(CheckpointError::Altered { .. })), "{number}: {read:?}");
+    }
+}
+
+/// What a recorder says that has recorded these steps.
+fn recorded(steps: &[u64]) -> Recorded {
+    let text = serde_json::json!({
+        "steps": steps, "series": { "bytes": 0, "crc32": 0 }, "first": [], "last": [], "scales": []
+    });
+    serde_json::from_value(text).unwrap()
 }
 
 #[test]

@@ -152,7 +152,7 @@ fn other_ensembles_and_foreign_files_are_kept() {
         let result = ensemble().run(&out, &engine, &mut |_| Ok(set_up()?.input(&input)), &mut ());
         assert_eq!(result.is_ok(), goes_on, "{text}");
     }
-    fs::remove_file(folder.path().join(REPORT)).unwrap();
+    fs::remove_file(folder.path().join(ENSEMBLE)).unwrap();
     let error = ensemble().run(folder.path(), &engine, &mut |_| set_up(), &mut ()).unwrap_err();
     assert!(error.to_string().contains("holds `members.csv`"), "{error}");
     for (wrong, wanted) in [

@@ -25,6 +25,13 @@ pub struct Recorded {
     scales: Vec<Option<[Exact; 2]>>,
 }
 
+impl Recorded {
+    /// Whether this can have been recorded until that step: in order, and each step once.
+    pub(crate) fn can_be_after(&self, step: u64) -> bool {
+        self.steps.is_sorted_by(|one, next| one < next) && self.steps.last().is_none_or(|last| *last <= step)
+    }
+}
+
 /// An observable that is kept to the last bit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Quantity {

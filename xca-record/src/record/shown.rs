@@ -57,15 +57,19 @@ impl Shown {
         self.frames(frames).iter().filter_map(step).collect()
     }
 
+    /// The name of the view, as files have it.
+    pub(super) fn stem(&self) -> String {
+        OutputFolder::to_read("").file(self.view.name()).display().to_string()
+    }
+
     /// What stands before and after the step in the name of a frame.
     fn around_step(&self) -> [String; 2] {
-        let stem = OutputFolder::to_read("").file(self.view.name());
-        [format!("{}_", stem.display()), format!(".{}", self.extension())]
+        [format!("{}_", self.stem()), format!(".{}", self.extension())]
     }
 
     /// The file that lists the frames with their times.
     pub(super) fn collection_file(&self) -> String {
-        format!("{}.pvd", self.view.name())
+        format!("{}.pvd", self.stem())
     }
 
     /// The items, if it is a view of items.

@@ -141,8 +141,8 @@ mod tests {
         let text = said(Layered::augment_args);
         assert!(text.contains("already: `--layer` (of render, watch); give"), "{text}");
         let text = said(Short::augment_args);
-        assert!(text.contains("`-q` (of run, render, compare)"), "{text}");
-        assert!(text.contains("`--help` (of run, render, watch, list, compare)"), "{text}");
+        assert!(text.contains("`-q` (of run, render, compare, sweep)"), "{text}");
+        assert!(text.contains("`--help` (of run, render, watch, list, compare, sweep)"), "{text}");
         assert!(said(Field::augment_args).contains("the field `every` (of run, render, watch)"));
         assert!(said(RunArguments::augment_args).contains("the struct `RunArguments` (of run)"));
         assert!(said(Bare::augment_args).contains("`grain` has no `--` before its name"));

@@ -110,7 +110,7 @@ pub(super) fn compare(
     let recorder = Recorder::new(set_up).map_err(Unable::refused)?;
     let folder =
         arguments.out.unwrap_or_else(|| PathBuf::from("out").join(format!("{}-compare", definition.name)));
-    let files = Files::prepare(folder).map_err(Unable::refused)?;
+    let files = Files::prepare(&folder, &recorder.set_up().inputs).map_err(Unable::refused)?;
     let interrupt = Interrupt::install().map_err(Unable::failed)?;
     let line = arguments.voice.line(plan.work(contenders.len()));
     let mut done = 0;

@@ -3,13 +3,16 @@
 use clap::parser::ValueSource;
 use clap::{ArgAction, ArgMatches, Command};
 use std::ffi::OsString;
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use toml::{Table, Value};
+use xca_io::regular_file;
 
 /// The option whose table of values adds to the command line's instead of being replaced by it.
 const SET: &str = "set";
+
+/// No configuration has more bytes.
+const LONGEST: u64 = 16 << 20;
 
 /// A configuration file that cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -76,8 +79,10 @@ fn known(command: &Command) -> String {
 }
 
 fn read(path: &Path) -> Result<Table, ConfigError> {
+    let failed = |source| ConfigError::Read { path: path.to_owned(), source };
+    let text = String::from_utf8(regular_file::read(path, LONGEST).map_err(failed)?);
     let text =
-        fs::read_to_string(path).map_err(|source| ConfigError::Read { path: path.to_owned(), source })?;
+        text.map_err(|_| failed(io::Error::new(io::ErrorKind::InvalidData, "it is not UTF-8 text")))?;
     text.parse().map_err(|error: toml::de::Error| {
         let before = error.span().map_or(0, |span| span.start.min(text.len()));
         let line = 1 + text.as_bytes()[..before].iter().filter(|&&byte| byte == b'\n').count();

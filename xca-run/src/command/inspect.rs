@@ -6,16 +6,16 @@ mod words;
 
 use super::parse::with_help;
 use super::{Definition, Ended, Unable};
-use crate::terminal;
+use crate::terminal::{self, short_lines};
 use clap::{Args, Command};
 use serde::Serialize;
 use serde_json::Value;
 use state::{Place, Statistics};
-use std::fs;
 use std::path::{Path, PathBuf};
 use xca_record::checkpoint::{Checkpoint, CheckpointFolder, Parameter};
 use xca_record::numbers::Exact;
 use xca_record::record::REPORT;
+use xca_record::report::{self, Earlier};
 
 pub(super) const NAME: &str = "inspect";
 
@@ -103,9 +103,9 @@ pub(super) fn inspect(arguments: &InspectArguments) -> Result<Ended, Unable> {
     let text = if arguments.json {
         serde_json::to_string_pretty(&findings).map_err(Unable::failed)?
     } else {
-        findings.to_string()
+        short_lines(&findings.to_string())
     };
-    terminal::say(&text);
+    terminal::say(&text).map_err(Unable::failed)?;
     Ok(Ended::Done)
 }
 
@@ -116,10 +116,11 @@ fn in_file(arguments: &InspectArguments) -> Result<Findings, Unable> {
 }
 
 fn in_folder(arguments: &InspectArguments) -> Result<Findings, Unable> {
-    let run: Option<Value> = fs::read(arguments.path.join(REPORT))
-        .ok()
-        .and_then(|text| serde_json::from_slice(&text).ok())
-        .filter(|report: &Value| report.get("xca").is_some());
+    let report = arguments.path.join(REPORT);
+    let run = report::read(&report).map_err(Unable::refused)?.filter(|run| run.get("xca").is_some());
+    if let Some(run) = &run {
+        report::parts::<Earlier>(&report, run).map_err(Unable::refused)?;
+    }
     let (mut state, mut checkpoints) = (None, Vec::new());
     for path in CheckpointFolder::of_run(&arguments.path) {
         let read = Checkpoint::read(&path);

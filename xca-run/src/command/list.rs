@@ -38,7 +38,7 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
 pub(super) fn list(choice: &Choice<'_>, arguments: &ListArguments) -> Result<Ended, Unable> {
     let model = choice.set_up(&choice.arguments.given(None))?.model;
     let text = if arguments.json { as_json(&model).map_err(Unable::failed)? } else { as_text(&model) };
-    terminal::say(&text);
+    terminal::say(&text).map_err(Unable::failed)?;
     Ok(Ended::Done)
 }
 

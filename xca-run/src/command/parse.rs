@@ -131,6 +131,13 @@ pub(super) fn invocation<'a>(
     arguments: &[OsString],
 ) -> Result<Invocation<'a>, Unable> {
     clashes::check(definition).map_err(Unable::refused)?;
+    // A report could not tell them, nor `resume` go on with them. The first is the program itself.
+    if let Some(word) = arguments.iter().skip(1).find(|word| word.to_str().is_none()) {
+        let word = word.display();
+        return Err(Unable::refused(format!(
+            "`{word}` on the command line is not UTF-8; rename the file or the folder"
+        )));
+    }
     let command = command(definition);
     let mut arguments = arguments.to_vec();
     if let Some(path) = config_file(&command, &arguments)? {

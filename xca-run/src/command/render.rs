@@ -21,7 +21,7 @@ use running::Running;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use xca_record::record::RunFolder;
-use xca_record::report::Earlier;
+use xca_record::record::{Claim, Kind};
 
 pub(super) const NAME: &str = "render";
 
@@ -100,15 +100,9 @@ fn default_folder(definition: &Definition<'_>) -> PathBuf {
     PathBuf::from("out").join(format!("{}_pictures", definition.name))
 }
 
-/// Makes the folder for these files. That of a run is not taken: its files would be gone.
+/// Makes the folder for these files.
 fn pictures_folder(path: &Path, files: &[String], inputs: &[PathBuf]) -> Result<RunFolder, Unable> {
-    if Earlier::read(path).is_of(super::run::NAME) {
-        let path = path.display();
-        return Err(Unable::refused(format!(
-            "{path} is the folder of a run, whose files would be replaced; give another one with --out"
-        )));
-    }
-    RunFolder::prepare(path, files, inputs).map_err(Unable::refused)
+    RunFolder::prepare(path, &Claim { kind: Kind::Pictures, files, inputs }).map_err(Unable::refused)
 }
 
 /// Runs a model, and draws it.

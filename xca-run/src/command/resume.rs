@@ -6,9 +6,12 @@ use super::prepare::Prepared;
 use super::under_way::UnderWay;
 use super::{Definition, Ended, Unable};
 use clap::{Args, Command};
+use serde_json::json;
 use std::path::{Path, PathBuf};
 use xca_record::Failure;
 use xca_record::checkpoint::{Checkpoint, CheckpointError, CheckpointFolder, Description, Difference};
+use xca_record::record::REPORT;
+use xca_record::report;
 use xca_record::report::Earlier;
 use xca_record::{BeginError, Resumed};
 
@@ -38,11 +41,13 @@ pub(super) fn resume(definition: &Definition<'_>, arguments: &ResumeArguments) -
     if !folder.is_dir() {
         return Err(Unable::refused(format!("there is no folder {}", folder.display())));
     }
-    let earlier = Earlier::read(folder);
+    let report_file = folder.join(REPORT);
+    let report = report::read(&report_file).map_err(Unable::refused)?.unwrap_or_else(|| json!({}));
+    let earlier: Earlier = report::parts(&report_file, &report).map_err(Unable::refused)?;
     if arguments.checkpoint.is_none() && earlier.has_ended() {
-        arguments.voice.tell(&Earlier::whole(folder), || {
-            format!("the run in {} has come to its end already", folder.display())
-        })?;
+        arguments
+            .voice
+            .tell(&report, || format!("the run in {} has come to its end already", folder.display()))?;
         return Ok(Ended::Done);
     }
     let path = chosen(arguments)?;

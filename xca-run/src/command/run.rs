@@ -28,7 +28,7 @@ pub(super) fn run(invocation: RunInvocation<'_>) -> Result<Ended, Unable> {
     if invocation.run.print_wgsl {
         let given = invocation.model.arguments.given(invocation.run.steps);
         let model = invocation.model.set_up(&given)?.model;
-        terminal::say(&wgsl(&model, given.precision)?);
+        terminal::say(&wgsl(&model, given.precision)?).map_err(Unable::failed)?;
         return Ok(Ended::Done);
     }
     let Prepared { engine, run } = Prepared::new(&invocation, &invocation.engine)?;

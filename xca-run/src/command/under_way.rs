@@ -51,7 +51,10 @@ impl UnderWay {
         let result = self.recording.go(&mut terminal);
         terminal.line.finish();
         let outcome = result.map_err(|error| Unable::FailedLeaving(error, self.remains()))?;
-        self.voice.tell(self.recording.report(), || self.summary())?;
+        match self.voice.tell(self.recording.report(), || self.summary()) {
+            Err(Unable::Failed(error)) => return Err(Unable::FailedLeaving(error, self.remains())),
+            told => told?,
+        }
         Ok(if outcome == Outcome::Interrupted { Ended::Interrupted } else { Ended::Done })
     }
 }

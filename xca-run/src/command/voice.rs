@@ -19,21 +19,23 @@ pub(crate) struct Voice {
 }
 
 impl Voice {
-    /// Says something on the way.
+    /// Says something on the way. That it is lost does not end a run, whose results are in its files.
     pub(super) fn say(self, text: &str) {
         if !self.quiet && !self.json {
-            terminal::say(text);
+            let _ = terminal::say(text);
         }
     }
 
     /// Tells the result.
     pub(super) fn tell(self, result: &impl Serialize, text: impl FnOnce() -> String) -> Result<(), Unable> {
         if self.json {
-            terminal::say(&serde_json::to_string_pretty(result).map_err(Unable::failed)?);
+            let json = serde_json::to_string_pretty(result).map_err(Unable::failed)?;
+            terminal::say(&json).map_err(Unable::failed)
         } else if !self.quiet {
-            terminal::say(&text());
+            terminal::say(&text()).map_err(Unable::failed)
+        } else {
+            Ok(())
         }
-        Ok(())
     }
 
     /// The line that shows how many of so many things are done.

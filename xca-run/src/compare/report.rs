@@ -13,8 +13,9 @@ use crate::table::table;
 use sheets::Sheet;
 use std::fmt::Write as _;
 use std::io::{self, Write as _};
-use std::path::PathBuf;
-use xca_io::atomic::{OutputFolder, WriteError, write_atomically};
+use std::path::{Path, PathBuf};
+use xca_io::atomic::{WriteError, write_atomically};
+use xca_record::record::{COMPARISON as JSON, Claim, FolderError, Kind, LockedFolder};
 
 /// A report that cannot be made.
 #[derive(Debug, thiserror::Error)]
@@ -33,24 +34,32 @@ pub(crate) enum ReportError {
 /// The folder of a comparison.
 #[derive(Debug)]
 pub(crate) struct Files {
-    folder: OutputFolder,
+    folder: LockedFolder,
 }
 
 /// What is in it.
 const PAGE: &str = "compare.html";
 const MARKDOWN: &str = "compare.md";
-const JSON: &str = "compare.json";
+
+/// The files of a comparison.
+pub(crate) fn files() -> impl Iterator<Item = &'static str> {
+    [JSON, PAGE, MARKDOWN].into_iter().chain(csv_files::NAMES)
+}
 
 impl Files {
-    pub(crate) fn prepare(folder: PathBuf) -> Result<Self, WriteError> {
-        Ok(Self { folder: OutputFolder::create(folder)? })
+    /// Makes the folder; `inputs` is what the comparison has read.
+    pub(crate) fn prepare(folder: &Path, inputs: &[PathBuf]) -> Result<Self, FolderError> {
+        let files: Vec<String> = files().map(str::to_owned).collect();
+        let claim = Claim { kind: Kind::Comparison, files: &files, inputs };
+        Ok(Self { folder: LockedFolder::prepare(folder, &claim)? })
     }
 
     /// Writes all files.
     pub(crate) fn write(&self, comparison: &Comparison) -> Result<(), ReportError> {
+        // The first, as it tells whose the others are.
+        self.file(JSON, format!("{}\n", serde_json::to_string_pretty(comparison)?).as_bytes())?;
         self.file(PAGE, page::page(comparison)?.as_bytes())?;
         self.file(MARKDOWN, markdown::markdown(comparison).as_bytes())?;
-        self.file(JSON, format!("{}\n", serde_json::to_string_pretty(comparison)?).as_bytes())?;
         for (name, content) in csv_files::all(comparison)? {
             self.file(name, &content)?;
         }
@@ -58,13 +67,13 @@ impl Files {
     }
 
     fn file(&self, name: &str, content: &[u8]) -> Result<(), WriteError> {
-        write_atomically(&self.folder.file(name), |file| -> io::Result<()> { file.write_all(content) })
+        write_atomically(&self.folder.top.file(name), |file| -> io::Result<()> { file.write_all(content) })
     }
 
     /// Where they are.
     pub(crate) fn told(&self) -> String {
         let names = csv_files::NAMES.join(", ");
-        format!("{} ({MARKDOWN}, {JSON}, {names} beside it)", self.folder.file(PAGE).display())
+        format!("{} ({MARKDOWN}, {JSON}, {names} beside it)", self.folder.top.file(PAGE).display())
     }
 }
 

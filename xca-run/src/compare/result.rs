@@ -51,6 +51,8 @@ pub(crate) struct Comparison {
     /// In the order of the command line.
     pub(crate) engines: Vec<EngineResult>,
     pub(crate) observables: Vec<ObservableResult>,
+    /// What is written beside this.
+    pub(crate) files: Vec<&'static str>,
 }
 
 /// What was found of an engine.
@@ -150,6 +152,7 @@ impl Comparison {
             verdict,
             engines,
             observables,
+            files: super::report::files().collect(),
         }
     }
 

@@ -144,7 +144,17 @@ fn a_file_of_something_else_is_refused() {
             "one of its arrays",
         ),
         ("NumberOfComponents=\"2\"", "NumberOfComponents=\"0\"", "one of its arrays"),
-        ("Name=\"TimeValue\"", "Name=\"Time\"", "does not say its time"),
+        ("Name=\"TimeValue\"", "Name=\"Time\"", "one of its arrays"),
+        (
+            "Name=\"depth\" NumberOfComponents=\"1\"",
+            "Name=\"depth\" NumberOfComponents=\"1\" NumberOfTuples=\"1\"",
+            "one of its arrays",
+        ),
+        (
+            "Name=\"depth\" NumberOfComponents=\"1\"",
+            "Name=\"depth\" NumberOfComponents=\"9000000000000000\"",
+            "one of its arrays",
+        ),
         ("Origin=\"0.0 ", "Origin=\"", "its grid"),
         ("<Piece Extent=\"0 3 0 1 0 2\"", "<Piece Extent=\"0 3 0 1 1 2\"", "its grid"),
         (

@@ -166,12 +166,6 @@ impl Spread {
     }
 }
 
-/// The cells along each axis.
-fn extents(checkpoint: &Checkpoint) -> [usize; 3] {
-    let cells = checkpoint.description.run.model.get("cells").cloned();
-    cells.and_then(|cells| serde_json::from_value(cells).ok()).unwrap_or_default()
-}
-
 fn values(shape: &GroupShape, fields: &[Vec<u8>], index: usize) -> Vec<NamedValue> {
     let substates = shape.substates.iter().zip(fields);
     substates
@@ -200,7 +194,7 @@ pub(super) fn linear(extents: [usize; 3], cell: [usize; 3]) -> Result<usize, Str
 
 /// A cell, and the items in it.
 pub(super) fn cell(checkpoint: &Checkpoint, cell: [usize; 3]) -> Result<Vec<Place>, String> {
-    let extents = extents(checkpoint);
+    let extents = checkpoint.description.extents().unwrap_or_default();
     let linear = linear(extents, cell)?;
     let mut places = Vec::new();
     for (shape, state, fields) in groups(checkpoint) {
@@ -225,7 +219,8 @@ pub(super) fn cell(checkpoint: &Checkpoint, cell: [usize; 3]) -> Result<Vec<Plac
 
 /// The items with a label: one at most of each population.
 pub(super) fn items(checkpoint: &Checkpoint, label: u32) -> Result<Vec<Place>, String> {
-    let [width, height, _] = extents(checkpoint).map(|extent| extent.max(1));
+    let extents = checkpoint.description.extents().unwrap_or_default();
+    let [width, height, _] = extents.map(|extent| extent.max(1));
     let mut places = Vec::new();
     for (shape, state, fields) in groups(checkpoint) {
         let GroupSnapshot::Population(population, _) = state else { continue };

@@ -4,7 +4,6 @@ use crate::command::prepare::described;
 use crate::command::{Definition, Unable, parse};
 use serde::Deserialize;
 use serde_json::{Map, Value};
-use std::fs;
 use std::path::Path;
 use xca_record::checkpoint::{Description, Difference, Parameter, other_model, other_program};
 use xca_record::record::{REPORT, Recorder};
@@ -31,6 +30,9 @@ struct Told {
     command_line: Vec<String>,
     model: Value,
     parameters: Map<String, Value>,
+    /// Its keys are written anew.
+    #[serde(rename = "progress")]
+    _progress: Map<String, Value>,
 }
 
 /// A run whose states are drawn must be one of this program.
@@ -45,11 +47,12 @@ impl<'a> Kept<'a> {
     /// What the report in the folder of a run tells; with the whole report.
     pub(super) fn of_folder(path: &'a Path) -> Result<(Self, Value), Unable> {
         let folder = path.display();
-        let none =
-            |_| Unable::refused(format!("{folder} is no folder of a run: there is no {REPORT} of one in it"));
-        let text = fs::read(path.join(REPORT)).map_err(|error| none(error.to_string()))?;
-        let whole: Value = serde_json::from_slice(&text).map_err(|error| none(error.to_string()))?;
-        let told = Told::deserialize(&whole).map_err(|error| none(error.to_string()))?;
+        let report = path.join(REPORT);
+        let whole = report::read(&report).map_err(Unable::refused)?;
+        let whole = whole.filter(|whole| whole.get("xca").is_some()).ok_or_else(|| {
+            Unable::refused(format!("{folder} is no folder of a run: there is no {REPORT} of one in it"))
+        })?;
+        let told: Told = report::parts(&report, &whole).map_err(Unable::refused)?;
         if told.command_line.get(1).map(String::as_str) == Some(super::NAME) {
             return Err(Unable::refused(format!("{folder} holds pictures of a run, not the run")));
         }

@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 use xca_io::atomic::{OutputFolder, write_atomically};
 use xca_record::Failure;
 use xca_record::checkpoint::{Checkpoint, CheckpointFolder};
+use xca_record::record::LockedFolder;
 use xca_record::record::{Drawing, FRAMES, RunFolder, SavedError};
 
 /// Draws the saved states of a run, or the state of a checkpoint.
@@ -58,7 +59,7 @@ fn folder(
     let folder = pictures_folder(&out, &film.files(), &recorder.set_up().inputs)?;
     let mut report = Report { of_run, folder: &folder };
     report.of_run["command_line"] = json!(command_line);
-    report.of_run["drawn"] = json!(path);
+    report.of_run["drawn"] = json!(path.display().to_string());
     report.of_run["files"] = json!(film.files());
     report.write("running", 0)?;
     let made = film.make(&folder);
@@ -99,9 +100,13 @@ fn steps(
 
 /// Where the pictures of a run go: beside its folder.
 fn pictures_of(run: &Path) -> PathBuf {
-    // `.` has no name of its own.
-    let whole =
-        if run.file_name().is_some() { run.to_owned() } else { run.canonicalize().unwrap_or_default() };
+    // `.` has no name of its own, and the folder of `checkpoints/…` is not even written.
+    let written = if run.as_os_str().is_empty() { Path::new(".") } else { run };
+    let whole = if written.file_name().is_some() {
+        written.to_owned()
+    } else {
+        written.canonicalize().unwrap_or_default()
+    };
     let mut name = whole.file_name().unwrap_or_default().to_owned();
     name.push("_pictures");
     whole.with_file_name(name)
@@ -182,13 +187,15 @@ fn checkpoint(
         let run = path.parent().and_then(Path::parent).filter(is_of);
         run.map_or_else(|| default_folder(definition), pictures_of)
     });
-    let folder = OutputFolder::create(out).map_err(Unable::refused)?;
     let step = description.step;
-    let file = folder.numbered("step", step, "png");
+    let file = OutputFolder::to_read(&out).numbered("step", step, "png");
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    let _locked = LockedFolder::beside(&out, &name).map_err(Unable::refused)?;
     if let Some(picture) = drawing.picture(step, &seen, &scales).map_err(Unable::failed)? {
         picture.write(&file).map_err(Unable::failed)?;
     }
-    arguments.voice.tell(&json!({ "drawn": path, "step": step, "files": [&file] }), || {
+    let (drawn, files) = (path.display().to_string(), [file.display().to_string()]);
+    arguments.voice.tell(&json!({ "drawn": drawn, "step": step, "files": files }), || {
         format!("the state after {step} steps is drawn in {}", file.display())
     })?;
     Ok(Ended::Done)

@@ -1,0 +1,39 @@
+//! Why a folder cannot be written to.
+
+use super::Kind;
+use crate::report::ReadReportError;
+use std::io;
+use std::path::PathBuf;
+use xca_io::atomic::WriteError;
+
+/// A folder that a command must not or cannot write to.
+#[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages explain the fields")]
+#[non_exhaustive]
+pub enum FolderError {
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    #[error("{}; move it away or give another folder with --out", .0)]
+    Report(#[source] ReadReportError),
+    #[error(
+        "{} holds `{file}`, which is not of an earlier {}; move it away or give another folder with --out",
+        folder.display(),
+        kind.noun()
+    )]
+    Foreign { folder: PathBuf, file: String, kind: Kind },
+    #[error(
+        "{} is the folder of a {}, whose files would be replaced; give another one with --out",
+        folder.display(),
+        kind.noun()
+    )]
+    Taken { folder: PathBuf, kind: Kind },
+    #[error(
+        "the run starts from {}, which it would replace; move it away or give another folder with --out",
+        file.display()
+    )]
+    Input { file: PathBuf },
+    #[error("another run is writing to {}", folder.display())]
+    InUse { folder: PathBuf },
+    #[error("cannot remove {}, which an earlier run left", path.display())]
+    Remove { path: PathBuf, source: io::Error },
+}

@@ -1,0 +1,195 @@
+//! Whose folder it is, and which files in it are of its owner.
+
+use super::{FolderError, Kind};
+use crate::checkpoint::CheckpointFolder;
+use crate::ensemble::{MEMBERS, SUMMARY};
+use crate::record::FRAMES;
+use crate::report::Earlier;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The command that has written to a folder before, as its report tells.
+pub(super) struct Owner {
+    pub(super) kind: Kind,
+    /// What the report lists, `*` standing for digits.
+    files: Vec<String>,
+}
+
+impl Owner {
+    /// The owners of a folder: none of a new one.
+    pub(super) fn all(folder: &Path) -> Result<Vec<Self>, FolderError> {
+        let mut owners = Vec::new();
+        for kind in [Kind::Run, Kind::Comparison, Kind::Ensemble] {
+            let earlier = Earlier::read(&folder.join(kind.report())).map_err(FolderError::Report)?;
+            if let Some(earlier) = earlier.filter(|earlier| earlier.xca.is_some()) {
+                let is_pictures = kind == Kind::Run && earlier.is_of("render");
+                let kind = if is_pictures { Kind::Pictures } else { kind };
+                owners.push(Self { kind, files: earlier.files });
+            }
+        }
+        Ok(owners)
+    }
+
+    /// The files that are there of those that the report lists: as far as a command can have made them. A report that someone has
+    /// edited must not lead out of the folder, nor to files of others in it.
+    pub(super) fn files(&self, folder: &Path) -> Vec<PathBuf> {
+        let mut files = Vec::new();
+        for name in self.files.iter().filter(|name| can_be_made(name, self.kind)) {
+            let is_below_link =
+                name.split_once('/').is_some_and(|(below, _)| !is_folder(&folder.join(below)));
+            if !is_below_link {
+                files.extend(meant(folder, name).into_iter().filter(|path| is_file(path)));
+            }
+        }
+        let report = folder.join(self.kind.report());
+        files.extend(is_file(&report).then_some(report));
+        files
+    }
+}
+
+/// Whether it is a file, and not a link to one.
+pub(super) fn is_file(path: &Path) -> bool {
+    fs::symlink_metadata(path).is_ok_and(|found| found.is_file())
+}
+
+/// Whether it is a folder, and not a link to one.
+pub(super) fn is_folder(path: &Path) -> bool {
+    fs::symlink_metadata(path).is_ok_and(|found| found.is_dir())
+}
+
+/// The files of a comparison beside its report.
+const COMPARISON_FILES: [&str; 6] =
+    ["compare.html", "compare.md", "engines.csv", "differences.csv", "divergence.csv", "observables.csv"];
+
+/// Whether a command makes files of that name.
+fn can_be_made(name: &str, kind: Kind) -> bool {
+    let is_plain = |part: &str| {
+        let mut letters = part.chars();
+        letters.next().is_some_and(|first| first != '.')
+            && letters.all(|letter| letter.is_ascii_alphanumeric() || "._-*".contains(letter))
+    };
+    if !name.split('/').all(is_plain) {
+        return false;
+    }
+    match (name.split_once('/'), kind) {
+        (None, Kind::Comparison) => COMPARISON_FILES.contains(&name),
+        (None, Kind::Ensemble) => [MEMBERS, SUMMARY].contains(&name),
+        (Some(_), Kind::Comparison | Kind::Ensemble) => false,
+        (None, Kind::Run | Kind::Pictures) => is_of_top(name, kind),
+        (Some((FRAMES, file)), _) => is_series(file),
+        (Some(_), _) => name == CheckpointFolder::files(),
+    }
+}
+
+/// Whether it is the name of a file of a run's own folder.
+fn is_of_top(name: &str, kind: Kind) -> bool {
+    let Some((stem, extension)) = name.rsplit_once('.') else { return false };
+    let begins =
+        |word: &str| stem.strip_prefix(word).is_some_and(|rest| rest.is_empty() || rest.starts_with('_'));
+    let is_made = match (kind, extension) {
+        (Kind::Pictures, "png" | "gif") => stem == "animation",
+        (Kind::Run, "png") => begins("initial") || begins("final"),
+        (Kind::Run, "csv") => stem == "observables" || begins("final"),
+        (Kind::Run, "asc") => begins("final"),
+        (Kind::Run, "pvd") => true,
+        _ => false,
+    };
+    is_made && !name.contains('*')
+}
+
+/// Whether it is `NAME_*.EXTENSION`.
+fn is_series(file: &str) -> bool {
+    file.split_once("_*.").is_some_and(|(stem, extension)| {
+        !stem.is_empty() && !stem.contains(['*', '/']) && ["vti", "vtp", "png"].contains(&extension)
+    })
+}
+
+/// What there is in the folder, of whatever kind, under a name in which `*` stands for digits.
+pub(super) fn meant(folder: &Path, name: &str) -> Vec<PathBuf> {
+    let path = folder.join(name);
+    let Some((before, after)) = name.rsplit('/').next().and_then(|last| last.split_once('*')) else {
+        return if fs::symlink_metadata(&path).is_ok() { vec![path] } else { Vec::new() };
+    };
+    path.parent().map(|folder| numbered(folder, before, after)).unwrap_or_default()
+}
+
+/// What a folder holds under names that have only digits between `before` and `after`, in the order of these numbers.
+fn numbered(folder: &Path, before: &str, after: &str) -> Vec<PathBuf> {
+    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+    let is_meant = |file: &str| {
+        let middle = file.strip_prefix(before).and_then(|rest| rest.strip_suffix(after));
+        middle.is_some_and(|middle| !middle.is_empty() && middle.bytes().all(|byte| byte.is_ascii_digit()))
+    };
+    let mut found: Vec<PathBuf> = entries
+        .filter_map(Result::ok)
+        .filter(|entry| entry.file_name().to_str().is_some_and(is_meant))
+        .map(|entry| entry.path())
+        .collect();
+    found.sort_by_key(|path| (path.as_os_str().len(), path.clone()));
+    found
+}
+
+/// The files of a folder whose names have only digits between `before` and `after`, in the order of these numbers.
+pub fn numbered_files(folder: &Path, before: &str, after: &str) -> Vec<PathBuf> {
+    let mut files = numbered(folder, before, after);
+    files.retain(|path| path.is_file());
+    files
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_those_that_commands_make() {
+        for name in [
+            "observables.csv",
+            "final.csv",
+            "final_fish.csv",
+            "final_altitude.asc",
+            "initial.png",
+            "final_pond-2.png",
+            "water.pvd",
+            "frames/water_*.vti",
+            "frames/fish_*.vtp",
+            "checkpoints/step_*.checkpoint",
+        ] {
+            assert!(can_be_made(name, Kind::Run), "{name}");
+        }
+        for name in ["animation.png", "animation.gif", "frames/frame_*.png"] {
+            assert!(can_be_made(name, Kind::Pictures), "{name}");
+        }
+        assert!(can_be_made("compare.html", Kind::Comparison));
+        for kind in [Kind::Run, Kind::Pictures, Kind::Comparison] {
+            for name in [
+                "",
+                "*",
+                "*.csv",
+                "final*.csv",
+                "/final.csv",
+                "../final.csv",
+                "./final.csv",
+                "frames/../final.csv",
+                "sub/final.csv",
+                "sub/precious.txt",
+                "frames/*",
+                "frames/*.vti",
+                "frames/_*.vti",
+                "frames/a_*b_*.vti",
+                "frames/a_*.txt",
+                "frames/a/b_*.vti",
+                "checkpoints/*",
+                "checkpoints/precious.checkpoint",
+                "precious.csv",
+                "thesis.png",
+                "finale.csv",
+                ".final.csv",
+                "run.json",
+                "a\\b.pvd",
+                "c:d.pvd",
+            ] {
+                assert!(!can_be_made(name, kind), "{name} {kind:?}");
+            }
+        }
+    }
+}
