@@ -8,7 +8,7 @@ mod folder;
 mod planes;
 
 pub(crate) use description::{
-    Description, Difference, GroupShape, Origin, Parameter, other_model, other_program,
+    Description, Difference, GroupShape, Kind, Origin, Parameter, other_model, other_program,
 };
 pub use file::CheckpointError;
 pub(crate) use folder::{CHECKPOINTS, CheckpointFolder};

@@ -82,7 +82,8 @@ impl Recorder {
     /// Checks what the set-up wants to be shown.
     pub(crate) fn new(mut set_up: SetUp) -> Result<Self, ViewError> {
         let views = complete(&set_up.model, std::mem::take(&mut set_up.views))?;
-        let shown = views.into_iter().map(|(group, view)| Shown::new(group, view)).collect();
+        let shown = |(group, view)| Shown::new(group, view, set_up.map.clone());
+        let shown = views.into_iter().map(shown).collect();
         Ok(Self {
             set_up,
             shown,
@@ -196,7 +197,10 @@ impl Recorder {
             Some(observe) => {
                 observe(&simulation.state()).map_err(|source| RecordError::Observe { step, source })
             }
-            None => Ok(measure::measure(simulation.model(), simulation.options().precision, snapshot)),
+            None => {
+                let (model, precision) = (simulation.model(), simulation.options().precision);
+                Ok(measure::measure(model, precision, snapshot, self.set_up.missing()))
+            }
         }
     }
 

@@ -5,6 +5,7 @@ use crate::components::{json, type_text};
 use crate::machine::cores;
 use crate::program::Observable;
 use crate::record::REPORT;
+use crate::set_up::SetUp;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use std::io::{self, Write as _};
@@ -13,6 +14,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use xca_core::model::GroupKind;
 use xca_core::{Boundary, Faces, Model, ParameterSet, ParameterValue, Precision, ValueType};
 use xca_io::atomic::{WriteError, write_atomically};
+use xca_io::map::Placement;
 
 /// The report of a run.
 #[derive(Debug, Clone, Serialize)]
@@ -28,6 +30,9 @@ pub(crate) struct Report {
     #[serde(flatten)]
     pub(crate) notes: Map<String, Value>,
     pub(crate) model: ModelReport,
+    /// Where the cells lie, of a model on a map.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) map: Option<MapReport>,
     pub(crate) parameters: Map<String, Value>,
     /// Of the parameters and substates that have one.
     pub(crate) units: Map<String, Value>,
@@ -161,6 +166,23 @@ pub(crate) struct ModelReport {
     neighbourhood: String,
     groups: Vec<GroupReport>,
     processes: Vec<&'static str>,
+}
+
+/// Where the cells of a model lie.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct MapReport {
+    /// The south-west corner.
+    corner: [f64; 2],
+    cell_side: f64,
+    cells_without_ground: usize,
+}
+
+/// The place of a model on the map.
+pub(crate) fn of_map(set_up: &SetUp) -> Option<MapReport> {
+    let missing = set_up.missing().unwrap_or_default();
+    let Placement { corner, side, .. } = set_up.placement();
+    let cells_without_ground = missing.iter().filter(|is_missing| **is_missing).count();
+    set_up.map.as_ref().map(|_| MapReport { corner, cell_side: side, cells_without_ground })
 }
 
 /// Substates that belong together.

@@ -6,6 +6,7 @@ use serde::Serialize;
 use std::fmt;
 use std::path::PathBuf;
 use xca_core::{Model, State, Substates};
+use xca_io::map::{Map, Placement, PlacementDifference};
 
 type Observe = dyn Fn(&State<'_>) -> Result<Vec<Observable>, Failure> + Send + Sync;
 
@@ -22,8 +23,8 @@ pub struct SetUp {
     pub(crate) observe: Option<Box<Observe>>,
     pub(crate) views: Vec<AnyView>,
     pub(crate) inputs: Vec<PathBuf>,
-    /// Where the south-west corner of the space lies on the map.
-    pub(crate) corner: Option<[f64; 2]>,
+    /// Where the space lies, and which of its cells have no ground.
+    pub(crate) map: Option<Map>,
     /// Whether the final state is written as ASCII grids.
     pub(crate) grids: bool,
     pub(crate) notes: serde_json::Map<String, serde_json::Value>,
@@ -40,7 +41,7 @@ impl SetUp {
             observe: None,
             views: Vec::new(),
             inputs: Vec::new(),
-            corner: None,
+            map: None,
             grids: false,
             notes: serde_json::Map::new(),
         }
@@ -85,13 +86,15 @@ impl SetUp {
         self
     }
 
-    /// Where the south-west corner of the space lies on the map, in metres.
+    /// Where the space of a model of one layer lies on a map, and which of its cells have no ground: the place of a grid and
+    /// its cells without a value (`&grid`), or a [`Map`].
     ///
-    /// A model of one layer whose corner is known leaves its final state as ESRI ASCII grids too, one for each substate of cells
-    /// (`final_altitude.asc`); any other model of one layer does so with `run --grids`, and its corner is at 0, 0.
+    /// Frames lie at this place. Files, pictures and default observables leave out the cells without ground. The final state
+    /// is written as ESRI ASCII grids too, one for each substate of cells (`final_altitude.asc`); any other model of one layer
+    /// does so with `run --grids`, and its corner is at 0, 0.
     #[must_use]
-    pub fn corner(mut self, metres: [f64; 2]) -> Self {
-        self.corner = Some(metres);
+    pub fn map(mut self, map: impl Into<Map>) -> Self {
+        self.map = Some(map.into());
         self.grids = true;
         self
     }
@@ -114,18 +117,48 @@ impl SetUp {
 }
 
 /// A set-up that makes no sense.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum SetUpError {
     #[error("the time step is {seconds} s; it must be a positive number")]
     TimeStep { seconds: f64 },
+    #[error("the map does not fit the model: {0}")]
+    Map(PlacementDifference),
+    #[error("a map is for models of one layer, and `{model}` has {layers}")]
+    Layers { model: String, layers: usize },
 }
 
 impl SetUp {
     pub(crate) fn check(&self) -> Result<(), SetUpError> {
-        match self.time_step {
-            Some(seconds) if !(seconds.is_finite() && seconds > 0.0) => Err(SetUpError::TimeStep { seconds }),
-            _ => Ok(()),
+        if let Some(seconds) = self.time_step.filter(|seconds| !(seconds.is_finite() && *seconds > 0.0)) {
+            return Err(SetUpError::TimeStep { seconds });
         }
+        let Some(map) = &self.map else { return Ok(()) };
+        let layers = self.model.geometry().extents()[2];
+        if layers > 1 {
+            return Err(SetUpError::Layers { model: self.model.name().to_owned(), layers });
+        }
+        let placement = map.placement();
+        let cells = Placement { corner: placement.corner, ..self.unplaced() };
+        placement.difference(&cells).map_or(Ok(()), |difference| Err(SetUpError::Map(difference)))
+    }
+
+    /// The place of the model's cells where no map says one.
+    fn unplaced(&self) -> Placement {
+        let geometry = self.model.geometry();
+        let [columns, rows, _] = geometry.extents();
+        Placement { extents: [columns, rows], corner: [0.0; 2], side: geometry.side() }
+    }
+
+    /// The place of the model's cells on the map.
+    pub(crate) fn placement(&self) -> Placement {
+        // The side of the model: that of the map may have other digits.
+        let cells = self.unplaced();
+        self.map.as_ref().map_or(cells, |map| Placement { corner: map.placement().corner, ..cells })
+    }
+
+    /// The cells without ground, if there are any.
+    pub(crate) fn missing(&self) -> Option<&[bool]> {
+        self.map.as_ref().and_then(Map::missing)
     }
 }
 

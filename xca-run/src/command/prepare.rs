@@ -96,6 +96,7 @@ fn first_report(
         options: invocation.model.options.clone(),
         notes: set_up.notes.clone(),
         model: report::of_model(&set_up.model),
+        map: report::of_map(set_up),
         parameters: report::of_parameters(set_up.model.parameters()),
         units: report::of_units(&set_up.model),
         engine: engine.name().to_owned(),

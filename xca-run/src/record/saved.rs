@@ -57,12 +57,18 @@ impl Shown {
         let (group, geometry) = (&model.groups()[self.group], model.geometry());
         match &self.view {
             AnyView::Items(view) => items(view, group, path),
-            AnyView::Cells(view) => of_cells(view, group, geometry, path),
+            AnyView::Cells(view) => of_cells(view, group, geometry, self.ground().missing, path),
         }
     }
 }
 
-fn of_cells(view: &AnyCellView, group: &Group, geometry: &Geometry, path: &Path) -> Result<Seen, SavedError> {
+fn of_cells(
+    view: &AnyCellView,
+    group: &Group,
+    geometry: &Geometry,
+    missing: Option<&[bool]>,
+    path: &Path,
+) -> Result<Seen, SavedError> {
     let file = read_dense(path)?;
     if file.grid.cells != geometry.extents() {
         let what = format!("it has {:?} cells, not {:?}", file.grid.cells, geometry.extents());
@@ -76,7 +82,8 @@ fn of_cells(view: &AnyCellView, group: &Group, geometry: &Geometry, path: &Path)
     let heights = view.relief.map(|(field, _)| plane(field)).transpose()?;
     let Part { field, component } = view.part();
     let part = DrawnPart::of(group.schema().fields[field].value_type, component);
-    Ok(cells::seen(&plane(field)?, part, heights))
+    let hidden = missing.map(|missing| cells::drawn_mask(view, geometry, missing));
+    Ok(cells::seen(&plane(field)?, part, heights, hidden))
 }
 
 fn items(view: &AnyItemView, group: &Group, path: &Path) -> Result<Seen, SavedError> {

@@ -67,6 +67,30 @@ impl Plane {
         Self { numbers, components: stored.components() }
     }
 
+    /// The same values, but NaN, or 0 of whole numbers, where the mask is true.
+    pub(crate) fn without(mut self, missing: Option<&[bool]>) -> Self {
+        fn clear<T: Copy>(numbers: &mut [T], components: usize, missing: &[bool], nothing: T) {
+            let values = numbers.chunks_mut(components).zip(missing);
+            values.filter(|(_, is_missing)| **is_missing).for_each(|(value, _)| value.fill(nothing));
+        }
+        let (components, missing) = (self.components, missing.unwrap_or_default());
+        match &mut self.numbers {
+            Numbers::U8(numbers) => clear(numbers, components, missing, 0),
+            Numbers::I32(numbers) => clear(numbers, components, missing, 0),
+            Numbers::U32(numbers) => clear(numbers, components, missing, 0),
+            Numbers::F32(numbers) => clear(numbers, components, missing, f32::NAN),
+            Numbers::F64(numbers) => clear(numbers, components, missing, f64::NAN),
+        }
+        self
+    }
+
+    /// The values where the mask is not true.
+    pub(crate) fn kept(&self, component: usize, missing: Option<&[bool]>) -> Vec<f64> {
+        let is_missing = |index: usize| missing.is_some_and(|missing| missing.get(index) == Some(&true));
+        let values = self.component(component).into_iter().enumerate();
+        values.filter(|(index, _)| !is_missing(*index)).map(|(_, value)| value).collect()
+    }
+
     /// Points.
     pub(crate) fn points(points: Vec<[f64; 3]>) -> Self {
         Self { numbers: Numbers::F64(points.into_flattened()), components: 3 }

@@ -1,6 +1,6 @@
 //! What a checkpoint says of the state.
 
-use crate::checkpoint::{Checkpoint, GroupShape};
+use crate::checkpoint::{Checkpoint, GroupShape, Kind};
 use crate::components::{state_name, text};
 use crate::numbers::Exact;
 use crate::record::Plane;
@@ -103,6 +103,10 @@ fn groups(checkpoint: &Checkpoint) -> impl Iterator<Item = (&GroupShape, &GroupS
 pub(super) fn statistics(checkpoint: &Checkpoint) -> Vec<Statistics> {
     let mut all = Vec::new();
     for (shape, _, fields) in groups(checkpoint) {
+        let missing = match shape.kind {
+            Kind::Cells { cells } => checkpoint.description.mask(cells),
+            Kind::Items { .. } => None,
+        };
         for (substate, bytes) in shape.substates.iter().zip(fields) {
             let described = Described {
                 name: format!("{}.{}", shape.name, substate.name),
@@ -110,7 +114,7 @@ pub(super) fn statistics(checkpoint: &Checkpoint) -> Vec<Statistics> {
                 components: &substate.components,
                 states: &substate.states,
             };
-            all.extend(described.statistics(&Plane::all(substate.stored, bytes)));
+            all.extend(described.statistics(&Plane::all(substate.stored, bytes), missing.as_deref()));
         }
     }
     all
@@ -126,10 +130,10 @@ pub(super) struct Described<'a> {
 }
 
 impl Described<'_> {
-    /// Of each component.
-    pub(super) fn statistics(&self, plane: &Plane) -> Vec<Statistics> {
+    /// Of each component, without the cells that have no ground.
+    pub(super) fn statistics(&self, plane: &Plane, missing: Option<&[bool]>) -> Vec<Statistics> {
         let of_component = |component: usize| {
-            let values = plane.component(component);
+            let values = plane.kept(component, missing);
             let suffix = self.components.get(component).map_or("", String::as_str);
             Statistics {
                 name: format!("{}{suffix}", self.name),
