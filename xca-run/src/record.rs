@@ -239,7 +239,7 @@ impl Recorder {
         for shown in &mut self.shown {
             let path = shown.frame(&folder.frames, snapshot.step);
             if let Some(items) = shown.items(model, precision, snapshot) {
-                items.write_frame(&path, time)?;
+                items.write_frame(&path, time, shown.ground().corner)?;
             } else if let Some(cells) = shown.cells(model, precision, snapshot) {
                 cells.write_frame(&path, time)?;
             }

@@ -7,6 +7,7 @@ mod checkpoints;
 mod compared;
 mod files;
 mod gallery;
+mod grounds;
 mod interrupted;
 mod killed;
 mod looked_at;

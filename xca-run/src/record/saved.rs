@@ -56,7 +56,7 @@ impl Shown {
     pub(super) fn seen_in(&self, model: &Model, path: &Path) -> Result<Seen, SavedError> {
         let (group, geometry) = (&model.groups()[self.group], model.geometry());
         match &self.view {
-            AnyView::Items(view) => items(view, group, path),
+            AnyView::Items(view) => items(view, group, self.ground().corner, path),
             AnyView::Cells(view) => of_cells(view, group, geometry, self.ground().missing, path),
         }
     }
@@ -86,11 +86,12 @@ fn of_cells(
     Ok(cells::seen(&plane(field)?, part, heights, hidden))
 }
 
-fn items(view: &AnyItemView, group: &Group, path: &Path) -> Result<Seen, SavedError> {
+fn items(view: &AnyItemView, group: &Group, [x, y]: [f64; 2], path: &Path) -> Result<Seen, SavedError> {
     let file = read_particles(path)?;
     let arrays = Arrays { path, view: &view.name, group, arrays: &file.arrays };
     let schema = group.schema();
-    let positions = Plane::of_array(&file.positions);
+    // In the model, the corner of the map is at 0, 0.
+    let positions = Plane::of_array(&file.positions).shifted([-x, -y]);
     let values = match view.colour(schema) {
         None => Vec::new(),
         Some(Drawn { part: Part { field, component }, .. }) => {

@@ -96,6 +96,16 @@ impl Plane {
         Self { numbers: Numbers::F64(points.into_flattened()), components: 3 }
     }
 
+    /// Points that are moved so far along x and y: as they are where that is nowhere.
+    pub(crate) fn shifted(self, [x, y]: [f64; 2]) -> Self {
+        if [x, y] == [0.0; 2] {
+            return self;
+        }
+        Self::points(
+            self.to_points().into_iter().map(|point| [point[0] + x, point[1] + y, point[2]]).collect(),
+        )
+    }
+
     /// For a VTK file.
     pub(crate) fn as_values(&self) -> Values<'_> {
         let values = match &self.numbers {

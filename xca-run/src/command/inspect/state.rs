@@ -176,11 +176,12 @@ fn extents(checkpoint: &Checkpoint) -> [usize; 3] {
     cells.and_then(|cells| serde_json::from_value(cells).ok()).unwrap_or_default()
 }
 
-fn values(shape: &GroupShape, fields: &[Vec<u8>], index: usize) -> Vec<NamedValue> {
+/// Without `ground` there are no values: numbers are NaN.
+fn values(shape: &GroupShape, fields: &[Vec<u8>], index: usize, ground: bool) -> Vec<NamedValue> {
     let substates = shape.substates.iter().zip(fields);
     substates
         .map(|(substate, bytes)| {
-            let plane = Plane::chosen(substate.stored, bytes, &[index]);
+            let plane = Plane::chosen(substate.stored, bytes, &[index]).without(Some(&[!ground]));
             NamedValue::new(substate.name.clone(), &substate.states, &plane, 0)
         })
         .collect()
@@ -206,13 +207,15 @@ pub(super) fn linear(extents: [usize; 3], cell: [usize; 3]) -> Result<usize, Str
 pub(super) fn cell(checkpoint: &Checkpoint, cell: [usize; 3]) -> Result<Vec<Place>, String> {
     let extents = extents(checkpoint);
     let linear = linear(extents, cell)?;
+    let mask = checkpoint.description.mask(extents.iter().product());
+    let has_ground = !mask.is_some_and(|mask| mask.get(linear) == Some(&true));
     let mut places = Vec::new();
     for (shape, state, fields) in groups(checkpoint) {
         let place = |label, index| Place {
             of: shape.name.clone(),
             cell: Some(cell),
             label,
-            values: values(shape, fields, index),
+            values: values(shape, fields, index, label.is_some() || has_ground),
         };
         match state {
             GroupSnapshot::Cells(_) => places.push(place(None, linear)),
@@ -244,7 +247,7 @@ pub(super) fn items(checkpoint: &Checkpoint, label: u32) -> Result<Vec<Place>, S
             of: shape.name.clone(),
             cell: Some([cell % width, cell / width % height, cell / (width * height)]),
             label: Some(label),
-            values: values(shape, fields, index),
+            values: values(shape, fields, index, true),
         });
     }
     if places.is_empty() { Err(format!("there is no item with the label {label}")) } else { Ok(places) }
