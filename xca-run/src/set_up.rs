@@ -172,3 +172,32 @@ impl fmt::Debug for SetUp {
             .finish_non_exhaustive()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use xca_core::prelude::*;
+
+    #[derive(Substates, Clone)]
+    struct Ground {
+        altitude: Real,
+    }
+
+    fn set_up(extents: [usize; 3], placement: Placement) -> Result<(), String> {
+        let model = Model::builder("ground").extents(extents).cell_side(10.0).substates::<Ground>();
+        let model = model.fill(|_| Ground { altitude: 1.0 }).build().unwrap();
+        SetUp::new(model, 1).map(Map::new(placement)).check().map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_map_must_have_the_cells_of_the_model() {
+        let place = Placement { extents: [4, 3], corner: [2600.0, 5100.0], side: 10.0 };
+        assert_eq!(set_up([4, 3, 1], place), Ok(()));
+        let said = set_up([3, 4, 1], place).unwrap_err();
+        assert_eq!(said, "the map does not fit the model: it has 4 x 3 cells, not 3 x 4");
+        let said = set_up([4, 3, 1], Placement { side: 20.0, ..place }).unwrap_err();
+        assert_eq!(said, "the map does not fit the model: its cells have a side of 20, not 10");
+        let said = set_up([4, 3, 2], place).unwrap_err();
+        assert_eq!(said, "a map is for models of one layer, and `ground` has 2");
+    }
+}

@@ -116,8 +116,13 @@ impl Terrain {
         let [ground, thickness] = [AsciiGrid::read_heights(dem)?, AsciiGrid::read(debris)?];
         let map = Map::from(&ground);
         map.check(debris, thickness.placement(), thickness.values(), &dem.display().to_string())?;
-        if thickness.values().iter().any(|thickness| *thickness < 0.0) {
-            return Err(format!("{} has debris of less than 0 m", debris.display()).into());
+        if let Some(cell) = thickness.values().iter().position(|thickness| *thickness < 0.0) {
+            let [column, row] = thickness.placement().place(cell);
+            let (path, metres) = (debris.display(), thickness.values()[cell]);
+            return Err(format!(
+                "{path}: {metres} m of debris in column {column}, row {row} from the north; it must be at least 0"
+            )
+            .into());
         }
         Ok(Self { ground, debris: thickness, roughness: 0.0, files: vec![dem.to_owned(), debris.to_owned()] })
     }

@@ -27,10 +27,12 @@ impl Wildfire {
     fn grid(&self) -> Result<Option<AsciiGrid>, Failure> {
         let Some(path) = &self.fuel else { return Ok(None) };
         let grid = AsciiGrid::read(path)?;
-        match grid.values().iter().find(|fuel| **fuel < 0.0 || **fuel > 1.0) {
-            Some(fuel) => Err(format!("{}: fuel of {fuel}; it must be from 0 to 1", path.display()).into()),
-            None => Ok(Some(grid)),
-        }
+        let Some(cell) = grid.values().iter().position(|fuel| *fuel < 0.0 || *fuel > 1.0) else {
+            return Ok(Some(grid));
+        };
+        let ([column, row], fuel) = (grid.placement().place(cell), grid.values()[cell]);
+        let place = format!("column {column}, row {row} from the north");
+        Err(format!("{}: fuel of {fuel} in {place}; it must be from 0 to 1", path.display()).into())
     }
 }
 

@@ -87,5 +87,8 @@ fn maps_of_the_gallery() {
     assert!(place.fail(2, lava, "--rate=-1").contains("it must be a finite number at least 0"));
     place.succeed(wildfire, "--fuel fuel.asc --steps 1");
     let said = place.fail(2, wildfire, "--fuel much.asc");
-    assert!(said.contains("much.asc: fuel of 1.5; it must be from 0 to 1"), "{said}");
+    assert!(
+        said.contains("much.asc: fuel of 1.5 in column 3, row 2 from the north; it must be from 0 to 1"),
+        "{said}"
+    );
 }

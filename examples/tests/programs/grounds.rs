@@ -262,6 +262,8 @@ fn numbers_that_are_no_altitudes_are_never_ground() {
         place.succeed(LANDSLIDE, "--dem g.asc --debris d.asc --steps 20");
         let rows = rows(&place, "out/landslide/final_altitude.asc");
         assert_eq!(rows[2], "500 -9999 500 500 500", "{text}");
+        // Were it an altitude, another number would stand for no value.
+        assert!(place.read("out/landslide/final_altitude.asc").contains("NODATA_value -9999\n"), "{text}");
         let series = Table::read(&place.path("out/landslide/observables.csv"));
         assert!(series.last("largest_thickness") <= 5.0);
         assert_eq!(series.last("volume"), 500.0);

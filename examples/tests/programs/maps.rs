@@ -105,7 +105,11 @@ fn grids_that_do_not_fit_are_refused() {
             "--dem small.asc --debris slope.asc",
             "slope.asc does not lie on small.asc: it has 2 x 3 cells, not 2 x 2",
         ),
-        (LANDSLIDE, "--dem small.asc --debris hole.asc", "hole.asc has debris of less than 0 m"),
+        (
+            LANDSLIDE,
+            "--dem small.asc --debris hole.asc",
+            "hole.asc: -3 m of debris in column 1, row 2 from the north",
+        ),
         (LANDSLIDE, "--debris hole.asc", "--dem"),
     ] {
         let said = place.fail(2, program, options);

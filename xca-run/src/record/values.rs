@@ -220,6 +220,19 @@ mod tests {
     }
 
     #[test]
+    fn cells_without_ground_lose_their_values() {
+        let bytes: Vec<u8> = [3.0_f32, -4.0, 0.5, 0.0].iter().flat_map(|x| x.to_ne_bytes()).collect();
+        let plane = Plane::all(VECTOR, &bytes).without(Some(&[true, false]));
+        assert!(plane.value(0).iter().all(|number| number.is_nan()));
+        assert_eq!((plane.value(1), plane.kept(0, Some(&[true, false]))), (vec![0.5, 0.0], vec![0.5]));
+        assert_eq!(Plane::all(VECTOR, &bytes).kept(1, None), [-4.0, 0.0]);
+        let stored = StoredType { scalar: StoredScalar::U8, lanes: 1, length: 1 };
+        assert_eq!(Plane::all(stored, &[7, 8]).without(Some(&[false, true])).component(0), [7.0, 0.0]);
+        let points = Plane::points(vec![[1.0, 2.0, 3.0]]).shifted([10.0, -2.0]);
+        assert_eq!(points.to_points(), [[11.0, 0.0, 3.0]]);
+    }
+
+    #[test]
     fn an_array_of_vectors_is_as_long_as_their_sum() {
         let stored = StoredType { scalar: StoredScalar::I32, lanes: 2, length: 3 };
         let bytes: Vec<u8> = [1, 5, 1, -2, 1, 1].iter().flat_map(|x: &i32| x.to_ne_bytes()).collect();

@@ -208,7 +208,7 @@ pub(super) fn cell(checkpoint: &Checkpoint, cell: [usize; 3]) -> Result<Vec<Plac
     let extents = extents(checkpoint);
     let linear = linear(extents, cell)?;
     let mask = checkpoint.description.mask(extents.iter().product());
-    let has_ground = !mask.is_some_and(|mask| mask.get(linear) == Some(&true));
+    let has_ground = mask.is_none_or(|mask| mask.get(linear) != Some(&true));
     let mut places = Vec::new();
     for (shape, state, fields) in groups(checkpoint) {
         let place = |label, index| Place {
