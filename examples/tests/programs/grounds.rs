@@ -25,8 +25,13 @@ fn island(place: &Workplace) {
 
 /// A square of zeros, with this text in the cell with that number from the north-west.
 fn matrix(side: usize, cell: usize, text: &str) -> String {
+    matrix_of("0", side, cell, text)
+}
+
+/// The same of another number.
+fn matrix_of(number: &str, side: usize, cell: usize, text: &str) -> String {
     let row = |y: usize| {
-        let cells: Vec<&str> = (0..side).map(|x| if y * side + x == cell { text } else { "0" }).collect();
+        let cells: Vec<&str> = (0..side).map(|x| if y * side + x == cell { text } else { number }).collect();
         format!("{}\n", cells.join(" "))
     };
     (0..side).map(row).collect()
@@ -249,8 +254,7 @@ fn numbers_that_are_no_altitudes_are_never_ground() {
     let header = header([5, 5], [0.0, 0.0]);
     place.write("d.asc", &format!("{header}{}", matrix(5, 12, "5")));
     let ground = |header: &str, text: &str| {
-        let matrix = matrix(5, 11, text).replace('0', "500").replace("\n500", "\n500");
-        place.write("g.asc", &format!("{header}{}", matrix.replace(&text.replace('0', "500"), text)));
+        place.write("g.asc", &format!("{header}{}", matrix_of("500", 5, 11, text)));
     };
     let without = header.replace("NODATA_value -9999\n", "");
     for (header, text) in [
@@ -336,7 +340,7 @@ fn what_reaches_the_edge_is_told() {
     assert!(found > 0.0 && found == wanted as f64, "{found} {wanted}");
     // Beside a cell without ground, in the middle of the map.
     let ground = place.read("g.asc");
-    let row = vec!["700"; 9].join(" ");
+    let row = ["700"; 9].join(" ");
     place.write("g.asc", &ground.replace(&row, "700 700 700 700 700 -9999 700 700 700"));
     assert_eq!(at_edge("--steps 0"), 1.0);
     let said = place.succeed(LAVA, "--dem g.asc --steps 5");
@@ -348,7 +352,7 @@ fn what_reaches_the_edge_is_told() {
 fn a_layer_can_take_no_value_as_a_number() {
     let place = Workplace::new();
     let header = header([5, 5], [0.0, 0.0]);
-    place.write("g.asc", &format!("{header}{}", matrix(5, 0, "-9999").replace('0', "500")));
+    place.write("g.asc", &format!("{header}{}", matrix_of("500", 5, 0, "-9999")));
     place.write("d.asc", &format!("{header}{}", matrix(5, 12, "5")));
     let zero = header.replace("-9999", "0");
     place.write("lava.asc", &format!("{zero}{}", matrix(5, 13, "7")));
@@ -402,7 +406,7 @@ fn a_resumed_run_leaves_no_earlier_end() {
     };
     for (program, run) in [(LANDSLIDE, "slide"), (LIFE, "life")] {
         let options = format!("--grids --steps 200000 --every 5 --checkpoint-every 5 --out {run}");
-        let frames = || fs::read_dir(place.path(run).join("frames")).map_or(0, |entries| entries.count());
+        let frames = || fs::read_dir(place.path(run).join("frames")).map_or(0, Iterator::count);
         let wait = |count: usize| {
             let begin = Instant::now();
             while frames() < count {
