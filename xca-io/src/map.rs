@@ -187,7 +187,7 @@ mod tests {
     fn places_are_the_same_within_a_millionth_of_a_cell() {
         let same = |other: Placement| assert_eq!(PLACE.difference(&other), None, "{other:?}");
         same(PLACE);
-        same(Placement { corner: [2600.000_009, 5099.999_991], ..PLACE });
+        same(Placement { corner: [2_600.000_009, 5_099.999_991], ..PLACE });
         same(Placement { side: 10.000_009, ..PLACE });
         // A third of a degree of a minute, with other digits.
         let fine = Placement { side: 1.0 / 3600.0, corner: [15.0, 37.5], ..PLACE };
@@ -198,7 +198,7 @@ mod tests {
         differs(Placement { extents: [3, 4], ..PLACE }, "it has 4 x 3 cells, not 3 x 4");
         differs(Placement { side: 10.000_02, ..PLACE }, "its cells have a side of 10, not 10.00002");
         let corner = "its south-west corner is 2600, 5100, not 2600, 5100.00002";
-        differs(Placement { corner: [2600.0, 5100.000_02], ..PLACE }, corner);
+        differs(Placement { corner: [2600.0, 5_100.000_02], ..PLACE }, corner);
         differs(
             Placement { corner: [f64::NAN, 5100.0], ..PLACE },
             "its south-west corner is 2600, 5100, not NaN, 5100",

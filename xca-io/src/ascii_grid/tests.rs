@@ -161,7 +161,7 @@ fn numbers_that_stand_for_no_value_are_told_by_what_they_mean() {
 fn a_written_grid_has_no_value_that_stands_for_none() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.asc");
-    let values = vec![-9999.000_01, f64::NAN];
+    let values = vec![-9_999.000_01, f64::NAN];
     AsciiGrid::new([2, 1], 1.0, values.clone()).unwrap().write(&path).unwrap();
     let back = AsciiGrid::read(&path).unwrap();
     assert_eq!((back.value([0, 0]), back.value([1, 0])), (Some(values[0]), None));
