@@ -42,6 +42,8 @@ fn a_substate_begins_with_the_values_that_it_is_given_and_the_others_with_the_mo
     model.set_initial("Ground.altitude", altitudes.clone())?;
     model.set_initial("kind", vec![0.0, 255.0, 1.0, 2.0, 3.0, 4.0])?;
     model.set_initial("debris", vec![-2_147_483_648.0, 2_147_483_647.0, 0.0, -1.0, 1.0, 2.0])?;
+    // A cell without a value keeps the model's own.
+    model.set_initial("wind.y", [None, Some(2.0), None, Some(3.0), None, None])?;
     model.set_initial("drops", vec![4_294_967_295.0, 0.0, 1.0, 2.0, 3.0, 4.0])?;
     for precision in PRECISIONS {
         let stored = |value: f64| if precision == Precision::F32 { f64::from(value as f32) } else { value };
@@ -56,7 +58,8 @@ fn a_substate_begins_with_the_values_that_it_is_given_and_the_others_with_the_mo
             assert_eq!(state.read(Ground::DEBRIS)?, [i32::MIN, i32::MAX, 0, -1, 1, 2]);
             assert_eq!(state.read(Water::DROPS)?, [u32::MAX, 0, 1, 2, 3, 4]);
             assert_eq!(state.read(Water::ALTITUDE)?, [7.0; 6]);
-            assert_eq!(state.read(Ground::WIND)?, [Vector2::splat(7.0); 6]);
+            let wind = [7.0, 2.0, 7.0, 3.0, 7.0, 7.0].map(|y| Vector2::new(7.0, y));
+            assert_eq!(state.read(Ground::WIND)?, wind);
         }
     }
     Ok(())

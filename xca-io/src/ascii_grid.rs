@@ -11,16 +11,15 @@ mod read;
 pub use error::ReadGridError;
 
 use super::atomic::{WriteError, write_atomically};
+use super::map::{Map, Placement};
 use std::io::Write;
 use std::path::Path;
 
 /// A layer of square cells, each with a number or without one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AsciiGrid {
-    extents: [usize; 2],
-    corner: [f64; 2],
-    side: f64,
-    /// x fastest, from the south; not a number where there is none.
+    placement: Placement,
+    /// x fastest, from the south; NaN where there is none.
     values: Vec<f64>,
 }
 
@@ -34,28 +33,33 @@ impl AsciiGrid {
     pub fn new(extents: [usize; 2], side: f64, values: Vec<f64>) -> Option<Self> {
         let cells = extents[0].checked_mul(extents[1])?;
         let fits = cells > 0 && values.len() == cells && side.is_finite() && side > 0.0;
-        fits.then_some(Self { extents, corner: [0.0; 2], side, values })
+        fits.then_some(Self { placement: Placement { extents, corner: [0.0; 2], side }, values })
     }
 
     /// The same grid with its south-west corner elsewhere.
     #[must_use]
     pub fn with_corner(self, corner: [f64; 2]) -> Self {
-        Self { corner, ..self }
+        Self { placement: Placement { corner, ..self.placement }, ..self }
+    }
+
+    /// Where its cells lie.
+    pub fn placement(&self) -> Placement {
+        self.placement
     }
 
     /// The number of columns and rows.
     pub fn extents(&self) -> [usize; 2] {
-        self.extents
+        self.placement.extents
     }
 
     /// Where the south-west corner of the south-west cell lies, in the units of the map.
     pub fn corner(&self) -> [f64; 2] {
-        self.corner
+        self.placement.corner
     }
 
     /// The side of a cell, in the units of the map.
     pub fn side(&self) -> f64 {
-        self.side
+        self.placement.side
     }
 
     /// The values, x fastest, from the south; not a number where there is none.
@@ -65,19 +69,59 @@ impl AsciiGrid {
 
     /// The value of a cell, if it has one and lies in the grid.
     pub fn value(&self, [x, y]: [usize; 2]) -> Option<f64> {
-        let inside = x < self.extents[0] && y < self.extents[1];
-        inside.then(|| self.values[y * self.extents[0] + x]).filter(|value| !value.is_nan())
+        let [columns, rows] = self.placement.extents;
+        let inside = x < columns && y < rows;
+        inside.then(|| self.values[y * columns + x]).filter(|value| !value.is_nan())
+    }
+
+    /// The same grid with this value in the cells that have none.
+    #[must_use]
+    pub fn filled(mut self, value: f64) -> Self {
+        self.values.iter_mut().filter(|own| own.is_nan()).for_each(|own| *own = value);
+        self
     }
 
     /// Reads a grid.
     ///
-    /// Keys may stand in any order and in any case, values in lines of any length. `xllcenter` and `yllcenter` serve in place of `xllcorner` and
-    /// `yllcorner`.
+    /// Keys may stand in any order and in any case, on lines of their own or on one; values in lines of any length.
+    /// `xllcenter` and `yllcenter` serve in place of `xllcorner` and `yllcorner`, and `dx` and `dy` that are equal in place of
+    /// `cellsize`. Without a `NODATA_value`, -9999 stands for no value, as the format says. A value that is the same in `f32`
+    /// stands for it too, as does any beyond 1e38 where it is beyond 1e38: programs write such numbers with few digits.
     ///
     /// # Errors
     /// [`ReadGridError`] with the path, and with the line where a line is to blame.
     pub fn read(path: &Path) -> Result<Self, ReadGridError> {
-        read::read(path)
+        read::read(path, None)
+    }
+
+    /// As [`AsciiGrid::read`], of a file that may lack the header: then it must have a line for each row of these cells, the
+    /// northernmost first, with a value for each column.
+    ///
+    /// # Errors
+    /// [`ReadGridError`], as of [`AsciiGrid::read`].
+    pub fn read_on(path: &Path, placement: Placement) -> Result<Self, ReadGridError> {
+        read::read(path, Some(placement))
+    }
+
+    /// As [`AsciiGrid::read`], of altitudes in m: those beyond [`HIGHEST`], which no ground has, and grids without any
+    /// altitude are refused.
+    ///
+    /// # Errors
+    /// [`ReadGridError`], as of [`AsciiGrid::read`]; [`ReadGridError::Height`] and [`ReadGridError::Empty`].
+    pub fn read_heights(path: &Path) -> Result<Self, ReadGridError> {
+        let grid = Self::read(path)?;
+        let wrong = grid.values.iter().position(|height| height.abs() > HIGHEST);
+        match wrong {
+            Some(cell) => Err(ReadGridError::Height {
+                path: path.to_owned(),
+                place: grid.placement.place(cell),
+                height: grid.values[cell],
+            }),
+            None if grid.values.iter().all(|height| height.is_nan()) => {
+                Err(ReadGridError::Empty { path: path.to_owned() })
+            }
+            None => Ok(grid),
+        }
     }
 
     /// Writes the grid, each number with as many digits as it takes to read it back to the last bit. The file appears complete or not at all.
@@ -86,7 +130,7 @@ impl AsciiGrid {
     /// [`WriteError`] with the path.
     pub fn write(&self, path: &Path) -> Result<(), WriteError> {
         let nothing = self.nothing();
-        let Self { extents: [columns, rows], corner: [x, y], side, values } = self;
+        let Self { placement: Placement { extents: [columns, rows], corner: [x, y], side }, values } = self;
         write_atomically(path, |file| {
             writeln!(file, "ncols {columns}\nnrows {rows}\nxllcorner {x}\nyllcorner {y}")?;
             writeln!(file, "cellsize {side}\nNODATA_value {nothing}")?;
@@ -106,11 +150,33 @@ impl AsciiGrid {
     /// A number that no cell has: -9999, or more nines.
     fn nothing(&self) -> f64 {
         let mut nothing = -9999.0;
-        while self.values.contains(&nothing) {
+        while self.values.iter().any(|value| stands_for_none(*value, nothing)) {
             nothing = 10.0 * nothing - 9.0;
         }
         nothing
     }
+}
+
+impl From<&AsciiGrid> for Map {
+    /// The place of the grid, with ground where it has a value.
+    fn from(grid: &AsciiGrid) -> Self {
+        let missing = grid.values.iter().map(|value| value.is_nan()).collect();
+        let map = Self::new(grid.placement);
+        map.clone().without(missing).unwrap_or(map)
+    }
+}
+
+/// The largest altitude, and depth, that the ground can have, in m.
+pub const HIGHEST: f64 = 1e5;
+
+/// Beyond this, numbers that stand for none are written with few digits.
+const HUGE: f64 = 1e38;
+
+/// Whether a number of a file is the one that stands for none, however many digits either is written with.
+fn stands_for_none(number: f64, nothing: f64) -> bool {
+    let is_same_f32 = number as f32 == nothing as f32 && number != 0.0 && nothing as f32 != 0.0;
+    let are_huge = number.abs() >= HUGE && nothing.abs() >= HUGE && number.signum() == nothing.signum();
+    number == nothing || is_same_f32 || are_huge
 }
 
 #[cfg(test)]

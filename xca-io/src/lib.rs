@@ -9,6 +9,7 @@
 //! | [`particle_csv`] | `.csv` | particles, exact to the last bit; can be read back as an initial state |
 //! | [`table_csv`] | `.csv` | time series |
 //! | [`ascii_grid`] | `.asc` | a layer of cells for geographic information systems, also to begin from |
+//! | [`map`] | | where a layer of cells lies, and which of its cells have no ground |
 //! | [`vtk`] | `.vtp`, `.vti`, `.pvd` | particles and dense substates in ParaView |
 //! | [`picture`] | `.png` | pictures, made without a display |
 //! | [`animation`] | `.png`, `.gif` | the same in motion |
@@ -20,6 +21,7 @@
 pub mod animation;
 pub mod ascii_grid;
 pub mod atomic;
+pub mod map;
 pub mod numbers;
 pub mod particle_csv;
 pub mod picture;

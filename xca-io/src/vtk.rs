@@ -24,7 +24,7 @@ use std::path::PathBuf;
 use super::atomic::WriteError;
 
 pub use collection::Collection;
-pub use dense::{Grid, write_dense};
+pub use dense::{GHOST_TYPE, Grid, ghost_types, write_dense};
 pub use particles::write_particles;
 pub use read::{DenseFile, NumberType, ParticleFile, ReadArray, ReadVtkError, read_dense, read_particles};
 pub use values::{DataArray, Values};

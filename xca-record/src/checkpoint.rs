@@ -7,7 +7,9 @@ mod file;
 mod folder;
 mod planes;
 
-pub use description::{Description, Difference, GroupShape, Origin, Parameter, other_model, other_program};
+pub use description::{
+    Description, Difference, GroupShape, Kind, Origin, Parameter, other_model, other_program,
+};
 pub use file::CheckpointError;
 pub use folder::{CHECKPOINTS, CheckpointFolder};
 

@@ -82,7 +82,8 @@ impl Recorder {
     /// Checks what the set-up wants to be shown.
     pub fn new(mut set_up: SetUp) -> Result<Self, ViewError> {
         let views = complete(&set_up.model, std::mem::take(&mut set_up.views))?;
-        let shown = views.into_iter().map(|(group, view)| Shown::new(group, view)).collect();
+        let shown = |(group, view)| Shown::new(group, view, set_up.map.clone());
+        let shown = views.into_iter().map(shown).collect();
         Ok(Self {
             set_up,
             shown,
@@ -192,7 +193,10 @@ impl Recorder {
             Some(observe) => {
                 observe(&simulation.state()).map_err(|source| RecordError::Observe { step, source })
             }
-            None => Ok(measure::measure(simulation.model(), simulation.options().precision, snapshot)),
+            None => {
+                let (model, precision) = (simulation.model(), simulation.options().precision);
+                Ok(measure::measure(model, precision, snapshot, self.set_up.missing()))
+            }
         }
     }
 
@@ -231,7 +235,7 @@ impl Recorder {
         for shown in &mut self.shown {
             let path = shown.frame(&folder.frames, snapshot.step);
             if let Some(items) = shown.items(model, precision, snapshot) {
-                items.write_frame(&path, time)?;
+                items.write_frame(&path, time, shown.ground().corner)?;
             } else if let Some(cells) = shown.cells(model, precision, snapshot) {
                 cells.write_frame(&path, time)?;
             }

@@ -18,6 +18,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use xca_core::model::GroupKind;
 use xca_core::{Boundary, Engine, Faces, Model, ParameterSet, ParameterValue, Precision, ValueType};
 use xca_io::atomic::{WriteError, write_atomically};
+use xca_io::map::Placement;
 
 /// The program that runs a model.
 #[derive(Debug, Clone, Default)]
@@ -44,6 +45,9 @@ pub struct Report {
     #[serde(flatten)]
     pub notes: Map<String, Value>,
     pub model: ModelReport,
+    /// Where the cells lie, of a model on a map.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub map: Option<MapReport>,
     pub parameters: Map<String, Value>,
     /// Of the parameters and substates that have one.
     pub units: Map<String, Value>,
@@ -89,7 +93,7 @@ pub struct Progress {
 
 impl Report {
     /// That of a run on this engine, before its first step, which has made no files yet.
-    pub(crate) fn new(identity: &Identity, set_up: &SetUp, engine: &dyn Engine, origin: &Origin) -> Self {
+    pub fn new(identity: &Identity, set_up: &SetUp, engine: &dyn Engine, origin: &Origin) -> Self {
         let Identity { program, version, command_line, options } = identity.clone();
         Self {
             xca: origin.xca.clone(),
@@ -99,6 +103,7 @@ impl Report {
             options,
             notes: set_up.notes.clone(),
             model: of_model(&set_up.model),
+            map: of_map(set_up),
             parameters: of_parameters(set_up.model.parameters()),
             units: of_units(&set_up.model),
             engine: engine.name().to_owned(),
@@ -166,6 +171,23 @@ pub struct ModelReport {
     neighbourhood: String,
     groups: Vec<GroupReport>,
     processes: Vec<&'static str>,
+}
+
+/// Where the cells of a model lie.
+#[derive(Debug, Clone, Serialize)]
+pub struct MapReport {
+    /// The south-west corner.
+    corner: [f64; 2],
+    cell_side: f64,
+    cells_without_ground: usize,
+}
+
+/// The place of a model on the map.
+pub fn of_map(set_up: &SetUp) -> Option<MapReport> {
+    let missing = set_up.missing().unwrap_or_default();
+    let Placement { corner, side, .. } = set_up.placement();
+    let cells_without_ground = missing.iter().filter(|is_missing| **is_missing).count();
+    set_up.map.as_ref().map(|_| MapReport { corner, cell_side: side, cells_without_ground })
 }
 
 /// Substates that belong together.

@@ -6,6 +6,7 @@ use serde::Serialize;
 use std::fmt;
 use std::path::PathBuf;
 use xca_core::{Model, State, Substates};
+use xca_io::map::{Map, Placement, PlacementDifference};
 
 type Observe = dyn Fn(&State<'_>) -> Result<Vec<Observable>, Failure> + Send + Sync;
 
@@ -28,8 +29,8 @@ pub struct SetUp {
     pub(crate) views: Vec<AnyView>,
     /// The files that the set-up has read.
     pub inputs: Vec<PathBuf>,
-    /// Where the south-west corner of the space lies on the map.
-    pub corner: Option<[f64; 2]>,
+    /// Where the space lies, and which of its cells have no ground.
+    pub map: Option<Map>,
     /// Whether the final state is written as ASCII grids.
     pub grids: bool,
     /// What `run.json` tells beside options and parameters.
@@ -47,7 +48,7 @@ impl SetUp {
             observe: None,
             views: Vec::new(),
             inputs: Vec::new(),
-            corner: None,
+            map: None,
             grids: false,
             notes: serde_json::Map::new(),
         }
@@ -92,13 +93,15 @@ impl SetUp {
         self
     }
 
-    /// Where the south-west corner of the space lies on the map, in metres.
+    /// Where the space of a model of one layer lies on a map, and which of its cells have no ground: the place of a grid and
+    /// its cells without a value (`&grid`), or a [`Map`].
     ///
-    /// A model of one layer whose corner is known leaves its final state as ESRI ASCII grids too, one for each substate of cells
-    /// (`final_altitude.asc`); any other model of one layer does so with `run --grids`, and its corner is at 0, 0.
+    /// Frames lie at this place. Files, pictures and default observables leave out the cells without ground. The final state
+    /// is written as ESRI ASCII grids too, one for each substate of cells (`final_altitude.asc`); any other model of one layer
+    /// does so with `run --grids`, and its corner is at 0, 0.
     #[must_use]
-    pub fn corner(mut self, metres: [f64; 2]) -> Self {
-        self.corner = Some(metres);
+    pub fn map(mut self, map: impl Into<Map>) -> Self {
+        self.map = Some(map.into());
         self.grids = true;
         self
     }
@@ -121,7 +124,7 @@ impl SetUp {
 }
 
 /// A set-up that makes no sense.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SetUpError {
     /// A time step that is not a positive number.
@@ -130,18 +133,55 @@ pub enum SetUpError {
         /// The time step, in s.
         seconds: f64,
     },
+    /// A map with other cells than the model.
+    #[error("the map does not fit the model: {0}")]
+    Map(PlacementDifference),
+    /// A map under several layers.
+    #[error("a map is for models of one layer, and `{model}` has {layers}")]
+    Layers {
+        /// The model.
+        model: String,
+        /// Its layers.
+        layers: usize,
+    },
 }
 
 impl SetUp {
     /// Checks what no method has checked yet.
     ///
     /// # Errors
-    /// Where the time step is not a positive number.
+    /// Where the time step is not a positive number, or the map does not fit the model.
     pub fn check(&self) -> Result<(), SetUpError> {
-        match self.time_step {
-            Some(seconds) if !(seconds.is_finite() && seconds > 0.0) => Err(SetUpError::TimeStep { seconds }),
-            _ => Ok(()),
+        if let Some(seconds) = self.time_step.filter(|seconds| !(seconds.is_finite() && *seconds > 0.0)) {
+            return Err(SetUpError::TimeStep { seconds });
         }
+        let Some(map) = &self.map else { return Ok(()) };
+        let layers = self.model.geometry().extents()[2];
+        if layers > 1 {
+            return Err(SetUpError::Layers { model: self.model.name().to_owned(), layers });
+        }
+        let placement = map.placement();
+        let cells = Placement { corner: placement.corner, ..self.unplaced() };
+        placement.difference(&cells).map_or(Ok(()), |difference| Err(SetUpError::Map(difference)))
+    }
+
+    /// The place of the model's cells where no map says one.
+    fn unplaced(&self) -> Placement {
+        let geometry = self.model.geometry();
+        let [columns, rows, _] = geometry.extents();
+        Placement { extents: [columns, rows], corner: [0.0; 2], side: geometry.side() }
+    }
+
+    /// The place of the model's cells on the map.
+    pub fn placement(&self) -> Placement {
+        // The side of the model: that of the map may have other digits.
+        let cells = self.unplaced();
+        self.map.as_ref().map_or(cells, |map| Placement { corner: map.placement().corner, ..cells })
+    }
+
+    /// The cells without ground, if there are any.
+    pub(crate) fn missing(&self) -> Option<&[bool]> {
+        self.map.as_ref().and_then(Map::missing)
     }
 }
 
@@ -153,5 +193,34 @@ impl fmt::Debug for SetUp {
             .field("time_step", &self.time_step)
             .field("views", &self.views)
             .finish_non_exhaustive()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use xca_core::prelude::*;
+
+    #[derive(Substates, Clone)]
+    struct Ground {
+        altitude: Real,
+    }
+
+    fn set_up(extents: [usize; 3], placement: Placement) -> Result<(), String> {
+        let model = Model::builder("ground").extents(extents).cell_side(10.0).substates::<Ground>();
+        let model = model.fill(|_| Ground { altitude: 1.0 }).build().unwrap();
+        SetUp::new(model, 1).map(Map::new(placement)).check().map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_map_must_have_the_cells_of_the_model() {
+        let place = Placement { extents: [4, 3], corner: [2600.0, 5100.0], side: 10.0 };
+        assert_eq!(set_up([4, 3, 1], place), Ok(()));
+        let said = set_up([3, 4, 1], place).unwrap_err();
+        assert_eq!(said, "the map does not fit the model: it has 4 x 3 cells, not 3 x 4");
+        let said = set_up([4, 3, 1], Placement { side: 20.0, ..place }).unwrap_err();
+        assert_eq!(said, "the map does not fit the model: its cells have a side of 20, not 10");
+        let said = set_up([4, 3, 2], place).unwrap_err();
+        assert_eq!(said, "a map is for models of one layer, and `ground` has 2");
     }
 }

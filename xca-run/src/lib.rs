@@ -43,7 +43,7 @@
 //! | `frames/life_00000050.vti`, … | all substates (`.vtp` for the items of a population) |
 //! | `initial.png`, `final.png` | pictures of the first state and the last |
 //! | `final.csv` | of a population, all items by label, exact; [`read_items`] reads them back |
-//! | `final_altitude.asc`, … | of a model of one layer, if [`SetUp::corner`] or `--grids` says so, each component of each substate of cells for geographic information systems |
+//! | `final_altitude.asc`, … | of a model of one layer, if [`SetUp::map`] or `--grids` says so, each component of each substate of cells for geographic information systems |
 //! | `run.json` | everything about the run: options, parameters, engine, seed, times, why it ended |
 //!
 //! Every program has the same command line: `--engine`, `--threads`, `--precision`, `--steps`, `--seed`, `--set`, `--config`, `--out`, `--every`,
@@ -95,6 +95,7 @@ pub mod prelude {
     pub use std::process::ExitCode;
     pub use xca_core::prelude::*;
     pub use xca_io::ascii_grid::AsciiGrid;
+    pub use xca_io::map::{Map, Placement};
     pub use xca_io::picture::ColourMap;
     pub use xca_record::{CellView, Failure, ItemView, Observable, SetUp};
 }

@@ -23,11 +23,16 @@ fn main() -> ExitCode {
     xca_run::main_of!("debris", "A debris flow that erodes its bed", |_given| {
         let view = CellView::named("debris").draw(Slope::THICKNESS, "thickness of the debris (m)");
         let view = view.relief(Slope::ALTITUDE, 0.01);
-        let observe = |state: &State<'_>| {
+        let map = Map::new(Placement { extents: EXTENTS, corner: [0.0; 2], side: SIDE });
+        let edge = map.edge();
+        let observe = move |state: &State<'_>| {
+            let thickness = state.read(Slope::THICKNESS)?;
+            let at_edge = edge.iter().filter(|cell| thickness[**cell] > 0.0).count();
             let (debris, soil) = (state.sum(Slope::THICKNESS)?, state.sum(Slope::SOIL)?);
             Ok(vec![
                 Observable::new("thickness_in_all", "m", debris),
                 Observable::new("debris_and_soil", "m", debris + soil).conserved(),
+                Observable::new("debris_at_edge", "cells", at_edge as f64),
             ])
         };
         let model = model(EXTENTS, SIDE, Debris::default(), gully)?;

@@ -4,7 +4,7 @@
 //! adherence) can move. The minimisation of differences shares it with the four neighbours. A step moves a
 //! part of that (the rate). The volume of debris is conserved.
 use std::path::{Path, PathBuf};
-use xca_examples::models::flows::shares;
+use xca_examples::models::flows::{WALL, shares};
 use xca_run::prelude::*;
 
 /// The sides of a cell.
@@ -63,15 +63,12 @@ fn settle(cell: &mut Cell<Slope>) {
     cell.thickness += come - gone;
 }
 
-/// The altitude of what no debris climbs: beyond the map, and where it has no value.
-const WALL: f64 = 1e5;
-
 #[derive(Args)]
 struct Landslide {
     /// The ground: an ESRI ASCII grid of altitudes, in m; a valley is made up unless it is given
     #[arg(long, value_name = "FILE")]
     dem: Option<PathBuf>,
-    /// The debris: an ESRI ASCII grid of its thickness, in m, of the same cells as the ground
+    /// The debris: an ESRI ASCII grid of its thickness, in m, of the same cells as the ground; no value is 0 m
     #[arg(long, value_name = "FILE", requires = "dem")]
     debris: Option<PathBuf>,
     /// Stop when no cell sends more than this to a neighbour in a step, in m; never where it is below 0
@@ -80,7 +77,7 @@ struct Landslide {
 }
 
 /// Ground and debris, with their place on the map.
-struct Map {
+struct Terrain {
     ground: AsciiGrid,
     debris: AsciiGrid,
     /// How much the ground rises at random in each cell at most, in m.
@@ -88,7 +85,7 @@ struct Map {
     files: Vec<PathBuf>,
 }
 
-impl Map {
+impl Terrain {
     /// A valley that falls to the south, has bends, and ends at another slope; and a slab of debris at its
     /// head.
     fn made_up() -> Option<Self> {
@@ -116,13 +113,16 @@ impl Map {
     }
 
     fn read(dem: &Path, debris: &Path) -> Result<Self, Failure> {
-        let [ground, thickness] = [AsciiGrid::read(dem)?, AsciiGrid::read(debris)?];
-        let same = (ground.extents(), ground.side()) == (thickness.extents(), thickness.side());
-        if !same {
-            return Err(format!("{} and {} have different cells", dem.display(), debris.display()).into());
-        }
-        if thickness.values().iter().any(|thickness| *thickness < 0.0) {
-            return Err(format!("{} has debris of less than 0 m", debris.display()).into());
+        let [ground, thickness] = [AsciiGrid::read_heights(dem)?, AsciiGrid::read(debris)?];
+        let map = Map::from(&ground);
+        map.check(debris, thickness.placement(), thickness.values(), &dem.display().to_string())?;
+        if let Some(cell) = thickness.values().iter().position(|thickness| *thickness < 0.0) {
+            let [column, row] = thickness.placement().place(cell);
+            let (path, metres) = (debris.display(), thickness.values()[cell]);
+            return Err(format!(
+                "{path}: {metres} m of debris in column {column}, row {row} from the north; it must be at least 0"
+            )
+            .into());
         }
         Ok(Self { ground, debris: thickness, roughness: 0.0, files: vec![dem.to_owned(), debris.to_owned()] })
     }
@@ -146,13 +146,14 @@ impl Program for Landslide {
         "--set adherence=0.5 --set rate=0.75\n--dem ground.asc --debris debris.asc";
 
     fn set_up(&self, _given: Given) -> Result<SetUp, Failure> {
-        let map = match (&self.dem, &self.debris) {
-            (Some(dem), Some(debris)) => Map::read(dem, debris)?,
+        let terrain = match (&self.dem, &self.debris) {
+            (Some(dem), Some(debris)) => Terrain::read(dem, debris)?,
             (Some(_), None) => return Err("a map needs its debris too: add --debris FILE".into()),
-            _ => Map::made_up().ok_or("a valley has cells")?,
+            _ => Terrain::made_up().ok_or("a valley has cells")?,
         };
-        let ([columns, rows], side, until) = (map.ground.extents(), map.ground.side(), self.until);
-        let (corner, files) = (map.ground.corner(), map.files.clone());
+        let ([columns, rows], side, until) = (terrain.ground.extents(), terrain.ground.side(), self.until);
+        let (map, files) = (Map::from(&terrain.ground), terrain.files.clone());
+        let edge = map.edge();
         let outside = Slope { altitude: WALL, thickness: 0.0, outflow: [0.0; SIDES] };
         let debris = Debris { adherence: 1.0, rate: 0.5 };
         let model = Model::builder("landslide")
@@ -163,7 +164,7 @@ impl Program for Landslide {
             .substates_with_outside(outside)
             .parameters(debris)
             .process((flow, settle))
-            .fill(move |site| map.state(site))
+            .fill(move |site| terrain.state(site))
             .stop_when(Schedule::Every(20), move |state| {
                 let largest = state.maximum(Slope::OUTFLOW)?.unwrap_or_default();
                 let rests = largest.iter().all(|metres| *metres <= until);
@@ -177,16 +178,18 @@ impl Program for Landslide {
                 thickness.iter().position(|metres| *metres > adherence).map_or(0, |cell| cell / columns);
             let covered = state.count_where(|slope: &Slope| slope.thickness > adherence)?;
             let area = covered as f64 * side * side;
+            let at_edge = edge.iter().filter(|cell| thickness[**cell] > 0.0).count();
             Ok(vec![
                 Observable::new("volume", "m^3", state.sum(Slope::THICKNESS)? * side * side).conserved(),
                 Observable::new("covered_area", "m^2", area),
                 Observable::new("front_from_south", "m", front as f64 * side),
                 Observable::new("largest_thickness", "m", state.maximum(Slope::THICKNESS)?.unwrap_or(0.0)),
+                Observable::new("debris_at_edge", "cells", at_edge as f64),
             ])
         };
         let view = CellView::named("landslide").draw(Slope::THICKNESS, "thickness of the debris (m)");
         let view = view.relief(Slope::ALTITUDE, 0.0);
-        let set_up = SetUp::new(model, 4000).observables(observe).cells(view).corner(corner);
+        let set_up = SetUp::new(model, 4000).observables(observe).cells(view).map(map);
         Ok(files.into_iter().fold(set_up, SetUp::input))
     }
 }

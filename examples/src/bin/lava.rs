@@ -1,7 +1,8 @@
 //! Lava out of the vents of a volcano, made up or over a map.
 use std::path::PathBuf;
 use std::str::FromStr;
-use xca_examples::models::lava::{Lava, Rate, Vent, Volcano, WALL, model};
+use xca_examples::models::flows::WALL;
+use xca_examples::models::lava::{Lava, Rate, Vent, Volcano, model};
 use xca_run::prelude::*;
 
 #[derive(Args)]
@@ -58,6 +59,11 @@ impl Eruption {
         if let Some(Place { x, y }) = self.vent.iter().find(|place| place.x >= columns || place.y >= rows) {
             return Err(format!("no cell {x},{y} for a vent: the ground has {columns} x {rows} cells").into());
         }
+        if let Some(Place { x, y }) =
+            self.vent.iter().find(|place| ground.value([place.x, place.y]).is_none())
+        {
+            return Err(format!("cell {x},{y} has no ground (NODATA) for a vent").into());
+        }
         let cells = ground.values().iter().enumerate().filter(|(_, altitude)| !altitude.is_nan());
         let highest = cells.max_by(|(_, one), (_, other)| one.total_cmp(other)).map_or(0, |(cell, _)| cell);
         let highest = [Place { x: highest % columns, y: highest / columns }];
@@ -79,10 +85,11 @@ impl Program for Eruption {
 
     fn set_up(&self, _given: Given) -> Result<SetUp, Failure> {
         let ground = match &self.dem {
-            Some(path) => AsciiGrid::read(path)?,
+            Some(path) => AsciiGrid::read_heights(path)?,
             None => volcano().ok_or("a volcano has cells")?,
         };
-        let (extents, side, corner) = (ground.extents(), ground.side(), ground.corner());
+        let (extents, side, map) = (ground.extents(), ground.side(), Map::from(&ground));
+        let edge = map.edge();
         let (lava, vents) = (Lava::default(), self.vents(&ground)?);
         let roughness = if self.dem.is_some() { 0.0 } else { 2.0 };
         let altitude = move |site: Site| {
@@ -94,17 +101,20 @@ impl Program for Eruption {
         let observe = move |state: &State<'_>| {
             let (fluid, solid) = (area * state.sum(Volcano::THICKNESS)?, area * state.sum(Volcano::SOLID)?);
             let covered = state.count_where(|cell: &Volcano| cell.thickness + cell.solid > 0.0)?;
+            let [fluids, solids] = [state.read(Volcano::THICKNESS)?, state.read(Volcano::SOLID)?];
+            let at_edge = edge.iter().filter(|cell| fluids[**cell] + solids[**cell] > 0.0).count();
             Ok(vec![
                 Observable::new("fluid", "m^3", fluid),
                 Observable::new("solid", "m^3", solid),
                 Observable::new("covered_area", "m^2", covered as f64 * area),
                 Observable::new("hottest", "K", state.maximum(Volcano::TEMPERATURE)?.unwrap_or(0.0)),
+                Observable::new("lava_at_edge", "cells", at_edge as f64),
             ])
         };
         let view = CellView::named("lava").draw(Volcano::TEMPERATURE, "temperature (K)");
         let view = view.range(1000.0, lava.vent_temperature).relief(Volcano::ALTITUDE, 0.0);
         let set_up = SetUp::new(model, 720).time_step(lava.clock).observables(observe).cells(view);
-        Ok(self.dem.iter().fold(set_up.corner(corner), SetUp::input))
+        Ok(self.dem.iter().fold(set_up.map(map), SetUp::input))
     }
 }
 

@@ -5,7 +5,8 @@ use xca_run::prelude::*;
 
 #[derive(Args)]
 struct Wildfire {
-    /// Fuel: an ESRI ASCII grid of numbers from 0 (bare) to 1, on flat ground; hills are made up without it
+    /// Fuel: an ESRI ASCII grid of numbers from 0 (bare) to 1, on flat ground; hills are made up without it.
+    /// The fire begins in the cell with a value that is nearest to a quarter of the map
     #[arg(long, value_name = "FILE")]
     fuel: Option<PathBuf>,
 }
@@ -26,11 +27,21 @@ impl Wildfire {
     fn grid(&self) -> Result<Option<AsciiGrid>, Failure> {
         let Some(path) = &self.fuel else { return Ok(None) };
         let grid = AsciiGrid::read(path)?;
-        match grid.values().iter().find(|fuel| **fuel < 0.0 || **fuel > 1.0) {
-            Some(fuel) => Err(format!("{}: fuel of {fuel}; it must be from 0 to 1", path.display()).into()),
-            None => Ok(Some(grid)),
-        }
+        let Some(cell) = grid.values().iter().position(|fuel| *fuel < 0.0 || *fuel > 1.0) else {
+            return Ok(Some(grid));
+        };
+        let ([column, row], fuel) = (grid.placement().place(cell), grid.values()[cell]);
+        let place = format!("column {column}, row {row} from the north");
+        Err(format!("{}: fuel of {fuel} in {place}; it must be from 0 to 1", path.display()).into())
     }
+}
+
+/// The cell with ground that is nearest to a quarter of the map.
+fn start(map: &Map) -> Option<[usize; 2]> {
+    let [columns, rows] = map.placement().extents;
+    let away = |[x, y]: [usize; 2]| x.abs_diff(columns / 4).pow(2) + y.abs_diff(rows / 4).pow(2);
+    let cells = (0..columns * rows).filter(|cell| map.has_ground(*cell));
+    cells.map(|cell| [cell % columns, cell / columns]).min_by_key(|cell| away(*cell))
 }
 
 impl Program for Wildfire {
@@ -40,10 +51,10 @@ impl Program for Wildfire {
 
     fn set_up(&self, _given: Given) -> Result<SetUp, Failure> {
         let grid = self.grid()?;
-        let (extents, side, corner) = grid
-            .as_ref()
-            .map_or(([240, 160], 20.0, [0.0; 2]), |grid| (grid.extents(), grid.side(), grid.corner()));
-        let fire = extents.map(|cells| cells / 4);
+        let made_up = || Map::new(Placement { extents: [240, 160], corner: [0.0; 2], side: 20.0 });
+        let map = grid.as_ref().map_or_else(made_up, Map::from);
+        let Placement { extents, side, .. } = map.placement();
+        let fire = start(&map).ok_or("no cell of the map has a value")?;
         let weather =
             Weather { spread: 0.32, wind: Vector2::new(3.0, 1.5), extinction: 0.4, ..Weather::default() };
         let model = model(extents, side, weather, move |site| {
@@ -66,7 +77,7 @@ impl Program for Wildfire {
         ];
         let view =
             CellView::named("wildfire").draw(Landscape::COVER, "cover").colours(Landscape::COVER, &colours);
-        let set_up = SetUp::new(model, 130).cells(view).corner(corner);
+        let set_up = SetUp::new(model, 130).cells(view).map(map);
         Ok(self.fuel.iter().fold(set_up, SetUp::input))
     }
 }

@@ -1,7 +1,7 @@
 //! A debris flow over hexagons that tears soil from its bed: SCIDDICA-S3hex (D'Ambrosio, Di Gregorio and
 //! Iovine, Natural Hazards and Earth System Sciences 3, 2003).
 
-use crate::models::flows::shares;
+use crate::models::flows::{WALL, shares};
 use xca_core::prelude::*;
 
 /// The sides of a hexagon.
@@ -156,7 +156,7 @@ pub fn model(
         .extents([extents[0], extents[1], 1])
         .cell_side(side)
         .neighbourhood(Neighbourhood::hexagonal(Hexagons::CornerUp))
-        .substates_with_outside(Slope { altitude: 1e5, ..Slope::bare() })
+        .substates_with_outside(Slope { altitude: WALL, ..Slope::bare() })
         .parameters(debris)
         .process((erode, flow, settle, lose))
         .fill(begin)

@@ -5,14 +5,11 @@
 //! what the yield strength holds back. Yield strength and flow rate follow from the temperature. Vents give
 //! lava at a rate that changes with time.
 
-use crate::models::flows::shares;
+use crate::models::flows::{WALL, shares};
 use xca_core::prelude::*;
 
 /// A side or a corner is shared with so many cells.
 const NEIGHBOURS: usize = 8;
-
-/// The altitude of what no lava climbs, in m.
-pub const WALL: f64 = 1e5;
 
 /// A volcano.
 #[derive(Substates, Clone, Copy, Debug)]

@@ -81,11 +81,14 @@ fn maps_of_the_gallery() {
     let grid = place.read("out/lava/final_thickness.asc");
     assert!(grid.starts_with("ncols 4\nnrows 3\nxllcorner 100\nyllcorner 200\ncellsize 10\n"), "{grid}");
     let rows: Vec<&str> = grid.lines().skip(6).collect();
-    assert_eq!(rows, ["0 0 0 0", "0 4.5 0 0", "0 0 0 0"]);
+    assert_eq!(rows, ["0 0 0 0", "0 4.5 0 0", "0 0 0 -9999"]);
     assert!(place.fail(2, lava, "--dem ground.asc --vent 4,0").contains("no cell 4,0 for a vent"));
     assert!(place.fail(2, lava, "--vent 4").contains("it must be a column and a row"));
     assert!(place.fail(2, lava, "--rate=-1").contains("it must be a finite number at least 0"));
     place.succeed(wildfire, "--fuel fuel.asc --steps 1");
     let said = place.fail(2, wildfire, "--fuel much.asc");
-    assert!(said.contains("much.asc: fuel of 1.5; it must be from 0 to 1"), "{said}");
+    assert!(
+        said.contains("much.asc: fuel of 1.5 in column 3, row 2 from the north; it must be from 0 to 1"),
+        "{said}"
+    );
 }

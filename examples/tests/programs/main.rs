@@ -8,6 +8,7 @@ mod compared;
 mod doors;
 mod files;
 mod gallery;
+mod grounds;
 mod interrupted;
 mod killed;
 mod limits;

@@ -78,11 +78,15 @@ fn grids_that_do_not_fit_are_refused() {
     place.write("slope.asc", &format!("ncols 2\nnrows 3\n{header}cellsize 1\n1 2 3 4 5 6\n"));
     place.write("hole.asc", &format!("ncols 2\nnrows 2\n{header}cellsize 1\n1 2 -3 4\n"));
     for (program, options, wanted) in [
-        (LIFE, "--initial alive=small.asc", "small.asc has 2 x 2 cells, and the model 256 x 256"),
+        (
+            LIFE,
+            "--initial alive=small.asc",
+            "small.asc does not lie on the model: it has 2 x 2 cells, not 256 x 256",
+        ),
         (
             LIFE,
             "--initial alive=wide.asc",
-            "the cells of wide.asc have a side of 2, and those of the model 1",
+            "wide.asc does not lie on the model: its cells have a side of 2, not 1",
         ),
         (LIFE, "--initial alive=half.asc", "0.5 in cell [255, 0, 0] is no value for `alive`, which is a u8"),
         (
@@ -96,8 +100,16 @@ fn grids_that_do_not_fit_are_refused() {
         (HEAT, "--initial temperature=small.asc", "--initial is for models of one layer, and `heat` has 64"),
         (HEAT, "--grids", "--grids is for models of one layer, and `heat` has 64"),
         (LANDSLIDE, "--dem small.asc", "add --debris FILE"),
-        (LANDSLIDE, "--dem small.asc --debris slope.asc", "small.asc and slope.asc have different cells"),
-        (LANDSLIDE, "--dem small.asc --debris hole.asc", "hole.asc has debris of less than 0 m"),
+        (
+            LANDSLIDE,
+            "--dem small.asc --debris slope.asc",
+            "slope.asc does not lie on small.asc: it has 2 x 3 cells, not 2 x 2",
+        ),
+        (
+            LANDSLIDE,
+            "--dem small.asc --debris hole.asc",
+            "hole.asc: -3 m of debris in column 1, row 2 from the north",
+        ),
         (LANDSLIDE, "--debris hole.asc", "--dem"),
     ] {
         let said = place.fail(2, program, options);

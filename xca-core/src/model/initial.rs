@@ -62,7 +62,8 @@ pub enum InitialError {
 
 impl Model {
     /// Replaces the initial values of a substate of cells, or of one component of it, by these (by linear
-    /// index, x fastest). They are set after all that the model does to make its initial state.
+    /// index, x fastest). They are set after all that the model does to make its initial state. A cell for
+    /// which `None` is given keeps the model's own value.
     ///
     /// The substate is named by its field, or by struct and field (`Heat.temperature`); a component of a
     /// vector or an array by what follows: `velocity.x`, `outflow.3`, `paths.1.x`. `bool` is given as 0 or 1,
@@ -70,23 +71,31 @@ impl Model {
     ///
     /// # Errors
     /// Where there is no such substate, or the values are not one for each cell and of its type.
-    pub fn set_initial(&mut self, substate: &str, values: Vec<f64>) -> Result<(), InitialError> {
+    pub fn set_initial(
+        &mut self,
+        substate: &str,
+        values: impl IntoIterator<Item: Into<Option<f64>>>,
+    ) -> Result<(), InitialError> {
+        let values: Vec<Option<f64>> = values.into_iter().map(Into::into).collect();
         let (id, value_type, component) = self.component_of_cells(substate)?;
         let name = substate.to_owned();
         let cells = self.geometry.cells();
         if values.len() != cells {
             return Err(InitialError::WrongNumber { name, cells, given: values.len() });
         }
-        if let Some(cell) = values.iter().position(|value| !value_type.scalar.fits(*value)) {
-            let value = values[cell];
+        let unfit = |value: &Option<f64>| value.filter(|value| !value_type.scalar.fits(*value));
+        if let Some((cell, value)) =
+            values.iter().enumerate().find_map(|(cell, value)| Some((cell, unfit(value)?)))
+        {
             return Err(InitialError::Value { name, cell: self.geometry.indices(cell), value, value_type });
         }
         self.steering.push(Steering::new(Schedule::Start, move |state| {
             let stored = value_type.stored(state.precision);
             let size = stored.scalar.size();
             let mut bytes = state.execution.read(id)?;
-            for (value, bytes) in values.iter().zip(bytes.chunks_exact_mut(stored.size())) {
-                stored.scalar.encode(*value, &mut bytes[component * size..(component + 1) * size]);
+            let given = values.iter().zip(bytes.chunks_exact_mut(stored.size()));
+            for (value, bytes) in given.filter_map(|(value, bytes)| Some(((*value)?, bytes))) {
+                stored.scalar.encode(value, &mut bytes[component * size..(component + 1) * size]);
             }
             Ok(state.execution.write(id, &bytes)?)
         }));

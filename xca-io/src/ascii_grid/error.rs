@@ -36,7 +36,7 @@ pub enum ReadGridError {
         /// The key as it stands there.
         key: String,
         /// What is wrong with it.
-        problem: &'static str,
+        problem: String,
     },
     /// The header lacks a key.
     #[error(
@@ -48,6 +48,77 @@ pub enum ReadGridError {
         path: PathBuf,
         /// The key.
         key: &'static str,
+    },
+    /// `dx` and `dy` that differ.
+    #[error("{}: the cells are not square: dx is {dx} and dy {dy}; resample the grid to square cells", path.display())]
+    NotSquare {
+        /// The file.
+        path: PathBuf,
+        /// The side along x.
+        dx: f64,
+        /// The side along y.
+        dy: f64,
+    },
+    /// The side of a cell is given twice.
+    #[error("{}: the header gives cellsize, and dx or dy; keep one of them", path.display())]
+    TwoSides {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file begins with numbers.
+    #[error(
+        "{}: the grid has no header; put the lines ncols, nrows, xllcorner, yllcorner and cellsize before its \
+         numbers (docs/maps.md, \"Grids without a header\")",
+        path.display()
+    )]
+    NoHeader {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A grid without a header that has other rows or columns than the model.
+    #[error(
+        "{}{}: the grid has no header, and {found}, not {wanted} as the model",
+        path.display(), line.map(|line| format!(":{line}")).unwrap_or_default()
+    )]
+    Matrix {
+        /// The file.
+        path: PathBuf,
+        /// The line, where one is to blame.
+        line: Option<u64>,
+        /// What it has, in words.
+        found: String,
+        /// How many there should be.
+        wanted: usize,
+    },
+    /// A number that is infinite, or beyond what a floating number can be.
+    #[error("{}:{line}: `{text}` is not a finite number", path.display())]
+    Infinite {
+        /// The file.
+        path: PathBuf,
+        /// The line.
+        line: u64,
+        /// The text.
+        text: String,
+    },
+    /// An altitude that no ground has.
+    #[error(
+        "{}: {height} in column {}, row {} from the north is no altitude in m; if it stands for no value, name it in \
+         the line NODATA_value",
+        path.display(), place[0], place[1]
+    )]
+    Height {
+        /// The file.
+        path: PathBuf,
+        /// Column and row of the cell, from 1, from the west and the north.
+        place: [usize; 2],
+        /// The altitude.
+        height: f64,
+    },
+    /// No cell has a value.
+    #[error("{}: no cell has a value", path.display())]
+    Empty {
+        /// The file.
+        path: PathBuf,
     },
     /// A text that is no number.
     #[error("{}:{line}: `{text}` is not a number", path.display())]

@@ -1,6 +1,7 @@
 //! The header of a grid: keys with their values, in any order.
 
 use super::{AsciiGrid, ReadGridError};
+use crate::map::Placement;
 use std::path::Path;
 
 /// Where the corner that a header gives lies.
@@ -30,6 +31,8 @@ pub(super) struct Header {
     pub(super) x: Option<Origin>,
     pub(super) y: Option<Origin>,
     pub(super) side: Option<f64>,
+    /// The sides along x and y, which serve in place of `side` where they are equal.
+    pub(super) sides: [Option<f64>; 2],
     /// The number that stands for none.
     pub(super) nothing: Option<f64>,
 }
@@ -52,12 +55,39 @@ impl Place<'_> {
         })
     }
 
-    fn key(self, key: &str, problem: &'static str) -> ReadGridError {
+    /// A number of a cell: infinite ones have no meaning.
+    pub(super) fn value(self, text: &str) -> Result<f64, ReadGridError> {
+        let number = self.number(text)?;
+        if number.is_infinite() {
+            let (path, line, text) = (self.path.to_owned(), self.line, text.to_owned());
+            return Err(ReadGridError::Infinite { path, line, text });
+        }
+        Ok(number)
+    }
+
+    fn key(self, key: &str, problem: impl Into<String>) -> ReadGridError {
+        let problem = problem.into();
         ReadGridError::Key { path: self.path.to_owned(), line: self.line, key: key.to_owned(), problem }
     }
 }
 
 impl Header {
+    /// Takes in a line of keys, each with the word after it.
+    pub(super) fn take_all<'a>(
+        &mut self,
+        place: Place<'_>,
+        words: impl Iterator<Item = &'a str>,
+    ) -> Result<(), ReadGridError> {
+        let mut words = words.peekable();
+        while let Some(key) = words.next() {
+            self.take(place, key, words.next())?;
+            if let Some(over) = words.peek().filter(|word| !is_key(word)) {
+                return Err(place.key(key, format!("has more than one value: `{over}` is left over")));
+            }
+        }
+        Ok(())
+    }
+
     /// Takes in a key with the word after it.
     pub(super) fn take(
         &mut self,
@@ -75,6 +105,10 @@ impl Header {
             Ok(count) if count > 0 => Ok(count),
             _ => Err(place.key(key, "must be a whole number, at least 1")),
         };
+        let positive = || match finite()? {
+            side if side > 0.0 => Ok(side),
+            _ => Err(place.key(key, "must be more than 0")),
+        };
         let lower = key.to_ascii_lowercase();
         let is_new = match lower.as_str() {
             "ncols" => self.columns.replace(count()?).is_none(),
@@ -83,12 +117,10 @@ impl Header {
             "yllcorner" => self.y.replace(Origin::Corner(finite()?)).is_none(),
             "xllcenter" => self.x.replace(Origin::Centre(finite()?)).is_none(),
             "yllcenter" => self.y.replace(Origin::Centre(finite()?)).is_none(),
-            "cellsize" => match finite()? {
-                side if side > 0.0 => self.side.replace(side).is_none(),
-                _ => return Err(place.key(key, "must be more than 0")),
-            },
+            "cellsize" => self.side.replace(positive()?).is_none(),
+            "dx" => self.sides[0].replace(positive()?).is_none(),
+            "dy" => self.sides[1].replace(positive()?).is_none(),
             "nodata_value" => self.nothing.replace(number()?).is_none(),
-            "dx" | "dy" => return Err(place.key(key, "is for cells that are not square; give one cellsize")),
             _ => {
                 return Err(place.key(
                     key,
@@ -104,10 +136,39 @@ impl Header {
         let missing = |key| ReadGridError::MissingKey { path: path.to_owned(), key };
         let columns = self.columns.ok_or_else(|| missing("ncols"))?;
         let rows = self.rows.ok_or_else(|| missing("nrows"))?;
-        let side = self.side.ok_or_else(|| missing("cellsize"))?;
+        let side = self.side(path)?;
         let x = self.x.ok_or_else(|| missing("xllcorner"))?;
         let y = self.y.ok_or_else(|| missing("yllcorner"))?;
         let corner = [x.corner(side), y.corner(side)];
-        Ok(AsciiGrid { extents: [columns, rows], corner, side, values: Vec::new() })
+        let placement = Placement { extents: [columns, rows], corner, side };
+        Ok(AsciiGrid { placement, values: Vec::new() })
     }
+
+    /// Whether no key has been found.
+    pub(super) fn is_empty(&self) -> bool {
+        let numbers = [self.side, self.sides[0], self.sides[1], self.nothing];
+        let counts = [self.columns, self.rows];
+        counts.iter().all(Option::is_none)
+            && [self.x, self.y].iter().all(Option::is_none)
+            && numbers.iter().all(Option::is_none)
+    }
+
+    /// The side of a cell, by whichever keys it is given.
+    fn side(&self, path: &Path) -> Result<f64, ReadGridError> {
+        let path = || path.to_owned();
+        match (self.side, self.sides) {
+            (Some(side), [None, None]) => Ok(side),
+            (None, [Some(dx), Some(dy)]) if (dx - dy).abs() <= 1e-6 * dx => Ok(dx),
+            (None, [Some(dx), Some(dy)]) => Err(ReadGridError::NotSquare { path: path(), dx, dy }),
+            (None, [None, None]) => Err(ReadGridError::MissingKey { path: path(), key: "cellsize" }),
+            (None, [None, _]) => Err(ReadGridError::MissingKey { path: path(), key: "dx" }),
+            (None, [_, None]) => Err(ReadGridError::MissingKey { path: path(), key: "dy" }),
+            (Some(_), _) => Err(ReadGridError::TwoSides { path: path() }),
+        }
+    }
+}
+
+/// Keys begin with a letter; so do numbers that are infinite or NaN.
+pub(super) fn is_key(word: &str) -> bool {
+    word.starts_with(|first: char| first.is_ascii_alphabetic()) && word.parse::<f64>().is_err()
 }

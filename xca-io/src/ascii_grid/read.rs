@@ -1,26 +1,35 @@
 //! Reading a grid.
 
-use super::header::{Header, Place};
-use super::{AsciiGrid, ReadGridError};
+use super::header::{Header, Place, is_key};
+use super::{AsciiGrid, ReadGridError, stands_for_none};
+use crate::map::Placement;
 use crate::regular_file;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 
-pub(super) fn read(path: &Path) -> Result<AsciiGrid, ReadGridError> {
+/// What stands for no value unless the header says otherwise.
+const NOTHING: f64 = -9999.0;
+
+pub(super) fn read(path: &Path, on: Option<Placement>) -> Result<AsciiGrid, ReadGridError> {
     let mut lines = Lines::open(path)?;
     let mut header = Header::default();
     while lines.advance()? {
-        let mut words = lines.words();
-        match words.next() {
+        let first = lines.words().next();
+        match first {
             None => {}
-            Some(key) if is_key(key) => header.take(lines.place, key, words.next())?,
+            Some(key) if is_key(key) => header.take_all(lines.place, lines.words())?,
+            Some(_) if header.is_empty() => {
+                let placement = on.ok_or_else(|| ReadGridError::NoHeader { path: path.to_owned() })?;
+                return matrix(lines, placement);
+            }
             Some(_) => break,
         }
     }
     let mut grid = header.grid(path)?;
-    let cells = grid.extents[0].saturating_mul(grid.extents[1]);
-    let extents = grid.extents;
+    let nothing = header.nothing.unwrap_or(NOTHING);
+    let extents = grid.placement.extents;
+    let cells = extents[0].saturating_mul(extents[1]);
     let wrong_count = |line, found: &str| ReadGridError::Count {
         path: path.to_owned(),
         line,
@@ -34,8 +43,7 @@ pub(super) fn read(path: &Path) -> Result<AsciiGrid, ReadGridError> {
             if values.len() == cells {
                 return Err(wrong_count(Some(lines.place.line), "more"));
             }
-            let number = lines.place.number(word)?;
-            values.push(if Some(number) == header.nothing { f64::NAN } else { number });
+            values.push(value(lines.place, word, nothing)?);
         }
         if !lines.advance()? {
             break;
@@ -44,14 +52,52 @@ pub(super) fn read(path: &Path) -> Result<AsciiGrid, ReadGridError> {
     if values.len() < cells {
         return Err(wrong_count(None, &values.len().to_string()));
     }
-    // The northernmost row stands first.
-    grid.values = values.chunks_exact(grid.extents[0]).rev().flatten().copied().collect();
+    grid.values = from_the_south(&values, extents[0]);
     Ok(grid)
 }
 
-/// Keys begin with a letter; so do numbers that are infinite or none.
-fn is_key(word: &str) -> bool {
-    word.starts_with(|first: char| first.is_ascii_alphabetic()) && word.parse::<f64>().is_err()
+/// The rest of a file that has no header: a line for each row.
+fn matrix(mut lines: Lines<'_>, placement: Placement) -> Result<AsciiGrid, ReadGridError> {
+    let [columns, rows] = placement.extents;
+    let other = |line, found: String, wanted| ReadGridError::Matrix {
+        path: lines.place.path.to_owned(),
+        line,
+        found,
+        wanted,
+    };
+    let wrong_row = |line, found: usize| other(Some(line), format!("{found} values in this row"), columns);
+    let wrong_rows = |found: &str| other(None, format!("{found} rows"), rows);
+    let (mut values, mut found) = (Vec::new(), 0);
+    loop {
+        let before = values.len();
+        for word in lines.words() {
+            values.push(value(lines.place, word, NOTHING)?);
+        }
+        match values.len() - before {
+            0 => {}
+            count if count != columns => return Err(wrong_row(lines.place.line, count)),
+            _ if found == rows => return Err(wrong_rows("more")),
+            _ => found += 1,
+        }
+        if !lines.advance()? {
+            break;
+        }
+    }
+    if found < rows {
+        return Err(wrong_rows(&found.to_string()));
+    }
+    Ok(AsciiGrid { placement, values: from_the_south(&values, columns) })
+}
+
+fn value(place: Place<'_>, word: &str, nothing: f64) -> Result<f64, ReadGridError> {
+    // A number that stands for none may be infinite.
+    let number = place.number(word)?;
+    if stands_for_none(number, nothing) { Ok(f64::NAN) } else { place.value(word) }
+}
+
+/// Files begin with the northernmost row.
+fn from_the_south(values: &[f64], columns: usize) -> Vec<f64> {
+    values.chunks_exact(columns).rev().flatten().copied().collect()
 }
 
 /// The lines of a file, one at a time.

@@ -37,23 +37,12 @@ fn rows_count_from_the_south_and_stand_from_the_north() {
 fn every_number_comes_back_with_its_bits() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("dem.asc");
-    let mut values = vec![
-        0.1 + 0.2,
-        -0.0,
-        5e-324,
-        f64::MAX,
-        f64::INFINITY,
-        f64::NEG_INFINITY,
-        -9999.0,
-        -99999.0,
-        1e16,
-        1e-5,
-    ];
+    let mut values = vec![0.1 + 0.2, -0.0, 5e-324, f64::MAX, -9999.0, -99999.0, 1e16, 1e-5];
     // Bits from a simple generator: all exponents, all mantissas.
     let mut bits = 1_u64;
     while values.len() < 2000 {
         bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        values.extend(Some(f64::from_bits(bits)).filter(|value| !value.is_nan()));
+        values.extend(Some(f64::from_bits(bits)).filter(|value| value.is_finite()));
     }
     let grid = AsciiGrid::new([50, 40], 1.0 / 3.0, values.clone()).unwrap().with_corner([-0.1, 1e20]);
     grid.write(&path).unwrap();
@@ -105,7 +94,6 @@ fn what_makes_no_sense_is_named_by_its_line() {
     assert_eq!(message("xllcorner 3\nxllcenter 3\n"), "dem.asc:2: `xllcenter` stands twice in the header");
     assert_eq!(message("cellsize 0\n"), "dem.asc:1: `cellsize` must be more than 0");
     assert_eq!(message("yllcorner inf\n"), "dem.asc:1: `yllcorner` must be a finite number");
-    assert_eq!(message("dx 10\n"), "dem.asc:1: `dx` is for cells that are not square; give one cellsize");
     assert!(
         message("ncolumns 10\n").starts_with("dem.asc:1: `ncolumns` is no key of a grid; there are ncols")
     );
@@ -134,4 +122,140 @@ fn a_grid_has_a_value_for_each_cell_and_square_cells() {
     ] {
         assert_eq!(AsciiGrid::new(extents, side, vec![0.0; count]), None, "{extents:?} {side} {count}");
     }
+}
+
+#[test]
+fn numbers_that_stand_for_no_value_are_told_by_what_they_mean() {
+    let values = |nothing: &str, cells: &str| {
+        let grid = read_text(format!("{HEADER}{nothing}\n{cells}\n4 5 6\n").as_bytes()).unwrap();
+        (0..3).map(|x| grid.value([x, 1])).collect::<Vec<_>>()
+    };
+    let hole = [Some(1.0), None, Some(3.0)];
+    // The format's own, where no line names one.
+    assert_eq!(values("", "1 -9999 3"), hole);
+    assert_eq!(values("NODATA_value -1", "1 -9999 3")[1], Some(-9999.0));
+    // Few digits in the header, or in the cells.
+    for (header, cell) in [
+        ("-3.4e+38", "-3.4028234663852886e+38"),
+        ("-3.402823e+38", "-3.4028234663852886e+38"),
+        ("-1.79769e+308", "-1.7976931348623157e+308"),
+        ("-1.7976931348623157e+308", "-1.8e+308"),
+        ("9.96921e+36", "9.969209968386869e+36"),
+        ("0.1", "0.10000000149011612"),
+        ("-inf", "-inf"),
+        ("0", "-0.0"),
+    ] {
+        assert_eq!(
+            values(&format!("NODATA_value {header}"), &format!("1 {cell} 3")),
+            hole,
+            "{header} {cell}"
+        );
+    }
+    // What is near is a value.
+    assert_eq!(values("NODATA_value 0", "1 1e-60 3")[1], Some(1e-60));
+    assert_eq!(values("NODATA_value -9999", "1 -9998.99 3")[1], Some(-9998.99));
+    assert_eq!(values("NODATA_value -3.4e38", "1 3.4e38 3")[1], Some(3.4e38));
+}
+
+#[test]
+fn a_written_grid_has_no_value_that_stands_for_none() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.asc");
+    let values = vec![-9_999.000_01, f64::NAN];
+    AsciiGrid::new([2, 1], 1.0, values.clone()).unwrap().write(&path).unwrap();
+    let back = AsciiGrid::read(&path).unwrap();
+    assert_eq!((back.value([0, 0]), back.value([1, 0])), (Some(values[0]), None));
+}
+
+#[test]
+fn infinite_numbers_and_impossible_heights_are_refused() {
+    assert_eq!(message(&format!("{HEADER}1 inf 3\n4 5 6\n")), "dem.asc:6: `inf` is not a finite number");
+    assert_eq!(message(&format!("{HEADER}1 2 3\n4 1e309 6\n")), "dem.asc:7: `1e309` is not a finite number");
+    let heights = |cells: &str| {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("dem.asc");
+        fs::write(&path, format!("{HEADER}{cells}\n")).unwrap();
+        AsciiGrid::read_heights(&path).map(|grid| grid.values().len()).map_err(|error| {
+            let message = error.to_string();
+            message[message.find("dem.asc").unwrap()..].to_owned()
+        })
+    };
+    assert_eq!(heights("1 -9999 3\n-420 8849 100000"), Ok(6));
+    let said = heights("1 2 3\n4 -32768e4 6").unwrap_err();
+    assert!(
+        said.starts_with("dem.asc: -327680000 in column 2, row 2 from the north is no altitude"),
+        "{said}"
+    );
+    assert!(heights("1 2 100001\n4 5 6").unwrap_err().contains("column 3, row 1"));
+    assert_eq!(heights("-9999 -9999 -9999\n-9999 -9999 -9999").unwrap_err(), "dem.asc: no cell has a value");
+}
+
+#[test]
+fn headers_on_one_line_are_read_and_words_left_over_are_refused() {
+    let grid =
+        read_text(b"ncols 3 nrows 2 xllcorner 100\nyllcorner 200.5 cellsize 10\n1 2 3\n4 5 6\n").unwrap();
+    assert_eq!((grid.corner(), grid.value([0, 0])), ([100.0, 200.5], Some(4.0)));
+    assert_eq!(
+        message("ncols 3\nxllcorner 4 185 000\n"),
+        "dem.asc:2: `xllcorner` has more than one value: `185` is left over"
+    );
+    assert!(message("ncols 3 columns of cells\n").starts_with("dem.asc:1: `columns` is no key"));
+    assert!(message("ncols 3 nrows\n").starts_with("dem.asc:1: `nrows` has no value"));
+    assert!(message("ncols 3 nrows 2 ncols 3\n").starts_with("dem.asc:1: `ncols` stands twice"));
+    assert!(message("cellsize 10 # metres\n").contains("`cellsize` has more than one value: `#`"));
+    assert!(message("ncols 3 2\n").contains("`ncols` has more than one value: `2`"));
+}
+
+#[test]
+fn sides_that_are_equal_are_a_square() {
+    let header = "ncols 3\nnrows 2\nxllcorner 100\nyllcorner 200.5\n";
+    let read = |sides: &str| read_text(format!("{header}{sides}\n1 2 3\n4 5 6\n").as_bytes());
+    assert_eq!(read("dx 10\ndy 10").unwrap().side(), 10.0);
+    assert_eq!(read("DX 0.000277777777\ndy 0.000277777778").unwrap().side(), 0.000_277_777_777);
+    let said = |sides: &str| read(sides).unwrap_err().to_string();
+    assert!(said("dx 10\ndy 20").contains("the cells are not square: dx is 10 and dy 20"));
+    assert!(said("dy 20").contains("no `dx`"));
+    assert!(said("dx 10\ndy 10\ncellsize 10").contains("cellsize, and dx or dy"));
+    assert!(said("dx 0\ndy 10").contains("`dx` must be more than 0"));
+}
+
+#[test]
+fn a_matrix_is_read_where_the_cells_are_known() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("dem.txt");
+    let placement = Placement { extents: [3, 2], corner: [100.0, 200.5], side: 10.0 };
+    let read = |text: &str| {
+        fs::write(&path, text).unwrap();
+        AsciiGrid::read_on(&path, placement).map_err(|error| error.to_string())
+    };
+    let grid = read("1 2.5 3\n\n4 -9999 6\n").unwrap();
+    assert_eq!((grid.placement(), grid.value([1, 1]), grid.value([1, 0])), (placement, Some(2.5), None));
+    // A header wins.
+    assert_eq!(read("ncols 1\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 5\n7\n").unwrap().side(), 5.0);
+    assert!(
+        read("1 2\n3 4\n5 6\n")
+            .unwrap_err()
+            .ends_with("dem.txt:1: the grid has no header, and 2 values in this row, not 3 as the model")
+    );
+    assert!(read("1 2 3\n").unwrap_err().ends_with("no header, and 1 rows, not 2 as the model"));
+    assert!(
+        read("1 2 3\n1 2 3\n1 2 3\n").unwrap_err().ends_with("no header, and more rows, not 2 as the model")
+    );
+    assert!(
+        AsciiGrid::read(&path)
+            .unwrap_err()
+            .to_string()
+            .contains("the grid has no header; put the lines ncols")
+    );
+}
+
+#[test]
+fn a_map_has_ground_where_a_grid_has_a_value() {
+    let grid = read_text(format!("{HEADER}1 -9999 3\n4 5 6\n").as_bytes()).unwrap();
+    let map = Map::from(&grid);
+    assert_eq!(
+        (map.placement(), map.missing().unwrap()),
+        (grid.placement(), &[false, false, false, false, true, false][..])
+    );
+    assert_eq!(Map::from(&grid.filled(2.0)).missing(), None);
 }

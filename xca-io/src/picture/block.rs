@@ -26,6 +26,8 @@ pub struct BlockPicture<'a> {
     /// Cells of this value are not drawn. If there is none, all are drawn but those of the octant that is next to the eye, so that the inside
     /// is seen.
     pub empty: Option<f64>,
+    /// The cells that are not drawn, in the order of the values.
+    pub hidden: Option<&'a [bool]>,
     /// The text above the picture.
     pub title: &'a str,
     /// The smaller text below the title.
@@ -74,7 +76,16 @@ impl<'a> BlockPicture<'a> {
     /// A picture of 800 by 600 pixels without text.
     #[must_use]
     pub fn new(extents: [usize; 3], scalar: Scalar<'a>) -> Self {
-        Self { extents, scalar, categories: &[], empty: None, title: "", caption: "", size: [800, 600] }
+        Self {
+            extents,
+            scalar,
+            categories: &[],
+            empty: None,
+            hidden: None,
+            title: "",
+            caption: "",
+            size: [800, 600],
+        }
     }
 
     /// Draws the picture.
@@ -186,7 +197,11 @@ impl<'a> BlockPicture<'a> {
     /// The value of a cell that is drawn.
     fn solid(&self, [x, y, z]: [usize; 3]) -> Option<f64> {
         let [columns, rows, _] = self.extents;
-        let value = self.scalar.values[(z * rows + y) * columns + x];
+        let cell = (z * rows + y) * columns + x;
+        if self.hidden.is_some_and(|hidden| hidden.get(cell) == Some(&true)) {
+            return None;
+        }
+        let value = self.scalar.values[cell];
         match self.empty {
             Some(empty) => (value != empty).then_some(value),
             None => {
@@ -317,6 +332,17 @@ mod tests {
             assert!(near(found, wanted), "{cell:?} along {axis}: {found:?} instead of {wanted:?}");
         }
         assert_eq!(picture.pixel(5, 595), [255; 3]);
+    }
+
+    #[test]
+    fn hidden_cells_are_not_drawn() {
+        let extents = [2, 1, 1];
+        let picture = BlockPicture::new(extents, Scalar::new("t", &[0.0, 1.0]));
+        let hidden = BlockPicture { hidden: Some(&[false, true]), ..picture.clone() };
+        let [all, some] =
+            [picture, hidden].map(|picture| at_face(&picture.render().unwrap(), extents, [1, 0, 0], 2));
+        assert!(near(all, colour(1.0, 2)), "{all:?}");
+        assert!(!near(some, all), "{some:?}");
     }
 
     #[test]

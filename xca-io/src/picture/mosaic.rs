@@ -56,6 +56,8 @@ pub struct Mosaic<'a> {
     palette: &'a Palette,
     /// What it is drawn over.
     ground: Option<&'a Ground>,
+    /// The cells that are not drawn.
+    hidden: Option<&'a [bool]>,
 }
 
 impl<'a> Mosaic<'a> {
@@ -67,7 +69,7 @@ impl<'a> Mosaic<'a> {
         scale: Scale,
         palette: &'a Palette,
     ) -> Self {
-        Self { columns, rows, values, scale, kinds, palette, ground: None }
+        Self { columns, rows, values, scale, kinds, palette, ground: None, hidden: None }
     }
 
     /// The same over this ground.
@@ -75,7 +77,14 @@ impl<'a> Mosaic<'a> {
         Self { ground, ..self }
     }
 
-    /// Calls `set` with the column and the row of each pixel, from the top left, and its colour: that of its cell, or of the mean of its cells.
+    /// The same without the cells where this mask is true: the background is seen there.
+    #[must_use]
+    pub fn without(self, hidden: Option<&'a [bool]>) -> Self {
+        Self { hidden, ..self }
+    }
+
+    /// Calls `set` with the column and the row of each pixel, from the top left, and its colour: that of its cell, or of the
+    /// mean of its cells. Pixels whose cells are all hidden are left out.
     pub fn draw(&self, [width, height]: [usize; 2], mut set: impl FnMut(usize, usize, [f32; 3])) {
         if self.columns == 0 || self.rows == 0 {
             return;
@@ -85,7 +94,9 @@ impl<'a> Mosaic<'a> {
             // The first row of cells is at the bottom.
             let down = Share::new(height - 1 - y, height, self.rows);
             for (x, across) in across.iter().enumerate() {
-                set(x, y, self.colour(across, &down));
+                if let Some(colour) = self.colour(across, &down) {
+                    set(x, y, colour);
+                }
             }
         }
     }
@@ -94,22 +105,29 @@ impl<'a> Mosaic<'a> {
         self.values.get(cell).copied().unwrap_or(f64::NAN)
     }
 
-    fn colour(&self, across: &Share, down: &Share) -> [f32; 3] {
-        let cells = down
+    fn is_hidden(&self, cell: usize) -> bool {
+        self.hidden.is_some_and(|hidden| hidden.get(cell) == Some(&true))
+    }
+
+    fn colour(&self, across: &Share, down: &Share) -> Option<[f32; 3]> {
+        let mut cells = down
             .cells()
-            .flat_map(|(row, a)| across.cells().map(move |(column, b)| (row * self.columns + column, a * b)));
+            .flat_map(|(row, a)| across.cells().map(move |(column, b)| (row * self.columns + column, a * b)))
+            .filter(|(cell, _)| !self.is_hidden(*cell))
+            .peekable();
+        cells.peek()?;
         if self.kinds.is_empty() && self.ground.is_none() {
             let (sum, weight) = cells
                 .map(|(cell, weight)| (self.value(cell), weight))
                 .filter(|(value, _)| value.is_finite())
                 .fold((0.0, 0.0), |(sum, weight), (value, w)| (sum + value * w, weight + w));
-            return self.palette.of(self.scale.place(sum / weight));
+            return Some(self.palette.of(self.scale.place(sum / weight)));
         }
         let (sum, weight) = cells.fold(([0.0_f32; 3], 0.0), |(sum, weight), (cell, w)| {
             let colour = self.colour_of(cell);
             (std::array::from_fn(|i| sum[i] + colour[i] * w as f32), weight + w as f32)
         });
-        sum.map(|c| c / weight)
+        Some(sum.map(|c| c / weight))
     }
 
     /// The colour of a single cell.

@@ -3,7 +3,8 @@
 /// Heights to draw a layer of cells over.
 #[derive(Debug, Clone, Copy)]
 pub struct Relief<'a> {
-    /// The height of the ground in each cell, in the unit of the cell's side, in the order of the values.
+    /// The height of the ground in each cell, in the unit of the cell's side, in the order of the values; NaN where there is
+    /// no ground.
     pub heights: &'a [f64],
     /// Where the drawn value is not more than this, the bare ground is seen.
     pub bare: f64,
@@ -44,7 +45,9 @@ impl Ground {
             })
             .collect();
         let squares: f64 = slopes.iter().flatten().map(|slope| slope * slope).sum();
-        let mean = (squares / slopes.len() as f64).sqrt();
+        // Cells without ground do not make the others look steeper.
+        let count = relief.heights.iter().filter(|height| height.is_finite()).count();
+        let mean = (squares / count.max(1) as f64).sqrt();
         let factor = if mean > 0.0 { (SLOPE / mean).max(1.0) } else { 1.0 };
         let lightness = |[across, along]: &[f64; 2]| {
             let normal = [-across * factor, -along * factor, 1.0];
@@ -98,6 +101,17 @@ mod tests {
         let mut heights = of(0.0);
         heights[0] = f64::NAN;
         assert!(ground(&heights, 3).lightness.iter().all(|lightness| (lightness - 0.78).abs() < 0.01));
+    }
+
+    #[test]
+    fn cells_without_ground_do_not_change_how_steep_the_others_look() {
+        let steepness = |x: i32| f64::from(x) * 1e-3;
+        let whole: Vec<f64> = (0..9).map(|cell| steepness(cell % 3)).collect();
+        // The same with six columns of nothing beside it. The last column that has ground is level then.
+        let wide: Vec<f64> =
+            (0..27).map(|cell| if cell % 9 < 3 { steepness(cell % 9) } else { f64::NAN }).collect();
+        let (whole, wide) = (ground(&whole, 3).lightness[4], ground(&wide, 9).lightness[10]);
+        assert!((whole - wide).abs() < 0.02, "{whole} {wide}");
     }
 
     #[test]

@@ -33,6 +33,8 @@ pub struct SlicePicture<'a> {
     pub categories: &'a [Category],
     /// What the layer is drawn over, if it is no plain.
     pub relief: Option<Relief<'a>>,
+    /// The cells that are not drawn, in the order of the values: where this is true, the background is seen.
+    pub hidden: Option<&'a [bool]>,
     /// The text above the picture.
     pub title: &'a str,
     /// The smaller text below the title.
@@ -57,6 +59,7 @@ impl<'a> SlicePicture<'a> {
             scalar,
             categories: &[],
             relief: None,
+            hidden: None,
             title: "",
             caption: "",
             cell_side: 1.0,
@@ -125,7 +128,10 @@ impl<'a> SlicePicture<'a> {
         let cells = [self.columns, self.rows];
         let ground = self.relief.map(|relief| Ground::new(relief, cells, self.cell_side));
         let mosaic = Mosaic::new(cells, self.scalar.values, &kinds, self.scalar.scale(), &palette);
-        mosaic.over(ground.as_ref()).draw(size, |x, y, colour| canvas.set(x0 + x, y0 + y, encode(colour)));
+        mosaic
+            .over(ground.as_ref())
+            .without(self.hidden)
+            .draw(size, |x, y, colour| canvas.set(x0 + x, y0 + y, encode(colour)));
     }
 
     /// A bar of a round length below the drawing, whose lower left corner is at `[x, y]`.
@@ -218,6 +224,30 @@ mod tests {
         let at = |cell: usize| picture.pixel(LEFT + 10 + 100 * cell + 50, TOP + 70 + 50);
         let bytes = |linear| encode(linear).map(|x| (x * 255.0).round() as u8);
         assert_eq!([at(0), at(1), at(2)], [categories[0].colour, categories[1].colour, bytes(GREY)]);
+    }
+
+    #[test]
+    fn hidden_cells_show_the_background_and_do_not_count() {
+        let hidden = [false, true, false];
+        let mut slice = SlicePicture::new(3, 1, Scalar::new("t", &[0.0, f64::NAN, 1.0]));
+        slice.hidden = Some(&hidden);
+        slice.pixels = 300;
+        let picture = slice.render().unwrap();
+        let at = |cell: usize| picture.pixel(LEFT + 10 + 100 * cell + 50, TOP + 70 + 50);
+        assert_eq!(at(1), [255; 3]);
+        assert!(near(at(0), colour(0.0)) && near(at(2), colour(1.0)));
+        // Of a pixel with three cells, the hidden one has no part; where all are hidden, the background is seen.
+        let values: Vec<f64> = (0..1200).map(|i| [0.0, 1.0, 1e9][i % 3]).collect();
+        let hidden: Vec<bool> = (0..1200).map(|i| i % 3 == 2 || i >= 600).collect();
+        let mut scalar = Scalar::new("t", &values);
+        scalar.range = Some([0.0, 1.0]);
+        let mut slice = SlicePicture::new(1200, 1, scalar);
+        slice.hidden = Some(&hidden);
+        slice.pixels = 400;
+        let picture = slice.render().unwrap();
+        let at = |x: usize| picture.pixel(LEFT + x, TOP + 119);
+        assert!(near(at(100), colour(0.5)), "{:?}", at(100));
+        assert_eq!(at(300), [255; 3]);
     }
 
     #[test]

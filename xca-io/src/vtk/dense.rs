@@ -28,6 +28,22 @@ impl Grid {
     }
 }
 
+/// The name of the array that hides cells, which ParaView and VTK know: put [`ghost_types`] into it.
+pub const GHOST_TYPE: &str = "vtkGhostType";
+
+/// VTK's mark of a cell that is not drawn and has no part in statistics.
+const HIDDEN: u8 = 32;
+
+/// What the array [`GHOST_TYPE`] holds where these cells are hidden.
+pub fn ghost_types(hidden: &[bool]) -> Vec<u8> {
+    hidden.iter().map(|is_hidden| if *is_hidden { HIDDEN } else { 0 }).collect()
+}
+
+/// Which cells an array of ghost types hides.
+pub(super) fn hidden_cells(ghost_types: &[u8]) -> Vec<bool> {
+    ghost_types.iter().map(|ghost| ghost & HIDDEN != 0).collect()
+}
+
 /// Writes dense substates to `path` (`.vti`) as cell data: every array has one entry a cell, x fastest, then y, then z.
 /// `time` is the simulated time.
 ///

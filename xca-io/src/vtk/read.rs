@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::Grid;
 use super::appended::{COMPONENT_NAME, DATA, END, STATES_OF, escaped, head, read_names, unescaped};
 use super::blocks::{Broken, expanded};
+use super::dense::{GHOST_TYPE, hidden_cells};
 use crate::regular_file;
 
 /// The array that tells the time.
@@ -80,6 +81,8 @@ pub struct DenseFile {
     pub time: f64,
     /// The cells.
     pub grid: Grid,
+    /// Which cells are hidden, if the file has an array [`super::GHOST_TYPE`].
+    pub hidden: Option<Vec<bool>>,
     /// One value for each cell, x fastest, then y.
     pub arrays: Vec<ReadArray>,
 }
@@ -104,8 +107,15 @@ pub fn read_dense(path: &Path) -> Result<DenseFile, ReadVtkError> {
     let grid = parts.grid().ok_or_else(|| parts.foreign("its grid makes no sense"))?;
     let cells = grid.cells.iter().try_fold(1_usize, |product, n| product.checked_mul(*n));
     let cells = cells.ok_or_else(|| parts.foreign("its grid makes no sense"))?;
-    let (time, arrays) = parts.arrays(cells)?;
-    Ok(DenseFile { time, grid, arrays })
+    let (time, mut arrays) = parts.arrays(cells)?;
+    let is_ghosts = |array: &ReadArray| array.name == GHOST_TYPE;
+    let hidden = arrays.iter().position(is_ghosts).map(|at| arrays.remove(at));
+    let is_whole = |ghosts: &ReadArray| ghosts.numbers == NumberType::U8 && ghosts.components == 1;
+    if !hidden.as_ref().is_none_or(is_whole) {
+        return Err(parts.foreign("its ghost types make no sense"));
+    }
+    let hidden = hidden.map(|ghosts| hidden_cells(&ghosts.bytes));
+    Ok(DenseFile { time, grid, hidden, arrays })
 }
 
 /// Reads particles from `path` (`.vtp`).

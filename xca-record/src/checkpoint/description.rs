@@ -24,7 +24,32 @@ pub struct Description {
     /// The present values of the parameters.
     pub parameters: Vec<Parameter>,
     pub groups: Vec<GroupShape>,
+    /// The cells without ground.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) missing: Vec<Run>,
     pub recorded: Recorded,
+}
+
+/// Cells that follow each other by linear index.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Run {
+    first: usize,
+    cells: usize,
+}
+
+impl Run {
+    /// The cells of a mask.
+    fn all(mask: &[bool]) -> Vec<Self> {
+        let mut first = 0;
+        let mut runs = Vec::new();
+        for chunk in mask.chunk_by(|one, other| one == other) {
+            if chunk[0] {
+                runs.push(Self { first, cells: chunk.len() });
+            }
+            first += chunk.len();
+        }
+        runs
+    }
 }
 
 /// The run that a checkpoint belongs to: the same in all checkpoints of a run, whatever engine it was resumed on.
@@ -112,6 +137,7 @@ impl Description {
             groups: groups
                 .map(|(group, state)| GroupShape::new(group, state, model, run.precision))
                 .collect(),
+            missing: recorder.set_up().missing().map(Run::all).unwrap_or_default(),
             run,
             recorded,
         }
@@ -133,6 +159,16 @@ impl Description {
         self.step <= self.run.steps_wanted
             && self.recorded.can_be_after(self.step)
             && components.into_iter().all(|component| !component.0.is_nan())
+    }
+
+    /// The mask of the cells without ground; none where all have ground.
+    pub fn mask(&self) -> Option<Vec<bool>> {
+        let mut mask =
+            (!self.missing.is_empty()).then(|| self.cells()).flatten().map(|cells| vec![false; cells])?;
+        for Run { first, cells } in &self.missing {
+            mask.iter_mut().skip(*first).take(*cells).for_each(|is_missing| *is_missing = true);
+        }
+        Some(mask)
     }
 
     /// How many bytes the data are.

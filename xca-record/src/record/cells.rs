@@ -8,8 +8,8 @@ use crate::components::{DrawnPart, Part};
 use crate::view::AnyCellView;
 use std::path::Path;
 use xca_core::model::Group;
-use xca_core::{Geometry, Precision, StoredType};
-use xca_io::vtk::{DataArray, Grid, write_dense};
+use xca_core::{Geometry, Precision, StoredScalar, StoredType};
+use xca_io::vtk::{DataArray, GHOST_TYPE, Grid, ghost_types, write_dense};
 
 /// The substates of cells in one state.
 pub(super) struct Cells<'a> {
@@ -19,6 +19,15 @@ pub(super) struct Cells<'a> {
     precision: Precision,
     /// The stored bytes of each substate.
     fields: &'a [Vec<u8>],
+    /// The lower corner of the space on the map, and the cells without ground.
+    ground: Ground<'a>,
+}
+
+/// Where the cells lie on the map, and which of them have no ground.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Ground<'a> {
+    pub(super) corner: [f64; 2],
+    pub(super) missing: Option<&'a [bool]>,
 }
 
 impl<'a> Cells<'a> {
@@ -28,8 +37,9 @@ impl<'a> Cells<'a> {
         geometry: &'a Geometry,
         precision: Precision,
         fields: &'a [Vec<u8>],
+        ground: Ground<'a>,
     ) -> Self {
-        Self { view, group, geometry, precision, fields }
+        Self { view, group, geometry, precision, fields, ground }
     }
 
     /// Writes all substates.
@@ -37,11 +47,16 @@ impl<'a> Cells<'a> {
         let fields = self.group.schema().fields.iter().zip(self.fields);
         let fields: Vec<FrameField> = fields
             .map(|(field, bytes)| {
-                FrameField::new(field, Plane::all(field.value_type.stored(self.precision), bytes))
+                let plane = Plane::all(field.value_type.stored(self.precision), bytes);
+                FrameField::new(field, plane.without(self.ground.missing))
             })
             .collect();
-        let arrays: Vec<DataArray<'_>> = fields.iter().map(FrameField::array).collect();
+        let ghosts = self.ground.missing.map(ghost_types);
+        let ghosts = ghosts.as_deref().map(|ghosts| DataArray::new(GHOST_TYPE, ghosts));
+        let arrays: Vec<DataArray<'_>> = fields.iter().map(FrameField::array).chain(ghosts).collect();
+        let [x, y] = self.ground.corner;
         let grid = Grid::cubic(self.geometry.extents(), self.geometry.side());
+        let grid = Grid { origin: [x, y, 0.0], ..grid };
         Ok(write_dense(path, time, &grid, &arrays)?)
     }
 
@@ -56,20 +71,40 @@ impl<'a> Cells<'a> {
         match (plane(field), schema.fields.get(field)) {
             (Some(values), Some(field)) => {
                 let part = DrawnPart::of(field.value_type, component);
-                seen(&values, part, self.view.relief.and_then(|(field, _)| plane(field)))
+                let heights = self.view.relief.and_then(|(field, _)| plane(field));
+                let hidden = self.ground.missing.map(|missing| drawn_mask(self.view, self.geometry, missing));
+                seen(&values, part, heights, hidden)
             }
-            _ => Seen::Cells { is_float: false, values: Vec::new(), heights: None },
+            _ => Seen::Cells { is_float: false, values: Vec::new(), heights: None, hidden: None },
         }
     }
 }
 
 /// What is seen of a substate, over the heights of the ground.
-pub(super) fn seen(values: &Plane, part: DrawnPart, heights: Option<Plane>) -> Seen {
+pub(super) fn seen(
+    values: &Plane,
+    part: DrawnPart,
+    heights: Option<Plane>,
+    hidden: Option<Vec<bool>>,
+) -> Seen {
+    let masked = |mut values: Vec<f64>| {
+        let masked = values.iter_mut().zip(hidden.as_deref().unwrap_or_default());
+        masked.filter(|(_, is_hidden)| **is_hidden).for_each(|(value, _)| *value = f64::NAN);
+        values
+    };
     Seen::Cells {
         is_float: values.is_float(),
-        values: values.drawn(part),
-        heights: heights.map(|heights| heights.component(0)),
+        values: masked(values.drawn(part)),
+        heights: heights.map(|heights| masked(heights.component(0))),
+        hidden,
     }
+}
+
+/// What a view draws of a mask of all cells.
+pub(super) fn drawn_mask(view: &AnyCellView, geometry: &Geometry, mask: &[bool]) -> Vec<bool> {
+    const BYTES: StoredType = StoredType { scalar: StoredScalar::U8, lanes: 1, length: 1 };
+    let bytes: Vec<u8> = mask.iter().map(|is_set| u8::from(*is_set)).collect();
+    drawn(view, geometry, BYTES, &bytes).component(0).into_iter().map(|byte| byte != 0.0).collect()
 }
 
 /// What a view draws of the stored bytes of a substate: those of its layer, or all of them.

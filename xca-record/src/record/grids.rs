@@ -65,13 +65,20 @@ impl Recorder {
             if stored.scalar == StoredScalar::F32 {
                 values.iter_mut().for_each(|value| *value = with_digits_of_f32(*value));
             }
+            mask(&mut values, self.set_up.missing());
             let grid = AsciiGrid::new([columns, rows], model.geometry().side(), values);
-            if let Some(grid) = grid.map(|grid| grid.with_corner(self.set_up.corner.unwrap_or_default())) {
+            if let Some(grid) = grid.map(|grid| grid.with_corner(self.set_up.placement().corner)) {
                 grid.write(&path(&file))?;
             }
         }
         Ok(())
     }
+}
+
+/// Takes the values from the cells without ground.
+fn mask(values: &mut [f64], missing: Option<&[bool]>) {
+    let masked = values.iter_mut().zip(missing.unwrap_or_default());
+    masked.filter(|(_, is_missing)| **is_missing).for_each(|(value, _)| *value = f64::NAN);
 }
 
 /// The `f64` that has the digits of an `f32`: 0.1 of 0.1f32, which is 0.10000000149011612.

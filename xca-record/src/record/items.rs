@@ -87,8 +87,8 @@ impl<'a> Items<'a> {
         Ok(particle_csv::write(path, &self.labels, &columns)?)
     }
 
-    /// Writes a frame: the substates that have columns.
-    pub(super) fn write_frame(&self, path: &Path, time: f64) -> Result<(), RecordError> {
+    /// Writes a frame: the substates that have columns, at their place on the map, whose corner is given.
+    pub(super) fn write_frame(&self, path: &Path, time: f64, corner: [f64; 2]) -> Result<(), RecordError> {
         let schema = self.group.schema();
         let columns = self.columns();
         let fields: Vec<FrameField> = (0..schema.fields.len())
@@ -99,7 +99,7 @@ impl<'a> Items<'a> {
             .collect();
         let mut arrays = vec![DataArray::new("label", self.labels.as_slice())];
         arrays.extend(fields.iter().map(FrameField::array));
-        Ok(write_particles(path, time, self.positions().as_values(), &arrays)?)
+        Ok(write_particles(path, time, self.positions().shifted(corner).as_values(), &arrays)?)
     }
 
     /// Where they are, and what colours them.

@@ -54,7 +54,7 @@ impl Recorder {
     /// The panel of a look.
     pub(super) fn panel(&self, look: &Look) -> Result<Panel, LookError> {
         let (original, field) = self.chosen(look)?;
-        let mut shown = Shown::new(original.group, original.view.clone());
+        let mut shown = original.with_view(original.view.clone());
         let kind = match &shown.view {
             AnyView::Items(_) => ViewKind::Spheres,
             AnyView::Cells(_) => ViewKind::Slice,

@@ -2,6 +2,7 @@
 
 use crate::components::state_names;
 use crate::observable::Observable;
+use std::borrow::Cow;
 use xca_core::engine::Population;
 use xca_core::model::{Group, GroupKind};
 use xca_core::reduction::{Reduction, reduce_values};
@@ -10,7 +11,13 @@ use xca_core::{GroupSnapshot, Model, Precision, ScalarType, Snapshot};
 /// Of each substate: minimum, mean and maximum of floats; minimum, sum and maximum of whole numbers; the mean
 /// of each component of a vector or an array of numbers; how many are true; how many are in each state. Of a
 /// population: the number of items, and the number in the fullest cell.
-pub(super) fn measure(model: &Model, precision: Precision, snapshot: &Snapshot) -> Vec<Observable> {
+/// Cells without ground have no part in them.
+pub(super) fn measure(
+    model: &Model,
+    precision: Precision,
+    snapshot: &Snapshot,
+    missing: Option<&[bool]>,
+) -> Vec<Observable> {
     let mut observables = Vec::new();
     for (group, state) in model.groups().iter().zip(&snapshot.groups) {
         let prefix = if model.groups().len() > 1 {
@@ -18,18 +25,26 @@ pub(super) fn measure(model: &Model, precision: Precision, snapshot: &Snapshot) 
         } else {
             String::new()
         };
-        let fields = match state {
-            GroupSnapshot::Cells(fields) => fields,
+        let (fields, missing) = match state {
+            GroupSnapshot::Cells(fields) => (fields, missing),
             GroupSnapshot::Population(population, left) => {
                 observables.extend(count(group, &prefix, population, *left));
-                &population.fields
+                (&population.fields, None)
             }
         };
         for (field, bytes) in fields.iter().enumerate() {
-            observables.extend(of_field(group, field, precision, &prefix, bytes));
+            let size = group.schema().fields[field].value_type.stored(precision).size();
+            let bytes = missing.map_or(Cow::from(bytes), |missing| kept(bytes, size, missing).into());
+            observables.extend(of_field(group, field, precision, &prefix, &bytes));
         }
     }
     observables
+}
+
+/// The values, of this size, of the cells that have ground.
+fn kept(bytes: &[u8], size: usize, missing: &[bool]) -> Vec<u8> {
+    let values = bytes.chunks_exact(size).zip(missing).filter(|(_, is_missing)| !**is_missing);
+    values.flat_map(|(value, _)| value).copied().collect()
 }
 
 fn count(group: &Group, prefix: &str, population: &Population, left: u64) -> Vec<Observable> {

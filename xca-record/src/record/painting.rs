@@ -31,6 +31,8 @@ pub(super) struct Field<'a> {
     pub(super) values: &'a [f64],
     /// Of the ground, where it is drawn over one.
     pub(super) heights: Option<&'a [f64]>,
+    /// The cells that are not drawn.
+    pub(super) hidden: Option<&'a [bool]>,
 }
 
 impl Shown {
@@ -65,12 +67,12 @@ impl Shown {
                 let range = frame.range.or_else(|| seen.range());
                 Some(spheres(view, group, geometry, (positions, values), Frame { range, ..frame })?)
             }
-            (AnyView::Cells(view), Seen::Cells { is_float, values, heights }) => {
+            (AnyView::Cells(view), Seen::Cells { is_float, values, heights, hidden }) => {
                 let schema = group.schema();
                 let label = view.label(schema);
-                let heights = heights.as_deref();
+                let (heights, hidden, is_float) = (heights.as_deref(), hidden.as_deref(), *is_float);
                 let field =
-                    Field { view, schema, geometry, label: &label, is_float: *is_float, values, heights };
+                    Field { view, schema, geometry, label: &label, is_float, values, heights, hidden };
                 let range = seen.range();
                 Some(if view.block { field.block(frame, range)? } else { field.slice(frame, range)? })
             }
@@ -111,6 +113,7 @@ impl Field<'_> {
         picture.categories = &kinds;
         let relief = self.heights.zip(self.view.relief);
         picture.relief = relief.map(|(heights, (_, bare))| Relief { heights, bare });
+        picture.hidden = self.hidden;
         (picture.title, picture.caption) = (frame.title, frame.caption);
         picture.size = frame.size;
         // A side that no one gave is no length.
@@ -128,6 +131,7 @@ impl Field<'_> {
         picture.categories = &kinds;
         // In a single layer nothing is hidden that an empty cell would show.
         let is_flat = self.geometry.extents()[2] == 1;
+        picture.hidden = self.hidden;
         picture.empty = (!self.is_float && !is_flat).then_some(0.0);
         (picture.title, picture.caption) = (frame.title, frame.caption);
         picture.size = frame.size.unwrap_or(picture.size);
@@ -158,7 +162,10 @@ impl Field<'_> {
         let view = self.view;
         let categories = view.categories(self.schema);
         let is_plain = categories.is_empty() && view.map.is_none() && view.range.is_none();
-        let mut all = self.values.iter().copied().chain(range.into_iter().flatten());
+        let values = self.values.iter().enumerate();
+        let is_drawn = |cell: usize| self.hidden.is_none_or(|hidden| hidden.get(cell) != Some(&true));
+        let drawn = values.filter(|(cell, _)| is_drawn(*cell)).map(|(_, value)| *value);
+        let mut all = drawn.chain(range.into_iter().flatten());
         // Cells that are 0 or 1 need no scale.
         if is_plain && !self.is_float && all.all(|value| [0.0, 1.0].contains(&value)) {
             return vec![Category::new(0, 0.0, "0"), Category::new(1, 1.0, "1")];

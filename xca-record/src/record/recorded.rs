@@ -109,6 +109,7 @@ impl Recorder {
                 newer.push(folder.top.file(&self.numbered_file("final", number, "csv")));
             }
         }
+        newer.extend(self.grid_files().iter().map(|file| folder.top.file(file)));
         newer
     }
 }

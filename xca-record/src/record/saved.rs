@@ -56,13 +56,19 @@ impl Shown {
     pub(super) fn seen_in(&self, model: &Model, path: &Path) -> Result<Seen, SavedError> {
         let (group, geometry) = (&model.groups()[self.group], model.geometry());
         match &self.view {
-            AnyView::Items(view) => items(view, group, path),
-            AnyView::Cells(view) => of_cells(view, group, geometry, path),
+            AnyView::Items(view) => items(view, group, self.ground().corner, path),
+            AnyView::Cells(view) => of_cells(view, group, geometry, self.ground().missing, path),
         }
     }
 }
 
-fn of_cells(view: &AnyCellView, group: &Group, geometry: &Geometry, path: &Path) -> Result<Seen, SavedError> {
+fn of_cells(
+    view: &AnyCellView,
+    group: &Group,
+    geometry: &Geometry,
+    missing: Option<&[bool]>,
+    path: &Path,
+) -> Result<Seen, SavedError> {
     let file = read_dense(path)?;
     if file.grid.cells != geometry.extents() {
         let what = format!("it has {:?} cells, not {:?}", file.grid.cells, geometry.extents());
@@ -76,14 +82,16 @@ fn of_cells(view: &AnyCellView, group: &Group, geometry: &Geometry, path: &Path)
     let heights = view.relief.map(|(field, _)| plane(field)).transpose()?;
     let Part { field, component } = view.part();
     let part = DrawnPart::of(group.schema().fields[field].value_type, component);
-    Ok(cells::seen(&plane(field)?, part, heights))
+    let hidden = missing.map(|missing| cells::drawn_mask(view, geometry, missing));
+    Ok(cells::seen(&plane(field)?, part, heights, hidden))
 }
 
-fn items(view: &AnyItemView, group: &Group, path: &Path) -> Result<Seen, SavedError> {
+fn items(view: &AnyItemView, group: &Group, [x, y]: [f64; 2], path: &Path) -> Result<Seen, SavedError> {
     let file = read_particles(path)?;
     let arrays = Arrays { path, view: &view.name, group, arrays: &file.arrays };
     let schema = group.schema();
-    let positions = Plane::of_array(&file.positions);
+    // In the model, the corner of the map is at 0, 0.
+    let positions = Plane::of_array(&file.positions).shifted([-x, -y]);
     let values = match view.colour(schema) {
         None => Vec::new(),
         Some(Drawn { part: Part { field, component }, .. }) => {

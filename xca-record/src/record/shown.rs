@@ -1,6 +1,6 @@
 //! A view of a model, and what it sees of a state.
 
-use super::cells::Cells;
+use super::cells::{Cells, Ground};
 use super::items::Items;
 use super::numbered_files;
 use super::seen::Seen;
@@ -8,6 +8,7 @@ use crate::view::AnyView;
 use std::path::PathBuf;
 use xca_core::{GroupSnapshot, Model, Precision, Snapshot};
 use xca_io::atomic::OutputFolder;
+use xca_io::map::Map;
 use xca_io::vtk::Collection;
 
 /// A view with its files.
@@ -15,6 +16,8 @@ use xca_io::vtk::Collection;
 pub(super) struct Shown {
     pub(super) group: usize,
     pub(super) view: AnyView,
+    /// Where cells lie on a map.
+    map: Option<Map>,
     /// The frames that there are.
     pub(super) collection: Option<Collection>,
     /// The scale of the first picture.
@@ -23,8 +26,8 @@ pub(super) struct Shown {
 
 impl Shown {
     /// A view of the group with this number.
-    pub(super) fn new(group: usize, view: AnyView) -> Self {
-        Self { group, view, collection: None, range: None }
+    pub(super) fn new(group: usize, view: AnyView, map: Option<Map>) -> Self {
+        Self { group, view, map, collection: None, range: None }
     }
 
     pub(super) fn is_of_items(&self) -> bool {
@@ -98,10 +101,21 @@ impl Shown {
         let (group, geometry) = (&model.groups()[self.group], model.geometry());
         match (&self.view, &snapshot.groups[self.group]) {
             (AnyView::Cells(view), GroupSnapshot::Cells(fields)) => {
-                Some(Cells::new(view, group, geometry, precision, fields))
+                Some(Cells::new(view, group, geometry, precision, fields, self.ground()))
             }
             _ => None,
         }
+    }
+
+    /// A view of the same group and the same place.
+    pub(super) fn with_view(&self, view: AnyView) -> Self {
+        Self::new(self.group, view, self.map.clone())
+    }
+
+    /// Where its cells lie on the map.
+    pub(super) fn ground(&self) -> Ground<'_> {
+        let corner = self.map.as_ref().map(|map| map.placement().corner).unwrap_or_default();
+        Ground { corner, missing: self.map.as_ref().and_then(Map::missing) }
     }
 
     /// What it draws of a state.

@@ -16,6 +16,8 @@ pub struct Sight {
     pub subject: Subject,
     /// One for each cell of the layer, or for each item.
     pub values: Vec<f64>,
+    /// The cells that are not drawn.
+    pub hidden: Option<Vec<bool>>,
     /// The name of the substate that they are of, and what a scale calls it.
     pub substate: String,
     pub label: String,
@@ -91,17 +93,25 @@ impl Panel {
         let present = seen.range();
         let range = earlier.map_or(present, |earlier| Some(wider(earlier, present)));
         match (&self.shown.view, seen) {
-            (AnyView::Cells(view), Seen::Cells { is_float, values, .. }) => {
+            (AnyView::Cells(view), Seen::Cells { is_float, values, hidden, .. }) => {
                 let label = view.label(schema);
-                let field =
-                    Field { view, schema, geometry, label: &label, is_float, values: &values, heights: None };
+                let field = Field {
+                    view,
+                    schema,
+                    geometry,
+                    label: &label,
+                    is_float,
+                    values: &values,
+                    heights: None,
+                    hidden: hidden.as_deref(),
+                };
                 let Scalar { map, range, .. } = field.scalar(range, None);
                 let kinds = field.kinds(earlier);
                 let ([across, down], layers) = field.plane();
                 let (axis, layer) = (view.axis, view.drawn_layer(geometry));
                 let subject = Subject::Layer { cells: [across, down], axis, layer, layers };
                 let substate = name(view.part());
-                Some(Sight { subject, values, substate, label, map, kinds, range })
+                Some(Sight { subject, values, hidden, substate, label, map, kinds, range })
             }
             (AnyView::Items(view), Seen::Items { positions, values }) => {
                 let side = geometry.side();
@@ -116,7 +126,8 @@ impl Panel {
                 let (substate, label) =
                     colour.map(|Drawn { part, label }| (name(part), label)).unwrap_or_default();
                 let (map, range) = (ColourMap::default(), self.range.or(range));
-                Some(Sight { subject, values, substate, label, map, kinds: view.categories(schema), range })
+                let kinds = view.categories(schema);
+                Some(Sight { subject, values, hidden: None, substate, label, map, kinds, range })
             }
             _ => None,
         }

@@ -67,9 +67,43 @@ impl Plane {
         Self { numbers, components: stored.components() }
     }
 
+    /// The same values, but NaN, or 0 of whole numbers, where the mask is true.
+    pub fn without(mut self, missing: Option<&[bool]>) -> Self {
+        fn clear<T: Copy>(numbers: &mut [T], components: usize, missing: &[bool], nothing: T) {
+            let values = numbers.chunks_mut(components).zip(missing);
+            values.filter(|(_, is_missing)| **is_missing).for_each(|(value, _)| value.fill(nothing));
+        }
+        let (components, missing) = (self.components, missing.unwrap_or_default());
+        match &mut self.numbers {
+            Numbers::U8(numbers) => clear(numbers, components, missing, 0),
+            Numbers::I32(numbers) => clear(numbers, components, missing, 0),
+            Numbers::U32(numbers) => clear(numbers, components, missing, 0),
+            Numbers::F32(numbers) => clear(numbers, components, missing, f32::NAN),
+            Numbers::F64(numbers) => clear(numbers, components, missing, f64::NAN),
+        }
+        self
+    }
+
+    /// The values where the mask is not true.
+    pub fn kept(&self, component: usize, missing: Option<&[bool]>) -> Vec<f64> {
+        let is_missing = |index: usize| missing.is_some_and(|missing| missing.get(index) == Some(&true));
+        let values = self.component(component).into_iter().enumerate();
+        values.filter(|(index, _)| !is_missing(*index)).map(|(_, value)| value).collect()
+    }
+
     /// Points.
     pub fn points(points: Vec<[f64; 3]>) -> Self {
         Self { numbers: Numbers::F64(points.into_flattened()), components: 3 }
+    }
+
+    /// Points that are moved so far along x and y: as they are where that is nowhere.
+    pub(crate) fn shifted(self, [x, y]: [f64; 2]) -> Self {
+        if [x, y] == [0.0; 2] {
+            return self;
+        }
+        Self::points(
+            self.to_points().into_iter().map(|point| [point[0] + x, point[1] + y, point[2]]).collect(),
+        )
     }
 
     /// For a VTK file.
@@ -183,6 +217,19 @@ mod tests {
         assert!(!plane.is_float());
         assert_eq!(plane.drawn(DrawnPart::Component(0)), [8.0, 9.0]);
         assert!(Plane::all(stored, &[]).component(0).is_empty());
+    }
+
+    #[test]
+    fn cells_without_ground_lose_their_values() {
+        let bytes: Vec<u8> = [3.0_f32, -4.0, 0.5, 0.0].iter().flat_map(|x| x.to_ne_bytes()).collect();
+        let plane = Plane::all(VECTOR, &bytes).without(Some(&[true, false]));
+        assert!(plane.value(0).iter().all(|number| number.is_nan()));
+        assert_eq!((plane.value(1), plane.kept(0, Some(&[true, false]))), (vec![0.5, 0.0], vec![0.5]));
+        assert_eq!(Plane::all(VECTOR, &bytes).kept(1, None), [-4.0, 0.0]);
+        let stored = StoredType { scalar: StoredScalar::U8, lanes: 1, length: 1 };
+        assert_eq!(Plane::all(stored, &[7, 8]).without(Some(&[false, true])).component(0), [7.0, 0.0]);
+        let points = Plane::points(vec![[1.0, 2.0, 3.0]]).shifted([10.0, -2.0]);
+        assert_eq!(points.to_points(), [[11.0, 0.0, 3.0]]);
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! The options that every model's program has.
 
+use super::initial::Initial;
 use super::voice::Voice;
 use crate::engines::{Arithmetic, EngineName, EngineOptions, MOST_THREADS};
 use crate::program::{Assignment, Given};
@@ -25,9 +26,10 @@ pub(crate) struct ModelArguments {
     set: Vec<Assignment>,
 
     /// Start a substate of a one-layer model from an ESRI ASCII grid; can be given several times. NAME can be
-    /// a component: outflow.3. bool is 0 or 1 in a grid, a state its number
-    #[arg(long, value_name = "NAME=FILE", value_parser = grid)]
-    pub(crate) initial: Vec<Assignment>,
+    /// a component: outflow.3. bool is 0 or 1 in a grid, a state its number. NAME:0=FILE takes 0 where the
+    /// grid has no value
+    #[arg(long, value_name = "NAME=FILE")]
+    pub(crate) initial: Vec<Initial>,
 
     /// Take options from a TOML file. Its keys are these options; those on the command line win
     #[arg(long, value_name = "FILE")]
@@ -170,10 +172,6 @@ fn seed(text: &str) -> Result<u64, String> {
         format!("a seed is a whole number from 0 to {}, such as 7; each gives other random numbers", u64::MAX)
     };
     text.parse().map_err(|_| wanted())
-}
-
-fn grid(text: &str) -> Result<Assignment, &'static str> {
-    text.parse().map_err(|_| "it must be of the form NAME=FILE, such as altitude=ground.asc")
 }
 
 pub(crate) fn threads(text: &str) -> Result<usize, String> {

@@ -1,4 +1,4 @@
-use super::super::{DataArray, Values, write_dense, write_particles};
+use super::super::{DataArray, Values, ghost_types, write_dense, write_particles};
 use super::*;
 use std::fs;
 use tempfile::TempDir;
@@ -177,4 +177,23 @@ fn a_file_of_something_else_is_refused() {
     assert!(
         read_dense(Path::new("/nowhere/d.vti")).unwrap_err().to_string().contains("cannot read /nowhere")
     );
+}
+
+#[test]
+fn hidden_cells_come_back_apart_from_the_substates() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("d.vti");
+    let hidden = [true, false, false, true, false, false];
+    let ghosts = ghost_types(&hidden);
+    assert_eq!(ghosts[..2], [32, 0]);
+    let values = [1.0; 6];
+    let arrays = [DataArray::new("t", &values[..]), DataArray::new(GHOST_TYPE, &ghosts[..])];
+    write_dense(&path, 0.0, &GRID, &arrays).unwrap();
+    let file = read_dense(&path).unwrap();
+    assert_eq!((file.hidden.as_deref(), file.arrays.len()), (Some(&hidden[..]), 1));
+    write_dense(&path, 0.0, &GRID, &arrays[..1]).unwrap();
+    assert_eq!(read_dense(&path).unwrap().hidden, None);
+    let wide = [[0_u8; 2]; 6];
+    write_dense(&path, 0.0, &GRID, &[DataArray::new(GHOST_TYPE, &wide[..])]).unwrap();
+    assert!(read_dense(&path).unwrap_err().to_string().contains("its ghost types make no sense"));
 }

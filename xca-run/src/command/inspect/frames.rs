@@ -52,22 +52,23 @@ pub(super) fn inside(
     let text = |name: &str| run.get(name).and_then(Value::as_str).unwrap_or("?").to_owned();
     let (mut substates, mut places, mut time) = (Vec::new(), Vec::new(), 0.0);
     for frame in frames {
-        let (arrays, found) = if frame.is_dense {
+        let (arrays, found, hidden) = if frame.is_dense {
             let file = read_dense(&frame.path).map_err(Unable::refused)?;
             time = file.time;
             let cell = arguments.cell.map(|cell| of_cell(&frame.view, &file, cell)).transpose();
             let found = cell.map_err(Unable::refused)?;
-            (file.arrays, found)
+            (file.arrays, found, file.hidden)
         } else {
             let file = read_particles(&frame.path).map_err(Unable::refused)?;
             time = file.time;
             let position = ReadArray { name: "position".to_owned(), ..file.positions };
             let arrays = [vec![position], file.arrays].concat();
             let item = arguments.label.and_then(|label| of_item(&frame.view, &arrays, label));
-            (arrays, item)
+            (arrays, item, None)
         };
         places.extend(found);
-        substates.extend(arrays.iter().flat_map(|array| statistics(&frame.view, array)));
+        let of_array = |array| statistics(&frame.view, array, hidden.as_deref());
+        substates.extend(arrays.iter().flat_map(of_array));
     }
     let wanted = [
         arguments.cell.map(|cell| format!("cell {cell:?}")),
@@ -89,7 +90,7 @@ pub(super) fn inside(
     }))
 }
 
-fn statistics(view: &str, array: &ReadArray) -> Vec<Statistics> {
+fn statistics(view: &str, array: &ReadArray, hidden: Option<&[bool]>) -> Vec<Statistics> {
     let scalar = match array.numbers {
         NumberType::U8 => "u8",
         NumberType::I32 => "i32",
@@ -108,7 +109,7 @@ fn statistics(view: &str, array: &ReadArray) -> Vec<Statistics> {
         components: &array.component_names,
         states: &array.states,
     };
-    described.statistics(&Plane::of_array(array))
+    described.statistics(&Plane::of_array(array), hidden)
 }
 
 /// The values of the item or the cell with this number.

@@ -4,7 +4,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
 use xca_core::GroupSnapshot;
-use xca_record::checkpoint::{Checkpoint, GroupShape};
+use xca_record::checkpoint::{Checkpoint, GroupShape, Kind};
 use xca_record::components::{state_name, text};
 use xca_record::numbers::Exact;
 use xca_record::record::Plane;
@@ -103,6 +103,10 @@ fn groups(checkpoint: &Checkpoint) -> impl Iterator<Item = (&GroupShape, &GroupS
 pub(super) fn statistics(checkpoint: &Checkpoint) -> Vec<Statistics> {
     let mut all = Vec::new();
     for (shape, _, fields) in groups(checkpoint) {
+        let missing = match shape.kind {
+            Kind::Cells { .. } => checkpoint.description.mask(),
+            Kind::Items { .. } => None,
+        };
         for (substate, bytes) in shape.substates.iter().zip(fields) {
             let described = Described {
                 name: format!("{}.{}", shape.name, substate.name),
@@ -110,7 +114,7 @@ pub(super) fn statistics(checkpoint: &Checkpoint) -> Vec<Statistics> {
                 components: &substate.components,
                 states: &substate.states,
             };
-            all.extend(described.statistics(&Plane::all(substate.stored, bytes)));
+            all.extend(described.statistics(&Plane::all(substate.stored, bytes), missing.as_deref()));
         }
     }
     all
@@ -126,10 +130,10 @@ pub(super) struct Described<'a> {
 }
 
 impl Described<'_> {
-    /// Of each component.
-    pub(super) fn statistics(&self, plane: &Plane) -> Vec<Statistics> {
+    /// Of each component, without the cells that have no ground.
+    pub(super) fn statistics(&self, plane: &Plane, missing: Option<&[bool]>) -> Vec<Statistics> {
         let of_component = |component: usize| {
-            let values = plane.component(component);
+            let values = plane.kept(component, missing);
             let suffix = self.components.get(component).map_or("", String::as_str);
             Statistics {
                 name: format!("{}{suffix}", self.name),
@@ -166,11 +170,12 @@ impl Spread {
     }
 }
 
-fn values(shape: &GroupShape, fields: &[Vec<u8>], index: usize) -> Vec<NamedValue> {
+/// Without `ground` there are no values: numbers are NaN.
+fn values(shape: &GroupShape, fields: &[Vec<u8>], index: usize, ground: bool) -> Vec<NamedValue> {
     let substates = shape.substates.iter().zip(fields);
     substates
         .map(|(substate, bytes)| {
-            let plane = Plane::chosen(substate.stored, bytes, &[index]);
+            let plane = Plane::chosen(substate.stored, bytes, &[index]).without(Some(&[!ground]));
             NamedValue::new(substate.name.clone(), &substate.states, &plane, 0)
         })
         .collect()
@@ -196,13 +201,15 @@ pub(super) fn linear(extents: [usize; 3], cell: [usize; 3]) -> Result<usize, Str
 pub(super) fn cell(checkpoint: &Checkpoint, cell: [usize; 3]) -> Result<Vec<Place>, String> {
     let extents = checkpoint.description.extents().unwrap_or_default();
     let linear = linear(extents, cell)?;
+    let mask = checkpoint.description.mask();
+    let has_ground = mask.is_none_or(|mask| mask.get(linear) != Some(&true));
     let mut places = Vec::new();
     for (shape, state, fields) in groups(checkpoint) {
         let place = |label, index| Place {
             of: shape.name.clone(),
             cell: Some(cell),
             label,
-            values: values(shape, fields, index),
+            values: values(shape, fields, index, label.is_some() || has_ground),
         };
         match state {
             GroupSnapshot::Cells(_) => places.push(place(None, linear)),
@@ -235,7 +242,7 @@ pub(super) fn items(checkpoint: &Checkpoint, label: u32) -> Result<Vec<Place>, S
             of: shape.name.clone(),
             cell: Some([cell % width, cell / width % height, cell / (width * height)]),
             label: Some(label),
-            values: values(shape, fields, index),
+            values: values(shape, fields, index, true),
         });
     }
     if places.is_empty() { Err(format!("there is no item with the label {label}")) } else { Ok(places) }

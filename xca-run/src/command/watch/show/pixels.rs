@@ -84,13 +84,16 @@ fn of_layer(sight: &Sight, cells: [usize; 2], window: Window, palette: &Palette)
     let [columns, rows] = window.cells;
     let row = |row: usize| {
         let from = (window.first[1] + row) * cells[0] + window.first[0];
-        &sight.values[from..from + columns]
+        from..from + columns
     };
-    let values: Vec<f64> = (0..rows).flat_map(row).copied().collect();
+    let values: Vec<f64> = (0..rows).flat_map(|y| &sight.values[row(y)]).copied().collect();
+    let shown =
+        |hidden: &Vec<bool>| -> Vec<bool> { (0..rows).flat_map(|y| &hidden[row(y)]).copied().collect() };
+    let hidden = sight.hidden.as_ref().map(shown);
     let kinds: Vec<f64> = sight.kinds.iter().map(|kind| kind.value).collect();
     let mosaic = Mosaic::new([columns, rows], &values, &kinds, scale(sight), palette);
     let mut pixels = Pixels::new(window.pixels, [0.0; 3]);
-    mosaic.draw(window.pixels, |x, y, colour| pixels.set(x, y, colour));
+    mosaic.without(hidden.as_deref()).draw(window.pixels, |x, y, colour| pixels.set(x, y, colour));
     pixels
 }
 

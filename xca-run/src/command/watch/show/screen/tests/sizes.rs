@@ -29,6 +29,7 @@ fn any_news() -> impl Strategy<Value = News> {
                 sight: Sight {
                     subject,
                     values,
+                    hidden: None,
                     substate: "alive".to_owned(),
                     label: "a^2".to_owned(),
                     map: ColourMap::default(),

@@ -1,0 +1,246 @@
+//! Where a layer of cells lies on a map, and which of its cells have no ground.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Corners and sides that are this near, in sides of a cell, are the same.
+const TOLERANCE: f64 = 1e-6;
+
+/// The place of a layer of square cells.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Placement {
+    /// The number of columns and rows.
+    pub extents: [usize; 2],
+    /// The south-west corner of the south-west cell, in the units of the map.
+    pub corner: [f64; 2],
+    /// The side of a cell, in the units of the map.
+    pub side: f64,
+}
+
+impl Placement {
+    /// The first thing in which a place differs from another one: extents, side or corner. Sides and corners that are within
+    /// 1e-6 of a cell are the same, so it does not matter with how many digits they are written.
+    pub fn difference(&self, other: &Self) -> Option<PlacementDifference> {
+        let is_near = |one: f64, other: f64| (one - other).abs() <= TOLERANCE * self.side;
+        let corners = || self.corner.iter().zip(other.corner);
+        if self.extents != other.extents {
+            Some(PlacementDifference::Extents { found: self.extents, wanted: other.extents })
+        } else if !is_near(self.side, other.side) {
+            Some(PlacementDifference::Side { found: self.side, wanted: other.side })
+        } else if !corners().all(|(one, other)| is_near(*one, other)) {
+            Some(PlacementDifference::Corner { found: self.corner, wanted: other.corner })
+        } else {
+            None
+        }
+    }
+
+    /// Column and row of a cell as they are counted in a file: from 1, from the west and from the north.
+    pub fn place(&self, cell: usize) -> [usize; 2] {
+        let [columns, rows] = self.extents;
+        [cell % columns.max(1) + 1, rows.saturating_sub(cell / columns.max(1))]
+    }
+}
+
+/// How two places differ: the value of the one and of the other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum PlacementDifference {
+    Extents { found: [usize; 2], wanted: [usize; 2] },
+    Side { found: f64, wanted: f64 },
+    Corner { found: [f64; 2], wanted: [f64; 2] },
+}
+
+impl fmt::Display for PlacementDifference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Extents { found: [x, y], wanted: [u, v] } => {
+                write!(f, "it has {x} x {y} cells, not {u} x {v}")
+            }
+            Self::Side { found, wanted } => write!(f, "its cells have a side of {found}, not {wanted}"),
+            Self::Corner { found: [x, y], wanted: [u, v] } => {
+                write!(f, "its south-west corner is {x}, {y}, not {u}, {v}")
+            }
+        }
+    }
+}
+
+/// The place of a layer of cells, with a mask of those that have no ground (NODATA).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Map {
+    placement: Placement,
+    /// By linear index, x fastest, from the south; none where every cell has ground.
+    missing: Option<Arc<[bool]>>,
+}
+
+impl Map {
+    /// A map with ground in every cell.
+    pub fn new(placement: Placement) -> Self {
+        Self { placement, missing: None }
+    }
+
+    /// The same map, without ground in the cells where the mask is true (x fastest, from the south). None where the mask
+    /// does not have one entry for each cell.
+    #[must_use]
+    pub fn without(self, missing: Vec<bool>) -> Option<Self> {
+        let [columns, rows] = self.placement.extents;
+        let has_any = missing.contains(&true);
+        (missing.len() == columns.checked_mul(rows)?)
+            .then(|| Self { missing: has_any.then(|| missing.into()), ..self })
+    }
+
+    /// Where it lies.
+    pub fn placement(&self) -> Placement {
+        self.placement
+    }
+
+    /// The mask of the cells without ground, x fastest, from the south; none where every cell has ground.
+    pub fn missing(&self) -> Option<&[bool]> {
+        self.missing.as_deref()
+    }
+
+    /// Whether the cell with this linear index lies on the map and has ground.
+    pub fn has_ground(&self, cell: usize) -> bool {
+        let [columns, rows] = self.placement.extents;
+        cell < columns * rows && !self.missing().is_some_and(|missing| missing[cell])
+    }
+
+    /// The linear indices of the cells at the edge: they have ground, and lie at the border of the map or share a side with a
+    /// cell without ground.
+    pub fn edge(&self) -> Vec<usize> {
+        let [columns, rows] = self.placement.extents;
+        let is_edge = |cell: usize| {
+            let (x, y) = (cell % columns, cell / columns);
+            let is_border = x == 0 || y == 0 || x + 1 == columns || y + 1 == rows;
+            let beside = || [cell - 1, cell + 1, cell - columns, cell + columns];
+            is_border || beside().into_iter().any(|other| !self.has_ground(other))
+        };
+        (0..columns * rows).filter(|cell| self.has_ground(*cell) && is_edge(*cell)).collect()
+    }
+
+    /// Checks that a layer of this place lies on the map, with nothing (0 or NaN) where the map has no ground. `path` is the
+    /// file of the layer, `on` says what the map is of.
+    ///
+    /// # Errors
+    /// [`OverlayError`] with both values of the first difference, or with the cell.
+    pub fn check(
+        &self,
+        path: &Path,
+        placement: Placement,
+        values: &[f64],
+        on: &str,
+    ) -> Result<(), OverlayError> {
+        if let Some(difference) = placement.difference(&self.placement) {
+            let (path, on) = (path.to_owned(), on.to_owned());
+            return Err(OverlayError::Elsewhere { path, on, difference });
+        }
+        let is_lost =
+            |(cell, value): &(usize, &f64)| !value.is_nan() && **value != 0.0 && !self.has_ground(*cell);
+        match values.iter().enumerate().find(is_lost) {
+            Some((cell, value)) => Err(OverlayError::NoGround {
+                path: path.to_owned(),
+                on: on.to_owned(),
+                place: self.placement.place(cell),
+                value: *value,
+            }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A layer that does not fit a map.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum OverlayError {
+    /// It lies elsewhere, or has other cells.
+    #[error("{} does not lie on {on}: {difference}", path.display())]
+    Elsewhere {
+        /// The file of the layer.
+        path: PathBuf,
+        /// What the map is of.
+        on: String,
+        /// The first difference.
+        difference: PlacementDifference,
+    },
+    /// It has something where the map has no ground.
+    #[error("{}: {value} in column {}, row {} from the north, where {on} has no ground (NODATA); clip the grid to \
+             the ground, or set it to 0 there", path.display(), place[0], place[1])]
+    NoGround {
+        /// The file of the layer.
+        path: PathBuf,
+        /// What the map is of.
+        on: String,
+        /// Column and row of the cell, from 1, from the west and the north.
+        place: [usize; 2],
+        /// What the layer has there.
+        value: f64,
+    },
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PLACE: Placement = Placement { extents: [4, 3], corner: [2600.0, 5100.0], side: 10.0 };
+
+    #[test]
+    fn places_are_the_same_within_a_millionth_of_a_cell() {
+        let same = |other: Placement| assert_eq!(PLACE.difference(&other), None, "{other:?}");
+        same(PLACE);
+        same(Placement { corner: [2_600.000_009, 5_099.999_991], ..PLACE });
+        same(Placement { side: 10.000_009, ..PLACE });
+        // A third of a degree of a minute, with other digits.
+        let fine = Placement { side: 1.0 / 3600.0, corner: [15.0, 37.5], ..PLACE };
+        assert_eq!(fine.difference(&Placement { side: 0.000_277_777_778, ..fine }), None);
+        let differs = |other: Placement, wanted: &str| {
+            assert_eq!(PLACE.difference(&other).unwrap().to_string(), wanted);
+        };
+        differs(Placement { extents: [3, 4], ..PLACE }, "it has 4 x 3 cells, not 3 x 4");
+        differs(Placement { side: 10.000_02, ..PLACE }, "its cells have a side of 10, not 10.00002");
+        let corner = "its south-west corner is 2600, 5100, not 2600, 5100.00002";
+        differs(Placement { corner: [2600.0, 5_100.000_02], ..PLACE }, corner);
+        differs(
+            Placement { corner: [f64::NAN, 5100.0], ..PLACE },
+            "its south-west corner is 2600, 5100, not NaN, 5100",
+        );
+    }
+
+    #[test]
+    fn the_edge_is_where_ground_ends() {
+        let all = Map::new(PLACE);
+        assert_eq!(all.edge(), [0, 1, 2, 3, 4, 7, 8, 9, 10, 11]);
+        let wide = Placement { extents: [5, 5], ..PLACE };
+        let mut mask = vec![false; 25];
+        mask[7] = true;
+        let map = Map::new(wide).without(mask).unwrap();
+        assert!(!map.has_ground(7) && map.has_ground(6) && !map.has_ground(25));
+        let inner: Vec<usize> =
+            map.edge().into_iter().filter(|cell| [6, 7, 8, 11, 12, 13].contains(cell)).collect();
+        assert_eq!(inner, [6, 8, 12]);
+        assert_eq!(Map::new(wide).without(vec![true; 24]), None);
+        assert_eq!(Map::new(wide).without(vec![false; 25]), Some(Map::new(wide)));
+    }
+
+    #[test]
+    fn layers_have_nothing_where_there_is_no_ground() {
+        let mut mask = vec![false; 12];
+        mask[9] = true;
+        let map = Map::new(PLACE).without(mask).unwrap();
+        let check = |placement, values: &[f64]| {
+            map.check(Path::new("d.asc"), placement, values, "g.asc").map_err(|error| error.to_string())
+        };
+        let mut values = vec![5.0; 12];
+        values[9] = 0.0;
+        assert_eq!(check(PLACE, &values), Ok(()));
+        values[9] = f64::NAN;
+        assert_eq!(check(PLACE, &values), Ok(()));
+        values[9] = 2.5;
+        let said = check(PLACE, &values).unwrap_err();
+        assert!(
+            said.starts_with("d.asc: 2.5 in column 2, row 1 from the north, where g.asc has no ground"),
+            "{said}"
+        );
+        let said = check(Placement { corner: [0.0; 2], ..PLACE }, &values).unwrap_err();
+        assert_eq!(said, "d.asc does not lie on g.asc: its south-west corner is 0, 0, not 2600, 5100");
+    }
+}
