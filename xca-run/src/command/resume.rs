@@ -8,7 +8,7 @@ use super::{Definition, Ended, Unable};
 use crate::checkpoint::{Checkpoint, CheckpointError, CheckpointFolder, Description, Difference};
 use crate::program::Failure;
 use crate::record::{REPORT, RunFolder};
-use crate::report::{self, Earlier};
+use crate::report::{self, Earlier, ReadReportError};
 use clap::{Args, Command};
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -43,8 +43,8 @@ pub(super) fn resume(definition: &Definition<'_>, arguments: &ResumeArguments) -
         return Err(Unable::refused(format!("there is no folder {}", folder.display())));
     }
     let report_file = folder.join(REPORT);
-    let report = report::read(&report_file).map_err(Unable::refused)?.unwrap_or_else(|| json!({}));
-    let earlier: Earlier = report::parts(&report_file, &report).map_err(Unable::refused)?;
+    let report = report::read(&report_file).map_err(unread)?.unwrap_or_else(|| json!({}));
+    let earlier: Earlier = report::parts(&report_file, &report).map_err(unread)?;
     if arguments.checkpoint.is_none() && earlier.has_ended() {
         arguments
             .voice
@@ -55,6 +55,11 @@ pub(super) fn resume(definition: &Definition<'_>, arguments: &ResumeArguments) -
     let found = Found { definition, arguments, path: &path };
     let checkpoint = Checkpoint::read(&path).map_err(|error| found.refused(error.into(), None))?;
     found.under_way(checkpoint, earlier, begin)?.go()
+}
+
+/// A report that may be of someone else is not replaced; a lost one is no obstacle.
+fn unread(error: ReadReportError) -> Unable {
+    Unable::RefusedOffering(error.into(), "move it away to resume without it".to_owned())
 }
 
 /// A run that should not go on in this way.
