@@ -110,13 +110,22 @@ fn those_of_others() {
 /// The report only adds what the run took until then.
 #[test]
 fn a_lost_report_is_no_obstacle() {
-    for text in [None, Some(""), Some("[1]"), Some("{\"progress\": 3}")] {
+    for (text, reason) in [
+        (None, ""),
+        (Some(""), "is not JSON: EOF"),
+        (Some("[1]"), "is not the report of a run: "),
+        (Some("{\"progress\": 3}"), "is not the report of a run: `progress`: invalid type: integer `3`"),
+    ] {
         let run = Killed::new();
         let wanted = results(&run.place.path("here"));
-        match text {
-            Some(text) => run.place.write("here/run.json", text),
-            None => fs::remove_file(run.place.path("here/run.json")).unwrap(),
+        // One that may be of someone else is not replaced.
+        if let Some(text) = text {
+            run.place.write("here/run.json", text);
+            let said = run.refuse(HEAT, "resume here");
+            assert!(said.contains(&format!("here/run.json {reason}")), "{said}");
+            assert!(said.ends_with("move it away to resume without it\n"), "{said}");
         }
+        fs::remove_file(run.place.path("here/run.json")).unwrap();
         fs::remove_file(run.place.path("here/final.png")).unwrap();
         run.resume("");
         assert!(results(&run.place.path("here")) == wanted, "{text:?}");

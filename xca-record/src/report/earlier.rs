@@ -53,7 +53,7 @@ pub fn parts<T: DeserializeOwned>(path: &Path, report: &Value) -> Result<T, Read
 
 /// What a report tells of a run before it was resumed; all nothing where there is no such file.
 #[derive(Debug, Clone, Default, Deserialize)]
-#[serde(default)]
+#[serde(default, expecting = "an object")]
 pub struct Earlier {
     /// The version of the framework; its presence says whose report this is.
     pub xca: Option<String>,
@@ -67,7 +67,7 @@ pub struct Earlier {
 
 /// What the run had taken when this was written last: after its last checkpoint, or at its end.
 #[derive(Debug, Clone, Default, Deserialize)]
-#[serde(default)]
+#[serde(default, expecting = "an object")]
 pub struct EarlierProgress {
     outcome: String,
     pub set_up_seconds: f64,
@@ -113,7 +113,7 @@ mod tests {
         let path = folder.path().join("run.json");
         assert!(Earlier::read(&path).unwrap().is_none());
         for (text, wanted) in [
-            (r#"{"progress": 5}"#, "`progress`: invalid type: integer `5`"),
+            (r#"{"progress": 5}"#, "`progress`: invalid type: integer `5`, expected an object"),
             (r#"{"progress": {"step_seconds": "x"}}"#, "`progress.step_seconds`: invalid type: string"),
             (r#"{"files": ["a", 7]}"#, "`files[1]`: invalid type: integer `7`"),
             (r#"{"command_line": {}}"#, "`command_line`: invalid type: map"),

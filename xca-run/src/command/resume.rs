@@ -13,7 +13,7 @@ use xca_record::checkpoint::{Checkpoint, CheckpointError, CheckpointFolder, Desc
 use xca_record::record::REPORT;
 use xca_record::report;
 use xca_record::report::Earlier;
-use xca_record::{BeginError, Resumed};
+use xca_record::{BeginError, ReadReportError, Resumed};
 
 pub(super) const NAME: &str = "resume";
 
@@ -42,8 +42,8 @@ pub(super) fn resume(definition: &Definition<'_>, arguments: &ResumeArguments) -
         return Err(Unable::refused(format!("there is no folder {}", folder.display())));
     }
     let report_file = folder.join(REPORT);
-    let report = report::read(&report_file).map_err(Unable::refused)?.unwrap_or_else(|| json!({}));
-    let earlier: Earlier = report::parts(&report_file, &report).map_err(Unable::refused)?;
+    let report = report::read(&report_file).map_err(unread)?.unwrap_or_else(|| json!({}));
+    let earlier: Earlier = report::parts(&report_file, &report).map_err(unread)?;
     if arguments.checkpoint.is_none() && earlier.has_ended() {
         arguments
             .voice
@@ -54,6 +54,11 @@ pub(super) fn resume(definition: &Definition<'_>, arguments: &ResumeArguments) -
     let found = Found { definition, arguments, path: &path };
     let checkpoint = Checkpoint::read(&path).map_err(|error| found.refused(error.into(), None))?;
     found.under_way(checkpoint, earlier)?.go()
+}
+
+/// A report that may be of someone else is not replaced; a lost one is no obstacle.
+fn unread(error: ReadReportError) -> Unable {
+    Unable::RefusedOffering(error.into(), "move it away to resume without it".to_owned())
 }
 
 fn chosen(arguments: &ResumeArguments) -> Result<PathBuf, Unable> {
