@@ -8,7 +8,7 @@ use toml::{Table, Value};
 type TestResult = Result<(), Box<dyn Error>>;
 
 /// For each member, the members that it may depend on. A new member finds its place here first.
-const DIRECTIONS: [(&str, &[&str]); 17] = [
+const DIRECTIONS: [(&str, &[&str]); 18] = [
     ("xca-methods", &[]),
     ("xca-macros", &["xca-methods"]),
     ("xca-core", &["xca-macros", "xca-methods"]),
@@ -22,6 +22,7 @@ const DIRECTIONS: [(&str, &[&str]); 17] = [
     ("cadem", &["xca-core"]),
     ("xca-examples", &["xca-core", "xca-run", "xca", "cadem"]),
     ("new-model", &["xca"]),
+    ("xca-tests-additions", &["xca"]),
     ("xca-tests-library", &["xca"]),
     ("xca-benchmarks", &["xca-core", "xca-cpu", "xca-gpu", "cadem", "xca-examples"]),
     (

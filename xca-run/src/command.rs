@@ -4,6 +4,7 @@ mod arguments;
 mod clashes;
 mod compare;
 mod config;
+mod engine;
 mod initial;
 mod inspect;
 mod list;
@@ -19,17 +20,17 @@ mod under_way;
 mod voice;
 mod watch;
 
-pub(crate) use arguments::threads;
-
 pub use config::ConfigError;
 
+use crate::engines::{EngineKind, Engines};
 use crate::interrupt::EXIT_INTERRUPTED;
 use crate::program::{Given, Program};
 use crate::terminal;
 use clap::{ArgMatches, Command};
 use parse::Invocation;
 use std::ffi::OsString;
-use std::panic::{self, RefUnwindSafe};
+use std::fmt;
+use std::panic::{self, AssertUnwindSafe};
 use std::process::ExitCode;
 use std::sync::{Mutex, PoisonError};
 use xca_record::Failure;
@@ -107,6 +108,7 @@ struct Definition<'a> {
     /// Adds the options of the model.
     options: fn(Command) -> Command,
     set_up: &'a SetUpModel<'a>,
+    engines: &'a Engines,
 }
 
 impl Definition<'_> {
@@ -116,7 +118,7 @@ impl Definition<'_> {
     }
 }
 
-type SetUpModel<'a> = dyn Fn(&ArgMatches, Given) -> Result<SetUp, Unable> + RefUnwindSafe + 'a;
+type SetUpModel<'a> = dyn Fn(&ArgMatches, Given) -> Result<SetUp, Unable> + 'a;
 
 /// The whole of a program: reads the command line, runs the model, reports.
 ///
@@ -126,7 +128,7 @@ type SetUpModel<'a> = dyn Fn(&ArgMatches, Given) -> Result<SetUp, Unable> + RefU
 #[macro_export]
 macro_rules! main {
     ($program:ty) => {
-        $crate::run_program::<$program>(::core::env!("CARGO_PKG_VERSION"))
+        $crate::CommandLine::of::<$program>(::core::env!("CARGO_PKG_VERSION")).main()
     };
 }
 
@@ -134,48 +136,90 @@ macro_rules! main {
 #[macro_export]
 macro_rules! main_of {
     ($name:expr, $about:expr, $set_up:expr $(,)?) => {
-        $crate::run_model($name, $about, ::core::env!("CARGO_PKG_VERSION"), $set_up)
+        $crate::CommandLine::of_model($name, $about, ::core::env!("CARGO_PKG_VERSION"), $set_up).main()
     };
 }
 
-/// What [`main!`] calls.
-#[doc(hidden)]
-pub fn run_program<P: Program>(version: &'static str) -> ExitCode {
-    main_with(&Definition {
-        name: P::NAME,
-        about: P::ABOUT,
-        version,
-        examples: P::EXAMPLES,
-        options: P::augment_args,
-        set_up: &|matches, given| {
-            let program = P::from_arg_matches(matches).map_err(Unable::CommandLine)?;
-            program.set_up(given).map_err(Unable::Refused)
-        },
-    })
-}
-
-/// What [`main_of!`] calls.
-#[doc(hidden)]
-pub fn run_model(
+/// The command line of a model's program. [`main!`] and [`main_of!`] are the short ways to one with the engines
+/// of the framework.
+pub struct CommandLine<'a> {
     name: &'static str,
     about: &'static str,
     version: &'static str,
-    set_up: impl Fn(Given) -> Result<SetUp, Failure> + RefUnwindSafe,
-) -> ExitCode {
-    main_with(&Definition {
-        name,
-        about,
-        version,
-        examples: "--steps 500 --engine reference",
-        options: std::convert::identity,
-        set_up: &|_, given| set_up(given).map_err(Unable::Refused),
-    })
+    examples: &'static str,
+    options: fn(Command) -> Command,
+    set_up: Box<SetUpModel<'a>>,
+    engines: Engines,
 }
 
-fn main_with(definition: &Definition<'_>) -> ExitCode {
+impl fmt::Debug for CommandLine<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { name, version, engines, .. } = self;
+        f.debug_struct("CommandLine")
+            .field("name", name)
+            .field("version", version)
+            .field("engines", engines)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<'a> CommandLine<'a> {
+    /// That of a program, whose version is mostly `env!("CARGO_PKG_VERSION")`.
+    pub fn of<P: Program>(version: &'static str) -> Self {
+        Self {
+            name: P::NAME,
+            about: P::ABOUT,
+            version,
+            examples: P::EXAMPLES,
+            options: P::augment_args,
+            set_up: Box::new(|matches, given| {
+                let program = P::from_arg_matches(matches).map_err(Unable::CommandLine)?;
+                program.set_up(given).map_err(Unable::Refused)
+            }),
+            engines: Engines::default(),
+        }
+    }
+
+    /// That of a model without options of its own.
+    pub fn of_model(
+        name: &'static str,
+        about: &'static str,
+        version: &'static str,
+        set_up: impl Fn(Given) -> Result<SetUp, Failure> + 'a,
+    ) -> Self {
+        Self {
+            name,
+            about,
+            version,
+            examples: "--steps 500 --engine reference",
+            options: std::convert::identity,
+            set_up: Box::new(move |_, given| set_up(given).map_err(Unable::Refused)),
+            engines: Engines::default(),
+        }
+    }
+
+    /// Offers another kind of engine. It takes the place of one with the same name.
+    #[must_use]
+    pub fn engine(mut self, kind: impl EngineKind + 'static) -> Self {
+        self.engines = self.engines.with(kind);
+        self
+    }
+
+    /// Reads the arguments of the process, does what they say, and tells how it went.
+    pub fn main(self) -> ExitCode {
+        let Self { name, about, version, examples, options, set_up, engines } = &self;
+        let (name, about, version, examples) = (*name, *about, *version, *examples);
+        let options = *options;
+        main_of(&Definition { name, about, version, examples, options, set_up: &**set_up, engines })
+    }
+}
+
+fn main_of(definition: &Definition<'_>) -> ExitCode {
     let arguments: Vec<OsString> = std::env::args_os().collect();
     let panics = Panics::caught();
-    match panic::catch_unwind(|| parse::invocation(definition, &arguments).and_then(execute)) {
+    // After a panic nothing of the definition is used.
+    let all = AssertUnwindSafe(|| parse::invocation(definition, &arguments).and_then(execute));
+    match panic::catch_unwind(all) {
         Ok(Ok(Ended::Done)) => ExitCode::SUCCESS,
         Ok(Ok(Ended::Different)) => ExitCode::from(DIFFERENT),
         Ok(Ok(Ended::Interrupted)) => ExitCode::from(EXIT_INTERRUPTED),
@@ -225,12 +269,12 @@ fn execute(invocation: Invocation<'_>) -> Result<Ended, Unable> {
         Invocation::Watch(run, arguments) => watch::watch(&run, &arguments),
         Invocation::New(arguments) => new::new(&arguments),
         Invocation::List(choice, arguments) => list::list(&choice, &arguments),
-        Invocation::Compare(choice, arguments, command_line) => {
-            compare::compare(&choice, *arguments, command_line)
+        Invocation::Compare(choice, arguments, options, command_line) => {
+            compare::compare(&choice, *arguments, &options, command_line)
         }
         Invocation::Sweep(choice, on, arguments) => sweep::sweep(&choice, on, arguments),
         Invocation::Inspect(arguments) => inspect::inspect(&arguments),
-        Invocation::Resume(definition, arguments) => resume::resume(definition, &arguments),
+        Invocation::Resume(definition, arguments, on) => resume::resume(definition, &arguments, &on),
     }
 }
 

@@ -1,68 +1,206 @@
-//! The engines that a program can choose from.
+//! The engines that a program can choose from: those of the framework, and those that the program adds.
 
-use clap::ValueEnum;
+mod cpu;
+mod gpu;
+mod options;
+mod reference;
+
+pub use options::{EngineOption, EngineOptions};
+
+use cpu::CpuKind;
+use gpu::GpuKind;
+use reference::ReferenceKind;
 use std::fmt;
-use std::str::FromStr;
-use xca_core::{Engine, Reference};
-use xca_cpu::{Cpu, CpuError};
-#[cfg(feature = "gpu")]
-use xca_gpu::{AdapterChoice, Gpu, GpuError, GpuOptions};
+use xca_core::{Engine, Model, Precision};
+use xca_record::Failure;
 
-/// The most threads that can be asked for; many more than cores only cost memory.
-pub const MOST_THREADS: usize = Cpu::MOST_THREADS;
+/// A kind of engine, which a program offers by a name.
+///
+/// An engine from elsewhere takes part in every subcommand once its kind is added:
+///
+/// ```no_run
+/// use xca_run::prelude::*;
+/// use xca_run::{CommandLine, EngineKind, EngineOptions};
+/// use xca_run::record::Failure;
+///
+/// #[derive(Debug)]
+/// struct Plain;
+///
+/// impl EngineKind for Plain {
+///     fn name(&self) -> &'static str {
+///         "plain"
+///     }
+///
+///     fn about(&self) -> &'static str {
+///         "The reference engine under another name"
+///     }
+///
+///     fn make(&self, _options: &EngineOptions) -> Result<Box<dyn Engine>, Failure> {
+///         Ok(Box::new(Reference))
+///     }
+/// }
+///
+/// # #[derive(Args)]
+/// # struct Forest {}
+/// # impl Program for Forest {
+/// #     const NAME: &'static str = "forest";
+/// #     const ABOUT: &'static str = "A fire in a forest";
+/// #     fn set_up(&self, _given: Given) -> Result<SetUp, Failure> { Err("no model".into()) }
+/// # }
+/// fn main() -> ExitCode {
+///     CommandLine::of::<Forest>(env!("CARGO_PKG_VERSION")).engine(Plain).main()
+/// }
+/// ```
+pub trait EngineKind: fmt::Debug + Send + Sync {
+    /// What `--engine` calls it: the name of the engines that it makes.
+    fn name(&self) -> &'static str;
 
-/// An engine by its name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, ValueEnum)]
-#[non_exhaustive]
-pub enum EngineName {
-    /// All cores, or as many threads as --threads says
-    #[default]
-    Cpu,
-    /// A graphics adapter, or software Vulkan where there is none
-    Gpu,
-    /// Serial and plain: the oracle of the others
-    Reference,
-}
+    /// A line about it, for help and `list`.
+    fn about(&self) -> &'static str;
 
-/// Float arithmetic of the gpu engine.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-#[non_exhaustive]
-pub enum Arithmetic {
-    /// Strict where the adapter proves it, else relaxed.
-    #[default]
-    Best,
-    /// The bits of the other engines; refused where the adapter cannot prove it.
-    Strict,
-    /// The driver's own: it may contract and reorder.
-    Relaxed,
-}
+    /// What can be chosen of it, each an option of the command line. A comparison takes the first after a
+    /// colon: `cpu:2`. Names of the frame's own options are refused when the program starts.
+    fn options(&self) -> &'static [EngineOption] {
+        &[]
+    }
 
-/// A word that names no arithmetic.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("`{0}` is no arithmetic; use best, strict or relaxed")]
-pub struct UnknownArithmetic(String);
+    /// What is chosen where many engines of this kind work side by side, unless the user chooses himself.
+    fn beside_others(&self) -> EngineOptions {
+        EngineOptions::default()
+    }
 
-impl FromStr for Arithmetic {
-    type Err = UnknownArithmetic;
+    /// Makes an engine. The options have been checked one by one.
+    ///
+    /// # Errors
+    /// Where the machine does not have what was chosen.
+    fn make(&self, options: &EngineOptions) -> Result<Box<dyn Engine>, Failure>;
 
-    fn from_str(text: &str) -> Result<Self, UnknownArithmetic> {
-        match text {
-            "best" => Ok(Self::Best),
-            "strict" => Ok(Self::Strict),
-            "relaxed" => Ok(Self::Relaxed),
-            other => Err(UnknownArithmetic(other.to_owned())),
-        }
+    /// What it can run on, for `list`; nothing of an engine that only knows the processor.
+    fn devices(&self) -> Option<Devices> {
+        None
+    }
+
+    /// What it makes of the processes of a model, as text; nothing of an engine that makes no text of them.
+    ///
+    /// # Errors
+    /// Where it cannot run the model.
+    fn source(&self, _model: &Model, _precision: Precision) -> Option<Result<String, Failure>> {
+        None
     }
 }
 
-#[cfg(feature = "gpu")]
-impl From<Arithmetic> for xca_gpu::Arithmetic {
-    fn from(arithmetic: Arithmetic) -> Self {
-        match arithmetic {
-            Arithmetic::Best => Self::Best,
-            Arithmetic::Strict => Self::Strict,
-            Arithmetic::Relaxed => Self::Relaxed,
+/// What a kind of engine can run on.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Devices {
+    /// A table of at most 80 columns, or why there are none.
+    pub text: String,
+    /// An object for each.
+    pub data: Vec<serde_json::Value>,
+}
+
+/// The kinds of engines that a program offers, by name. The first is the one that runs a model unless the
+/// command line says otherwise.
+#[derive(Debug)]
+pub struct Engines {
+    kinds: Vec<Box<dyn EngineKind>>,
+}
+
+impl Default for Engines {
+    /// `cpu`, `gpu` and `reference`. Without the feature `gpu`, the second can be named but not made.
+    fn default() -> Self {
+        Self { kinds: vec![Box::new(CpuKind), Box::new(GpuKind), Box::new(ReferenceKind)] }
+    }
+}
+
+/// An engine that cannot be had.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum EngineError {
+    /// A name that no engine has.
+    #[error("there is no engine `{name}`; there are {known}")]
+    Unknown {
+        /// The name.
+        name: String,
+        /// Those that there are.
+        known: String,
+    },
+    /// A choice that is none of the engine's.
+    #[error("--{option} is {of}, not for the {engine} engine; leave it away, or choose another engine")]
+    NoOption {
+        /// What was chosen.
+        option: String,
+        /// Whose choice it is.
+        of: String,
+        /// The engine.
+        engine: &'static str,
+    },
+    /// A value that makes no sense.
+    #[error("--{option} {value}: {reason}")]
+    Value {
+        /// What was chosen.
+        option: String,
+        /// Its value.
+        value: String,
+        /// Why.
+        reason: String,
+    },
+    /// The engine says why.
+    #[error(transparent)]
+    Made(Failure),
+}
+
+impl Engines {
+    /// Adds a kind of engine. It takes the place of one with the same name.
+    #[must_use]
+    pub fn with(mut self, kind: impl EngineKind + 'static) -> Self {
+        let same = self.kinds.iter_mut().find(|other| other.name() == kind.name());
+        match same {
+            Some(same) => *same = Box::new(kind),
+            None => self.kinds.push(Box::new(kind)),
         }
+        self
+    }
+
+    /// All kinds.
+    pub fn kinds(&self) -> impl Iterator<Item = &dyn EngineKind> {
+        self.kinds.iter().map(|kind| &**kind)
+    }
+
+    /// The kind with a name.
+    ///
+    /// # Errors
+    /// Where there is none.
+    pub fn kind(&self, name: &str) -> Result<&dyn EngineKind, EngineError> {
+        let unknown = || {
+            let known = self.kinds().map(EngineKind::name).collect::<Vec<_>>().join(", ");
+            EngineError::Unknown { name: name.to_owned(), known }
+        };
+        self.kinds().find(|kind| kind.name() == name).ok_or_else(unknown)
+    }
+
+    /// An engine.
+    ///
+    /// # Errors
+    /// Where there is no such engine, it has nothing of what is chosen, or the machine does not give it.
+    pub fn engine(&self, name: &str, options: &EngineOptions) -> Result<Box<dyn Engine>, EngineError> {
+        let kind = self.kind(name)?;
+        for (option, value) in options.iter() {
+            let own = kind.options().iter().find(|own| own.name == option);
+            let own = own.ok_or_else(|| self.no_option(option, kind))?;
+            (own.check)(value).map_err(|reason| {
+                let [option, value] = [option, value].map(str::to_owned);
+                EngineError::Value { option, value, reason }
+            })?;
+        }
+        kind.make(options).map_err(EngineError::Made)
+    }
+
+    fn no_option(&self, option: &str, kind: &dyn EngineKind) -> EngineError {
+        let owners = self.kinds().filter(|kind| kind.options().iter().any(|own| own.name == option));
+        let owners: Vec<String> = owners.map(|kind| format!("--engine {}", kind.name())).collect();
+        let of =
+            if owners.is_empty() { "no option".to_owned() } else { format!("for {}", owners.join(" and ")) };
+        EngineError::NoOption { option: option.to_owned(), of, engine: kind.name() }
     }
 }
 
@@ -76,144 +214,80 @@ pub struct MissingFeature {
     feature: &'static str,
 }
 
-#[cfg(not(feature = "gpu"))]
-impl MissingFeature {
-    /// The engine for graphics adapters.
-    pub(crate) const GPU: Self = Self { feature: "gpu" };
-}
-
 #[cfg(not(feature = "terminal"))]
 impl MissingFeature {
     /// The subcommand `watch`.
     pub(crate) const TERMINAL: Self = Self { feature: "terminal" };
 }
 
-/// An engine that cannot be had.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum EngineError {
-    /// Threads for a serial engine.
-    #[error(
-        "the reference engine is serial and cannot use {0} threads; leave --threads away, or take --engine cpu"
-    )]
-    Serial(usize),
-    /// Threads for an engine that has none.
-    #[error("the gpu engine has no threads to choose; leave --threads away, or take --engine cpu")]
-    Threadless,
-    /// A device for an engine that has none.
-    #[error("--adapter and --arithmetic are for --engine gpu, not for the {0} engine")]
-    Deviceless(EngineName),
-    /// The engine says why.
-    #[error(transparent)]
-    Cpu(#[from] CpuError),
-    /// The engine says why.
-    #[cfg(feature = "gpu")]
-    #[error(transparent)]
-    Gpu(#[from] GpuError),
-    /// The program was built without the engine.
-    #[error(transparent)]
-    Missing(#[from] MissingFeature),
-}
-
-/// How an engine is made; what is not given is the engine's own choice.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct EngineOptions {
-    /// How many threads, for the engine that uses them.
-    pub threads: Option<usize>,
-    /// The number of an adapter, or a part of its name, for the engine that uses one.
-    pub adapter: Option<String>,
-    /// How the GPU does float arithmetic.
-    pub arithmetic: Option<Arithmetic>,
-}
-
-impl EngineName {
-    /// How many threads the engine uses where many of them work side by side; none where it has none.
-    pub(crate) fn default_threads(self) -> Option<usize> {
-        (self == Self::Cpu).then_some(1)
-    }
-
-    /// The engine.
-    ///
-    /// # Errors
-    /// Where the engine has nothing of what is asked for, or the system does not give it.
-    pub fn engine(self, options: &EngineOptions) -> Result<Box<dyn Engine>, EngineError> {
-        let EngineOptions { threads, adapter, arithmetic } = options;
-        if self != Self::Gpu && (adapter.is_some() || arithmetic.is_some()) {
-            return Err(EngineError::Deviceless(self));
-        }
-        match (self, *threads) {
-            (Self::Reference, None | Some(1)) => Ok(Box::new(Reference)),
-            (Self::Reference, Some(threads)) => Err(EngineError::Serial(threads)),
-            (Self::Cpu, None) => Ok(Box::new(Cpu::new()?)),
-            (Self::Cpu, Some(threads)) => Ok(Box::new(Cpu::with_threads(threads)?)),
-            (Self::Gpu, Some(_)) => Err(EngineError::Threadless),
-            (Self::Gpu, None) => gpu(options),
-        }
-    }
-}
-
-#[cfg(feature = "gpu")]
-fn gpu(options: &EngineOptions) -> Result<Box<dyn Engine>, EngineError> {
-    let adapter = options.adapter.as_deref().map(AdapterChoice::from).unwrap_or_default();
-    let arithmetic = options.arithmetic.unwrap_or_default().into();
-    Ok(Box::new(Gpu::new(&GpuOptions { adapter, arithmetic, ..GpuOptions::default() })?))
-}
-
-#[cfg(not(feature = "gpu"))]
-fn gpu(_options: &EngineOptions) -> Result<Box<dyn Engine>, EngineError> {
-    Err(MissingFeature::GPU.into())
-}
-
-impl fmt::Display for EngineName {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Cpu => "cpu",
-            Self::Gpu => "gpu",
-            Self::Reference => "reference",
-        })
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn with_threads(threads: Option<usize>) -> EngineOptions {
-        EngineOptions { threads, ..EngineOptions::default() }
-    }
-
     #[test]
-    fn engines_know_how_many_threads_they_can_use() {
-        assert_eq!(EngineName::Cpu.engine(&with_threads(Some(3))).unwrap().threads(), 3);
-        assert_eq!(EngineName::Reference.engine(&with_threads(None)).unwrap().threads(), 1);
-        let error = EngineName::Reference.engine(&with_threads(Some(2))).unwrap_err().to_string();
-        assert!(error.contains("serial and cannot use 2 threads"), "{error}");
-        let error = EngineName::Gpu.engine(&with_threads(Some(2))).unwrap_err().to_string();
-        assert!(error.contains("no threads to choose"), "{error}");
+    fn engines_know_what_can_be_chosen_of_them() {
+        let engines = Engines::default();
+        let of = |name: &str, options: &EngineOptions| engines.engine(name, options);
+        let threads = |number: &str| EngineOptions::default().with("threads", number);
+        assert_eq!(of("cpu", &threads("3")).unwrap().threads(), 3);
+        assert_eq!(of("reference", &EngineOptions::default()).unwrap().threads(), 1);
+        let said = |name: &str, options: &EngineOptions| of(name, options).unwrap_err().to_string();
+        let wanted = "--threads is for --engine cpu, not for the reference engine";
+        assert!(said("reference", &threads("2")).starts_with(wanted));
+        assert_eq!(said("cpu", &threads("0")), "--threads 0: 0 threads do nothing; give at least 1");
+        assert_eq!(said("cup", &threads("1")), "there is no engine `cup`; there are cpu, gpu, reference");
+        let hands = EngineOptions::default().with("hands", "2");
+        assert!(said("cpu", &hands).starts_with("--hands is no option, not for the cpu engine"));
     }
 
     #[test]
     fn adapters_are_for_the_gpu_engine() {
-        let options = EngineOptions { adapter: Some("0".to_owned()), ..EngineOptions::default() };
-        let error = EngineName::Cpu.engine(&options).unwrap_err().to_string();
-        assert!(error.contains("not for the cpu engine"), "{error}");
-        let options = EngineOptions { adapter: Some("no such adapter".to_owned()), ..options };
-        let error = EngineName::Gpu.engine(&options).unwrap_err().to_string();
+        let engines = Engines::default();
+        let options = EngineOptions::default().with("adapter", "no such adapter");
+        let error = engines.engine("cpu", &options).unwrap_err().to_string();
+        assert!(error.starts_with("--adapter is for --engine gpu, not for the cpu engine"), "{error}");
+        let error = engines.engine("gpu", &options).unwrap_err().to_string();
         let wanted = if cfg!(feature = "gpu") {
             "no adapter is `no such adapter`; this machine has 0: "
         } else {
             "built without the feature `gpu`; build it with `cargo run --release --features xca/gpu`"
         };
         assert!(error.contains(wanted), "{error}");
+        let options = EngineOptions::default().with("arithmetic", "exact");
+        let error = engines.engine("gpu", &options).unwrap_err().to_string();
+        assert!(error.contains("`exact` is no arithmetic; use best, strict or relaxed"), "{error}");
     }
 
     #[test]
     fn names_are_those_of_the_engines() {
-        for name in EngineName::value_variants() {
-            if !cfg!(feature = "gpu") && *name == EngineName::Gpu {
-                continue;
-            }
-            assert_eq!(name.engine(&with_threads(None)).unwrap().name(), name.to_string());
+        let engines = Engines::default();
+        for kind in engines.kinds().filter(|kind| cfg!(feature = "gpu") || kind.name() != "gpu") {
+            let engine = engines.engine(kind.name(), &EngineOptions::default()).unwrap();
+            assert_eq!(engine.name(), kind.name());
         }
+    }
+
+    #[derive(Debug)]
+    struct Other;
+
+    impl EngineKind for Other {
+        fn name(&self) -> &'static str {
+            "cpu"
+        }
+
+        fn about(&self) -> &'static str {
+            "another"
+        }
+
+        fn make(&self, _options: &EngineOptions) -> Result<Box<dyn Engine>, Failure> {
+            Ok(Box::new(xca_core::Reference))
+        }
+    }
+
+    #[test]
+    fn a_kind_takes_the_place_of_one_with_its_name() {
+        let engines = Engines::default().with(Other);
+        assert_eq!(engines.kinds().map(EngineKind::name).collect::<Vec<_>>(), ["cpu", "gpu", "reference"]);
+        assert_eq!(engines.kind("cpu").unwrap().about(), "another");
     }
 }

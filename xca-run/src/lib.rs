@@ -73,12 +73,8 @@ pub mod progress;
 mod table;
 mod terminal;
 
-pub use command::ConfigError;
-#[doc(hidden)]
-pub use command::{run_model, run_program};
-pub use engines::{
-    Arithmetic, EngineError, EngineName, EngineOptions, MOST_THREADS, MissingFeature, UnknownArithmetic,
-};
+pub use command::{CommandLine, ConfigError};
+pub use engines::{Devices, EngineError, EngineKind, EngineOption, EngineOptions, Engines, MissingFeature};
 pub use options::{number_in, positive_number};
 pub use program::{Assignment, Given, NoAssignment, Program};
 #[doc(no_inline)]

@@ -47,7 +47,7 @@ fn values_that_make_no_sense() {
         (CADEM, "--engine gpu --threads 2", "the gpu engine has no threads to choose"),
         (CADEM, "--engine gpu --adapter abacus", "no adapter is `abacus`; this machine has 0: "),
         (CADEM, "--engine gpu --arithmetic lax", "`lax` is no arithmetic; use best, strict or relaxed"),
-        (CADEM, "--adapter 0", "--adapter and --arithmetic are for --engine gpu"),
+        (CADEM, "--adapter 0", "--adapter is for --engine gpu, not for the cpu engine"),
         (CADEM, "--precision f16", "`f16` is not a precision; use f32 or f64"),
         (CADEM, "--set stiffness=-1", "`stiffness` is -1, but must be above 0 and finite (N/m)"),
         (CADEM, "--set stiffness=nan", "`nan` is no value for the parameter `stiffness`"),

@@ -30,7 +30,7 @@ fn results_on_a_full_disk_are_an_error() {
         "new waves --json",
         "run --help",
         "--version",
-        "run --print-wgsl",
+        "run --engine gpu --print-source",
     ] {
         let full = File::options().write(true).open("/dev/full").unwrap();
         let output = told(&mut place.invocation(HEAT, words), full.into());

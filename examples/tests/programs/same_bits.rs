@@ -38,7 +38,7 @@ fn the_gpu_engine_tells_what_it_ran_on() {
 #[test]
 fn processes_are_printed_as_shaders() {
     let place = Workplace::new();
-    let said = place.succeed(CADEM, "--print-wgsl --precision f32");
+    let said = place.succeed(CADEM, "--engine gpu --print-source --precision f32");
     for words in
         ["alias Real = f32;", "fn outer_contacts(", "@compute @workgroup_size(", "destinations[item]"]
     {

@@ -2,7 +2,6 @@
 
 use super::initial::Initial;
 use super::voice::Voice;
-use crate::engines::{Arithmetic, EngineName, EngineOptions, MOST_THREADS};
 use crate::program::{Assignment, Given};
 use clap::Args;
 use std::path::PathBuf;
@@ -36,34 +35,6 @@ pub(crate) struct ModelArguments {
     pub(crate) config: Option<PathBuf>,
 }
 
-/// What runs the model.
-#[derive(Args, Debug, Clone)]
-pub(crate) struct EngineArguments {
-    /// What runs the model
-    #[arg(long, value_enum, value_name = "ENGINE", default_value_t = EngineName::Cpu)]
-    pub(crate) engine: EngineName,
-
-    /// How many threads the engine uses; one for each core unless it is given
-    #[arg(long, value_name = "N", value_parser = threads)]
-    pub(crate) threads: Option<usize>,
-
-    /// The adapter of the gpu engine: its number, or a part of its name, as `list` tells them; the best unless it is given
-    #[arg(long, value_name = "N|NAME")]
-    pub(crate) adapter: Option<String>,
-
-    /// Float arithmetic of the gpu engine: strict gives the bits of the other engines, relaxed is the driver's own; best is strict where
-    /// the adapter proves it
-    #[arg(long, value_name = "strict|relaxed|best")]
-    pub(crate) arithmetic: Option<Arithmetic>,
-}
-
-impl EngineArguments {
-    pub(crate) fn options(&self) -> EngineOptions {
-        let Self { threads, adapter, arithmetic, .. } = self.clone();
-        EngineOptions { threads, adapter, arithmetic }
-    }
-}
-
 /// How long it is run, and what is written.
 #[derive(Args, Debug, Clone)]
 pub(crate) struct RunArguments {
@@ -93,15 +64,15 @@ pub(crate) struct RunArguments {
     #[arg(long)]
     pub(crate) allow_non_finite: bool,
 
-    /// Print the processes as the gpu engine compiles them, and do nothing else
+    /// Print what the engine makes of the processes (the gpu engine: shaders), and do nothing else
     #[arg(long)]
-    pub(crate) print_wgsl: bool,
+    pub(crate) print_source: bool,
 
     #[command(flatten)]
     pub(crate) voice: Voice,
 }
 
-/// Which run goes on, and on what.
+/// Which run goes on, and how.
 #[derive(Args, Debug, Clone)]
 pub(crate) struct ResumeArguments {
     /// The folder of the run
@@ -111,22 +82,6 @@ pub(crate) struct ResumeArguments {
     /// The checkpoint to go on from; the latest of the folder unless it is given
     #[arg(long, value_name = "FILE")]
     pub(crate) checkpoint: Option<PathBuf>,
-
-    /// What runs the model; the run's own engine unless it is given
-    #[arg(long, value_enum, value_name = "ENGINE")]
-    pub(crate) engine: Option<EngineName>,
-
-    /// How many threads the engine uses; as many as the run was told unless it is given
-    #[arg(long, value_name = "N", value_parser = threads)]
-    pub(crate) threads: Option<usize>,
-
-    /// The adapter of the gpu engine: its number, or a part of its name; the run's own unless it is given
-    #[arg(long, value_name = "N|NAME")]
-    pub(crate) adapter: Option<String>,
-
-    /// Float arithmetic of the gpu engine; the run's own unless it is given
-    #[arg(long, value_name = "strict|relaxed|best")]
-    pub(crate) arithmetic: Option<Arithmetic>,
 
     /// Go on although the engine rounds floating numbers otherwise than the one that the run was begun on; the files will not be those of
     /// an uninterrupted run
@@ -145,22 +100,6 @@ pub(crate) struct ResumeArguments {
     pub(crate) voice: Voice,
 }
 
-impl ResumeArguments {
-    /// The engine of a run that was begun on that one.
-    pub(crate) fn engine(&self, begun: &EngineArguments) -> EngineArguments {
-        let engine = self.engine.unwrap_or(begun.engine);
-        // Another engine need not be able to use what that one used.
-        let none = EngineArguments { engine, threads: None, adapter: None, arithmetic: None };
-        let begun = if engine == begun.engine { begun } else { &none };
-        EngineArguments {
-            engine,
-            threads: self.threads.or(begun.threads),
-            adapter: self.adapter.clone().or_else(|| begun.adapter.clone()),
-            arithmetic: self.arithmetic.or(begun.arithmetic),
-        }
-    }
-}
-
 impl ModelArguments {
     pub(crate) fn given(&self, steps: Option<u64>) -> Given {
         Given { seed: self.seed, precision: self.precision, steps, parameters: self.set.clone() }
@@ -172,15 +111,6 @@ fn seed(text: &str) -> Result<u64, String> {
         format!("a seed is a whole number from 0 to {}, such as 7; each gives other random numbers", u64::MAX)
     };
     text.parse().map_err(|_| wanted())
-}
-
-pub(crate) fn threads(text: &str) -> Result<usize, String> {
-    match text.parse() {
-        Ok(0) => Err("0 threads do nothing; give at least 1".to_owned()),
-        Ok(number) if number <= MOST_THREADS => Ok(number),
-        Ok(number) => Err(format!("{number} threads are too many; give at most {MOST_THREADS}")),
-        Err(_) => Err(format!("it must be a whole number from 1 to {MOST_THREADS}")),
-    }
 }
 
 pub(super) fn steps(text: &str) -> Result<u64, &'static str> {

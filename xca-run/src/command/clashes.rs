@@ -1,6 +1,7 @@
 //! A model's own options, which must not have the names of the frame's.
 
-use super::{Definition, parse};
+use super::{Definition, engine, parse};
+use crate::engines::Engines;
 use clap::{Arg, Command};
 use std::collections::BTreeSet;
 
@@ -11,6 +12,10 @@ pub(super) enum ClashError {
         "the model's own options must not have names that its program has already: {0}; give them other names"
     )]
     Taken(String),
+    #[error(
+        "the {engine} engine's own option `--{option}` has a name that the program has already (of {taken}); give it another name"
+    )]
+    Engine { engine: &'static str, option: &'static str, taken: String },
     #[error("the model's own option `{0}` has no `--` before its name: write #[arg(long)] at its field")]
     Positional(String),
 }
@@ -18,15 +23,16 @@ pub(super) enum ClashError {
 /// Stands for the options of the model.
 const MARK: &str = "options of the model";
 
-/// Finds what of the model's own options is taken by the frame, in whichever subcommand: at once, not when that subcommand is used.
+/// Finds what of the options of engines and of the model is taken by the frame, in whichever subcommand: at once, not when that subcommand
+/// is used.
 pub(super) fn check(definition: &Definition<'_>) -> Result<(), ClashError> {
+    check_engines(definition)?;
     let own = (definition.options)(Command::new(definition.name));
     if let Some(option) = own.get_arguments().find(|option| option.is_positional()) {
         return Err(ClashError::Positional(option.get_id().to_string()));
     }
-    let Definition { name, about, version, examples, set_up, .. } = *definition;
     let options = |command: Command| command.arg(Arg::new(MARK).long(MARK));
-    let frame = parse::command(&Definition { name, about, version, examples, options, set_up });
+    let frame = parse::command(&Definition { options, ..*definition });
     let with_model = |command: &&Command| command.get_arguments().any(|option| option.get_id() == MARK);
     let commands: Vec<(&str, BTreeSet<String>)> = frame
         .get_subcommands()
@@ -46,6 +52,27 @@ pub(super) fn check(definition: &Definition<'_>) -> Result<(), ClashError> {
         clashes.retain(|clash| !clash.starts_with(FIELD));
     }
     if clashes.is_empty() { Ok(()) } else { Err(ClashError::Taken(clashes.join(", "))) }
+}
+
+/// Engines may share an option, but have none of the frame's.
+fn check_engines(definition: &Definition<'_>) -> Result<(), ClashError> {
+    let bare = Engines::default();
+    let without = Definition { options: std::convert::identity, engines: &bare, ..*definition };
+    let frame = parse::command(&without);
+    let known = engine::options(&bare);
+    for kind in definition.engines.kinds() {
+        let others = kind.options().iter().filter(|own| known.iter().all(|option| option.name != own.name));
+        for option in others {
+            let name = format!("`--{}`", option.name);
+            let takers = frame.get_subcommands().filter(|command| taken(command).contains(&name));
+            let takers: Vec<&str> = takers.map(Command::get_name).collect();
+            if !takers.is_empty() {
+                let taken = takers.join(", ");
+                return Err(ClashError::Engine { engine: kind.name(), option: option.name, taken });
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Before the name of a field: options are told apart by these, too.
@@ -76,11 +103,18 @@ fn taken(command: &Command) -> BTreeSet<String> {
 mod tests {
     use super::super::Unable;
     use super::*;
+    use crate::engines::{EngineKind, EngineOption, EngineOptions};
     use clap::Args;
     use std::ffi::OsString;
+    use std::sync::LazyLock;
+    use xca_core::Engine;
+    use xca_record::Failure;
+
+    static ENGINES: LazyLock<Engines> = LazyLock::new(Engines::default);
 
     fn definition(options: fn(Command) -> Command) -> Definition<'static> {
         Definition {
+            engines: &ENGINES,
             name: "rock",
             about: "Layers of rock",
             version: "1.0.0",
@@ -162,5 +196,35 @@ mod tests {
             };
             assert!(error.to_string().contains("`--layer` (of render, watch)"), "{error}");
         }
+    }
+
+    #[derive(Debug)]
+    struct Loud;
+
+    impl EngineKind for Loud {
+        fn name(&self) -> &'static str {
+            "loud"
+        }
+
+        fn about(&self) -> &'static str {
+            "has an option of the frame"
+        }
+
+        fn options(&self) -> &'static [EngineOption] {
+            &[EngineOption { name: "quiet", value_name: "N", about: "How", check: |_| Ok(()) }]
+        }
+
+        fn make(&self, _options: &EngineOptions) -> Result<Box<dyn Engine>, Failure> {
+            Err("never made".into())
+        }
+    }
+
+    #[test]
+    fn an_engine_has_no_option_of_the_frame() {
+        let engines = Engines::default().with(Loud);
+        let error = check(&Definition { engines: &engines, ..definition(std::convert::identity) });
+        let text = error.unwrap_err().to_string();
+        assert!(text.starts_with("the loud engine's own option `--quiet` has a name that"), "{text}");
+        assert!(text.contains("(of run, resume, render, compare, sweep, new)"), "{text}");
     }
 }

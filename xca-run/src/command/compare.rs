@@ -1,12 +1,13 @@
 //! The subcommand `compare`.
 
 use super::arguments::{interval, steps};
+use super::engine::with_shared_options;
 use super::parse::{Choice as ModelChoice, with_help, with_model};
 use super::voice::Voice;
 use super::{Definition, Ended, Unable};
 use crate::compare::report::{self, Files};
 use crate::compare::{self, Choice, CompareError, Contender, Plan, Subject, Verdict};
-use crate::engines::Arithmetic;
+use crate::engines::{EngineError, EngineOptions};
 use crate::interrupt::Interrupt;
 use crate::options::number_in;
 use clap::{Args, Command};
@@ -29,7 +30,7 @@ pub(super) struct CompareArguments {
     /// The engines; the others are compared with the first. A name, with threads or an adapter after a colon and a precision after an @:
     /// reference, cpu:2, gpu:llvmpipe, cpu@f32
     #[arg(long, value_name = "ENGINE,…", value_delimiter = ',', default_value = "reference,cpu")]
-    engines: Vec<Choice>,
+    engines: Vec<String>,
 
     /// How many steps are done; the model says how many unless it is given
     #[arg(long, value_name = "N", value_parser = steps)]
@@ -48,10 +49,6 @@ pub(super) struct CompareArguments {
     /// given, 1e-4 where f32 takes part
     #[arg(long, value_name = "X", value_parser = number_in(0.0..))]
     tolerance: Option<f64>,
-
-    /// Float arithmetic of gpu engines
-    #[arg(long, value_name = "strict|relaxed|best")]
-    arithmetic: Option<Arithmetic>,
 
     /// The folder of the files; out/NAME-compare unless it is given. Files of an earlier comparison there are replaced
     #[arg(long, value_name = "DIR")]
@@ -76,17 +73,19 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
         format!("{name} compare --engines reference,cpu:1,cpu:2,gpu --steps 200"),
         format!("{name} compare --engines cpu,cpu@f32 --repeats 1"),
     ];
-    with_help(CompareArguments::augment_args(command), ABOUT, &examples)
+    let command = with_shared_options(CompareArguments::augment_args(command), definition.engines);
+    with_help(command, ABOUT, &examples)
 }
 
 /// Compares engines.
 pub(super) fn compare(
     model: &ModelChoice<'_>,
     arguments: CompareArguments,
+    options: &EngineOptions,
     command_line: Vec<String>,
 ) -> Result<Ended, Unable> {
     let precision = model.arguments.given(None).precision;
-    let contenders = contenders(&arguments, precision)?;
+    let contenders = contenders(model.definition, &arguments.engines, options, precision)?;
     let given = model.arguments.given(arguments.steps);
     let set_up = model.set_up(&given)?;
     let memory = contenders.iter().map(|it| it.engine.least_memory(&set_up.model, it.precision)).sum();
@@ -132,10 +131,21 @@ pub(super) fn compare(
     Ok(if comparison.verdict == Verdict::Different { Ended::Different } else { Ended::Done })
 }
 
-fn contenders(arguments: &CompareArguments, precision: Precision) -> Result<Vec<Contender>, Unable> {
-    let engines = arguments.engines.iter();
-    let contenders = engines.map(|choice| choice.contender(precision, arguments.arithmetic));
-    contenders.collect::<Result<_, _>>().map_err(Unable::refused)
+/// The engines that take part. What is chosen for all of them is for those that know it, of which there must be one.
+fn contenders(
+    definition: &Definition<'_>,
+    named: &[String],
+    options: &EngineOptions,
+    precision: Precision,
+) -> Result<Vec<Contender>, Unable> {
+    let engines = definition.engines;
+    let choices = named.iter().map(|text| Choice::new(text, engines)).collect::<Result<Vec<_>, _>>();
+    let choices = choices.map_err(Unable::refused)?;
+    if let Some((option, _)) = options.iter().find(|(option, _)| !choices.iter().any(|it| it.knows(option))) {
+        return Err(Unable::refused(format!("no engine that takes part has --{option}; leave it away")));
+    }
+    let contenders = choices.iter().map(|choice| choice.contender(engines, options, precision));
+    contenders.collect::<Result<_, EngineError>>().map_err(Unable::refused)
 }
 
 #[cfg(test)]

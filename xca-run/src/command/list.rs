@@ -1,13 +1,12 @@
 //! The subcommand `list`.
 
-mod adapters;
 mod text;
 
 use super::parse::{Choice, with_help, with_model};
 use super::{Definition, Ended, Unable};
-use crate::engines::EngineName;
+use crate::engines::Engines;
 use crate::terminal;
-use clap::{Args, Command, ValueEnum};
+use clap::{Args, Command};
 use serde_json::{Map, Value, json};
 use text::as_text;
 use xca_core::model::GroupKind;
@@ -37,18 +36,14 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
 /// Tells what a program has, with the options that are given.
 pub(super) fn list(choice: &Choice<'_>, arguments: &ListArguments) -> Result<Ended, Unable> {
     let model = choice.set_up(&choice.arguments.given(None))?.model;
-    let text = if arguments.json { as_json(&model).map_err(Unable::failed)? } else { as_text(&model) };
+    let engines = choice.definition.engines;
+    let text = if arguments.json {
+        as_json(&model, engines).map_err(Unable::failed)?
+    } else {
+        as_text(&model, engines)
+    };
     terminal::say(&text).map_err(Unable::failed)?;
     Ok(Ended::Done)
-}
-
-/// Names and descriptions of the engines.
-fn engines() -> impl Iterator<Item = (String, String)> {
-    EngineName::value_variants().iter().map(|engine| {
-        let value = engine.to_possible_value();
-        let about = value.as_ref().and_then(|value| value.get_help()).map(ToString::to_string);
-        (engine.to_string(), about.unwrap_or_default())
-    })
 }
 
 /// What is known of each substate.
@@ -94,8 +89,12 @@ fn parameters(model: &Model) -> Map<String, Value> {
     values
 }
 
-fn as_json(model: &Model) -> serde_json::Result<String> {
-    let engines = engines().map(|(name, about)| json!({ "name": name, "about": about }));
+fn as_json(model: &Model, engines: &Engines) -> serde_json::Result<String> {
+    let engines = engines.kinds().map(|kind| {
+        let devices = kind.devices().unwrap_or_default().data;
+        let options = kind.options().iter().map(|option| option.name).collect::<Vec<_>>();
+        json!({ "name": kind.name(), "about": kind.about(), "options": options, "devices": devices })
+    });
     let processes = model.processes().iter().enumerate().map(|(number, process)| {
         let [reads, reads_elsewhere, writes] = accesses(model, number);
         json!({
@@ -110,7 +109,6 @@ fn as_json(model: &Model) -> serde_json::Result<String> {
     });
     serde_json::to_string_pretty(&json!({
         "engines": engines.collect::<Vec<_>>(),
-        "adapters": adapters::as_json(),
         "model": report::of_model(model),
         "substates": substates(model).collect::<Vec<_>>(),
         "parameters": parameters(model),

@@ -1,7 +1,8 @@
 //! From the words of a command line to what they mean.
 
-use super::arguments::{EngineArguments, ModelArguments, ResumeArguments, RunArguments};
+use super::arguments::{ModelArguments, ResumeArguments, RunArguments};
 use super::compare::CompareArguments;
+use super::engine::{EngineChoice, given};
 use super::inspect::InspectArguments;
 use super::list::ListArguments;
 use super::new::NewArguments;
@@ -12,6 +13,7 @@ use super::{
     Definition, EXIT_CODES, Unable, clashes, compare, config, initial, inspect, list, new, render, resume,
     run, sweep, watch,
 };
+use crate::engines::EngineOptions;
 use crate::program::Given;
 use clap::error::ErrorKind;
 use clap::{ArgMatches, Args, Command, FromArgMatches};
@@ -23,16 +25,17 @@ use xca_record::SetUp;
 /// What a command line asks for.
 pub(super) enum Invocation<'a> {
     Run(Box<RunInvocation<'a>>),
-    Resume(&'a Definition<'a>, ResumeArguments),
+    /// With what is said of the engine.
+    Resume(&'a Definition<'a>, ResumeArguments, EngineChoice),
     Render(Box<RunInvocation<'a>>, RenderArguments),
     /// With what has to be drawn, and with the whole command line.
     Draw(&'a Definition<'a>, PathBuf, RenderArguments, Vec<String>),
     Watch(Box<RunInvocation<'a>>, WatchArguments),
     List(Box<Choice<'a>>, ListArguments),
     Inspect(InspectArguments),
-    /// With the whole command line.
-    Compare(Box<Choice<'a>>, Box<CompareArguments>, Vec<String>),
-    Sweep(Box<Choice<'a>>, EngineArguments, SweepArguments),
+    /// With what is chosen of the engines, and with the whole command line.
+    Compare(Box<Choice<'a>>, Box<CompareArguments>, EngineOptions, Vec<String>),
+    Sweep(Box<Choice<'a>>, EngineChoice, SweepArguments),
     New(NewArguments),
 }
 
@@ -48,7 +51,7 @@ pub(super) struct Choice<'a> {
 /// A run.
 pub(super) struct RunInvocation<'a> {
     pub(super) model: Choice<'a>,
-    pub(super) engine: EngineArguments,
+    pub(super) engine: EngineChoice,
     pub(super) run: RunArguments,
     /// The command line, with what a configuration file added to it.
     pub(super) command_line: Vec<String>,
@@ -183,17 +186,19 @@ fn complete<'a>(
     match matches.subcommand() {
         Some((run::NAME, matches)) => Ok(Invocation::Run(Box::new(RunInvocation {
             model: Choice::new(definition, matches)?,
-            engine: from(matches)?,
+            engine: EngineChoice::of(definition.engines, matches),
             run: from(matches)?,
             command_line: words(arguments),
         }))),
         Some((compare::NAME, matches)) => Ok(Invocation::Compare(
             Box::new(Choice::new(definition, matches)?),
             Box::new(from(matches)?),
+            given(definition.engines, matches),
             words(arguments),
         )),
         Some((sweep::NAME, matches)) => {
-            Ok(Invocation::Sweep(Box::new(Choice::new(definition, matches)?), from(matches)?, from(matches)?))
+            let on = EngineChoice::of(definition.engines, matches);
+            Ok(Invocation::Sweep(Box::new(Choice::new(definition, matches)?), on, from(matches)?))
         }
         Some((render::NAME, matches)) => {
             let render: RenderArguments = from(matches)?;
@@ -203,7 +208,7 @@ fn complete<'a>(
             }
             let run = RunInvocation {
                 model: Choice::new(definition, matches)?,
-                engine: from(matches)?,
+                engine: EngineChoice::of(definition.engines, matches),
                 run: render.as_of_run(),
                 command_line: words(arguments),
             };
@@ -213,7 +218,7 @@ fn complete<'a>(
             let watch: WatchArguments = from(matches)?;
             let run = RunInvocation {
                 model: Choice::new(definition, matches)?,
-                engine: from(matches)?,
+                engine: EngineChoice::of(definition.engines, matches),
                 run: watch.as_of_run(),
                 command_line: words(arguments),
             };
@@ -224,7 +229,10 @@ fn complete<'a>(
         }
         Some((inspect::NAME, matches)) => Ok(Invocation::Inspect(from(matches)?)),
         Some((new::NAME, matches)) => Ok(Invocation::New(from(matches)?)),
-        Some((resume::NAME, matches)) => Ok(Invocation::Resume(definition, from(matches)?)),
+        Some((resume::NAME, matches)) => {
+            let on = EngineChoice::of(definition.engines, matches);
+            Ok(Invocation::Resume(definition, from(matches)?, on))
+        }
         _ => Err(Unable::refused("no command is given")),
     }
 }

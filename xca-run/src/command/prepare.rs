@@ -1,7 +1,7 @@
 //! What comes before a run, whether it begins or goes on: the engine, and the model with its parameters.
 
 use super::Unable;
-use super::arguments::EngineArguments;
+use super::engine::EngineChoice;
 use super::initial::one_layer;
 use super::parse::RunInvocation;
 use crate::program::Given;
@@ -18,8 +18,8 @@ pub(super) struct Prepared {
 
 impl Prepared {
     /// Makes the model of a run, for an engine that need not be the one that its command line names.
-    pub(super) fn new(invocation: &RunInvocation<'_>, on: &EngineArguments) -> Result<Self, Unable> {
-        let engine = on.engine.engine(&on.options()).map_err(Unable::refused)?;
+    pub(super) fn new(invocation: &RunInvocation<'_>, on: &EngineChoice) -> Result<Self, Unable> {
+        let engine = on.engine(invocation.model.definition)?;
         let given = invocation.model.arguments.given(invocation.run.steps);
         let set_up = set_up(invocation, &*engine, &given)?;
         Ok(Self { engine, run: run_of(invocation, &given, set_up)? })

@@ -9,7 +9,7 @@ mod saved;
 pub(super) use arguments::RenderArguments;
 pub(super) use saved::draw;
 
-use super::arguments::EngineArguments;
+use super::engine::with_engine;
 use super::parse::{RunInvocation, with_help, with_model};
 use super::prepare::Prepared;
 use super::{Definition, Ended, Unable};
@@ -56,7 +56,7 @@ fn pixels(text: &str) -> Result<[usize; 2], &'static str> {
 
 pub(super) fn command(definition: &Definition<'_>) -> Command {
     let name = definition.name;
-    let command = EngineArguments::augment_args(with_model(Command::new(NAME), definition));
+    let command = with_engine(with_model(Command::new(NAME), definition), definition.engines);
     // Which a run that is drawn has been given already.
     let command = command.mut_args(|option| {
         if option.is_required_set() { option.required(false).required_unless_present(SAVED) } else { option }

@@ -1,6 +1,7 @@
 //! The subcommand `resume`.
 
 use super::arguments::ResumeArguments;
+use super::engine::{EngineChoice, with_other_engine};
 use super::parse::{self, with_help};
 use super::prepare::Prepared;
 use super::under_way::UnderWay;
@@ -31,12 +32,17 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
         format!("{name} resume out/{name} --engine reference"),
         format!("{name} resume out/{name} --checkpoint out/{name}/checkpoints/step_00000500.checkpoint"),
     ];
-    with_help(ResumeArguments::augment_args(Command::new(NAME)), ABOUT, &examples)
+    let command = with_other_engine(Command::new(NAME), definition.engines);
+    with_help(ResumeArguments::augment_args(command), ABOUT, &examples)
         .long_about(format!("{ABOUT}\n\n{FILES}"))
 }
 
 /// Goes on with a run.
-pub(super) fn resume(definition: &Definition<'_>, arguments: &ResumeArguments) -> Result<Ended, Unable> {
+pub(super) fn resume(
+    definition: &Definition<'_>,
+    arguments: &ResumeArguments,
+    on: &EngineChoice,
+) -> Result<Ended, Unable> {
     let folder = &arguments.folder;
     if !folder.is_dir() {
         return Err(Unable::refused(format!("there is no folder {}", folder.display())));
@@ -51,7 +57,7 @@ pub(super) fn resume(definition: &Definition<'_>, arguments: &ResumeArguments) -
         return Ok(Ended::Done);
     }
     let path = chosen(arguments)?;
-    let found = Found { definition, arguments, path: &path };
+    let found = Found { definition, arguments, on, path: &path };
     let checkpoint = Checkpoint::read(&path).map_err(|error| found.refused(error.into(), None))?;
     found.under_way(checkpoint, earlier)?.go()
 }
@@ -73,6 +79,7 @@ fn chosen(arguments: &ResumeArguments) -> Result<PathBuf, Unable> {
 struct Found<'a> {
     definition: &'a Definition<'a>,
     arguments: &'a ResumeArguments,
+    on: &'a EngineChoice,
     path: &'a Path,
 }
 
@@ -84,7 +91,7 @@ impl Found<'_> {
         self.same(of_program, description)?;
         self.same(earlier.difference(&description.run.command_line), description)?;
         let invocation = parse::recorded(self.definition, &description.run.command_line, "checkpoint")?;
-        let on = self.arguments.engine(&invocation.engine);
+        let on = self.on.or_as_begun(&invocation.engine);
         let Prepared { engine, mut run } = Prepared::new(&invocation, &on)?;
         if let Some(interval) = self.arguments.checkpoint_every {
             run = run.checkpoint_every(interval);
@@ -105,7 +112,7 @@ impl Found<'_> {
     fn not_resumed(&self, error: BeginError, description: &Description) -> Unable {
         match error {
             BeginError::Rounding { .. } => Unable::refused(format!(
-                "{error}; choose the engine with --engine, --adapter and --arithmetic, or add --allow-rounding"
+                "{error}; choose the engine with --engine and what belongs to it, or add --allow-rounding"
             )),
             BeginError::Folder(_) | BeginError::Write(_) => Unable::refused(error),
             other => self.refused(other.into(), Some(description)),

@@ -1,6 +1,7 @@
 //! The subcommand `run`.
 
-use super::arguments::{EngineArguments, RunArguments};
+use super::arguments::RunArguments;
+use super::engine::with_engine;
 use super::parse::{RunInvocation, with_help, with_model};
 use super::prepare::{Prepared, not_begun};
 use super::under_way::UnderWay;
@@ -8,7 +9,7 @@ use super::{Definition, Ended, Unable};
 use crate::terminal;
 use clap::{Args, Command};
 use std::path::PathBuf;
-use xca_core::{Model, Precision, RunError};
+use xca_core::RunError;
 
 pub(super) const NAME: &str = "run";
 
@@ -16,7 +17,7 @@ pub(super) const ABOUT: &str = "Run the model, and write what comes of it to a f
 
 pub(super) fn command(definition: &Definition<'_>) -> Command {
     let Definition { name, examples, .. } = definition;
-    let command = EngineArguments::augment_args(with_model(Command::new(NAME), definition));
+    let command = with_engine(with_model(Command::new(NAME), definition), definition.engines);
     let command = RunArguments::augment_args(command).next_help_heading(None::<&str>);
     let of_model = examples.lines().map(|line| format!("{name} run {}", line.trim()));
     let examples: Vec<String> = [format!("{name} run")].into_iter().chain(of_model).collect();
@@ -25,10 +26,8 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
 
 /// Runs the model of a program.
 pub(super) fn run(invocation: RunInvocation<'_>) -> Result<Ended, Unable> {
-    if invocation.run.print_wgsl {
-        let given = invocation.model.arguments.given(invocation.run.steps);
-        let model = invocation.model.set_up(&given)?.model;
-        terminal::say(&wgsl(&model, given.precision)?).map_err(Unable::failed)?;
+    if invocation.run.print_source {
+        terminal::say(&source(&invocation)?).map_err(Unable::failed)?;
         return Ok(Ended::Done);
     }
     let Prepared { engine, run } = Prepared::new(&invocation, &invocation.engine)?;
@@ -38,15 +37,18 @@ pub(super) fn run(invocation: RunInvocation<'_>) -> Result<Ended, Unable> {
     UnderWay { recording, voice: arguments.voice, note: engine.note() }.go()
 }
 
-/// The processes as the gpu engine compiles them.
-#[cfg(feature = "gpu")]
-fn wgsl(model: &Model, precision: Precision) -> Result<String, Unable> {
-    xca_gpu::wgsl(model, precision).map_err(Unable::failed)
-}
-
-#[cfg(not(feature = "gpu"))]
-fn wgsl(_model: &Model, _precision: Precision) -> Result<String, Unable> {
-    Err(Unable::refused(crate::engines::MissingFeature::GPU))
+/// What the engine makes of the processes.
+fn source(invocation: &RunInvocation<'_>) -> Result<String, Unable> {
+    let given = invocation.model.arguments.given(invocation.run.steps);
+    let name = &invocation.engine.name;
+    let kind = invocation.model.definition.engines.kind(name).map_err(Unable::refused)?;
+    let model = invocation.model.set_up(&given)?.model;
+    let source = kind.source(&model, given.precision).ok_or_else(|| {
+        Unable::refused(format!(
+            "the {name} engine makes no text of the processes; --engine gpu makes shaders"
+        ))
+    })?;
+    source.map_err(Unable::Refused)
 }
 
 /// An initial state that cannot be made is a mistake in what was given.

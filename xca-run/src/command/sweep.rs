@@ -2,7 +2,8 @@
 
 mod values;
 
-use super::arguments::{EngineArguments, steps};
+use super::arguments::steps;
+use super::engine::{EngineChoice, with_engine};
 use super::parse::{Choice, with_help, with_model};
 use super::voice::Voice;
 use super::{Definition, Ended, Unable};
@@ -45,8 +46,8 @@ pub(super) struct SweepArguments {
     seeds: u64,
 
     /// How many runs are done side by side; the number of cores divided by --threads unless it is given
-    #[arg(long, value_name = "N", value_parser = super::threads)]
-    jobs: Option<usize>,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    jobs: Option<u16>,
 
     /// How many steps each run does; the model says how many unless it is given
     #[arg(long, value_name = "N", value_parser = steps)]
@@ -62,7 +63,7 @@ pub(super) struct SweepArguments {
 
 pub(super) fn command(definition: &Definition<'_>) -> Command {
     let name = definition.name;
-    let command = EngineArguments::augment_args(with_model(Command::new(NAME), definition));
+    let command = with_engine(with_model(Command::new(NAME), definition), definition.engines);
     let command = SweepArguments::augment_args(command).next_help_heading(None::<&str>);
     let examples = [
         format!("{name} sweep --seeds 10"),
@@ -117,7 +118,7 @@ impl EnsembleMonitor for Terminal<'_> {
 /// Runs a model many times.
 pub(super) fn sweep(
     model: &Choice<'_>,
-    mut on: EngineArguments,
+    mut on: EngineChoice,
     arguments: SweepArguments,
 ) -> Result<Ended, Unable> {
     let begin = Instant::now();
@@ -126,10 +127,13 @@ pub(super) fn sweep(
     let given = Given { parameters: fixed, ..given };
     let set_up = model.set_up(&given)?;
     check(&set_up, &swept)?;
-    let needs_threads = on.engine.default_threads();
-    on.threads = on.threads.or(needs_threads);
-    let jobs = arguments.jobs.unwrap_or_else(|| (cores().unwrap_or(1) / on.threads.unwrap_or(1)).max(1));
-    let engine = on.engine.engine(&on.options()).map_err(Unable::refused)?;
+    let engines = model.definition.engines;
+    on.options = on.options.or(&engines.kind(&on.name).map_err(Unable::refused)?.beside_others());
+    let engine = on.engine(model.definition)?;
+    let jobs = arguments
+        .jobs
+        .map(usize::from)
+        .unwrap_or_else(|| (cores().unwrap_or(1) / engine.threads().max(1)).max(1));
     let memory = engine.least_memory(&set_up.model, given.precision).saturating_mul(jobs as u128);
     check_memory(memory, &format!("{jobs} runs side by side")).map_err(Unable::refused)?;
     drop((engine, set_up));
@@ -156,8 +160,7 @@ pub(super) fn sweep(
     let interrupt = Interrupt::install().map_err(Unable::failed)?;
     let line = arguments.voice.count(all as u64, "runs");
     let mut terminal = Terminal { line, done: 0, interrupt: &interrupt };
-    let options = on.options();
-    let make = || -> Result<Box<dyn Engine>, Failure> { Ok(on.engine.engine(&options)?) };
+    let make = || -> Result<Box<dyn Engine>, Failure> { Ok(engines.engine(&on.name, &on.options)?) };
     let mut set_up = |member: &Member| model.set_up(&with(&given, member)).map_err(Unable::into_failure);
     let result = ensemble.run(&folder, &make, &mut set_up, &mut terminal);
     terminal.line.finish();

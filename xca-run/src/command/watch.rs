@@ -3,7 +3,8 @@
 #[cfg(feature = "terminal")]
 mod show;
 
-use super::arguments::{EngineArguments, RunArguments, interval, steps};
+use super::arguments::{RunArguments, interval, steps};
+use super::engine::with_engine;
 use super::look::LookArguments;
 use super::parse::{RunInvocation, with_help, with_model};
 use super::voice::Voice;
@@ -62,7 +63,7 @@ impl WatchArguments {
             checkpoint_every: None,
             grids: false,
             allow_non_finite: true,
-            print_wgsl: false,
+            print_source: false,
             voice: Voice::default(),
         }
     }
@@ -70,7 +71,7 @@ impl WatchArguments {
 
 pub(super) fn command(definition: &Definition<'_>) -> Command {
     let name = definition.name;
-    let command = EngineArguments::augment_args(with_model(Command::new(NAME), definition));
+    let command = with_engine(with_model(Command::new(NAME), definition), definition.engines);
     let command = WatchArguments::augment_args(command).next_help_heading(None::<&str>);
     let examples = [format!("{name} watch"), format!("{name} watch --every 1 --fps 10 --engine reference")];
     with_help(command, ABOUT, &examples).long_about(format!("{ABOUT}\n\n{KEYS}"))

@@ -1,17 +1,14 @@
 //! Engines as the command line names them.
 
-use crate::engines::{Arithmetic, EngineError, EngineName, EngineOptions};
-use clap::ValueEnum;
-use std::fmt;
-use std::str::FromStr;
+use crate::engines::{EngineError, EngineKind, EngineOptions, Engines};
 use std::time::{Duration, Instant};
-use xca_core::{Engine, Precision};
+use xca_core::{Engine, Precision, UnknownPrecision};
 
 /// An engine with what it is given: `reference`, `cpu:2`, `gpu:NVIDIA`, `cpu@f32`.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Choice {
+#[derive(Debug)]
+pub(crate) struct Choice<'a> {
     text: String,
-    name: EngineName,
+    kind: &'a dyn EngineKind,
     options: EngineOptions,
     precision: Option<Precision>,
 }
@@ -27,54 +24,57 @@ pub(crate) struct Contender {
     pub(crate) making: Duration,
 }
 
-impl FromStr for Choice {
-    type Err = String;
+/// A text that names no engine.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum ChoiceError {
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    #[error(transparent)]
+    Precision(#[from] UnknownPrecision),
+    #[error("there is nothing to choose of the {0} engine by a colon")]
+    Nothing(&'static str),
+}
 
-    fn from_str(text: &str) -> Result<Self, String> {
+impl<'a> Choice<'a> {
+    pub(crate) fn new(text: &str, engines: &'a Engines) -> Result<Self, ChoiceError> {
         let text = text.trim();
         let (engine, precision) = match text.rsplit_once('@') {
-            Some((engine, precision)) => {
-                (engine, Some(precision.parse::<Precision>().map_err(|error| error.to_string())?))
-            }
+            Some((engine, precision)) => (engine, Some(precision.parse()?)),
             None => (text, None),
         };
         let (name, which) = match engine.split_once(':') {
             Some((name, which)) => (name, Some(which)),
             None => (engine, None),
         };
-        let name = EngineName::from_str(name, false).map_err(|_| {
-            let names: Vec<String> = EngineName::value_variants().iter().map(ToString::to_string).collect();
-            format!("there is no engine `{name}`; there are {}", names.join(", "))
-        })?;
+        let kind = engines.kind(name)?;
         let mut options = EngineOptions::default();
-        match (name, which) {
-            (_, None) => {}
-            (EngineName::Gpu, Some(adapter)) => options.adapter = Some(adapter.to_owned()),
-            (_, Some(threads)) => options.threads = Some(crate::command::threads(threads)?),
+        if let Some(which) = which {
+            let option = kind.options().first().ok_or(ChoiceError::Nothing(kind.name()))?;
+            options = options.with(option.name, which);
         }
-        Ok(Self { text: text.to_owned(), name, options, precision })
+        Ok(Self { text: text.to_owned(), kind, options, precision })
     }
-}
 
-impl fmt::Display for Choice {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.text)
+    /// Whether the engine has this option.
+    pub(crate) fn knows(&self, option: &str) -> bool {
+        self.kind.options().iter().any(|own| own.name == option)
     }
-}
 
-impl Choice {
-    /// Makes the engine. Where it does not say so itself, `Real` is `precision`, and `arithmetic` is that of GPUs.
+    /// Makes the engine. Where it does not say so itself, `Real` is `precision`, and `options` are chosen as far as it knows them.
     pub(crate) fn contender(
         &self,
+        engines: &Engines,
+        options: &EngineOptions,
         precision: Precision,
-        arithmetic: Option<Arithmetic>,
     ) -> Result<Contender, EngineError> {
-        let mut options = self.options.clone();
-        if self.name == EngineName::Gpu {
-            options.arithmetic = arithmetic;
+        let mut chosen = self.options.clone();
+        for (option, value) in options.iter().filter(|(option, _)| self.knows(option)) {
+            if chosen.get(option).is_none() {
+                chosen = chosen.with(option, value);
+            }
         }
         let begin = Instant::now();
-        let engine = self.name.engine(&options)?;
+        let engine = engines.engine(self.kind.name(), &chosen)?;
         let precision = self.precision.unwrap_or(precision);
         Ok(Contender { name: self.text.clone(), engine, precision, making: begin.elapsed() })
     }
@@ -86,27 +86,34 @@ mod tests {
 
     #[test]
     fn engines_are_named_with_what_they_are_given() {
-        let choice: Choice = "cpu:3@f32".parse().unwrap();
-        let contender = choice.contender(Precision::F64, None).unwrap();
+        let (engines, none) = (Engines::default(), EngineOptions::default());
+        let choice = Choice::new("cpu:3@f32", &engines).unwrap();
+        let contender =
+            choice.contender(&engines, &none.clone().with("threads", "1"), Precision::F64).unwrap();
         assert_eq!((contender.engine.name(), contender.engine.threads()), ("cpu", 3));
         assert_eq!((contender.precision, contender.name.as_str()), (Precision::F32, "cpu:3@f32"));
-        let choice: Choice = "gpu:llvm pipe".parse().unwrap();
-        assert_eq!(choice.options.adapter.as_deref(), Some("llvm pipe"));
-        assert_eq!(" reference ".parse::<Choice>().unwrap().to_string(), "reference");
+        let choice = Choice::new("gpu:llvm pipe", &engines).unwrap();
+        assert_eq!(choice.options.get("adapter"), Some("llvm pipe"));
+        let choice = Choice::new(" reference ", &engines).unwrap();
+        let unheeded = none.with("arithmetic", "strict");
+        assert_eq!(choice.contender(&engines, &unheeded, Precision::F64).unwrap().name, "reference");
     }
 
     #[test]
     fn what_is_no_engine_is_told() {
+        let engines = Engines::default();
         for (text, wanted) in [
             ("cup", "there is no engine `cup`; there are cpu, gpu, reference"),
-            ("cpu:0", "0 threads do nothing"),
-            ("cpu:two", "it must be a whole number"),
             ("cpu@f16", "`f16` is not a precision"),
+            ("reference:2", "nothing to choose of the reference engine"),
         ] {
-            let error = text.parse::<Choice>().unwrap_err();
+            let error = Choice::new(text, &engines).unwrap_err().to_string();
             assert!(error.contains(wanted), "{error}");
         }
-        let error = "reference:2".parse::<Choice>().unwrap().contender(Precision::F64, None).unwrap_err();
-        assert!(error.to_string().contains("serial"), "{error}");
+        for (text, wanted) in [("cpu:0", "0 threads do nothing"), ("cpu:two", "it must be a whole number")] {
+            let choice = Choice::new(text, &engines).unwrap();
+            let error = choice.contender(&engines, &EngineOptions::default(), Precision::F64).unwrap_err();
+            assert!(error.to_string().contains(wanted), "{error}");
+        }
     }
 }

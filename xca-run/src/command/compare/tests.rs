@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::command::{execute, parse};
+use crate::engines::Engines;
 use crate::program::Given;
 use serde_json::Value;
 use std::ffi::OsString;
@@ -41,6 +42,7 @@ fn compared(words: &[&str]) -> (Result<Ended, Unable>, Value) {
         examples: "",
         options: std::convert::identity,
         set_up: &set_up,
+        engines: &Engines::default(),
     };
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
@@ -98,7 +100,8 @@ fn engines_that_do_not_agree_have_an_exit_code() {
 fn what_makes_no_sense_is_refused() {
     for (words, wanted) in [
         (&["--engines", "cpu,cup"][..], "there is no engine `cup`"),
-        (&["--engines", "reference:2"], "serial"),
+        (&["--engines", "reference:2"], "nothing to choose of the reference engine"),
+        (&["--arithmetic", "strict"], "no engine that takes part has --arithmetic"),
         (&["--repeats", "0"], "it must be a whole number from 1 to 1000"),
         (&["--tolerance", "-1"], "it must be a finite number at least 0"),
         (&["--check-every", "0"], "every 0 steps never comes"),

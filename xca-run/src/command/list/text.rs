@@ -1,15 +1,18 @@
 //! A model as tables of at most 80 columns, where its names allow it.
 
-use super::{accesses, adapters, engines, subject};
+use super::{accesses, subject};
+use crate::engines::{EngineKind, Engines};
 use crate::table::{table, table_with_notes};
 use xca_core::model::GroupKind;
 use xca_core::{Field, Model, ScalarType};
 use xca_record::components::state_names;
 
 /// Everything about a model, and the engines.
-pub(super) fn as_text(model: &Model) -> String {
-    let engines = table(["engine", ""], engines().map(|(name, about)| [name, about]), &[]);
-    let mut parts = vec![space(model), engines, adapters::as_text(), substates(model)];
+pub(super) fn as_text(model: &Model, engines: &Engines) -> String {
+    let rows = engines.kinds().map(|kind| [kind.name(), kind.about()]);
+    let mut parts = vec![space(model), table(["engine", ""], rows, &[])];
+    parts.extend(engines.kinds().filter_map(EngineKind::devices).map(|devices| devices.text));
+    parts.push(substates(model));
     if model.parameters().count() > 0 {
         parts.push(parameters(model));
     }

@@ -1,6 +1,6 @@
 use super::*;
 use crate::command::voice::Voice;
-use crate::engines::EngineName;
+use crate::engines::EngineOptions;
 use std::fs;
 use std::path::Path;
 use xca_core::Precision;
@@ -19,18 +19,21 @@ struct Forest {
     tree: Vec<String>,
 }
 
-const FOREST: Definition<'static> = Definition {
-    name: "forest",
-    about: "A fire in a forest",
-    version: "1.2.3",
-    examples: "--size 10\n--wet",
-    options: Forest::augment_args,
-    set_up: &|_, _| Err(Unable::refused("not here")),
-};
+fn definition() -> &'static Definition<'static> {
+    Box::leak(Box::new(Definition {
+        name: "forest",
+        about: "A fire in a forest",
+        version: "1.2.3",
+        examples: "--size 10\n--wet",
+        options: Forest::augment_args,
+        set_up: &|_, _| Err(Unable::refused("not here")),
+        engines: Box::leak(Box::default()),
+    }))
+}
 
 fn parsed(words: &[&str]) -> Result<RunInvocation<'static>, Unable> {
     let arguments: Vec<OsString> = ["forest", "run"].iter().chain(words).map(OsString::from).collect();
-    match invocation(&FOREST, &arguments)? {
+    match invocation(definition(), &arguments)? {
         Invocation::Run(run) => Ok(*run),
         _ => panic!("this is no run"),
     }
@@ -56,7 +59,7 @@ fn forest(invocation: &RunInvocation<'_>) -> Forest {
 
 #[test]
 fn the_definition_of_the_command_is_sound() {
-    command(&FOREST).debug_assert();
+    command(definition()).debug_assert();
 }
 
 #[test]
@@ -64,7 +67,8 @@ fn what_is_not_given_has_a_default() {
     let invocation = parsed(&[]).unwrap();
     let given = invocation.model.arguments.given(None);
     assert_eq!((given.seed, given.precision, given.parameters.len()), (1, Precision::F64, 0));
-    assert_eq!((invocation.engine.engine, invocation.engine.threads), (EngineName::Cpu, None));
+    assert_eq!(invocation.engine.name, "cpu");
+    assert_eq!(invocation.engine.options, EngineOptions::default());
     assert_eq!(invocation.run.every, None);
     assert_eq!(invocation.run.voice, Voice::default());
     assert_eq!(forest(&invocation).size, 200);
@@ -141,7 +145,8 @@ fn a_file_gives_options_and_the_command_line_wins() {
     let invocation = with_config(text, &["--seed", "4", "--set", "alpha=0.5"]).unwrap();
     let forest = forest(&invocation);
     assert_eq!((forest.size, forest.wet, forest.tree.len()), (50, true, 2));
-    assert_eq!((invocation.engine.threads, invocation.run.voice), (Some(2), Voice::default()));
+    assert_eq!(invocation.engine.options.get("threads"), Some("2"));
+    assert_eq!(invocation.run.voice, Voice::default());
     let given = invocation.model.arguments.given(None);
     assert_eq!(given.seed, 4);
     let set: Vec<String> = given.parameters.iter().map(ToString::to_string).collect();

@@ -156,7 +156,7 @@ impl RenderArguments {
             checkpoint_every: None,
             grids: false,
             allow_non_finite: true,
-            print_wgsl: false,
+            print_source: false,
             voice: self.voice,
         }
     }

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::command::{Definition, execute, parse};
+use crate::engines::Engines;
 use crate::program::Given;
 use serde_json::Value;
 use std::ffi::OsString;
@@ -95,6 +96,7 @@ fn run_model(make: &Make, words: &[&str], out: &Path) -> (Result<Ended, Unable>,
         examples: "",
         options: std::convert::identity,
         set_up: &set_up,
+        engines: &Engines::default(),
     };
     let out_text = out.to_str().unwrap();
     let first = ["meadow", "run", "--quiet", "--out", out_text];
@@ -283,7 +285,9 @@ fn mistakes_are_found_before_anything_is_written() {
         "no parameter is called `rat`; known parameters: rate, limit"
     );
     assert!(said(&plain, &["--set", "limit=0.5"]).contains("`0.5` is no value for the parameter `limit`"));
-    assert!(said(&plain, &["--engine", "reference", "--threads", "2"]).contains("serial"));
+    assert!(
+        said(&plain, &["--engine", "reference", "--threads", "2"]).contains("--threads is for --engine cpu")
+    );
     assert_eq!(said(&|_| Err("no meadow".into()), &[]), "no meadow");
     let bare = |_: Given| -> Result<SetUp, Failure> {
         Ok(SetUp::new(Model::builder("bare").extents([3, 3, 1]).substates::<Stone>().build()?, 1))

@@ -1,6 +1,7 @@
 //! A model with cells and two populations, and a program of it.
 
 use crate::command::{Definition, Ended, Unable, execute, parse};
+use crate::engines::Engines;
 use crate::program::Given;
 use clap::{Args, FromArgMatches};
 use std::ffi::OsString;
@@ -128,7 +129,15 @@ impl Place {
         };
         let (name, version) = (self.name, self.version);
         let options = Pond::augment_args;
-        let definition = Definition { name, about: "", version, examples: "", options, set_up: &set_up };
+        let definition = Definition {
+            name,
+            about: "",
+            version,
+            examples: "",
+            options,
+            set_up: &set_up,
+            engines: &Engines::default(),
+        };
         let words = words.replace('@', &format!("{}/", self.folder.path().display()));
         let words = [name].into_iter().chain(words.split_whitespace());
         let words: Vec<OsString> = words.map(OsString::from).chain(["--quiet".into()]).collect();

@@ -1,0 +1,53 @@
+//! The engine for all cores.
+
+use super::{EngineKind, EngineOption, EngineOptions};
+use xca_core::Engine;
+use xca_cpu::Cpu;
+use xca_record::Failure;
+
+/// Has a number of threads.
+#[derive(Debug)]
+pub(super) struct CpuKind;
+
+const THREADS: EngineOption = EngineOption {
+    name: "threads",
+    value_name: "N",
+    about: "How many threads the cpu engine uses; one for each core unless it is given",
+    check: |text| threads(text).map(drop),
+};
+
+impl EngineKind for CpuKind {
+    fn name(&self) -> &'static str {
+        "cpu"
+    }
+
+    fn about(&self) -> &'static str {
+        "All cores, or as many threads as --threads says"
+    }
+
+    fn options(&self) -> &'static [EngineOption] {
+        &[THREADS]
+    }
+
+    fn beside_others(&self) -> EngineOptions {
+        EngineOptions::default().with(THREADS.name, "1")
+    }
+
+    fn make(&self, options: &EngineOptions) -> Result<Box<dyn Engine>, Failure> {
+        Ok(match options.get(THREADS.name) {
+            None => Box::new(Cpu::new()?),
+            Some(number) => Box::new(Cpu::with_threads(threads(number)?)?),
+        })
+    }
+}
+
+fn threads(text: &str) -> Result<usize, String> {
+    // Many more than cores only cost memory.
+    const MOST: usize = Cpu::MOST_THREADS;
+    match text.parse() {
+        Ok(0) => Err("0 threads do nothing; give at least 1".to_owned()),
+        Ok(number) if number <= MOST => Ok(number),
+        Ok(number) => Err(format!("{number} threads are too many; give at most {MOST}")),
+        Err(_) => Err(format!("it must be a whole number from 1 to {MOST}")),
+    }
+}
