@@ -168,10 +168,7 @@ impl OutputFolder {
     /// become `_`, so that the path stays inside the folder on every system.
     #[must_use]
     pub fn file(&self, name: &str) -> PathBuf {
-        let kept = |c: char| if c.is_ascii_alphanumeric() || "._-".contains(c) { c } else { '_' };
-        let name: String = name.chars().map(kept).collect();
-        let only_dots = name.chars().all(|c| c == '.');
-        self.path.join(if only_dots { "_".to_owned() } else { name })
+        self.path.join(plain_name(name))
     }
 
     /// The path of one file of a series, `STEM_STEP.EXTENSION` with the step in eight digits or more, so that the
@@ -199,6 +196,14 @@ impl OutputFolder {
     pub fn subfolder(&self, name: &str) -> Result<Self, WriteError> {
         Self::create(self.file(name))
     }
+}
+
+/// A name as [`OutputFolder::file`] gives it to a file.
+#[must_use]
+pub fn plain_name(name: &str) -> String {
+    let kept = |c: char| if c.is_ascii_alphanumeric() || "._-".contains(c) { c } else { '_' };
+    let only_dots = name.chars().all(|c| c == '.');
+    if only_dots { "_".to_owned() } else { name.chars().map(kept).collect() }
 }
 
 fn probe(folder: &Path) -> io::Result<()> {

@@ -40,6 +40,7 @@
 //! | item | for |
 //! |---|---|
 //! | [`SetUp`], [`CellView`], [`ItemView`], [`Observable`] | what is recorded |
+//! | [`format`] | the formats of its files, and how to add one |
 //! | [`Run`], [`Recording`] | a run, from its beginning or from a checkpoint, and its files |
 //! | [`Ensemble`] | many runs with other parameters and seeds, and one table of them |
 //! | [`Monitor`] | who watches a run, and can end it |
@@ -54,6 +55,7 @@ pub mod checkpoint;
 #[doc(hidden)]
 pub mod components;
 mod ensemble;
+pub mod format;
 mod interval;
 mod items_file;
 #[doc(hidden)]

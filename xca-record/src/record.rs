@@ -1,11 +1,10 @@
-//! What a run leaves behind: observables, frames, tables of items and pictures.
+//! What a run leaves behind: observables, and the files of its formats.
 
 mod cells;
 mod drawing;
 mod folder;
-mod frame_field;
-mod grids;
 mod items;
+pub(crate) mod layer;
 mod look;
 mod measure;
 mod painting;
@@ -14,31 +13,33 @@ mod saved;
 mod seen;
 mod shown;
 mod sight;
+mod substate_values;
 mod values;
 
+pub use cells::CellState;
 pub use drawing::{Drawing, Scales};
 pub use folder::{
     COMPARISON, Claim, ENSEMBLE, FRAMES, FolderError, Kind, LockedFolder, REPORT, RunFolder, numbered_files,
 };
-pub use items::column_type;
+pub use items::{ItemColumn, ItemState, column_type};
 pub use look::{Look, ViewKind};
+pub(crate) use painting::Frame;
 pub use recorded::Recorded;
 pub use saved::SavedError;
 pub use seen::Seen;
+pub(crate) use shown::Shown;
 pub use sight::{Sight, Subject};
-
-use crate::observable::{Failure, Observable};
-use crate::set_up::SetUp;
-use crate::view::{ViewError, complete};
-use painting::Frame;
-use shown::Shown;
+pub use substate_values::SubstateValues;
 pub use values::Plane;
-use xca_core::{Model, Precision, RunError, Simulation, Snapshot};
+
+use crate::format::{self, Formats, RecordedState};
+use crate::observable::{Failure, Observable};
+use crate::set_up::{SetUp, SetUpError};
+use crate::view::complete;
+use xca_core::{Model, RunError, Simulation, Snapshot};
 use xca_io::atomic::WriteError;
-use xca_io::particle_csv::WriteParticlesError;
 use xca_io::picture::PictureError;
 use xca_io::table_csv::{SeriesError, SeriesWriter};
-use xca_io::vtk::{Collection, VtkError};
 
 /// A part of a run's record that cannot be made or written.
 #[derive(Debug, thiserror::Error)]
@@ -46,9 +47,9 @@ use xca_io::vtk::{Collection, VtkError};
 #[non_exhaustive]
 pub enum RecordError {
     #[error(transparent)]
-    Table(#[from] WriteParticlesError),
-    #[error(transparent)]
-    Vtk(#[from] VtkError),
+    Format(Failure),
+    #[error("the checkpoint does not tell how to go on with the files of the format {format}")]
+    OtherFormats { format: &'static str, source: Failure },
     #[error(transparent)]
     Picture(#[from] PictureError),
     #[error(transparent)]
@@ -70,6 +71,7 @@ pub enum RecordError {
 pub struct Recorder {
     set_up: SetUp,
     shown: Vec<Shown>,
+    formats: Formats,
     folder: Option<RunFolder>,
     series: Option<SeriesWriter>,
     first: Vec<Observable>,
@@ -79,20 +81,25 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// Checks what the set-up wants to be shown.
-    pub fn new(mut set_up: SetUp) -> Result<Self, ViewError> {
+    /// Checks what the set-up wants to be shown and written.
+    pub fn new(mut set_up: SetUp) -> Result<Self, SetUpError> {
         let views = complete(&set_up.model, std::mem::take(&mut set_up.views))?;
         let shown = |(group, view)| Shown::new(group, view, set_up.map.clone());
         let shown = views.into_iter().map(shown).collect();
-        Ok(Self {
+        let formats = std::mem::take(&mut set_up.formats);
+        let recorder = Self {
             set_up,
             shown,
+            formats,
             folder: None,
             series: None,
             first: Vec::new(),
             last: Vec::new(),
             steps: Vec::new(),
-        })
+        };
+        let subject = recorder.subject();
+        recorder.formats.chosen().try_for_each(|writer| writer.check(subject)).map_err(SetUpError::Format)?;
+        Ok(recorder)
     }
 
     pub fn set_up(&self) -> &SetUp {
@@ -103,36 +110,14 @@ impl Recorder {
         &self.set_up.model
     }
 
-    /// The files that a run makes, below its folder; `*` stands for the number of the step.
-    pub fn files(&self) -> Vec<String> {
-        let mut files = vec![SERIES.to_owned()];
-        for (number, shown) in self.shown.iter().enumerate() {
-            let name = shown.stem();
-            if shown.is_of_items() {
-                files.push(self.numbered_file("final", number, "csv"));
-            }
-            files.push(shown.collection_file());
-            files.push(format!("{}/{name}_*.{}", FRAMES, shown.extension()));
-            files.push(self.numbered_file("initial", number, "png"));
-            files.push(self.numbered_file("final", number, "png"));
-        }
-        files.extend(self.grid_files());
-        files
+    pub(crate) fn subject(&self) -> format::Subject<'_> {
+        format::Subject { set_up: &self.set_up, shown: &self.shown }
     }
 
-    /// `final.png` of the first view of its kind, `final_NAME.png` of the others.
-    fn numbered_file(&self, stem: &str, number: usize, extension: &str) -> String {
-        let before = &self.shown[..number];
-        let first = if extension == "csv" {
-            before.iter().all(|other| !other.is_of_items())
-        } else {
-            before.is_empty()
-        };
-        if first {
-            format!("{stem}.{extension}")
-        } else {
-            format!("{stem}_{}.{extension}", self.shown[number].stem())
-        }
+    /// The files that a run makes, below its folder; `*` stands for the number of the step.
+    pub fn files(&self) -> Vec<String> {
+        let of_formats = self.formats.chosen().flat_map(|writer| writer.files(self.subject()));
+        [SERIES.to_owned()].into_iter().chain(of_formats.map(|file| file.listed())).collect()
     }
 
     /// How many frames there are, the observables before the first step and the last ones.
@@ -142,7 +127,7 @@ impl Recorder {
 
     /// The simulated time after so many steps: in seconds, or in steps where the model does not know better.
     pub fn time(&self, step: u64) -> f64 {
-        step as f64 * self.set_up.time_step.unwrap_or(1.0)
+        self.subject().time(step)
     }
 
     /// Whether the initial state has been recorded.
@@ -154,15 +139,15 @@ impl Recorder {
     pub fn begin(&mut self, folder: RunFolder, simulation: &mut Simulation) -> Result<(), RecordError> {
         self.folder = Some(folder);
         let snapshot = self.record(simulation)?;
-        self.draw(simulation.options().precision, &snapshot, "initial")
+        self.write(simulation, &snapshot, |writer, state| writer.begin(state))
     }
 
-    /// Records the present state as a row of observables and a frame, unless that is done already.
+    /// Records the present state as a row of observables and by the formats, unless that is done already.
     pub fn record(&mut self, simulation: &mut Simulation) -> Result<Snapshot, RecordError> {
         let snapshot = simulation.snapshot()?;
         if self.steps.last() != Some(&snapshot.step) {
             self.observe(simulation, &snapshot)?;
-            self.write_frames(simulation.options().precision, &snapshot)?;
+            self.write(simulation, &snapshot, |writer, state| writer.record(state))?;
             self.steps.push(snapshot.step);
         }
         Ok(snapshot)
@@ -171,15 +156,21 @@ impl Recorder {
     /// Records the final state.
     pub fn finish(&mut self, simulation: &mut Simulation) -> Result<(), RecordError> {
         let snapshot = self.record(simulation)?;
-        let precision = simulation.options().precision;
+        self.write(simulation, &snapshot, |writer, state| writer.finish(state))
+    }
+
+    /// Hands a state to the formats that are chosen.
+    fn write(
+        &mut self,
+        simulation: &Simulation,
+        snapshot: &Snapshot,
+        write: fn(&mut dyn format::Writer, RecordedState<'_>) -> Result<(), Failure>,
+    ) -> Result<(), RecordError> {
         let Some(folder) = &self.folder else { return Ok(()) };
-        for (number, shown) in self.shown.iter().enumerate() {
-            if let Some(items) = shown.items(&self.set_up.model, precision, &snapshot) {
-                items.write_table(&folder.top.file(&self.numbered_file("final", number, "csv")))?;
-            }
-        }
-        self.write_grids(&snapshot, precision, |file| folder.top.file(file))?;
-        self.draw(precision, &snapshot, "final")
+        let subject = format::Subject { set_up: &self.set_up, shown: &self.shown };
+        let state = RecordedState { subject, snapshot, precision: simulation.options().precision, folder };
+        let mut writers = self.formats.writers();
+        writers.try_for_each(|writer| write(&mut **writer, state)).map_err(RecordError::Format)
     }
 
     /// The observables of the present state, of which a snapshot was taken.
@@ -228,60 +219,7 @@ impl Recorder {
         self.last = observables;
         Ok(())
     }
-
-    fn write_frames(&mut self, precision: Precision, snapshot: &Snapshot) -> Result<(), RecordError> {
-        let (time, model) = (self.time(snapshot.step), &self.set_up.model);
-        let Some(folder) = &self.folder else { return Ok(()) };
-        for shown in &mut self.shown {
-            let path = shown.frame(&folder.frames, snapshot.step);
-            if let Some(items) = shown.items(model, precision, snapshot) {
-                items.write_frame(&path, time, shown.ground().corner)?;
-            } else if let Some(cells) = shown.cells(model, precision, snapshot) {
-                cells.write_frame(&path, time)?;
-            }
-            let list = folder.top.file(&shown.collection_file());
-            let collection = match &mut shown.collection {
-                Some(collection) => collection,
-                none => none.insert(Collection::create(&list)?),
-            };
-            collection.add(time, &path)?;
-        }
-        Ok(())
-    }
-
-    fn draw(&mut self, precision: Precision, snapshot: &Snapshot, stem: &str) -> Result<(), RecordError> {
-        for number in 0..self.shown.len() {
-            let (shown, model) = (&self.shown[number], &self.set_up.model);
-            let Some(seen) = shown.seen(model, precision, snapshot) else { continue };
-            let caption = self.whole_caption(shown, &seen, snapshot.step);
-            let frame =
-                Frame { title: &self.set_up.title, caption: &caption, range: shown.range, size: None };
-            if let (Some(folder), Some(picture)) = (&self.folder, shown.paint(model, &seen, frame)?) {
-                picture.write(&folder.top.file(&self.numbered_file(stem, number, "png")))?;
-            }
-            // Items have a scale of their own in each picture.
-            if !shown.is_of_items() {
-                self.shown[number].range = shown.range.or_else(|| seen.range());
-            }
-        }
-        Ok(())
-    }
-
-    /// The step, and what else has to be said of a picture of one view.
-    fn whole_caption(&self, shown: &Shown, seen: &Seen, step: u64) -> String {
-        let details = shown.details(&self.set_up.model, seen, false);
-        [Some(self.caption(step)), details].into_iter().flatten().collect::<Vec<_>>().join(", ")
-    }
-
-    fn caption(&self, step: u64) -> String {
-        match self.set_up.time_step {
-            Some(_) => {
-                format!("step {step}, time {} s", xca_io::numbers::significant(self.time(step), 4))
-            }
-            None => format!("step {step}"),
-        }
-    }
 }
 
 /// The time series.
-const SERIES: &str = "observables.csv";
+pub(crate) const SERIES: &str = "observables.csv";

@@ -6,7 +6,6 @@ use crate::record::{Claim, FolderError, Kind, REPORT, RecordError, Recorder, Run
 use crate::recording::{Checkpoints, Recording};
 use crate::report::{Earlier, Identity, ReadReportError, Report};
 use crate::set_up::{SetUp, SetUpError};
-use crate::view::ViewError;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use xca_core::{Engine, RunError, RunOptions, Simulation};
@@ -70,8 +69,6 @@ pub struct Run {
 #[expect(missing_docs, reason = "the messages explain the fields")]
 #[non_exhaustive]
 pub enum BeginError {
-    #[error(transparent)]
-    View(#[from] ViewError),
     #[error(transparent)]
     SetUp(#[from] SetUpError),
     #[error(transparent)]

@@ -1,7 +1,8 @@
 //! A model with what its program shows of it.
 
+use crate::format::{Formats, Writer};
 use crate::observable::{Failure, Observable};
-use crate::view::{AnyView, CellView, ItemView};
+use crate::view::{AnyView, CellView, ItemView, ViewError};
 use serde::Serialize;
 use std::fmt;
 use std::path::PathBuf;
@@ -31,8 +32,8 @@ pub struct SetUp {
     pub inputs: Vec<PathBuf>,
     /// Where the space lies, and which of its cells have no ground.
     pub map: Option<Map>,
-    /// Whether the final state is written as ASCII grids.
-    pub grids: bool,
+    /// The formats of its files.
+    pub formats: Formats,
     /// What `run.json` tells beside options and parameters.
     pub notes: serde_json::Map<String, serde_json::Value>,
 }
@@ -49,7 +50,7 @@ impl SetUp {
             views: Vec::new(),
             inputs: Vec::new(),
             map: None,
-            grids: false,
+            formats: Formats::default(),
             notes: serde_json::Map::new(),
         }
     }
@@ -98,11 +99,19 @@ impl SetUp {
     ///
     /// Frames lie at this place. Files, pictures and default observables leave out the cells without ground. The final state
     /// is written as ESRI ASCII grids too, one for each substate of cells (`final_altitude.asc`); any other model of one layer
-    /// does so with `run --grids`, and its corner is at 0, 0.
+    /// does so with `run --formats +asc`, and its corner is at 0, 0.
     #[must_use]
     pub fn map(mut self, map: impl Into<Map>) -> Self {
         self.map = Some(map.into());
-        self.grids = true;
+        // It is known, unless the program has taken it away.
+        let _ = self.formats.choose_too(&["asc"]);
+        self
+    }
+
+    /// Writes the states in another format too, which may be one of your own.
+    #[must_use]
+    pub fn format(mut self, writer: impl Writer + 'static) -> Self {
+        self.formats.add(writer);
         self
     }
 
@@ -124,9 +133,15 @@ impl SetUp {
 }
 
 /// A set-up that makes no sense.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SetUpError {
+    /// A view that does not fit the model.
+    #[error(transparent)]
+    View(#[from] ViewError),
+    /// A format that cannot hold the model.
+    #[error(transparent)]
+    Format(Failure),
     /// A time step that is not a positive number.
     #[error("the time step is {seconds} s; it must be a positive number")]
     TimeStep {

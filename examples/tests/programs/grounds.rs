@@ -405,7 +405,7 @@ fn a_resumed_run_leaves_no_earlier_end() {
         entries.filter(|name| name.to_str().unwrap().starts_with("final")).count()
     };
     for (program, run) in [(LANDSLIDE, "slide"), (LIFE, "life")] {
-        let options = format!("--grids --steps 200000 --every 5 --checkpoint-every 5 --out {run}");
+        let options = format!("--formats +asc --steps 200000 --every 5 --checkpoint-every 5 --out {run}");
         let frames = || fs::read_dir(place.path(run).join("frames")).map_or(0, Iterator::count);
         let wait = |count: usize| {
             let begin = Instant::now();

@@ -27,7 +27,7 @@ fn life_begins_from_a_grid_and_leaves_one() {
         begin.chunks(256).rev().map(|row| row.iter().map(|cell| format!("{cell} ")).collect::<String>());
     let header = "NCOLS 256\nNROWS 256\nXLLCENTER 7.5\nYLLCENTER -2\nCELLSIZE 1\n";
     place.write("glider.asc", &format!("{header}{}\n", rows.collect::<Vec<_>>().join("\n")));
-    place.succeed(LIFE, "--initial alive=glider.asc --grids --steps 4");
+    place.succeed(LIFE, "--initial alive=glider.asc --formats +asc --steps 4");
     let (header, alive) = grid(&place.path("out/life/final_alive.asc"));
     assert_eq!(
         header,
@@ -41,7 +41,7 @@ fn life_begins_from_a_grid_and_leaves_one() {
     fs::copy(place.path("out/life/final_alive.asc"), place.path("again.asc")).unwrap();
     place.succeed(LIFE, "--initial alive=again.asc --steps 1");
     assert!(!place.path("out/life/final_alive.asc").exists());
-    place.succeed(LIFE, "--grids --steps 1");
+    place.succeed(LIFE, "--formats +asc --steps 1");
     let said = place.fail(2, LIFE, "--initial alive=out/life/final_alive.asc --steps 1");
     assert!(said.contains("the run starts from out/life/final_alive.asc, which it would replace"), "{said}");
 }
@@ -98,7 +98,7 @@ fn grids_that_do_not_fit_are_refused() {
         (LIFE, "--initial alive=nowhere.asc", "cannot open the grid nowhere.asc"),
         (LIFE, "--initial alive", "of the form NAME=FILE, such as altitude=ground.asc"),
         (HEAT, "--initial temperature=small.asc", "--initial is for models of one layer, and `heat` has 64"),
-        (HEAT, "--grids", "--grids is for models of one layer, and `heat` has 64"),
+        (HEAT, "--formats +asc", "the format asc is for models of one layer, and `heat` has 64"),
         (LANDSLIDE, "--dem small.asc", "add --debris FILE"),
         (
             LANDSLIDE,

@@ -140,7 +140,7 @@ fn inspect_counts_states_and_names_components() {
 #[test]
 fn tables_keep_types_and_grids_keep_numbers() {
     let place = Workplace::new();
-    place.succeed(POND, "--steps 50 --grids --out out");
+    place.succeed(POND, "--steps 50 --formats +asc --out out");
     let (header, leaves) = table(&place, "out/final.csv");
     assert_eq!(header, ["label", "x", "y", "z", "state", "moved", "ages_0", "ages_1", "ages_2"]);
     assert_eq!(leaves.len(), 32);
@@ -166,7 +166,7 @@ fn tables_keep_types_and_grids_keep_numbers() {
     // A state, a bool and an element of an array begin with these grids, and nothing else changes.
     let again = "--initial ground=out/final_ground.asc --initial wet=out/final_wet.asc \
                  --initial outflow.2=out/final_depth.asc --initial currents.1.x=out/final_outflow_2.asc";
-    place.succeed(POND, &format!("--steps 0 --grids --out again {again}"));
+    place.succeed(POND, &format!("--steps 0 --formats +asc --out again {again}"));
     let begun = |name: &str| place.read(&format!("again/final_{name}.asc"));
     let ended = |name: &str| place.read(&format!("out/final_{name}.asc"));
     assert_eq!(begun("ground"), ended("ground"));

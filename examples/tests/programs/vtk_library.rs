@@ -258,7 +258,7 @@ fn the_frames_of_particles_hold_those_of_the_tables() {
 #[test]
 fn the_frames_of_arrays_and_states_have_their_names() {
     let place = Workplace::new();
-    let run = Run::of(&place, POND, "--steps 8 --every 4 --grids");
+    let run = Run::of(&place, POND, "--steps 8 --every 4 --formats +asc");
     let last = run.frames.last().unwrap();
     let found = |name: &str| {
         let arrays = last["cell_data"].as_array().unwrap().iter();

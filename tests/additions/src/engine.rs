@@ -12,7 +12,7 @@ use xca::{Engine, Precision};
 
 /// The kind, by which the command line knows it.
 #[derive(Debug)]
-pub struct Twins;
+pub(crate) struct Twins;
 
 const COPIES: EngineOption = EngineOption {
     name: "copies",

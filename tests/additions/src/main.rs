@@ -1,8 +1,10 @@
-//! A program with an engine of its own.
+//! A program with an engine and a format of its own.
 
 mod engine;
+mod format;
 
 use engine::Twins;
+use format::Json;
 use xca::prelude::*;
 use xca::run::CommandLine;
 
@@ -28,7 +30,7 @@ fn set_up() -> Result<SetUp, Failure> {
         .process(conduct)
         .fill(|site| Plate { temperature: if site.cell()[0] < 12 { 100.0 } else { 0.0 } })
         .build()?;
-    Ok(SetUp::new(model, 40))
+    Ok(SetUp::new(model, 40).format(Json::default()))
 }
 
 fn main() -> ExitCode {

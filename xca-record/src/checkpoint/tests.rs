@@ -252,7 +252,7 @@ fn forged_checkpoints_are_refused() {
 /// What a recorder says that has recorded these steps.
 fn recorded(steps: &[u64]) -> Recorded {
     let text = serde_json::json!({
-        "steps": steps, "series": { "bytes": 0, "crc32": 0 }, "first": [], "last": [], "scales": []
+        "steps": steps, "series": { "bytes": 0, "crc32": 0 }, "first": [], "last": [], "formats": {}
     });
     serde_json::from_value(text).unwrap()
 }

@@ -1,18 +1,16 @@
-//! Substates of cells: the frames, and what is drawn of them.
+//! Substates of cells: what is saved, and what is drawn of them.
 
-use super::RecordError;
-use super::frame_field::FrameField;
 use super::seen::Seen;
+use super::substate_values::SubstateValues;
 use super::values::Plane;
 use crate::components::{DrawnPart, Part};
 use crate::view::AnyCellView;
-use std::path::Path;
 use xca_core::model::Group;
 use xca_core::{Geometry, Precision, StoredScalar, StoredType};
-use xca_io::vtk::{DataArray, GHOST_TYPE, Grid, ghost_types, write_dense};
 
-/// The substates of cells in one state.
-pub(super) struct Cells<'a> {
+/// What a view shows of cells in one state: their substates.
+#[derive(Debug)]
+pub struct CellState<'a> {
     view: &'a AnyCellView,
     group: &'a Group,
     geometry: &'a Geometry,
@@ -24,13 +22,13 @@ pub(super) struct Cells<'a> {
 }
 
 /// Where the cells lie on the map, and which of them have no ground.
-#[derive(Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Ground<'a> {
     pub(super) corner: [f64; 2],
     pub(super) missing: Option<&'a [bool]>,
 }
 
-impl<'a> Cells<'a> {
+impl<'a> CellState<'a> {
     pub(super) fn new(
         view: &'a AnyCellView,
         group: &'a Group,
@@ -42,22 +40,34 @@ impl<'a> Cells<'a> {
         Self { view, group, geometry, precision, fields, ground }
     }
 
-    /// Writes all substates.
-    pub(super) fn write_frame(&self, path: &Path, time: f64) -> Result<(), RecordError> {
+    /// How many cells there are along each axis.
+    pub fn extents(&self) -> [usize; 3] {
+        self.geometry.extents()
+    }
+
+    /// The side of a cell, in metres.
+    pub fn side(&self) -> f64 {
+        self.geometry.side()
+    }
+
+    /// The lower corner of the space on the map.
+    pub fn corner(&self) -> [f64; 2] {
+        self.ground.corner
+    }
+
+    /// Of each cell, whether it has no ground; nothing where all have.
+    pub fn missing(&self) -> Option<&'a [bool]> {
+        self.ground.missing
+    }
+
+    /// All substates, the index along x fastest. Where there is no ground, floats are NaN and whole numbers 0.
+    pub fn substates(&self) -> Vec<SubstateValues> {
         let fields = self.group.schema().fields.iter().zip(self.fields);
-        let fields: Vec<FrameField> = fields
-            .map(|(field, bytes)| {
-                let plane = Plane::all(field.value_type.stored(self.precision), bytes);
-                FrameField::new(field, plane.without(self.ground.missing))
-            })
-            .collect();
-        let ghosts = self.ground.missing.map(ghost_types);
-        let ghosts = ghosts.as_deref().map(|ghosts| DataArray::new(GHOST_TYPE, ghosts));
-        let arrays: Vec<DataArray<'_>> = fields.iter().map(FrameField::array).chain(ghosts).collect();
-        let [x, y] = self.ground.corner;
-        let grid = Grid::cubic(self.geometry.extents(), self.geometry.side());
-        let grid = Grid { origin: [x, y, 0.0], ..grid };
-        Ok(write_dense(path, time, &grid, &arrays)?)
+        let values = fields.map(|(field, bytes)| {
+            let plane = Plane::all(field.value_type.stored(self.precision), bytes);
+            SubstateValues::new(field, plane.without(self.ground.missing))
+        });
+        values.collect()
     }
 
     /// What is drawn.

@@ -7,8 +7,8 @@ use super::seen::{Seen, wider};
 use super::shown::Shown;
 use super::{RecordError, Recorder};
 use crate::view::AnyView;
+use std::path::Path;
 use xca_core::{Model, Precision, Snapshot};
-use xca_io::atomic::OutputFolder;
 use xca_io::picture::{PanelPicture, Picture};
 
 /// What is drawn of every state: one panel, or several side by side.
@@ -94,8 +94,8 @@ impl Drawing<'_> {
     }
 
     /// The steps after which a run has saved all that is drawn, in this folder of frames.
-    pub fn saved_steps(&self, frames: &OutputFolder) -> Vec<u64> {
-        let mut of_panels = self.panels.iter().map(|panel| panel.shown.saved_steps(frames));
+    pub fn saved_steps(&self, frames: &Path) -> Vec<u64> {
+        let mut of_panels = self.panels.iter().map(|panel| self.recorder.saved_steps(&panel.shown, frames));
         let mut steps = of_panels.next().unwrap_or_default();
         for others in of_panels {
             steps.retain(|step| others.contains(step));
@@ -104,9 +104,8 @@ impl Drawing<'_> {
     }
 
     /// As [`Drawing::seen`], of a saved state.
-    pub fn seen_in(&self, frames: &OutputFolder, step: u64) -> Result<Vec<Seen>, SavedError> {
-        let panels = self.panels.iter();
-        panels.map(|panel| panel.shown.seen_in(self.model(), &panel.shown.frame(frames, step))).collect()
+    pub fn seen_in(&self, frames: &Path, step: u64) -> Result<Vec<Seen>, SavedError> {
+        self.panels.iter().map(|panel| self.recorder.seen_in(&panel.shown, frames, step)).collect()
     }
 
     /// The scales, as far as they do not depend on the states that are drawn.
@@ -128,7 +127,7 @@ impl Drawing<'_> {
     pub fn picture(&self, step: u64, seen: &[Seen], scales: &Scales) -> Result<Option<Picture>, RecordError> {
         let (title, recorder) = (&self.recorder.set_up.title, self.recorder);
         if let ([panel], [seen]) = (self.panels.as_slice(), seen) {
-            let caption = recorder.whole_caption(&panel.shown, seen, step);
+            let caption = panel.shown.whole_caption(recorder.subject(), seen, step);
             let size = if panel.is_slice() { self.size } else { Some(self.size.unwrap_or(SIZE)) };
             let frame = Frame { title, caption: &caption, range: scales.0[0], size };
             return Ok(panel.shown.paint(self.model(), seen, frame)?);
@@ -141,7 +140,7 @@ impl Drawing<'_> {
             let frame = Frame { title: "", caption: &caption, range: *range, size: Some(size) };
             panels.extend(panel.shown.paint(self.model(), seen, frame)?);
         }
-        let caption = recorder.caption(step);
+        let caption = recorder.subject().caption(step);
         Ok(Some(PanelPicture { panels: &panels, title, caption: &caption, size: self.size }.render()?))
     }
 }

@@ -94,7 +94,7 @@ impl LockedFolder {
         let folder = Self::open(path)?;
         let mut listed = Vec::new();
         for owner in Owner::all(path)? {
-            listed.extend(owner.files(path));
+            listed.extend(owner.files(path, &[]));
         }
         let is_foreign =
             |file: &PathBuf| listed.contains(file) || !owner::is_file(file) || !is_picture_of_xca(file);
@@ -123,7 +123,7 @@ impl Claim<'_> {
             if owner.kind != self.kind {
                 return Err(FolderError::Taken { folder: path.to_owned(), kind: owner.kind });
             }
-            old.extend(owner.files(path));
+            old.extend(owner.files(path, self.files));
         }
         let names = self.files.iter().map(String::as_str).chain([self.kind.report()]);
         let mut new = names.flat_map(|name| meant(path, name));

@@ -1,20 +1,18 @@
-//! Items: the table of the final state, the frames, and what is drawn of them.
+//! Items: what is saved, and what is drawn of them.
 
-use super::RecordError;
-use super::frame_field::FrameField;
 use super::seen::Seen;
+use super::substate_values::SubstateValues;
 use super::values::Plane;
 use crate::components::DrawnPart;
 use crate::view::{AnyItemView, Drawn, TableColumn};
-use std::path::Path;
 use xca_core::engine::Population;
 use xca_core::model::Group;
 use xca_core::{Geometry, Precision, ScalarType, StoredType};
-use xca_io::particle_csv::{self, Column, ColumnType};
-use xca_io::vtk::{DataArray, write_particles};
+use xca_io::particle_csv::ColumnType;
 
-/// The items of one state that a view shows, by label.
-pub(super) struct Items<'a> {
+/// What a view shows of the items in one state, by label.
+#[derive(Debug)]
+pub struct ItemState<'a> {
     view: &'a AnyItemView,
     group: &'a Group,
     geometry: &'a Geometry,
@@ -23,15 +21,29 @@ pub(super) struct Items<'a> {
     /// The places of the items in the population.
     which: Vec<usize>,
     labels: Vec<u32>,
+    /// The lower corner of the space on the map.
+    corner: [f64; 2],
 }
 
-impl<'a> Items<'a> {
+/// A column of a table of items.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ItemColumn {
+    /// What stands above it.
+    pub header: String,
+    /// What its values are.
+    pub column_type: ColumnType<'static>,
+    /// One for each item, by label.
+    pub values: Vec<f64>,
+}
+
+impl<'a> ItemState<'a> {
     pub(super) fn new(
         view: &'a AnyItemView,
         group: &'a Group,
         geometry: &'a Geometry,
         precision: Precision,
         population: &'a Population,
+        corner: [f64; 2],
     ) -> Self {
         let stored = group.stored(precision);
         let mut which: Vec<usize> = (0..population.labels.len()).collect();
@@ -41,7 +53,7 @@ impl<'a> Items<'a> {
         }
         which.sort_unstable_by_key(|&place| population.labels[place]);
         let labels = which.iter().map(|&place| population.labels[place]).collect();
-        Self { view, group, geometry, stored, population, which, labels }
+        Self { view, group, geometry, stored, population, which, labels, corner }
     }
 
     fn plane(&self, field: usize) -> Plane {
@@ -69,37 +81,47 @@ impl<'a> Items<'a> {
         TableColumn::all(self.group.schema())
     }
 
-    /// Writes all columns of all items, by label.
-    pub(super) fn write_table(&self, path: &Path) -> Result<(), RecordError> {
-        let fields = self.group.schema().fields;
-        let columns = self.columns();
-        let values: Vec<(&str, ScalarType, Vec<f64>)> = columns
-            .iter()
-            .map(|TableColumn { header, field, component }| {
-                let scalar = fields[*field].value_type.scalar;
-                (header.as_str(), scalar, self.plane(*field).component(*component))
-            })
-            .collect();
-        let columns: Vec<(&str, Column<'_>)> = values
-            .iter()
-            .map(|(header, scalar, values)| (*header, Column::Typed(column_type(*scalar), values)))
-            .collect();
-        Ok(particle_csv::write(path, &self.labels, &columns)?)
+    /// The labels, in ascending order: the order of all values.
+    pub fn labels(&self) -> &[u32] {
+        &self.labels
     }
 
-    /// Writes a frame: the substates that have columns, at their place on the map, whose corner is given.
-    pub(super) fn write_frame(&self, path: &Path, time: f64, corner: [f64; 2]) -> Result<(), RecordError> {
-        let schema = self.group.schema();
-        let columns = self.columns();
-        let fields: Vec<FrameField> = (0..schema.fields.len())
-            .filter(|field| {
-                schema.position != Some(*field) && columns.iter().any(|column| column.field == *field)
-            })
-            .map(|field| FrameField::new(&schema.fields[field], self.plane(field)))
-            .collect();
-        let mut arrays = vec![DataArray::new("label", self.labels.as_slice())];
-        arrays.extend(fields.iter().map(FrameField::array));
-        Ok(write_particles(path, time, self.positions().shifted(corner).as_values(), &arrays)?)
+    /// Where the items are on the map: three numbers each, in metres.
+    pub fn positions_on_map(&self) -> Plane {
+        self.positions().shifted(self.corner)
+    }
+
+    /// The columns of the table: components with their headers.
+    pub fn table(&self) -> Vec<ItemColumn> {
+        let fields = self.group.schema().fields;
+        let column = |TableColumn { header, field, component }: TableColumn| ItemColumn {
+            header,
+            column_type: column_type(fields[field].value_type.scalar),
+            values: self.plane(field).component(component),
+        };
+        self.columns().into_iter().map(column).collect()
+    }
+
+    /// The substates that have columns, but for the position.
+    pub fn substates(&self) -> Vec<SubstateValues> {
+        let (schema, columns) = (self.group.schema(), self.columns());
+        let is_saved = |field: &usize| {
+            schema.position != Some(*field) && columns.iter().any(|column| column.field == *field)
+        };
+        let fields = (0..schema.fields.len()).filter(is_saved);
+        fields.map(|field| SubstateValues::new(&schema.fields[field], self.plane(field))).collect()
+    }
+
+    /// The radius of an item in metres, if the view knows it.
+    pub fn radius(&self) -> Option<f64> {
+        self.view.radius
+    }
+
+    /// The space: its lower corner on the map, and its sides in metres.
+    pub fn space(&self) -> [[f64; 3]; 2] {
+        let side = self.geometry.side();
+        let [x, y] = self.corner;
+        [[x, y, 0.0], self.geometry.extents().map(|extent| extent as f64 * side)]
     }
 
     /// Where they are, and what colours them.

@@ -2,6 +2,7 @@
 
 use super::seen::{Seen, wider};
 use super::shown::Shown;
+use crate::format::Subject;
 use crate::view::{AnyCellView, AnyItemView, AnyView, Drawn};
 use xca_core::model::Group;
 use xca_core::{Geometry, Model, Schema};
@@ -12,13 +13,13 @@ use xca_io::picture::{
 
 /// The texts above a picture, its scale and its size.
 #[derive(Clone, Copy)]
-pub(super) struct Frame<'a> {
-    pub(super) title: &'a str,
-    pub(super) caption: &'a str,
+pub(crate) struct Frame<'a> {
+    pub(crate) title: &'a str,
+    pub(crate) caption: &'a str,
     /// For cells, the scale of earlier pictures, which is widened to what there is; for items, the scale.
-    pub(super) range: Option<[f64; 2]>,
+    pub(crate) range: Option<[f64; 2]>,
     /// Width and height in pixels; those of the kind of picture unless they are given.
-    pub(super) size: Option<[usize; 2]>,
+    pub(crate) size: Option<[usize; 2]>,
 }
 
 /// A substate of cells that is painted.
@@ -54,8 +55,14 @@ impl Shown {
         }
     }
 
+    /// The step, and what else has to be said of a picture of this view alone.
+    pub(crate) fn whole_caption(&self, subject: Subject<'_>, seen: &Seen, step: u64) -> String {
+        let details = self.details(subject.model(), seen, false);
+        [Some(subject.caption(step)), details].into_iter().flatten().collect::<Vec<_>>().join(", ")
+    }
+
     /// The picture of what this view sees.
-    pub(super) fn paint(
+    pub(crate) fn paint(
         &self,
         model: &Model,
         seen: &Seen,

@@ -2,13 +2,14 @@
 
 use super::folder::remove;
 use super::{RecordError, Recorder, RunFolder, SERIES};
+use crate::format::{Moment, ResumedRun, Subject};
 use crate::numbers::Exact;
 use crate::observable::Observable;
 use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
 use std::collections::HashSet;
 use std::path::PathBuf;
 use xca_io::table_csv::{SeriesWriter, Written};
-use xca_io::vtk::Collection;
 
 /// What a recorder has written, as a checkpoint keeps it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -21,8 +22,8 @@ pub struct Recorded {
     first: Vec<Quantity>,
     /// Those of the last of the steps.
     last: Vec<Quantity>,
-    /// For each view, the scale of the first picture.
-    scales: Vec<Option<[Exact; 2]>>,
+    /// What each format has to know.
+    formats: Map<String, Value>,
 }
 
 impl Recorded {
@@ -66,7 +67,11 @@ impl Recorder {
             series: series.unwrap_or_default(),
             first: self.first.iter().map(Quantity::from).collect(),
             last: self.last.iter().map(Quantity::from).collect(),
-            scales: self.shown.iter().map(|shown| shown.range.map(|range| range.map(Exact))).collect(),
+            formats: self
+                .formats
+                .chosen()
+                .map(|writer| (writer.name().to_owned(), writer.memory()))
+                .collect(),
         })
     }
 
@@ -79,37 +84,31 @@ impl Recorder {
         self.series =
             Some(SeriesWriter::resume(&folder.top.file(SERIES), self.first.len(), recorded.series)?);
         remove(self.newer_files(&folder))?;
-        let entries = |frame: &dyn Fn(u64) -> PathBuf| -> Vec<(f64, PathBuf)> {
-            recorded.steps.iter().map(|step| (self.time(*step), frame(*step))).collect()
-        };
-        let mut collections = Vec::new();
-        for shown in &self.shown {
-            let path = folder.top.file(&shown.collection_file());
-            collections.push(Collection::of(&path, &entries(&|step| shown.frame(&folder.frames, step)))?);
-        }
-        let scales = recorded.scales.iter().map(|scale| scale.map(|scale| scale.map(|number| number.0)));
-        for ((shown, collection), scale) in self.shown.iter_mut().zip(collections).zip(scales) {
-            shown.collection = Some(collection);
-            shown.range = scale;
+        let subject = Subject { set_up: &self.set_up, shown: &self.shown };
+        for writer in self.formats.writers() {
+            let memory = recorded.formats.get(writer.name()).unwrap_or(&Value::Null);
+            let run = ResumedRun::new(subject, &recorded.steps, &folder);
+            let format = writer.name();
+            writer.resume(run, memory).map_err(|source| RecordError::OtherFormats { format, source })?;
         }
         self.folder = Some(folder);
         Ok(())
     }
 
-    /// The frames of steps that are not recorded, and the files of the end.
+    /// The files of states that are not recorded, and those of the end.
     fn newer_files(&self, folder: &RunFolder) -> Vec<PathBuf> {
+        let recorded: HashSet<u64> = self.steps.iter().copied().collect();
         let mut newer = Vec::new();
-        for (number, shown) in self.shown.iter().enumerate() {
-            let recorded: HashSet<PathBuf> =
-                self.steps.iter().map(|step| shown.frame(&folder.frames, *step)).collect();
-            let frames = shown.frames(&folder.frames).into_iter();
-            newer.extend(frames.filter(|frame| !recorded.contains(frame)));
-            newer.push(folder.top.file(&self.numbered_file("final", number, "png")));
-            if shown.is_of_items() {
-                newer.push(folder.top.file(&self.numbered_file("final", number, "csv")));
+        for file in self.formats.chosen().flat_map(|writer| writer.files(self.subject())) {
+            match file.moment() {
+                Moment::Each => {
+                    let saved = file.saved(folder.frames.path()).into_iter();
+                    newer.extend(saved.filter(|(step, _)| !recorded.contains(step)).map(|(_, path)| path));
+                }
+                Moment::Last => newer.push(file.path(folder, 0)),
+                Moment::Run | Moment::First => {}
             }
         }
-        newer.extend(self.grid_files().iter().map(|file| folder.top.file(file)));
         newer
     }
 }

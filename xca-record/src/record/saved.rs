@@ -6,17 +6,23 @@ use super::seen::Seen;
 use super::shown::Shown;
 use super::values::{Plane, stored_of};
 use crate::components::{DrawnPart, Part, state_names};
+use crate::format::{Moment, OutputFile, SavedState, Writer};
+use crate::observable::Failure;
 use crate::view::{AnyCellView, AnyItemView, AnyView, Drawn};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use xca_core::model::Group;
 use xca_core::{Geometry, GroupSnapshot, Model, Precision, Snapshot};
-use xca_io::vtk::{ReadArray, ReadVtkError, read_dense, read_particles};
+use xca_io::atomic::OutputFolder;
+use xca_io::vtk::ReadArray;
 
 /// A saved state that cannot be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum SavedError {
     #[error(transparent)]
-    Vtk(#[from] ReadVtkError),
+    Read(Failure),
+    #[error("{} is not there, in none of the formats that can be read back", path.display())]
+    Missing { path: PathBuf },
     #[error(
         "{} does not hold the substate `{substate}`, but {saved}: the model's view of `{view}` saves no more; \
          a checkpoint holds everything",
@@ -51,13 +57,49 @@ impl Recorder {
     }
 }
 
+impl Recorder {
+    /// The files of each state of a view that can be read back, of all formats.
+    fn frames(&self, shown: &Shown) -> Vec<(&dyn Writer, OutputFile)> {
+        let stem = shown.view.stem();
+        let mut all = Vec::new();
+        for writer in self.formats.chosen() {
+            let files = writer.files(self.subject()).into_iter();
+            let of_view = files.filter(|file| file.moment() == Moment::Each && file.is_of(&stem));
+            all.extend(of_view.map(|file| (writer, file)));
+        }
+        all
+    }
+
+    /// The steps of the states of a view that are saved in a folder.
+    pub(super) fn saved_steps(&self, shown: &Shown, frames: &Path) -> Vec<u64> {
+        let files = self.frames(shown).into_iter();
+        let steps: BTreeSet<u64> =
+            files.flat_map(|(_, file)| file.saved(frames)).map(|(step, _)| step).collect();
+        steps.into_iter().collect()
+    }
+
+    /// What a view draws of a saved state.
+    pub(super) fn seen_in(&self, shown: &Shown, frames: &Path, step: u64) -> Result<Seen, SavedError> {
+        let folder = OutputFolder::to_read(frames);
+        for (writer, file) in self.frames(shown) {
+            let path = file.frame(&folder, step);
+            if path.is_file()
+                && let Some(state) = writer.read(&path)
+            {
+                return shown.seen_of(self.model(), &path, &state.map_err(SavedError::Read)?);
+            }
+        }
+        Err(SavedError::Missing { path: frames.join(shown.view.stem()) })
+    }
+}
+
 impl Shown {
-    /// What it draws of the frame in a file.
-    pub(super) fn seen_in(&self, model: &Model, path: &Path) -> Result<Seen, SavedError> {
+    /// What it draws of a state that was read from a file.
+    fn seen_of(&self, model: &Model, path: &Path, state: &SavedState) -> Result<Seen, SavedError> {
         let (group, geometry) = (&model.groups()[self.group], model.geometry());
         match &self.view {
-            AnyView::Items(view) => items(view, group, self.ground().corner, path),
-            AnyView::Cells(view) => of_cells(view, group, geometry, self.ground().missing, path),
+            AnyView::Items(view) => items(view, group, self.ground().corner, (path, state)),
+            AnyView::Cells(view) => of_cells(view, group, geometry, self.ground().missing, (path, state)),
         }
     }
 }
@@ -67,14 +109,14 @@ fn of_cells(
     group: &Group,
     geometry: &Geometry,
     missing: Option<&[bool]>,
-    path: &Path,
+    (path, state): (&Path, &SavedState),
 ) -> Result<Seen, SavedError> {
-    let file = read_dense(path)?;
-    if file.grid.cells != geometry.extents() {
-        let what = format!("it has {:?} cells, not {:?}", file.grid.cells, geometry.extents());
+    if state.cells != Some(geometry.extents()) {
+        let found = state.cells.map_or("no cells".to_owned(), |cells| format!("{cells:?} cells"));
+        let what = format!("it has {found}, not {:?}", geometry.extents());
         return Err(SavedError::OtherShape { path: path.to_owned(), what });
     }
-    let arrays = Arrays { path, view: &view.name, group, arrays: &file.arrays };
+    let arrays = Arrays { path, view: &view.name, group, arrays: &state.arrays };
     let plane = |field: usize| -> Result<Plane, SavedError> {
         let array = arrays.of_field(field)?;
         Ok(cells::drawn(view, geometry, stored_of(array), &array.bytes))
@@ -86,12 +128,20 @@ fn of_cells(
     Ok(cells::seen(&plane(field)?, part, heights, hidden))
 }
 
-fn items(view: &AnyItemView, group: &Group, [x, y]: [f64; 2], path: &Path) -> Result<Seen, SavedError> {
-    let file = read_particles(path)?;
-    let arrays = Arrays { path, view: &view.name, group, arrays: &file.arrays };
+fn items(
+    view: &AnyItemView,
+    group: &Group,
+    [x, y]: [f64; 2],
+    (path, state): (&Path, &SavedState),
+) -> Result<Seen, SavedError> {
+    let positions = state.positions.as_ref().ok_or_else(|| SavedError::OtherShape {
+        path: path.to_owned(),
+        what: "it has no items".to_owned(),
+    })?;
+    let arrays = Arrays { path, view: &view.name, group, arrays: &state.arrays };
     let schema = group.schema();
     // In the model, the corner of the map is at 0, 0.
-    let positions = Plane::of_array(&file.positions).shifted([-x, -y]);
+    let positions = Plane::of_array(positions).shifted([-x, -y]);
     let values = match view.colour(schema) {
         None => Vec::new(),
         Some(Drawn { part: Part { field, component }, .. }) => {

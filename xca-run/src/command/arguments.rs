@@ -55,10 +55,10 @@ pub(crate) struct RunArguments {
     #[arg(long, value_name = "N|TIME")]
     pub(crate) checkpoint_every: Option<Interval>,
 
-    /// Write the final state of a one-layer model as ESRI ASCII grids too, one for each component of each
-    /// substate of cells
-    #[arg(long)]
-    pub(crate) grids: bool,
+    /// Write these formats, as `list` tells them: vtk,tif. With a + before each name, write them beside those of
+    /// the model: +tif
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    pub(crate) formats: Vec<String>,
 
     /// Run on where a substate becomes NaN or infinite. Without it, that ends the run at the next output or checkpoint
     #[arg(long)]

@@ -11,7 +11,9 @@ use serde_json::{Map, Value, json};
 use text::as_text;
 use xca_core::model::GroupKind;
 use xca_core::{End, Model, Process, ProcessKind};
+use xca_record::SetUp;
 use xca_record::components::state_names;
+use xca_record::format::Formats;
 use xca_record::report;
 
 pub(super) const NAME: &str = "list";
@@ -35,12 +37,12 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
 
 /// Tells what a program has, with the options that are given.
 pub(super) fn list(choice: &Choice<'_>, arguments: &ListArguments) -> Result<Ended, Unable> {
-    let model = choice.set_up(&choice.arguments.given(None))?.model;
+    let SetUp { model, formats, .. } = choice.set_up(&choice.arguments.given(None))?;
     let engines = choice.definition.engines;
     let text = if arguments.json {
-        as_json(&model, engines).map_err(Unable::failed)?
+        as_json(&model, engines, &formats).map_err(Unable::failed)?
     } else {
-        as_text(&model, engines)
+        as_text(&model, engines, &formats)
     };
     terminal::say(&text).map_err(Unable::failed)?;
     Ok(Ended::Done)
@@ -89,11 +91,15 @@ fn parameters(model: &Model) -> Map<String, Value> {
     values
 }
 
-fn as_json(model: &Model, engines: &Engines) -> serde_json::Result<String> {
+fn as_json(model: &Model, engines: &Engines, formats: &Formats) -> serde_json::Result<String> {
     let engines = engines.kinds().map(|kind| {
         let devices = kind.devices().unwrap_or_default().data;
         let options = kind.options().iter().map(|option| option.name).collect::<Vec<_>>();
         json!({ "name": kind.name(), "about": kind.about(), "options": options, "devices": devices })
+    });
+    let chosen = formats.names();
+    let formats = formats.all().map(|format| {
+        json!({ "name": format.name(), "about": format.about(), "chosen": chosen.contains(&format.name()) })
     });
     let processes = model.processes().iter().enumerate().map(|(number, process)| {
         let [reads, reads_elsewhere, writes] = accesses(model, number);
@@ -109,6 +115,7 @@ fn as_json(model: &Model, engines: &Engines) -> serde_json::Result<String> {
     });
     serde_json::to_string_pretty(&json!({
         "engines": engines.collect::<Vec<_>>(),
+        "formats": formats.collect::<Vec<_>>(),
         "model": report::of_model(model),
         "substates": substates(model).collect::<Vec<_>>(),
         "parameters": parameters(model),

@@ -2,7 +2,6 @@
 
 use super::Unable;
 use super::engine::EngineChoice;
-use super::initial::one_layer;
 use super::parse::RunInvocation;
 use crate::program::Given;
 use xca_core::{Engine, RunOptions};
@@ -29,7 +28,8 @@ impl Prepared {
 /// A run as its command line says it, on no engine.
 pub(super) fn described(invocation: &RunInvocation<'_>) -> Result<Run, Unable> {
     let given = invocation.model.arguments.given(invocation.run.steps);
-    run_of(invocation, &given, invocation.model.set_up(&given)?)
+    let set_up = set_up_of(invocation, &given)?;
+    run_of(invocation, &given, set_up)
 }
 
 fn run_of(invocation: &RunInvocation<'_>, given: &Given, set_up: SetUp) -> Result<Run, Unable> {
@@ -55,13 +55,27 @@ fn run_of(invocation: &RunInvocation<'_>, given: &Given, set_up: SetUp) -> Resul
     Ok(if arguments.allow_non_finite { run.allow_non_finite() } else { run })
 }
 
+/// The model, with the formats of its files.
+fn set_up_of(invocation: &RunInvocation<'_>, given: &Given) -> Result<SetUp, Unable> {
+    let mut set_up = invocation.model.set_up(given)?;
+    let names = &invocation.run.formats;
+    let added: Vec<&str> = names.iter().filter_map(|name| name.strip_prefix('+')).collect();
+    if added.is_empty() && !names.is_empty() {
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        set_up.formats.choose(&names).map_err(Unable::refused)?;
+    } else if added.len() == names.len() {
+        set_up.formats.choose_too(&added).map_err(Unable::refused)?;
+    } else {
+        return Err(Unable::refused(
+            "--formats adds to those of the model, or takes their place: write + before all names, or before none",
+        ));
+    }
+    Ok(set_up)
+}
+
 /// The model, where the machine has room for it.
 fn set_up(invocation: &RunInvocation<'_>, engine: &dyn Engine, given: &Given) -> Result<SetUp, Unable> {
-    let mut set_up = invocation.model.set_up(given)?;
-    if invocation.run.grids {
-        one_layer(&set_up, "--grids").map_err(Unable::refused)?;
-        set_up.grids = true;
-    }
+    let set_up = set_up_of(invocation, given)?;
     let memory = engine.least_memory(&set_up.model, given.precision);
     check_memory(memory, &format!("this model on the {} engine", engine.name())).map_err(Unable::refused)?;
     Ok(set_up)

@@ -61,7 +61,7 @@ impl WatchArguments {
             out: None,
             every: None,
             checkpoint_every: None,
-            grids: false,
+            formats: Vec::new(),
             allow_non_finite: true,
             print_source: false,
             voice: Voice::default(),

@@ -3,7 +3,8 @@
 use super::{FolderError, Kind};
 use crate::checkpoint::CheckpointFolder;
 use crate::ensemble::{MEMBERS, SUMMARY};
-use crate::record::FRAMES;
+use crate::format::{Moment, Shape, shape};
+use crate::record::SERIES;
 use crate::report::Earlier;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -32,9 +33,11 @@ impl Owner {
 
     /// The files that are there of those that the report lists: as far as a command can have made them. A report that someone has
     /// edited must not lead out of the folder, nor to files of others in it.
-    pub(super) fn files(&self, folder: &Path) -> Vec<PathBuf> {
+    ///
+    /// Beside the formats of the framework, a run has those of the files that `others` name.
+    pub(super) fn files(&self, folder: &Path, others: &[String]) -> Vec<PathBuf> {
         let mut files = Vec::new();
-        for name in self.files.iter().filter(|name| can_be_made(name, self.kind)) {
+        for name in self.files.iter().filter(|name| can_be_made(name, self.kind, others)) {
             let is_below_link =
                 name.split_once('/').is_some_and(|(below, _)| !is_folder(&folder.join(below)));
             if !is_below_link {
@@ -62,7 +65,7 @@ const COMPARISON_FILES: [&str; 6] =
     ["compare.html", "compare.md", "engines.csv", "differences.csv", "divergence.csv", "observables.csv"];
 
 /// Whether a command makes files of that name.
-fn can_be_made(name: &str, kind: Kind) -> bool {
+fn can_be_made(name: &str, kind: Kind, others: &[String]) -> bool {
     let is_plain = |part: &str| {
         let mut letters = part.chars();
         letters.next().is_some_and(|first| first != '.')
@@ -71,37 +74,36 @@ fn can_be_made(name: &str, kind: Kind) -> bool {
     if !name.split('/').all(is_plain) {
         return false;
     }
-    match (name.split_once('/'), kind) {
-        (None, Kind::Comparison) => COMPARISON_FILES.contains(&name),
-        (None, Kind::Ensemble) => [MEMBERS, SUMMARY].contains(&name),
-        (Some(_), Kind::Comparison | Kind::Ensemble) => false,
-        (None, Kind::Run | Kind::Pictures) => is_of_top(name, kind),
-        (Some((FRAMES, file)), _) => is_series(file),
-        (Some(_), _) => name == CheckpointFolder::files(),
+    match kind {
+        Kind::Comparison => COMPARISON_FILES.contains(&name),
+        Kind::Ensemble => [MEMBERS, SUMMARY].contains(&name),
+        Kind::Pictures => {
+            matches!(name, "animation.png" | "animation.gif")
+                || shape(name) == Some(Shape { moment: Moment::Each, extension: "png" })
+        }
+        Kind::Run => {
+            name == SERIES
+                || name == CheckpointFolder::files()
+                || shape(name).is_some_and(|it| is_of_run(it, others))
+        }
     }
 }
 
-/// Whether it is the name of a file of a run's own folder.
-fn is_of_top(name: &str, kind: Kind) -> bool {
-    let Some((stem, extension)) = name.rsplit_once('.') else { return false };
-    let begins =
-        |word: &str| stem.strip_prefix(word).is_some_and(|rest| rest.is_empty() || rest.starts_with('_'));
-    let is_made = match (kind, extension) {
-        (Kind::Pictures, "png" | "gif") => stem == "animation",
-        (Kind::Run, "png") => begins("initial") || begins("final"),
-        (Kind::Run, "csv") => stem == "observables" || begins("final"),
-        (Kind::Run, "asc") => begins("final"),
-        (Kind::Run, "pvd") => true,
-        _ => false,
-    };
-    is_made && !name.contains('*')
-}
+/// The shapes of the files of the framework's own formats.
+const SHAPES: [(Moment, &[&str]); 4] = [
+    (Moment::Run, &["pvd"]),
+    (Moment::First, &["png"]),
+    (Moment::Each, &["vti", "vtp", "xyz"]),
+    (Moment::Last, &["asc", "csv", "png", "tif"]),
+];
 
-/// Whether it is `NAME_*.EXTENSION`.
-fn is_series(file: &str) -> bool {
-    file.split_once("_*.").is_some_and(|(stem, extension)| {
-        !stem.is_empty() && !stem.contains(['*', '/']) && ["vti", "vtp", "png"].contains(&extension)
-    })
+fn is_of_run(found: Shape<'_>, others: &[String]) -> bool {
+    // A view may be called `final`.
+    let as_of_run = Shape { moment: Moment::Run, ..found };
+    let is_own = |it: Shape<'_>| {
+        SHAPES.iter().any(|(moment, extensions)| *moment == it.moment && extensions.contains(&it.extension))
+    };
+    is_own(found) || is_own(as_of_run) || others.iter().any(|other| shape(other) == Some(found))
 }
 
 /// What there is in the folder, of whatever kind, under a name in which `*` stands for digits.
@@ -150,16 +152,17 @@ mod tests {
             "initial.png",
             "final_pond-2.png",
             "water.pvd",
+            "final_lava.pvd",
             "frames/water_*.vti",
             "frames/fish_*.vtp",
             "checkpoints/step_*.checkpoint",
         ] {
-            assert!(can_be_made(name, Kind::Run), "{name}");
+            assert!(can_be_made(name, Kind::Run, &[]), "{name}");
         }
         for name in ["animation.png", "animation.gif", "frames/frame_*.png"] {
-            assert!(can_be_made(name, Kind::Pictures), "{name}");
+            assert!(can_be_made(name, Kind::Pictures, &[]), "{name}");
         }
-        assert!(can_be_made("compare.html", Kind::Comparison));
+        assert!(can_be_made("compare.html", Kind::Comparison, &[]));
         for kind in [Kind::Run, Kind::Pictures, Kind::Comparison] {
             for name in [
                 "",
@@ -188,8 +191,22 @@ mod tests {
                 "a\\b.pvd",
                 "c:d.pvd",
             ] {
-                assert!(!can_be_made(name, kind), "{name} {kind:?}");
+                assert!(!can_be_made(name, kind, &[]), "{name} {kind:?}");
             }
         }
+    }
+
+    /// A format of the program's own lays claim to what has the shape of its files, and to nothing else.
+    #[test]
+    fn other_formats_have_files_of_their_shapes() {
+        let others = ["frames/water_*.json".to_owned(), "final_water.txt".to_owned()];
+        for name in ["frames/fish_*.json", "final.txt", "final_fish.txt"] {
+            assert!(can_be_made(name, Kind::Run, &others), "{name}");
+            assert!(!can_be_made(name, Kind::Run, &[]), "{name}");
+        }
+        for name in ["water.json", "precious.txt", "initial.txt", "frames/water_*.txt", "final.json"] {
+            assert!(!can_be_made(name, Kind::Run, &others), "{name}");
+        }
+        assert!(!can_be_made("frames/fish_*.json", Kind::Pictures, &others));
     }
 }

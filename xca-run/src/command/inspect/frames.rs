@@ -6,38 +6,45 @@ use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 use xca_io::particle_csv::LABEL;
-use xca_io::vtk::{DenseFile, NumberType, ReadArray, read_dense, read_particles};
+use xca_io::vtk::{NumberType, ReadArray};
+use xca_record::Failure;
+use xca_record::format::{Formats, SavedState};
 use xca_record::numbers::Exact;
 use xca_record::record::{FRAMES, Plane};
 
-/// A frame by its name, `NAME_STEP.vti` or `.vtp`.
+/// A file of a state by its name, `NAME_STEP.EXTENSION`, and what is in it.
 struct Frame {
-    path: PathBuf,
     view: String,
     step: u64,
-    is_dense: bool,
+    state: SavedState,
 }
 
-impl Frame {
-    fn named(path: PathBuf) -> Option<Self> {
-        let is_dense = match path.extension()?.to_str()? {
-            "vti" => true,
-            "vtp" => false,
-            _ => return None,
-        };
-        let (view, step) = path.file_stem()?.to_str()?.rsplit_once('_')?;
-        Some(Self { view: view.to_owned(), step: step.parse().ok()?, is_dense, path })
-    }
+/// The view and the step in the name of a file.
+fn named(path: &Path) -> Option<(String, u64)> {
+    let (view, step) = path.file_stem()?.to_str()?.rsplit_once('_')?;
+    Some((view.to_owned(), step.parse().ok()?))
 }
 
-/// The frames of the last step that has any.
-fn last(folder: &Path) -> Vec<Frame> {
+/// The states of the last step that has any, each view once.
+fn last(folder: &Path) -> Result<Vec<Frame>, Failure> {
+    let formats = Formats::default();
     let entries = fs::read_dir(folder).into_iter().flatten().filter_map(Result::ok);
-    let mut frames: Vec<Frame> = entries.filter_map(|entry| Frame::named(entry.path())).collect();
-    let step = frames.iter().map(|frame| frame.step).max();
-    frames.retain(|frame| Some(frame.step) == step);
-    frames.sort_by(|one, other| one.view.cmp(&other.view));
-    frames
+    let mut files: Vec<((String, u64), PathBuf)> =
+        entries.filter_map(|entry| Some((named(&entry.path())?, entry.path()))).collect();
+    files.sort_by(|((one, early), _), ((other, late), _)| late.cmp(early).then_with(|| one.cmp(other)));
+    let mut frames: Vec<Frame> = Vec::new();
+    for ((view, step), path) in files {
+        if frames.first().is_some_and(|first| first.step != step) {
+            break;
+        }
+        if frames.last().is_some_and(|last| last.view == view) {
+            continue;
+        }
+        if let Some(state) = formats.read(&path) {
+            frames.push(Frame { view, step, state: state? });
+        }
+    }
+    Ok(frames)
 }
 
 /// What is in the last frames of a run; nothing where it has none.
@@ -47,27 +54,23 @@ pub(super) fn inside(
     arguments: &InspectArguments,
 ) -> Result<Option<Inside>, Unable> {
     let path = folder.join(FRAMES);
-    let frames = last(&path);
+    let frames = last(&path).map_err(Unable::refused)?;
     let Some(step) = frames.first().map(|frame| frame.step) else { return Ok(None) };
     let text = |name: &str| run.get(name).and_then(Value::as_str).unwrap_or("?").to_owned();
     let (mut substates, mut places, mut time) = (Vec::new(), Vec::new(), 0.0);
-    for frame in frames {
-        let (arrays, found, hidden) = if frame.is_dense {
-            let file = read_dense(&frame.path).map_err(Unable::refused)?;
-            time = file.time;
-            let cell = arguments.cell.map(|cell| of_cell(&frame.view, &file, cell)).transpose();
-            let found = cell.map_err(Unable::refused)?;
-            (file.arrays, found, file.hidden)
+    for Frame { view, state, .. } in frames {
+        time = state.time;
+        let arrays = if let Some(extents) = state.cells {
+            let cell = arguments.cell.map(|cell| of_cell(&view, extents, &state.arrays, cell)).transpose();
+            places.extend(cell.map_err(Unable::refused)?);
+            state.arrays
         } else {
-            let file = read_particles(&frame.path).map_err(Unable::refused)?;
-            time = file.time;
-            let position = ReadArray { name: "position".to_owned(), ..file.positions };
-            let arrays = [vec![position], file.arrays].concat();
-            let item = arguments.label.and_then(|label| of_item(&frame.view, &arrays, label));
-            (arrays, item, None)
+            let position = state.positions.map(|array| ReadArray { name: "position".to_owned(), ..array });
+            let arrays: Vec<ReadArray> = position.into_iter().chain(state.arrays).collect();
+            places.extend(arguments.label.and_then(|label| of_item(&view, &arrays, label)));
+            arrays
         };
-        places.extend(found);
-        let of_array = |array| statistics(&frame.view, array, hidden.as_deref());
+        let of_array = |array| statistics(&view, array, state.hidden.as_deref());
         substates.extend(arrays.iter().flat_map(of_array));
     }
     let wanted = [
@@ -120,10 +123,9 @@ fn values(arrays: &[ReadArray], index: usize) -> Vec<NamedValue> {
     arrays.iter().map(value).collect()
 }
 
-fn of_cell(view: &str, file: &DenseFile, cell: [usize; 3]) -> Result<Place, String> {
-    let extents = file.grid.cells;
+fn of_cell(view: &str, extents: [usize; 3], arrays: &[ReadArray], cell: [usize; 3]) -> Result<Place, String> {
     let index = linear(extents, cell)?;
-    Ok(Place { of: view.to_owned(), cell: Some(cell), label: None, values: values(&file.arrays, index) })
+    Ok(Place { of: view.to_owned(), cell: Some(cell), label: None, values: values(arrays, index) })
 }
 
 fn of_item(view: &str, arrays: &[ReadArray], label: u32) -> Option<Place> {

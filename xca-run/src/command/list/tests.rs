@@ -66,7 +66,8 @@ fn model() -> Model {
 /// What several structs share is told apart, and processes say in which steps they are run.
 #[test]
 fn several_structs() {
-    let told: Value = serde_json::from_str(&as_json(&model(), &Engines::default()).unwrap()).unwrap();
+    let told: Value =
+        serde_json::from_str(&as_json(&model(), &Engines::default(), &Formats::default()).unwrap()).unwrap();
     let values = ["Soil.rate", "Air.rate", "calm"].map(|name| &told["parameters"][name]["value"]);
     assert_eq!(values, [&json!(0.5), &json!(0.25), &json!(1.5)]);
     let [first, second] = [0, 1].map(|number| &told["processes"][number]);
@@ -75,7 +76,7 @@ fn several_structs() {
     assert_eq!(first["writes"], json!(["Ground.water"]));
     assert_eq!((&first["every"], &second["every"]), (&json!(1), &json!(6)));
     assert_eq!(second["writes"], json!(["wind"]));
-    let text = as_text(&model(), &Engines::default());
+    let text = as_text(&model(), &Engines::default(), &Formats::default());
     assert_eq!(row(&text, "Air.rate"), ["Air.rate", "Real", "0.25", "1/d", "[0,", "1]"]);
     assert_eq!(row(&text, "blow"), ["blow", "cell", "every", "6"]);
     assert_eq!(row(&text, "reads elsewhere"), ["reads", "elsewhere", "Sky.wind"]);
@@ -90,7 +91,8 @@ fn row(text: &str, first: &str) -> Vec<String> {
 /// Units, ranges, documentation, states, and what is computed are told, in 80 columns.
 #[test]
 fn fields_are_described() {
-    let told: Value = serde_json::from_str(&as_json(&model(), &Engines::default()).unwrap()).unwrap();
+    let told: Value =
+        serde_json::from_str(&as_json(&model(), &Engines::default(), &Formats::default()).unwrap()).unwrap();
     let expected = json!({
         "value": 0.25,
         "type": "Real",
@@ -106,7 +108,7 @@ fn fields_are_described() {
     assert_eq!(told["parameters"]["calm"]["computed"], true);
     assert_eq!(told["substates"][1]["states"], json!(["Clear", "Grey"]));
     assert_eq!((&told["substates"][2]["unit"], &told["substates"][3]["unit"]), (&json!("kg"), &json!(null)));
-    let text = as_text(&model(), &Engines::default());
+    let text = as_text(&model(), &Engines::default(), &Formats::default());
     assert_eq!(row(&text, "Sky.water"), ["Sky.water", "[Real;", "2]", "kg", "cells"]);
     assert!(text.contains("\n    states: Clear, Grey\n"), "{text}");
     assert!(text.contains("\n    computed from other parameters\n"), "{text}");

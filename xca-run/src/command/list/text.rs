@@ -6,12 +6,19 @@ use crate::table::{table, table_with_notes};
 use xca_core::model::GroupKind;
 use xca_core::{Field, Model, ScalarType};
 use xca_record::components::state_names;
+use xca_record::format::Formats;
 
 /// Everything about a model, and the engines.
-pub(super) fn as_text(model: &Model, engines: &Engines) -> String {
+pub(super) fn as_text(model: &Model, engines: &Engines, formats: &Formats) -> String {
     let rows = engines.kinds().map(|kind| [kind.name(), kind.about()]);
     let mut parts = vec![space(model), table(["engine", ""], rows, &[])];
     parts.extend(engines.kinds().filter_map(EngineKind::devices).map(|devices| devices.text));
+    let chosen = formats.names();
+    let rows = formats.all().map(|format| {
+        let mark = if chosen.contains(&format.name()) { "yes" } else { "" };
+        [format.name(), mark, format.about()]
+    });
+    parts.push(table(["format", "written", ""], rows, &[]));
     parts.push(substates(model));
     if model.parameters().count() > 0 {
         parts.push(parameters(model));

@@ -154,7 +154,7 @@ impl RenderArguments {
             out: self.out.clone(),
             every: self.every,
             checkpoint_every: None,
-            grids: false,
+            formats: Vec::new(),
             allow_non_finite: true,
             print_source: false,
             voice: self.voice,

@@ -43,7 +43,7 @@ fn folder(
     let (kept, of_run) = Kept::of_folder(path)?;
     let recorder = kept.recorder(definition)?;
     let drawing = arguments.drawing(&recorder)?;
-    let frames = OutputFolder::to_read(path.join(FRAMES));
+    let frames = path.join(FRAMES);
     let states = Frames {
         drawing: &drawing,
         steps: steps(path, &drawing, &frames, arguments.every)?,
@@ -79,14 +79,9 @@ fn folder(
 }
 
 /// The steps of the states that are drawn; one at least.
-fn steps(
-    path: &Path,
-    drawing: &Drawing<'_>,
-    frames: &OutputFolder,
-    every: Option<u64>,
-) -> Result<Vec<u64>, Unable> {
+fn steps(path: &Path, drawing: &Drawing<'_>, frames: &Path, every: Option<u64>) -> Result<Vec<u64>, Unable> {
     let saved = drawing.saved_steps(frames);
-    let folder = frames.path().display();
+    let folder = frames.display();
     if saved.is_empty() {
         let checkpoint = CheckpointFolder::of_run(path).into_iter().next();
         let other = checkpoint.map(|path| format!("; there is a checkpoint to draw: {}", path.display()));
@@ -136,7 +131,7 @@ impl Report<'_> {
 struct Frames<'a> {
     drawing: &'a Drawing<'a>,
     steps: Vec<u64>,
-    frames: OutputFolder,
+    frames: PathBuf,
     interrupt: Interrupt,
     voice: Voice,
 }

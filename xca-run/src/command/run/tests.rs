@@ -243,7 +243,7 @@ fn views_that_do_not_fit_are_refused() {
     assert_eq!(said, "the view `g` draws layer 2, but the space has 2 layers");
     let twice =
         |given| Ok(plain(given)?.cells(CellView::<Grass>::named("a")).items(ItemView::<Hare>::named("a")));
-    assert!(refused(&twice).contains("two views are named `a`"));
+    assert!(refused(&twice).contains("the files of the views `a` and `a` would have"));
 }
 
 #[test]

@@ -1,0 +1,41 @@
+//! The final state of a layer of cells as ESRI ASCII grids.
+
+use super::{Moment, OutputFile, RecordedState, Subject, Writer};
+use crate::observable::Failure;
+use crate::record::layer;
+use xca_io::ascii_grid::AsciiGrid;
+
+/// `final_SUBSTATE.asc`, one for each component of each substate of cells. `bool` and states are numbers.
+#[derive(Debug)]
+pub(super) struct AsciiGrids;
+
+impl Writer for AsciiGrids {
+    fn name(&self) -> &'static str {
+        "asc"
+    }
+
+    fn about(&self) -> &'static str {
+        "a final layer as ESRI ASCII grids: final_SUBSTATE.asc"
+    }
+
+    fn check(&self, subject: Subject<'_>) -> Result<(), Failure> {
+        layer::check(subject, self.name())
+    }
+
+    fn files(&self, subject: Subject<'_>) -> Vec<OutputFile> {
+        let bands = layer::bands(subject.model()).into_iter();
+        bands.map(|band| OutputFile::named(Moment::Last, &band.name, "asc")).collect()
+    }
+
+    fn finish(&mut self, state: RecordedState<'_>) -> Result<(), Failure> {
+        let place = state.subject().placement();
+        for band in layer::bands(state.subject().model()) {
+            let Some(values) = band.values(state) else { continue };
+            if let Some(grid) = AsciiGrid::new(place.extents, place.side, values) {
+                let file = OutputFile::named(Moment::Last, &band.name, "asc");
+                grid.with_corner(place.corner).write(&state.path(&file))?;
+            }
+        }
+        Ok(())
+    }
+}

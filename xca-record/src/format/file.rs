@@ -1,0 +1,129 @@
+//! The names of files: one place that makes them, and knows them again.
+
+use super::View;
+use crate::record::{FRAMES, RunFolder, numbered_files};
+use std::path::{Path, PathBuf};
+use xca_io::atomic::{OutputFolder, plain_name};
+
+/// What a file is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Moment {
+    /// The whole run, and written on: `NAME.pvd`.
+    Run,
+    /// The first state: `initial_NAME.png`.
+    First,
+    /// Each recorded state: `frames/NAME_00000050.vti`.
+    Each,
+    /// The final state: `final_NAME.csv`.
+    Last,
+}
+
+/// A file of a run, or one for each of its recorded states.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OutputFile {
+    moment: Moment,
+    /// Of the first and the final state there may be none.
+    stem: Option<String>,
+    extension: &'static str,
+}
+
+impl OutputFile {
+    /// The file of a view, or of one file for each state of it.
+    pub fn of_view(moment: Moment, view: View<'_>, extension: &'static str) -> Self {
+        Self { moment, stem: Some(view.stem()), extension }
+    }
+
+    /// The file with a name. Characters other than ASCII letters, digits, `.`, `_` and `-` become `_`.
+    pub fn named(moment: Moment, name: &str, extension: &'static str) -> Self {
+        Self { moment, stem: Some(plain_name(name)), extension }
+    }
+
+    /// The file of the first or the final state that has no other name: `final.csv`.
+    pub fn unnamed(moment: Moment, extension: &'static str) -> Self {
+        Self { moment, stem: None, extension }
+    }
+
+    /// What it is of.
+    pub fn moment(&self) -> Moment {
+        self.moment
+    }
+
+    /// Whether it has this name.
+    pub(crate) fn is_of(&self, stem: &str) -> bool {
+        self.stem.as_deref() == Some(stem)
+    }
+
+    /// As `run.json` lists it; `*` stands for the number of the step.
+    pub fn listed(&self) -> String {
+        match self.moment {
+            Moment::Each => {
+                format!("{FRAMES}/{}_*.{}", self.stem.as_deref().unwrap_or("state"), self.extension)
+            }
+            _ => self.own_name(),
+        }
+    }
+
+    /// Its name in the folder of the run.
+    fn own_name(&self) -> String {
+        let word = match self.moment {
+            Moment::First => Some("initial"),
+            Moment::Last => Some("final"),
+            Moment::Run | Moment::Each => None,
+        };
+        let words: Vec<&str> = word.into_iter().chain(self.stem.as_deref()).collect();
+        format!("{}.{}", words.join("_"), self.extension)
+    }
+
+    /// Where it is, of the state after a step.
+    pub(crate) fn path(&self, folder: &RunFolder, step: u64) -> PathBuf {
+        match self.moment {
+            Moment::Each => self.frame(&folder.frames, step),
+            _ => folder.top.file(&self.own_name()),
+        }
+    }
+
+    /// Where the file of a state is in a folder of frames.
+    pub(crate) fn frame(&self, frames: &OutputFolder, step: u64) -> PathBuf {
+        frames.numbered(self.stem.as_deref().unwrap_or("state"), step, self.extension)
+    }
+
+    /// The files of states that are there, with the numbers of their steps.
+    pub(crate) fn saved(&self, frames: &Path) -> Vec<(u64, PathBuf)> {
+        let before = format!("{}_", self.stem.as_deref().unwrap_or("state"));
+        let after = format!(".{}", self.extension);
+        let step = |path: &PathBuf| {
+            let name = path.file_name()?.to_str()?;
+            name.strip_prefix(&before)?.strip_suffix(&after)?.parse().ok()
+        };
+        let files = numbered_files(frames, &before, &after).into_iter();
+        files.filter_map(|path| Some((step(&path)?, path))).collect()
+    }
+}
+
+/// What tells the files of a format from others.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Shape<'a> {
+    pub(crate) moment: Moment,
+    pub(crate) extension: &'a str,
+}
+
+/// The shape of a name as `run.json` lists it; none of a name that no format makes.
+pub(crate) fn shape(name: &str) -> Option<Shape<'_>> {
+    if let Some((folder, file)) = name.split_once('/') {
+        let (stem, extension) = file.split_once("_*.")?;
+        let is_plain = !stem.is_empty() && !stem.contains(['*', '/']) && !extension.contains(['*', '/', '.']);
+        return (folder == FRAMES && is_plain).then_some(Shape { moment: Moment::Each, extension });
+    }
+    let (stem, extension) = name.rsplit_once('.')?;
+    if stem.is_empty() || name.contains('*') {
+        return None;
+    }
+    let begins =
+        |word: &str| stem.strip_prefix(word).is_some_and(|rest| rest.is_empty() || rest.starts_with('_'));
+    let moment = match stem {
+        _ if begins("initial") => Moment::First,
+        _ if begins("final") => Moment::Last,
+        _ => Moment::Run,
+    };
+    Some(Shape { moment, extension })
+}

@@ -1,0 +1,101 @@
+//! VTK files of each state, and the list of them that ParaView opens.
+
+use super::{Moment, OutputFile, RecordedState, ResumedRun, SavedState, Subject, View, Writer};
+use crate::observable::Failure;
+use crate::record::{CellState, ItemState, SubstateValues};
+use serde_json::Value;
+use std::path::Path;
+use xca_io::vtk::{
+    Collection, DataArray, GHOST_TYPE, Grid, ghost_types, read_dense, read_particles, write_dense,
+    write_particles,
+};
+
+/// `.vti` of cells, `.vtp` of items, and a `.pvd` for each view.
+#[derive(Debug, Default)]
+pub(super) struct Vtk {
+    /// For each view, the list of its frames.
+    collections: Vec<Collection>,
+}
+
+/// The frames of a view, and the list of them.
+fn files(view: View<'_>) -> [OutputFile; 2] {
+    let extension = if view.shows_items() { "vtp" } else { "vti" };
+    [OutputFile::of_view(Moment::Each, view, extension), OutputFile::of_view(Moment::Run, view, "pvd")]
+}
+
+impl Writer for Vtk {
+    fn name(&self) -> &'static str {
+        "vtk"
+    }
+
+    fn about(&self) -> &'static str {
+        "all states for ParaView: NAME.pvd, frames (.vti, .vtp)"
+    }
+
+    fn files(&self, subject: Subject<'_>) -> Vec<OutputFile> {
+        subject.views().flat_map(files).collect()
+    }
+
+    fn record(&mut self, state: RecordedState<'_>) -> Result<(), Failure> {
+        for view in state.subject().views() {
+            let [frame, list] = files(view).map(|file| state.path(&file));
+            if let Some(items) = state.items(view) {
+                write_items(&frame, state.time(), &items)?;
+            } else if let Some(cells) = state.cells(view) {
+                write_cells(&frame, state.time(), &cells)?;
+            }
+            if self.collections.len() <= view.number() {
+                self.collections.push(Collection::create(&list)?);
+            }
+            self.collections[view.number()].add(state.time(), &frame)?;
+        }
+        Ok(())
+    }
+
+    fn resume(&mut self, run: ResumedRun<'_>, _memory: &Value) -> Result<(), Failure> {
+        self.collections.clear();
+        for view in run.subject().views() {
+            let [frame, list] = files(view);
+            let entry = |step: &u64| (run.subject().time(*step), run.path(&frame, *step));
+            let entries: Vec<_> = run.steps().iter().map(entry).collect();
+            self.collections.push(Collection::of(&run.path(&list, 0), &entries)?);
+        }
+        Ok(())
+    }
+
+    fn read(&self, path: &Path) -> Option<Result<SavedState, Failure>> {
+        match path.extension()?.to_str()? {
+            "vti" => Some(saved_cells(path)),
+            "vtp" => Some(saved_items(path)),
+            _ => None,
+        }
+    }
+}
+
+fn write_cells(path: &Path, time: f64, cells: &CellState<'_>) -> Result<(), Failure> {
+    let substates = cells.substates();
+    let ghosts = cells.missing().map(ghost_types);
+    let ghosts = ghosts.as_deref().map(|ghosts| DataArray::new(GHOST_TYPE, ghosts));
+    let arrays: Vec<DataArray<'_>> = substates.iter().map(SubstateValues::array).chain(ghosts).collect();
+    let [x, y] = cells.corner();
+    let grid = Grid { origin: [x, y, 0.0], ..Grid::cubic(cells.extents(), cells.side()) };
+    Ok(write_dense(path, time, &grid, &arrays)?)
+}
+
+/// The substates that have columns, at their place on the map.
+fn write_items(path: &Path, time: f64, items: &ItemState<'_>) -> Result<(), Failure> {
+    let substates = items.substates();
+    let mut arrays = vec![DataArray::new("label", items.labels())];
+    arrays.extend(substates.iter().map(SubstateValues::array));
+    Ok(write_particles(path, time, items.positions_on_map().as_values(), &arrays)?)
+}
+
+fn saved_cells(path: &Path) -> Result<SavedState, Failure> {
+    let file = read_dense(path)?;
+    Ok(SavedState { hidden: file.hidden, ..SavedState::of_cells(file.time, file.grid.cells, file.arrays) })
+}
+
+fn saved_items(path: &Path) -> Result<SavedState, Failure> {
+    let file = read_particles(path)?;
+    Ok(SavedState::of_items(file.time, file.positions, file.arrays))
+}

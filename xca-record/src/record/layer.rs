@@ -1,0 +1,78 @@
+//! The substates of a layer of cells, component by component, as a geographic information system takes them.
+
+use crate::format::{RecordedState, Subject};
+use crate::observable::Failure;
+use xca_core::engine::SubstateId;
+use xca_core::model::GroupKind;
+use xca_core::{Model, StoredScalar};
+
+/// One component of a substate of cells.
+pub(crate) struct Band {
+    /// `altitude`, `outflow_3`; with the struct before it where several have such a substate.
+    pub(crate) name: String,
+    substate: SubstateId,
+    component: usize,
+}
+
+/// A model that has no single layer.
+#[derive(Debug, thiserror::Error)]
+#[error("the format {format} is for models of one layer, and `{model}` has {layers}")]
+struct Layers {
+    format: &'static str,
+    model: String,
+    layers: usize,
+}
+
+/// Refuses a model of several layers.
+pub(crate) fn check(subject: Subject<'_>, format: &'static str) -> Result<(), Failure> {
+    let model = subject.model();
+    let layers = model.geometry().extents()[2];
+    let error = || Layers { format, model: model.name().to_owned(), layers };
+    if layers > 1 { Err(error().into()) } else { Ok(()) }
+}
+
+/// The bands of a model; none of one with several layers.
+pub(crate) fn bands(model: &Model) -> Vec<Band> {
+    let of_cells = |kind: &GroupKind| matches!(kind, GroupKind::Cells { .. });
+    let groups = || model.groups().iter().enumerate().filter(|(_, group)| of_cells(group.kind()));
+    let fields = || groups().flat_map(|(_, group)| group.schema().fields);
+    let mut all = Vec::new();
+    if model.geometry().extents()[2] > 1 {
+        return all;
+    }
+    for (group, of) in groups() {
+        for (index, field) in of.schema().fields.iter().enumerate() {
+            let is_single = fields().filter(|other| other.name == field.name).count() == 1;
+            let of = if is_single { String::new() } else { format!("{}_", of.schema().name.to_lowercase()) };
+            for (component, name) in field.value_type.component_names().into_iter().enumerate() {
+                let gap = if name.is_empty() { "" } else { "_" };
+                let name = format!("{of}{}{gap}{name}", field.name);
+                all.push(Band { name, substate: SubstateId { group, field: index }, component });
+            }
+        }
+    }
+    all
+}
+
+impl Band {
+    /// Its values, the lowest row first; NaN where there is no ground.
+    pub(crate) fn values(&self, state: RecordedState<'_>) -> Option<Vec<f64>> {
+        let mut values = state.values(self.substate)?.component(self.component);
+        if state.subject().model().stored(self.substate, state.precision()).scalar == StoredScalar::F32 {
+            values.iter_mut().for_each(|value| *value = with_digits_of_f32(*value));
+        }
+        mask(&mut values, state.subject().missing());
+        Some(values)
+    }
+}
+
+/// Takes the values from the cells without ground.
+fn mask(values: &mut [f64], missing: Option<&[bool]>) {
+    let masked = values.iter_mut().zip(missing.unwrap_or_default());
+    masked.filter(|(_, is_missing)| **is_missing).for_each(|(value, _)| *value = f64::NAN);
+}
+
+/// The `f64` that has the digits of an `f32`: 0.1 of 0.1f32, which is 0.10000000149011612.
+fn with_digits_of_f32(value: f64) -> f64 {
+    format!("{:e}", value as f32).parse().unwrap_or(value)
+}
