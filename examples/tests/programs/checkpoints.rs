@@ -142,7 +142,10 @@ fn none_at_all() {
         ("resume here --steps 5", "unexpected argument '--steps'"),
         ("resume here --seed 5", "unexpected argument '--seed'"),
         ("resume here --threads 0", "0 threads do nothing"),
-        ("resume here --engine reference --threads 2", "the reference engine is serial"),
+        (
+            "resume here --engine reference --threads 2",
+            "--threads is for --engine cpu, not for the reference engine",
+        ),
         ("resume here --checkpoint away", "error: cannot read the checkpoint away\ncaused by: "),
         ("run --checkpoint-every soon", "it must be a number of steps, such as 500, or a time"),
         ("run --checkpoint-every 0", "every 0 steps never comes"),

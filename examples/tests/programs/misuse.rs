@@ -43,8 +43,12 @@ fn values_that_make_no_sense() {
     refused(&[
         (CADEM, "--threads 0", "0 threads do nothing; give at least 1"),
         (CADEM, "--threads 100000", "100000 threads are too many"),
-        (CADEM, "--engine reference --threads 2", "the reference engine is serial"),
-        (CADEM, "--engine gpu --threads 2", "the gpu engine has no threads to choose"),
+        (
+            CADEM,
+            "--engine reference --threads 2",
+            "--threads is for --engine cpu, not for the reference engine",
+        ),
+        (CADEM, "--engine gpu --threads 2", "--threads is for --engine cpu, not for the gpu engine"),
         (CADEM, "--engine gpu --adapter abacus", "no adapter is `abacus`; this machine has 0: "),
         (CADEM, "--engine gpu --arithmetic lax", "`lax` is no arithmetic; use best, strict or relaxed"),
         (CADEM, "--adapter 0", "--adapter is for --engine gpu, not for the cpu engine"),

@@ -64,7 +64,7 @@ fn what_cannot_be_swept_is_refused_before_anything_runs() {
         ("--set rate=0.5|x", "rate"),
         ("--set nothing=1|2", "nothing"),
         ("--seeds 0", "0 is not in 1.."),
-        ("--jobs 0", "0 threads"),
+        ("--jobs 0", "0 is not in 1..=1024"),
     ] {
         let output = place.invocation(LANDSLIDE, &format!("sweep {options}")).output().unwrap();
         let said = String::from_utf8_lossy(&output.stderr);

@@ -218,7 +218,11 @@ fn what_cannot_be_watched_is_said_before_the_screen_is_taken() {
         (LIFE, "--layer 1", "there is no layer 1"),
         (CADEM, "--layer 1", "--axis and --layer are for slices of cells"),
         (LIFE, "--fps 0", "0 is not in 1..=60"),
-        (LIFE, "--engine reference --threads 2", "the reference engine is serial"),
+        (
+            LIFE,
+            "--engine reference --threads 2",
+            "--threads is for --engine cpu, not for the reference engine",
+        ),
     ] {
         let mut terminal = Terminal::watch(&place, program, options);
         let status = terminal.ended();

@@ -81,11 +81,7 @@ fn can_be_made(name: &str, kind: Kind, others: &[String]) -> bool {
             matches!(name, "animation.png" | "animation.gif")
                 || shape(name) == Some(Shape { moment: Moment::Each, extension: "png" })
         }
-        Kind::Run => {
-            name == SERIES
-                || name == CheckpointFolder::files()
-                || shape(name).is_some_and(|it| is_of_run(it, others))
-        }
+        Kind::Run => name == SERIES || name == CheckpointFolder::files() || is_of_run(name, others),
     }
 }
 
@@ -97,13 +93,16 @@ const SHAPES: [(Moment, &[&str]); 4] = [
     (Moment::Last, &["asc", "csv", "png", "tif"]),
 ];
 
-fn is_of_run(found: Shape<'_>, others: &[String]) -> bool {
+fn is_of_run(name: &str, others: &[String]) -> bool {
+    let Some(found) = shape(name) else { return false };
     // A view may be called `final`.
     let as_of_run = Shape { moment: Moment::Run, ..found };
     let is_own = |it: Shape<'_>| {
         SHAPES.iter().any(|(moment, extensions)| *moment == it.moment && extensions.contains(&it.extension))
     };
-    is_own(found) || is_own(as_of_run) || others.iter().any(|other| shape(other) == Some(found))
+    // A file of the whole run could have any name but for its extension, so it must have the same.
+    let is_alike = |other: &String| found.moment != Moment::Run && shape(other) == Some(found);
+    is_own(found) || is_own(as_of_run) || others.iter().any(|other| other == name || is_alike(other))
 }
 
 /// What there is in the folder, of whatever kind, under a name in which `*` stands for digits.
@@ -199,12 +198,14 @@ mod tests {
     /// A format of the program's own lays claim to what has the shape of its files, and to nothing else.
     #[test]
     fn other_formats_have_files_of_their_shapes() {
-        let others = ["frames/water_*.json".to_owned(), "final_water.txt".to_owned()];
-        for name in ["frames/fish_*.json", "final.txt", "final_fish.txt"] {
+        let others = ["frames/water_*.json", "final_water.txt", "water.log"].map(str::to_owned);
+        for name in ["frames/fish_*.json", "final.txt", "final_fish.txt", "water.log"] {
             assert!(can_be_made(name, Kind::Run, &others), "{name}");
             assert!(!can_be_made(name, Kind::Run, &[]), "{name}");
         }
-        for name in ["water.json", "precious.txt", "initial.txt", "frames/water_*.txt", "final.json"] {
+        for name in
+            ["water.json", "precious.txt", "precious.log", "initial.txt", "frames/water_*.txt", "final.json"]
+        {
             assert!(!can_be_made(name, Kind::Run, &others), "{name}");
         }
         assert!(!can_be_made("frames/fish_*.json", Kind::Pictures, &others));
