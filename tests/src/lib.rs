@@ -16,3 +16,11 @@ pub mod mathematics_page {}
 /// The page on recording and ensembles, whose programs are compiled as tests of the documentation.
 #[doc = include_str!("../../docs/recording.md")]
 pub mod recording_page {}
+
+/// The page on comparisons.
+#[doc = include_str!("../../docs/comparing.md")]
+pub mod comparing_page {}
+
+/// The page on maps.
+#[doc = include_str!("../../docs/maps.md")]
+pub mod maps_page {}

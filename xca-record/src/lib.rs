@@ -42,6 +42,7 @@
 //! | [`SetUp`], [`CellView`], [`ItemView`], [`Observable`] | what is recorded |
 //! | [`format`] | the formats of its files, and how to add one |
 //! | [`Run`], [`Recording`] | a run, from its beginning or from a checkpoint, and its files |
+//! | [`Comparison`] | one model on several engines: whether they agree, and what each takes |
 //! | [`Ensemble`] | many runs with other parameters and seeds, and one table of them |
 //! | [`Monitor`] | who watches a run, and can end it |
 //! | [`read_items`] | a table of items, read back |
@@ -52,6 +53,8 @@
 
 #[doc(hidden)]
 pub mod checkpoint;
+#[doc(hidden)]
+pub mod comparison;
 #[doc(hidden)]
 pub mod components;
 mod ensemble;
@@ -75,6 +78,11 @@ mod set_up;
 mod view;
 
 pub use checkpoint::CheckpointError;
+pub use comparison::difference::{Difference, Differences, Place, Worst};
+pub use comparison::lane::{Check, FirstDifference};
+pub use comparison::result::ObservableResult;
+pub use comparison::timing::Spread;
+pub use comparison::{CompareError, Comparison, ComparisonReport, Contender, EngineResult, Verdict};
 pub use ensemble::{
     Assigned, End, Ensemble, EnsembleError, EnsembleMonitor, Finished, MEMBERS, Member, SUMMARY, Summary,
     TableError,

@@ -43,10 +43,10 @@
 //! | `frames/life_00000050.vti`, … | all substates (`.vtp` for the items of a population) |
 //! | `initial.png`, `final.png` | pictures of the first state and the last |
 //! | `final.csv` | of a population, all items by label, exact; [`read_items`] reads them back |
-//! | `final_altitude.asc`, … | of a model of one layer, if [`SetUp::map`] or `--grids` says so, each component of each substate of cells for geographic information systems |
+//! | `final_altitude.asc`, … | of a model of one layer, if [`SetUp::map`] or `--formats +asc` says so, each component of each substate of cells for geographic information systems |
 //! | `run.json` | everything about the run: options, parameters, engine, seed, times, why it ended |
 //!
-//! Every program has the same command line: `--engine`, `--threads`, `--precision`, `--steps`, `--seed`, `--set`, `--config`, `--out`, `--every`,
+//! Every program has the same command line: `--engine`, `--threads`, `--precision`, `--steps`, `--seed`, `--set`, `--config`, `--out`, `--every`, `--formats`,
 //! `--initial`, `--checkpoint-every`, `--quiet`, `--json`; and `life resume out/life` goes on with a run that was interrupted or killed,
 //! `life sweep --seeds 10` runs it many times, `life inspect out/life` tells what it holds, `life render` draws a run and animates it, `life watch` shows it in the terminal, and `life list` tells what there is. A model that has options of its own is a struct that implements [`Program`]; what is saved and drawn is refined with
 //! [`ItemView`] and [`CellView`].

@@ -5,24 +5,22 @@ use super::engine::with_shared_options;
 use super::parse::{Choice as ModelChoice, with_help, with_model};
 use super::voice::Voice;
 use super::{Definition, Ended, Unable};
+use crate::compare::Choice;
 use crate::compare::report::{self, Files};
-use crate::compare::{self, Choice, CompareError, Contender, Plan, Subject, Verdict};
 use crate::engines::{EngineError, EngineOptions};
 use crate::interrupt::Interrupt;
 use crate::options::number_in;
+use crate::progress::Progress;
 use clap::{Args, Command};
 use std::path::PathBuf;
 use xca_core::{Precision, RunError};
-use xca_record::machine::check_memory;
-use xca_record::record::Recorder;
+use xca_record::comparison::{Contender, Subject, Verdict};
+use xca_record::{CompareError, Comparison, Monitor};
 
 pub(super) const NAME: &str = "compare";
 
 const ABOUT: &str =
     "Run the model on several engines: what each takes, and whether they agree to the last bit";
-
-/// How many checks there are, unless the command line says how often.
-const CHECKS: u64 = 50;
 
 /// Which engines are compared, and how.
 #[derive(Args, Debug, Clone)]
@@ -88,47 +86,60 @@ pub(super) fn compare(
     let contenders = contenders(model.definition, &arguments.engines, options, precision)?;
     let given = model.arguments.given(arguments.steps);
     let set_up = model.set_up(&given)?;
-    let memory = contenders.iter().map(|it| it.engine.least_memory(&set_up.model, it.precision)).sum();
-    check_memory(memory, "this model on all these engines at once").map_err(Unable::refused)?;
-    let steps = given.steps.unwrap_or(set_up.steps);
-    let is_single = contenders.iter().any(|contender| contender.precision == Precision::F32);
-    let plan = Plan {
-        seed: given.seed,
-        steps,
-        every: arguments.check_every.unwrap_or(steps.div_ceil(CHECKS).max(1)),
-        repeats: arguments.repeats,
-        tolerance: arguments.tolerance.unwrap_or(if is_single { 1e-4 } else { 1e-9 }),
-    };
     let definition = model.definition;
     let subject = Subject {
+        commit: option_env!("XCA_COMMIT"),
+        compiler: option_env!("XCA_COMPILER"),
         program: definition.name.to_owned(),
         version: definition.version.to_owned(),
         title: set_up.title.clone(),
         command_line,
     };
-    let recorder = Recorder::new(set_up).map_err(Unable::refused)?;
+    let comparison = Comparison::new(set_up).map_err(Unable::refused)?;
+    let mut comparison = comparison.subject(subject).seed(given.seed).repeats(arguments.repeats);
+    if let Some(steps) = given.steps {
+        comparison = comparison.steps(steps);
+    }
+    if let Some(every) = arguments.check_every {
+        comparison = comparison.check_every(every);
+    }
+    if let Some(tolerance) = arguments.tolerance {
+        comparison = comparison.tolerance(tolerance);
+    }
+    let comparison = contenders.into_iter().fold(comparison, Comparison::contender);
     let folder =
         arguments.out.unwrap_or_else(|| PathBuf::from("out").join(format!("{}-compare", definition.name)));
-    let files = Files::prepare(&folder, &recorder.set_up().inputs).map_err(Unable::refused)?;
+    let files = Files::prepare(&folder, &comparison.set_up().inputs).map_err(Unable::refused)?;
     let interrupt = Interrupt::install().map_err(Unable::failed)?;
-    let line = arguments.voice.line(plan.work(contenders.len()));
-    let mut done = 0;
-    let mut watch = |steps: u64| {
-        done += steps;
-        line.at(done);
-        !interrupt.is_raised()
-    };
-    let result = compare::compare(&recorder, &contenders, &plan, subject, &mut watch);
-    line.finish();
-    let comparison = match result {
+    let mut terminal = Terminal { line: arguments.voice.line(comparison.work()), interrupt: &interrupt };
+    let result = comparison.run(&mut terminal);
+    terminal.line.finish();
+    let mut comparison = match result {
         Err(CompareError::Interrupted) => return Ok(Ended::Interrupted),
         Err(CompareError::Run(RunError::Start(error))) => return Err(Unable::refused(error)),
+        Err(error @ CompareError::Memory(_)) => return Err(Unable::refused(error)),
         result => result.map_err(Unable::failed)?,
     };
-    files.write(&comparison).map_err(Unable::failed)?;
+    files.write(&mut comparison).map_err(Unable::failed)?;
     let text = || format!("{}\n\n{}", report::text(&comparison), files.told());
     arguments.voice.tell(&comparison, text)?;
     Ok(if comparison.verdict == Verdict::Different { Ended::Different } else { Ended::Done })
+}
+
+/// The line that shows how many steps are done, and Ctrl-C.
+struct Terminal<'a> {
+    line: Progress,
+    interrupt: &'a Interrupt,
+}
+
+impl Monitor for Terminal<'_> {
+    fn at(&mut self, step: u64) {
+        self.line.at(step);
+    }
+
+    fn is_interrupted(&self) -> bool {
+        self.interrupt.is_raised()
+    }
 }
 
 /// The engines that take part. What is chosen for all of them is for those that know it, of which there must be one.

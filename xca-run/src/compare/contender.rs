@@ -1,8 +1,9 @@
 //! Engines as the command line names them.
 
 use crate::engines::{EngineError, EngineKind, EngineOptions, Engines};
-use std::time::{Duration, Instant};
-use xca_core::{Engine, Precision, UnknownPrecision};
+use std::time::Instant;
+use xca_core::{Precision, UnknownPrecision};
+use xca_record::comparison::Contender;
 
 /// An engine with what it is given: `reference`, `cpu:2`, `gpu:NVIDIA`, `cpu@f32`.
 #[derive(Debug)]
@@ -11,17 +12,6 @@ pub(crate) struct Choice<'a> {
     kind: &'a dyn EngineKind,
     options: EngineOptions,
     precision: Option<Precision>,
-}
-
-/// An engine that takes part.
-#[derive(Debug)]
-pub(crate) struct Contender {
-    /// As on the command line.
-    pub(crate) name: String,
-    pub(crate) engine: Box<dyn Engine>,
-    pub(crate) precision: Precision,
-    /// What it took to make the engine.
-    pub(crate) making: Duration,
 }
 
 /// A text that names no engine.

@@ -8,13 +8,13 @@ mod sheets;
 #[cfg(test)]
 mod tests;
 
-use super::result::Comparison;
 use crate::table::table;
 use sheets::Sheet;
 use std::fmt::Write as _;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use xca_io::atomic::{WriteError, write_atomically};
+use xca_record::comparison::ComparisonReport;
 use xca_record::record::{COMPARISON as JSON, Claim, FolderError, Kind, LockedFolder};
 
 /// A report that cannot be made.
@@ -42,7 +42,7 @@ const PAGE: &str = "compare.html";
 const MARKDOWN: &str = "compare.md";
 
 /// The files of a comparison.
-pub(crate) fn files() -> impl Iterator<Item = &'static str> {
+fn files() -> impl Iterator<Item = &'static str> {
     [JSON, PAGE, MARKDOWN].into_iter().chain(csv_files::NAMES)
 }
 
@@ -54,8 +54,9 @@ impl Files {
         Ok(Self { folder: LockedFolder::prepare(folder, &claim)? })
     }
 
-    /// Writes all files.
-    pub(crate) fn write(&self, comparison: &Comparison) -> Result<(), ReportError> {
+    /// Writes all files; the report lists them.
+    pub(crate) fn write(&self, comparison: &mut ComparisonReport) -> Result<(), ReportError> {
+        comparison.files = files().collect();
         // The first, as it tells whose the others are.
         self.file(JSON, format!("{}\n", serde_json::to_string_pretty(comparison)?).as_bytes())?;
         self.file(PAGE, page::page(comparison)?.as_bytes())?;
@@ -78,7 +79,7 @@ impl Files {
 }
 
 /// For the terminal.
-pub(crate) fn text(comparison: &Comparison) -> String {
+pub(crate) fn text(comparison: &ComparisonReport) -> String {
     let mut out = sheets::headline(comparison);
     for Sheet { header, right, rows, .. } in sheets::all(comparison) {
         // Writing to a string cannot fail.

@@ -1,16 +1,16 @@
 //! Differences that are planted into an engine are found where and when they were planted.
 
-use super::*;
-use difference::{Kind, Place};
+use super::report;
 use std::ops::Range;
 use std::time::Duration;
 use xca_core::engine::{Execution, Interruption, Population, StepContext, SubstateId};
 use xca_core::prelude::*;
 use xca_core::reduction::{Reduced, Reduction};
-use xca_core::{EngineFailure, Fault, StartError};
+use xca_core::{Engine, EngineFailure, Fault, Precision, StartError};
 use xca_cpu::Cpu;
-use xca_record::Observable;
-use xca_record::SetUp;
+use xca_record::comparison::difference::{Kind, Place};
+use xca_record::comparison::{ComparisonReport, Contender, EngineResult, Subject, Verdict};
+use xca_record::{CompareError, Comparison, Monitor, Observable, SetUp};
 
 #[derive(Substates, Clone, Copy)]
 struct Heat {
@@ -210,22 +210,23 @@ fn contender(name: &str, engine: impl Engine + 'static, precision: Precision) ->
     Contender { name: name.to_owned(), engine: Box::new(engine), precision, making: Duration::ZERO }
 }
 
-fn plan(steps: u64, every: u64) -> Plan {
-    Plan { seed: 1, steps, every, repeats: 2, tolerance: 1e-9 }
-}
-
-fn subject() -> Subject {
+/// Twenty steps, with a check every so many.
+fn comparison(set_up: SetUp, every: u64, contenders: impl IntoIterator<Item = Contender>) -> Comparison {
     let [program, title] = ["plate", "A plate <1>"].map(str::to_owned);
-    Subject { program, version: "0.1".to_owned(), title, command_line: vec!["plate".to_owned()] }
-}
-
-fn compared(contenders: &[Contender], plan: &Plan) -> Comparison {
-    let recorder = Recorder::new(SetUp::new(model(), 1)).unwrap();
-    compare(&recorder, contenders, plan, subject(), &mut |_| true).unwrap()
+    let subject = Subject {
+        program,
+        version: "0.1".to_owned(),
+        title,
+        command_line: vec!["plate".to_owned()],
+        compiler: option_env!("XCA_COMPILER"),
+        ..Subject::default()
+    };
+    let comparison = Comparison::new(set_up).unwrap().subject(subject).steps(20).check_every(every);
+    contenders.into_iter().fold(comparison.repeats(2).tolerance(1e-9), Comparison::contender)
 }
 
 /// The reference engine with a harmed one and the CPU engine.
-pub(super) fn with_harm(harm: SubstateOrFailure, after: u64, every: u64) -> Comparison {
+pub(super) fn with_harm(harm: SubstateOrFailure, after: u64, every: u64) -> ComparisonReport {
     let harm = match harm {
         SubstateOrFailure::Temperature(cell) => Harm::Cell(SubstateId { group: 0, field: 0 }, cell),
         SubstateOrFailure::Kind(cell) => Harm::Cell(SubstateId { group: 0, field: 1 }, cell),
@@ -237,7 +238,7 @@ pub(super) fn with_harm(harm: SubstateOrFailure, after: u64, every: u64) -> Comp
         contender("harmed", Harmed { harm, after }, Precision::F64),
         contender("cpu:2", Cpu::with_threads(2).unwrap(), Precision::F64),
     ];
-    compared(&contenders, &plan(20, every))
+    comparison(SetUp::new(model(), 1), every, contenders).run(&mut ()).unwrap()
 }
 
 /// What is harmed.
@@ -318,38 +319,44 @@ fn states_of_other_precision_are_compared_in_the_coarser_one() {
         contender("single", Reference, Precision::F32),
         contender("again", Cpu::with_threads(1).unwrap(), Precision::F32),
     ];
-    let plan = Plan { tolerance: 1e-5, ..plan(20, 1) };
-    let comparison = compared(&contenders, &plan);
+    let comparison = comparison(SetUp::new(model(), 1), 1, contenders).tolerance(1e-5);
+    let comparison = comparison.run(&mut ()).unwrap();
     let [_, single, again] = &comparison.engines[..] else { panic!("three engines") };
     // The initial states are the same once they are rounded.
     assert!(single.history[0].substates.iter().all(|(_, rms)| *rms == 0.0));
     assert!(single.first_difference.as_ref().is_some_and(|difference| difference.step > 0));
     assert_eq!(single.verdict, Some(Verdict::Rounding));
-    let strip = |engine: &result::EngineResult| serde_json::to_value(&engine.differences).unwrap();
+    let strip = |engine: &EngineResult| serde_json::to_value(&engine.differences).unwrap();
     assert_eq!(strip(single), strip(again));
+}
+
+/// Ends a comparison after so many steps of all engines.
+struct Patience {
+    done: u64,
+    last: u64,
+}
+
+impl Monitor for Patience {
+    fn at(&mut self, step: u64) {
+        self.done = step;
+    }
+
+    fn is_interrupted(&self) -> bool {
+        self.done > self.last
+    }
 }
 
 #[test]
 fn a_comparison_can_be_interrupted() {
     let contenders = [contender("reference", Reference, Precision::F64)];
-    let recorder = Recorder::new(SetUp::new(model(), 1)).unwrap();
+    let comparison = comparison(SetUp::new(model(), 1), 4, contenders);
     for last in [0, 8, 25] {
-        let mut done = 0;
-        let mut watch = |steps: u64| {
-            done += steps;
-            done <= last
-        };
-        let result = compare(&recorder, &contenders, &plan(20, 4), subject(), &mut watch);
+        let result = comparison.run(&mut Patience { done: 0, last });
         assert!(matches!(result, Err(CompareError::Interrupted)), "{last}");
     }
-    let mut done = 0;
-    let all = plan(20, 4);
-    let mut watch = |steps: u64| {
-        done += steps;
-        true
-    };
-    compare(&recorder, &contenders, &all, subject(), &mut watch).unwrap();
-    assert_eq!(done, all.work(1));
+    let mut patience = Patience { done: 0, last: u64::MAX };
+    comparison.run(&mut patience).unwrap();
+    assert_eq!(patience.done, comparison.work());
 }
 
 #[test]
@@ -364,13 +371,12 @@ fn the_drift_of_what_the_model_keeps_is_told() {
             Observable::number("age", state.sum(Grain::AGE)? as f64),
         ])
     });
-    let recorder = Recorder::new(set_up).unwrap();
     let contenders = [
         contender("reference", Reference, Precision::F64),
         contender("single", Reference, Precision::F32),
         contender("harmed", Harmed { harm: Harm::Failure, after: 4 }, Precision::F64),
     ];
-    let comparison = compare(&recorder, &contenders, &plan(20, 5), subject(), &mut |_| true).unwrap();
+    let comparison = comparison(set_up, 5, contenders).run(&mut ()).unwrap();
     let [of_heat, of_lost, of_grown, of_age] = &comparison.observables[..] else {
         panic!("four observables")
     };

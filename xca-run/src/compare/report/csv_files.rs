@@ -1,10 +1,10 @@
 //! The tables of a comparison with all digits, for other programs.
 
 use super::ReportError;
-use crate::compare::difference::Difference;
-use crate::compare::result::Comparison;
-use crate::compare::timing::Spread;
 use csv::Writer;
+use xca_record::comparison::ComparisonReport;
+use xca_record::comparison::difference::Difference;
+use xca_record::comparison::timing::Spread;
 
 /// The files.
 pub(super) const NAMES: [&str; 4] = ["engines.csv", "differences.csv", "divergence.csv", "observables.csv"];
@@ -12,7 +12,7 @@ pub(super) const NAMES: [&str; 4] = ["engines.csv", "differences.csv", "divergen
 type Rows = Vec<Vec<String>>;
 
 /// All files with what they hold.
-pub(super) fn all(comparison: &Comparison) -> Result<Vec<(&'static str, Vec<u8>)>, ReportError> {
+pub(super) fn all(comparison: &ComparisonReport) -> Result<Vec<(&'static str, Vec<u8>)>, ReportError> {
     let tables =
         [engines(comparison), differences(comparison), divergence(comparison), observables(comparison)];
     NAMES.into_iter().zip(tables).map(|(name, rows)| Ok((name, written(rows)?))).collect()
@@ -34,7 +34,7 @@ fn text(value: Option<impl ToString>) -> String {
     value.map(|value| value.to_string()).unwrap_or_default()
 }
 
-fn engines(comparison: &Comparison) -> Rows {
+fn engines(comparison: &ComparisonReport) -> Rows {
     let mut rows = vec![header(
         "engine,threads,adapter,precision,set_up_s,state_in_s,state_out_s,step_s,step_s_least,step_s_largest,\
          updates_per_s,speed_up,state_bytes,verdict,first_different_step",
@@ -62,7 +62,7 @@ fn engines(comparison: &Comparison) -> Rows {
     rows
 }
 
-fn differences(comparison: &Comparison) -> Rows {
+fn differences(comparison: &ComparisonReport) -> Rows {
     let mut rows = vec![header(
         "engine,substate,values,different,unmatched,largest_absolute,largest_relative,largest_ulp,rms,scale,worst_in,\
          worst_first,worst_other",
@@ -91,7 +91,7 @@ fn differences(comparison: &Comparison) -> Rows {
     rows
 }
 
-fn divergence(comparison: &Comparison) -> Rows {
+fn divergence(comparison: &ComparisonReport) -> Rows {
     let mut rows = vec![header("engine,step,substate,relative_rms")];
     for engine in &comparison.engines {
         for check in &engine.history {
@@ -104,7 +104,7 @@ fn divergence(comparison: &Comparison) -> Rows {
     rows
 }
 
-fn observables(comparison: &Comparison) -> Rows {
+fn observables(comparison: &ComparisonReport) -> Rows {
     let mut rows = vec![header("engine,observable,unit,start,end,drift")];
     for (index, engine) in comparison.engines.iter().enumerate() {
         rows.extend(comparison.observables.iter().map(|observable| {

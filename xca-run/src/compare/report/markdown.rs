@@ -1,10 +1,10 @@
 //! The report as Markdown.
 
 use super::sheets::{self, Sheet};
-use crate::compare::result::Comparison;
 use std::fmt::Write;
+use xca_record::comparison::ComparisonReport;
 
-pub(super) fn markdown(comparison: &Comparison) -> String {
+pub(super) fn markdown(comparison: &ComparisonReport) -> String {
     let mut out = format!("# {}\n\n**{}**\n", sheets::headline(comparison), comparison.verdict);
     // Writing to a string cannot fail.
     let _ = list(&mut out, sheets::findings(comparison));

@@ -3,9 +3,9 @@
 use super::ReportError;
 use super::plots::{self, Plot};
 use super::sheets::{self, Sheet};
-use crate::compare::result::{Comparison, EngineResult};
-use crate::compare::verdict::Verdict;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+use xca_record::comparison::verdict::Verdict;
+use xca_record::comparison::{ComparisonReport, EngineResult};
 
 /// What the page may load: nothing, from anywhere.
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'";
@@ -35,7 +35,7 @@ figure { margin: 0 0 14px } figcaption { font-size: 13.5px; color: #667; margin-
 }
 ";
 
-pub(super) fn page(comparison: &Comparison) -> Result<String, ReportError> {
+pub(super) fn page(comparison: &ComparisonReport) -> Result<String, ReportError> {
     let (times, speed_ups) = (plots::times(comparison)?, plots::speed_ups(comparison)?);
     let mut divergence = Vec::new();
     for engine in &comparison.engines {

@@ -1,10 +1,10 @@
 //! The plots of the page, as SVG.
 
 use super::{ReportError, sheets};
-use crate::compare::lane::Check;
-use crate::compare::result::{Comparison, EngineResult};
 use plotters::prelude::*;
 use xca_io::numbers::significant;
+use xca_record::comparison::lane::Check;
+use xca_record::comparison::{ComparisonReport, EngineResult};
 
 const TEXT: RGBColor = RGBColor(0x2b, 0x2f, 0x36);
 const GRID: RGBColor = RGBColor(0xe3, 0xe6, 0xea);
@@ -61,7 +61,7 @@ impl Bar {
 }
 
 /// Median time of a step with least and largest, of each engine.
-pub(super) fn times(comparison: &Comparison) -> Result<Option<Plot>, ReportError> {
+pub(super) fn times(comparison: &ComparisonReport) -> Result<Option<Plot>, ReportError> {
     let spreads = || comparison.engines.iter().filter_map(|engine| engine.step_seconds);
     let (factor, unit) = sheets::unit_of(spreads().map(|step| step.largest).fold(0.0, f64::max));
     let bar = |engine: &EngineResult| {
@@ -74,7 +74,7 @@ pub(super) fn times(comparison: &Comparison) -> Result<Option<Plot>, ReportError
 }
 
 /// How many times as fast each engine is as the first one.
-pub(super) fn speed_ups(comparison: &Comparison) -> Result<Option<Plot>, ReportError> {
+pub(super) fn speed_ups(comparison: &ComparisonReport) -> Result<Option<Plot>, ReportError> {
     let bar = |engine: &EngineResult| {
         let value = engine.speed_up?;
         Some(Bar { name: engine.name.clone(), value, range: None, text: significant(value, 3) })

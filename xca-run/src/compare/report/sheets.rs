@@ -1,10 +1,10 @@
 //! The tables and sentences that all forms of the report share.
 
-use crate::compare::difference::{Difference, Kind};
-use crate::compare::lane::FirstDifference;
-use crate::compare::result::{Comparison, EngineResult};
-use crate::compare::timing::Spread;
 use xca_io::numbers::significant;
+use xca_record::comparison::difference::{Difference, Kind};
+use xca_record::comparison::lane::FirstDifference;
+use xca_record::comparison::timing::Spread;
+use xca_record::comparison::{ComparisonReport, EngineResult};
 
 /// What has to be known where engines differ.
 pub(super) const CHAOS: &str = "Where engines differ, how far they are apart says little about their quality: a system \
@@ -25,12 +25,12 @@ fn words<const N: usize>(words: [&str; N]) -> Vec<String> {
     words.map(str::to_owned).to_vec()
 }
 
-pub(super) fn all(comparison: &Comparison) -> Vec<Sheet> {
+pub(super) fn all(comparison: &ComparisonReport) -> Vec<Sheet> {
     let sheets = [engines(comparison), differences(comparison), observables(comparison)];
     sheets.into_iter().filter(|sheet| !sheet.rows.is_empty()).collect()
 }
 
-pub(super) fn headline(comparison: &Comparison) -> String {
+pub(super) fn headline(comparison: &ComparisonReport) -> String {
     let times = match comparison.repeats {
         1 => "once".to_owned(),
         repeats => format!("{repeats} times"),
@@ -83,7 +83,7 @@ fn or_dash(value: Option<String>) -> String {
     value.unwrap_or_else(|| "–".to_owned())
 }
 
-fn engines(comparison: &Comparison) -> Sheet {
+fn engines(comparison: &ComparisonReport) -> Sheet {
     let row = |engine: &EngineResult| {
         let [step, range] = spread(engine.step_seconds);
         let transfer = engine.state_in_seconds.zip(engine.state_out_seconds);
@@ -128,7 +128,7 @@ fn number(value: f64) -> String {
     significant(value, 3)
 }
 
-fn differences(comparison: &Comparison) -> Sheet {
+fn differences(comparison: &ComparisonReport) -> Sheet {
     let row = |engine: &EngineResult, difference: &Difference| {
         let of_numbers =
             |value: f64| if difference.kind == Kind::Cell { "–".to_owned() } else { number(value) };
@@ -169,7 +169,7 @@ fn differences(comparison: &Comparison) -> Sheet {
     }
 }
 
-fn observables(comparison: &Comparison) -> Sheet {
+fn observables(comparison: &ComparisonReport) -> Sheet {
     let names = comparison.engines.iter().map(|engine| format!("end on {}", engine.name));
     let rows = comparison.observables.iter().flat_map(|observable| {
         let name = match observable.unit.as_str() {
@@ -195,13 +195,13 @@ fn observables(comparison: &Comparison) -> Sheet {
 }
 
 /// What has to be known of engines.
-pub(super) fn notes(comparison: &Comparison) -> Vec<String> {
+pub(super) fn notes(comparison: &ComparisonReport) -> Vec<String> {
     let notes = comparison.engines.iter();
     notes.filter_map(|engine| Some(format!("{}: {}", engine.name, engine.note.as_ref()?))).collect()
 }
 
 /// A sentence for each engine that is compared.
-pub(super) fn findings(comparison: &Comparison) -> Vec<String> {
+pub(super) fn findings(comparison: &ComparisonReport) -> Vec<String> {
     let first = comparison.first_name();
     let engines = comparison.engines.iter();
     engines
@@ -246,8 +246,8 @@ fn parting(difference: &FirstDifference, first: &str) -> String {
 }
 
 /// What was compared, where and when.
-pub(super) fn circumstances(comparison: &Comparison) -> Vec<(&'static str, String)> {
-    let Comparison { subject, .. } = comparison;
+pub(super) fn circumstances(comparison: &ComparisonReport) -> Vec<(&'static str, String)> {
+    let ComparisonReport { subject, .. } = comparison;
     let known = |name: &'static str, value: Option<String>| value.map(|value| (name, value));
     let memory = |bytes: u64| bytes_of_machine(bytes);
     let drivers = comparison.engines.iter().filter_map(|engine| {
@@ -270,8 +270,8 @@ pub(super) fn circumstances(comparison: &Comparison) -> Vec<(&'static str, Strin
         known("most memory used", comparison.peak_memory_bytes.map(memory)),
         known("adapter", (!drivers.is_empty()).then(|| drivers.join("; "))),
         known("system", Some(format!("{} on {}", comparison.host.system, comparison.host.processor))),
-        known("compiler", comparison.compiler.map(str::to_owned)),
-        known("commit", comparison.commit.map(str::to_owned)),
+        known("compiler", comparison.subject.compiler.map(str::to_owned)),
+        known("commit", comparison.subject.commit.map(str::to_owned)),
         known("command line", Some(subject.command_line.join(" "))),
         known("ended", Some(comparison.ended.clone())),
     ];

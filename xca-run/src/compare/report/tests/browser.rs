@@ -1,12 +1,9 @@
 //! The page as a reader sees it, in a browser without a screen.
 
 use super::rounded;
-use crate::compare::lane::Check;
 use crate::compare::report::page;
 use crate::compare::report::plots::{self, Plot};
-use crate::compare::result::Comparison;
 use crate::compare::tests::{SubstateOrFailure, with_harm};
-use crate::compare::timing::Spread;
 use scraper::{Html, Selector};
 use serde_json::{Value, json};
 use std::collections::HashSet;
@@ -14,6 +11,9 @@ use std::fs;
 use std::io;
 use std::path::Path;
 use std::process::{Command, Output};
+use xca_record::comparison::lane::Check;
+use xca_record::comparison::result::ComparisonReport;
+use xca_record::comparison::timing::Spread;
 
 /// The widths of a page on a desk, on half of it, and on a phone.
 const WIDTHS: [u32; 3] = [1280, 870, 400];
@@ -82,7 +82,7 @@ fn seen(text: &str) -> Vec<Value> {
 }
 
 /// Checks all that must hold of any page, at any width; gives what was seen.
-fn assert_pleasant(comparison: &Comparison) -> Vec<Value> {
+fn assert_pleasant(comparison: &ComparisonReport) -> Vec<Value> {
     assert_pleasant_page(&page::page(comparison).unwrap())
 }
 
@@ -126,7 +126,12 @@ const AMBER: &str = "rgb(168, 106, 0)";
 const RED: &str = "rgb(179, 38, 30)";
 
 #[track_caller]
-fn assert_shown(comparison: Comparison, harmed: (&str, &str), plots: usize, tables: usize) -> Vec<Value> {
+fn assert_shown(
+    comparison: ComparisonReport,
+    harmed: (&str, &str),
+    plots: usize,
+    tables: usize,
+) -> Vec<Value> {
     // The times of this machine, whatever they are, decide nothing here.
     let all = assert_pleasant(&timed(comparison, [31.4e-3, 2.83e-3, 1.5e-3]));
     for seen in &all {
@@ -186,7 +191,7 @@ fn long_names_have_room() {
 }
 
 /// A comparison as if the engines had taken these times for a step, give or take a tenth.
-fn timed(mut comparison: Comparison, times: [f64; 3]) -> Comparison {
+fn timed(mut comparison: ComparisonReport, times: [f64; 3]) -> ComparisonReport {
     for (engine, median) in comparison.engines.iter_mut().zip(times) {
         // One that failed has none.
         engine.speed_up = engine.step_seconds.map(|_| times[0] / median);
@@ -197,7 +202,7 @@ fn timed(mut comparison: Comparison, times: [f64; 3]) -> Comparison {
 }
 
 /// A comparison as if the positions had come apart so far, in powers of ten, in so many steps.
-fn apart(mut comparison: Comparison, steps: u64, [from, to]: [f64; 2]) -> Comparison {
+fn apart(mut comparison: ComparisonReport, steps: u64, [from, to]: [f64; 2]) -> ComparisonReport {
     let check = |part: u64| {
         let distance = 10_f64.powf(from + (to - from) * part as f64 / 16.0);
         Check { step: steps * part / 16, substates: vec![("Grain.position".to_owned(), distance)] }

@@ -2,16 +2,15 @@
 
 use super::difference::Differences;
 use super::lane::{Check, FirstDifference, Lane};
-use super::{CompareError, Plan};
+use super::{CompareError, Plan, Watch};
 use xca_core::{Model, Snapshot};
 
-/// Runs all engines to the end, with a check every so many steps; gives back the number of steps done. `watch` is told how many steps more
-/// are done, and says whether to go on.
-pub(crate) fn run(
+/// Runs all engines to the end, with a check every so many steps; gives back the number of steps done.
+pub(super) fn run(
     model: &Model,
     lanes: &mut [Lane<'_>],
     plan: &Plan,
-    watch: &mut dyn FnMut(u64) -> bool,
+    watch: &mut Watch<'_>,
 ) -> Result<u64, CompareError> {
     let mut before: Vec<Snapshot> = lanes.iter().map(|lane| lane.initial.clone()).collect();
     look(model, lanes, plan.tolerance, &before, &before)?;
@@ -29,9 +28,7 @@ pub(crate) fn run(
                     result?;
                 }
             }
-            if !watch(ahead) {
-                return Err(CompareError::Interrupted);
-            }
+            watch.did(ahead)?;
         }
         let mut now = Vec::with_capacity(lanes.len());
         for lane in lanes.iter() {

@@ -6,7 +6,7 @@ use std::fmt;
 /// From best to worst.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "UPPERCASE")]
-pub(crate) enum Verdict {
+pub enum Verdict {
     /// All bits are the same, at every check.
     Identical,
     /// Floating numbers differ at the end by no more than the tolerance.

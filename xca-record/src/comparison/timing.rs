@@ -1,7 +1,7 @@
 //! What engines take, apart from all checks.
 
-use super::CompareError;
 use super::lane::Lane;
+use super::{CompareError, Watch};
 use serde::Serialize;
 use std::time::Instant;
 
@@ -10,11 +10,11 @@ const PIECES: u64 = 16;
 
 /// Runs all engines from the start so many times. They take turns, each repeat beginning with the next one, so that what disturbs the
 /// machine for a while disturbs them all.
-pub(crate) fn run(
+pub(super) fn run(
     lanes: &mut [Lane<'_>],
     steps: u64,
     repeats: usize,
-    watch: &mut dyn FnMut(u64) -> bool,
+    watch: &mut Watch<'_>,
 ) -> Result<(), CompareError> {
     let number = lanes.len();
     for repeat in 0..repeats {
@@ -28,7 +28,7 @@ pub(crate) fn run(
     Ok(())
 }
 
-fn once(lane: &mut Lane<'_>, steps: u64, watch: &mut dyn FnMut(u64) -> bool) -> Result<(), CompareError> {
+fn once(lane: &mut Lane<'_>, steps: u64, watch: &mut Watch<'_>) -> Result<(), CompareError> {
     let begin = Instant::now();
     lane.simulation.restore(&lane.initial)?;
     lane.times.put.push(begin.elapsed().as_secs_f64());
@@ -38,9 +38,7 @@ fn once(lane: &mut Lane<'_>, steps: u64, watch: &mut dyn FnMut(u64) -> bool) -> 
         let begin = Instant::now();
         lane.simulation.run(steps.div_ceil(PIECES).min(steps - done))?;
         seconds += begin.elapsed().as_secs_f64();
-        if !watch(lane.simulation.step_number() - done) {
-            return Err(CompareError::Interrupted);
-        }
+        watch.did(lane.simulation.step_number() - done)?;
     }
     lane.times.step.push(seconds / lane.simulation.step_number().max(1) as f64);
     let begin = Instant::now();
@@ -55,15 +53,15 @@ fn once(lane: &mut Lane<'_>, steps: u64, watch: &mut dyn FnMut(u64) -> bool) -> 
 
 /// Several times the same thing.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub(crate) struct Spread {
-    pub(crate) median: f64,
-    pub(crate) least: f64,
-    pub(crate) largest: f64,
+pub struct Spread {
+    pub median: f64,
+    pub least: f64,
+    pub largest: f64,
 }
 
 impl Spread {
     /// Nothing, of nothing.
-    pub(crate) fn of(values: &[f64]) -> Option<Self> {
+    pub fn of(values: &[f64]) -> Option<Self> {
         let mut sorted = values.to_vec();
         sorted.sort_by(f64::total_cmp);
         let (least, largest) = (*sorted.first()?, *sorted.last()?);

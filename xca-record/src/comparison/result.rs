@@ -5,109 +5,146 @@ use super::difference::Differences;
 use super::lane::{Check, FirstDifference, Lane, Times};
 use super::timing::Spread;
 use super::verdict::Verdict;
+use crate::machine;
+use crate::report::{self, Host, ModelReport};
 use serde::Serialize;
 use serde_json::{Map, Value};
 use xca_core::model::GroupKind;
 use xca_core::{GroupSnapshot, Model, Precision, Snapshot};
-use xca_record::machine;
-use xca_record::report::{self, Host, ModelReport};
 
 /// What is compared.
-#[derive(Debug, Clone, Serialize)]
-pub(crate) struct Subject {
-    pub(crate) program: String,
-    pub(crate) version: String,
-    pub(crate) title: String,
-    pub(crate) command_line: Vec<String>,
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Subject {
+    /// The commit and the compiler that the program was built of, where they are known.
+    pub commit: Option<&'static str>,
+    /// As `commit`.
+    pub compiler: Option<&'static str>,
+    /// The name of the program.
+    pub program: String,
+    /// Its version.
+    pub version: String,
+    /// What the run is called.
+    pub title: String,
+    /// The command line, if there was one.
+    pub command_line: Vec<String>,
 }
 
 /// Everything that a comparison has found.
 #[derive(Debug, Clone, Serialize)]
-pub(crate) struct Comparison {
+#[non_exhaustive]
+pub struct ComparisonReport {
     /// The version of the framework.
-    pub(crate) xca: &'static str,
-    /// The commit and the compiler that the program was built of, where they are known.
-    pub(crate) commit: Option<&'static str>,
-    pub(crate) compiler: Option<&'static str>,
+    pub xca: &'static str,
+    /// The program.
     #[serde(flatten)]
-    pub(crate) subject: Subject,
-    pub(crate) model: ModelReport,
-    pub(crate) parameters: Map<String, Value>,
-    pub(crate) host: Host,
-    pub(crate) hardware: Option<String>,
-    pub(crate) memory_bytes: Option<u64>,
-    pub(crate) peak_memory_bytes: Option<u64>,
-    pub(crate) ended: String,
-    pub(crate) seed: u64,
-    pub(crate) steps: u64,
-    pub(crate) check_every: u64,
-    pub(crate) repeats: usize,
-    pub(crate) tolerance: f64,
+    pub subject: Subject,
+    /// The shape of the model.
+    pub model: ModelReport,
+    /// Its parameters.
+    pub parameters: Map<String, Value>,
+    /// The machine.
+    pub host: Host,
+    /// Its processor.
+    pub hardware: Option<String>,
+    /// Its memory.
+    pub memory_bytes: Option<u64>,
+    /// The most memory that the process has taken.
+    pub peak_memory_bytes: Option<u64>,
+    /// When the comparison ended, in UTC.
+    pub ended: String,
+    /// The seed of random numbers.
+    pub seed: u64,
+    /// The number of steps done.
+    pub steps: u64,
+    /// How many steps from check to check.
+    pub check_every: u64,
+    /// How often each engine was timed.
+    pub repeats: usize,
+    /// How far rounded numbers may be apart, in relation to the largest value of their substate.
+    pub tolerance: f64,
     /// What is updated in a step, `cells` or `items`, and how many there are at the start.
-    pub(crate) updated: &'static str,
-    pub(crate) number: usize,
+    pub updated: &'static str,
+    /// As `updated` says.
+    pub number: usize,
     /// The worst of the engines'.
-    pub(crate) verdict: Verdict,
-    /// In the order of the command line.
-    pub(crate) engines: Vec<EngineResult>,
-    pub(crate) observables: Vec<ObservableResult>,
+    pub verdict: Verdict,
+    /// In the order in which they were added.
+    pub engines: Vec<EngineResult>,
+    /// What was observed.
+    pub observables: Vec<ObservableResult>,
     /// What is written beside this.
-    pub(crate) files: Vec<&'static str>,
+    pub files: Vec<&'static str>,
 }
 
 /// What was found of an engine.
 #[derive(Debug, Clone, Serialize)]
-pub(crate) struct EngineResult {
-    /// As on the command line.
-    pub(crate) name: String,
-    pub(crate) engine: String,
-    pub(crate) threads: usize,
-    pub(crate) precision: Precision,
-    pub(crate) device: Map<String, Value>,
+#[non_exhaustive]
+pub struct EngineResult {
+    /// What it was called when it was added.
+    pub name: String,
+    /// Its own name.
+    pub engine: String,
+    /// How many threads it uses.
+    pub threads: usize,
+    /// What `Real` was.
+    pub precision: Precision,
+    /// What it says of its device.
+    pub device: Map<String, Value>,
     /// What has to be known to judge its times or results.
-    pub(crate) note: Option<String>,
-    pub(crate) set_up_seconds: f64,
-    /// Giving it a state, and taking the state from it.
-    pub(crate) state_in_seconds: Option<Spread>,
-    pub(crate) state_out_seconds: Option<Spread>,
-    pub(crate) step_seconds: Option<Spread>,
-    pub(crate) updates_per_second: Option<f64>,
+    pub note: Option<String>,
+    /// Making it and starting the model on it.
+    pub set_up_seconds: f64,
+    /// Giving it a state.
+    pub state_in_seconds: Option<Spread>,
+    /// Taking the state from it.
+    pub state_out_seconds: Option<Spread>,
+    /// Of one step.
+    pub step_seconds: Option<Spread>,
+    /// Cells or items, as `updated` says.
+    pub updates_per_second: Option<f64>,
     /// How many times as fast as the first engine.
-    pub(crate) speed_up: Option<f64>,
-    pub(crate) state_bytes: usize,
+    pub speed_up: Option<f64>,
+    /// The bytes that its state takes.
+    pub state_bytes: usize,
     /// In relation to the first engine; of that itself only where it does not even agree with itself.
-    pub(crate) verdict: Option<Verdict>,
+    pub verdict: Option<Verdict>,
     /// Why it did not come to the end.
-    pub(crate) failure: Option<String>,
-    pub(crate) first_difference: Option<FirstDifference>,
-    pub(crate) remarks: Vec<String>,
+    pub failure: Option<String>,
+    /// Where it leaves the first engine.
+    pub first_difference: Option<FirstDifference>,
+    /// What else there is to tell.
+    pub remarks: Vec<String>,
     /// After the last step.
-    pub(crate) differences: Option<Differences>,
-    pub(crate) history: Vec<Check>,
+    pub differences: Option<Differences>,
+    /// How far it is from the first engine at each check.
+    pub history: Vec<Check>,
 }
 
 /// A quantity at the start and, on each engine, at the end.
 #[derive(Debug, Clone, Serialize)]
-pub(crate) struct ObservableResult {
-    pub(crate) name: String,
-    pub(crate) unit: String,
-    pub(crate) initial: f64,
+pub struct ObservableResult {
+    /// Its name.
+    pub name: String,
+    /// Its unit.
+    pub unit: String,
+    /// At the start.
+    pub initial: f64,
     /// Nothing where an engine did not come to the end.
     #[serde(rename = "final")]
-    pub(crate) last: Vec<Option<f64>>,
+    pub last: Vec<Option<f64>>,
     /// Of a quantity that the model keeps: how far each engine has come from its first value.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub(crate) drift: Vec<Option<f64>>,
+    pub drift: Vec<Option<f64>>,
 }
 
 impl EngineResult {
     /// A fact of its device.
-    pub(crate) fn fact(&self, name: &str) -> Option<&str> {
+    pub fn fact(&self, name: &str) -> Option<&str> {
         self.device.get(name)?.as_str()
     }
 }
 
-impl Comparison {
+impl ComparisonReport {
     pub(super) fn new(
         subject: Subject,
         plan: &Plan,
@@ -132,8 +169,6 @@ impl Comparison {
         let verdict = engines.iter().filter_map(|engine| engine.verdict).max().unwrap_or(Verdict::Identical);
         Self {
             xca: env!("CARGO_PKG_VERSION"),
-            commit: option_env!("XCA_COMMIT"),
-            compiler: option_env!("XCA_COMPILER"),
             subject,
             model: report::of_model(model),
             parameters: report::of_parameters(model.parameters()),
@@ -152,17 +187,17 @@ impl Comparison {
             verdict,
             engines,
             observables,
-            files: super::report::files().collect(),
+            files: Vec::new(),
         }
     }
 
     /// Whether an engine ever differed.
-    pub(crate) fn differs(&self) -> bool {
+    pub fn differs(&self) -> bool {
         self.verdict != Verdict::Identical
     }
 
     /// The first engine, which the others are compared with.
-    pub(crate) fn first_name(&self) -> &str {
+    pub fn first_name(&self) -> &str {
         self.engines.first().map_or("", |engine| &engine.name)
     }
 }

@@ -6,6 +6,7 @@ mod pairs;
 mod tests;
 
 use super::verdict::Verdict;
+use crate::components::{state_names, text};
 use numbers::Numbers;
 use pairs::Pairs;
 use serde::Serialize;
@@ -13,28 +14,27 @@ use std::fmt;
 use std::ops::Range;
 use xca_core::model::Group;
 use xca_core::{GroupSnapshot, Model, Precision, ScalarType, Snapshot, ValueType};
-use xca_record::components::{state_names, text};
 
 /// A state with what its `Real` is.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Side<'a> {
-    pub(crate) snapshot: &'a Snapshot,
-    pub(crate) precision: Precision,
+pub struct Side<'a> {
+    pub snapshot: &'a Snapshot,
+    pub precision: Precision,
 }
 
 /// How two states differ.
 #[derive(Debug, Clone, Serialize)]
-pub(crate) struct Differences {
+pub struct Differences {
     /// All substates, then the cells of the items of each population, then the parameters that differ.
-    pub(crate) substates: Vec<Difference>,
+    pub substates: Vec<Difference>,
     /// What differs beside: the number of steps, items that have left.
-    pub(crate) remarks: Vec<String>,
+    pub remarks: Vec<String>,
 }
 
 /// What kind of values a difference is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub(crate) enum Kind {
+pub enum Kind {
     /// Floating numbers, which may be rounded.
     Float,
     /// Whole numbers, which may not.
@@ -45,48 +45,48 @@ pub(crate) enum Kind {
 
 /// How the values of one substate differ. Values of different precision are compared in the coarser one.
 #[derive(Debug, Clone, Serialize)]
-pub(crate) struct Difference {
+pub struct Difference {
     /// `Struct.field`.
-    pub(crate) substate: String,
-    pub(crate) kind: Kind,
+    pub substate: String,
+    pub kind: Kind,
     /// How many scalars were compared; a vector has several.
-    pub(crate) values: usize,
+    pub values: usize,
     /// How many of them have other bits.
-    pub(crate) different: usize,
+    pub different: usize,
     /// How many items are in one state only.
-    pub(crate) unmatched: usize,
+    pub unmatched: usize,
     /// The largest absolute difference. Infinite, in JSON null, where one of two values is not finite.
-    pub(crate) largest_absolute: f64,
+    pub largest_absolute: f64,
     /// The largest difference in relation to the larger of the two values.
-    pub(crate) largest_relative: f64,
+    pub largest_relative: f64,
     /// The largest number of representable values from one to the other; for floating numbers only.
-    pub(crate) largest_ulp: Option<u64>,
+    pub largest_ulp: Option<u64>,
     /// The root of the mean square of all differences.
-    pub(crate) rms: f64,
+    pub rms: f64,
     /// The largest magnitude of the first state's values, which the others are measured by.
-    pub(crate) scale: f64,
+    pub scale: f64,
     /// Where the absolute difference is largest.
-    pub(crate) worst: Option<Worst>,
+    pub worst: Option<Worst>,
     /// Of a vector or an array, the components that differ, each as a substate of its own
     /// (`Lava.outflow[3]`).
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub(crate) components: Vec<Self>,
+    pub components: Vec<Self>,
 }
 
 /// A value that differs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(crate) struct Worst {
-    pub(crate) place: Place,
+pub struct Worst {
+    pub place: Place,
     /// The number of the component among those that were compared.
     #[serde(skip)]
     number: usize,
     /// What follows the name of the substate in that of the component: `.x`, `[3]`; nothing for a scalar.
-    pub(crate) component: String,
-    pub(crate) first: f64,
-    pub(crate) other: f64,
+    pub component: String,
+    pub first: f64,
+    pub other: f64,
     /// The names of the two values, where they are states or `bool`.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) states: Option<[String; 2]>,
+    pub states: Option<[String; 2]>,
 }
 
 impl Worst {
@@ -98,7 +98,7 @@ impl Worst {
 /// Where a value is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub(crate) enum Place {
+pub enum Place {
     /// In a cell with these indices.
     Cell([usize; 3]),
     /// In the item with this label.
@@ -138,21 +138,21 @@ impl Difference {
     }
 
     /// This, and then its components that differ.
-    pub(crate) fn with_components(&self) -> impl Iterator<Item = &Self> {
+    pub fn with_components(&self) -> impl Iterator<Item = &Self> {
         std::iter::once(self).chain(&self.components)
     }
 
     /// The share of identical bits, from 0 to 1.
-    pub(crate) fn identical_share(&self) -> f64 {
+    pub fn identical_share(&self) -> f64 {
         if self.values == 0 { 1.0 } else { 1.0 - self.different as f64 / self.values as f64 }
     }
 
-    pub(crate) fn is_identical(&self) -> bool {
+    pub fn is_identical(&self) -> bool {
         self.different == 0 && self.unmatched == 0
     }
 
     /// The root mean square in relation to the largest value.
-    pub(crate) fn relative_rms(&self) -> f64 {
+    pub fn relative_rms(&self) -> f64 {
         if self.rms == 0.0 { 0.0 } else { self.rms / self.scale.max(f64::MIN_POSITIVE) }
     }
 
@@ -237,7 +237,7 @@ impl Difference {
 
 impl Differences {
     /// How the second state differs from the first.
-    pub(crate) fn between(model: &Model, first: Side<'_>, other: Side<'_>) -> Self {
+    pub fn between(model: &Model, first: Side<'_>, other: Side<'_>) -> Self {
         let mut differences = Self { substates: Vec::new(), remarks: Vec::new() };
         differences.remark("steps done", first.snapshot.step, other.snapshot.step);
         if first.snapshot.stop != other.snapshot.stop {
@@ -316,13 +316,13 @@ impl Differences {
         }
     }
 
-    pub(crate) fn is_identical(&self) -> bool {
+    pub fn is_identical(&self) -> bool {
         self.verdict(0.0) == Verdict::Identical
     }
 
     /// What is to be thought of the second state, where floating numbers may differ by so much in relation to the largest value of their
     /// substate.
-    pub(crate) fn verdict(&self, tolerance: f64) -> Verdict {
+    pub fn verdict(&self, tolerance: f64) -> Verdict {
         if !self.remarks.is_empty() {
             return Verdict::Different;
         }
@@ -338,7 +338,7 @@ impl Differences {
     }
 
     /// The difference to name first: the one that is largest in relation to the values of its substate.
-    pub(crate) fn gravest(&self) -> Option<&Difference> {
+    pub fn gravest(&self) -> Option<&Difference> {
         let measure = |difference: &Difference| match difference.kind {
             Kind::Cell => 0.0,
             _ => difference.largest_absolute / difference.scale.max(f64::MIN_POSITIVE),
