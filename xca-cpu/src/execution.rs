@@ -7,6 +7,7 @@ use crate::migration;
 use crate::population::Population;
 use crate::rows::{self, Group};
 use crate::stages::{Stage, stages};
+use crate::threads::Threads;
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Arc;
@@ -23,7 +24,7 @@ use xca_core::{Model, Precision, ProcessKind, StoredType};
 pub(crate) struct CpuExecution {
     model: Model,
     precision: Precision,
-    pool: Arc<rayon::ThreadPool>,
+    threads: Threads,
     layout: Layout,
     groups: Vec<Group>,
     /// The stages of a step in which every process is due.
@@ -31,19 +32,14 @@ pub(crate) struct CpuExecution {
 }
 
 impl CpuExecution {
-    pub(crate) fn new(
-        model: &Model,
-        precision: Precision,
-        pool: Arc<rayon::ThreadPool>,
-    ) -> Result<Self, StartError> {
+    pub(crate) fn new(model: &Model, precision: Precision, threads: Threads) -> Result<Self, StartError> {
         let layout = Layout::new(model.geometry());
         check_size(model, &layout, precision)?;
         let groups = model.groups().iter().enumerate();
-        let groups = pool.install(|| {
-            groups.map(|(number, group)| state(model, number, group, &layout, precision)).collect()
-        });
+        let groups = threads
+            .run(|| groups.map(|(number, group)| state(model, number, group, &layout, precision)).collect());
         let stages = stages(model, 0..model.processes().len());
-        Ok(Self { model: model.clone(), precision, pool, layout, groups, stages })
+        Ok(Self { model: model.clone(), precision, threads, layout, groups, stages })
     }
 
     fn run_stage(&mut self, stage: &[usize], context: &StepContext<'_>) -> Result<(), Fault> {
@@ -117,9 +113,8 @@ impl Execution for CpuExecution {
         let whole = processes == (0..all.len()) && all.iter().all(|process| process.is_due(context.step));
         let due = processes.filter(|number| all[*number].is_due(context.step));
         let stages = if whole { self.stages.clone() } else { stages(&self.model, due) };
-        // Parallel iterators run on the pool that they are started in.
-        let pool = Arc::clone(&self.pool);
-        pool.install(|| stages.iter().try_for_each(|stage| self.run_stage(stage, context)))
+        let threads = self.threads.clone();
+        threads.run(|| stages.iter().try_for_each(|stage| self.run_stage(stage, context)))
     }
 
     fn run_steps(&mut self, steps: u64, context: &StepContext<'_>) -> Result<(), Interruption> {
@@ -183,7 +178,7 @@ impl Execution for CpuExecution {
     fn set_population(&mut self, group: usize, items: &Items) -> Result<(), Fault> {
         check_population(&self.model, self.precision, group, items)?;
         if let Group::Population(population) = &mut self.groups[group] {
-            self.pool.install(|| population.set(&self.layout, items));
+            self.threads.run(|| population.set(&self.layout, items));
         }
         Ok(())
     }
@@ -239,7 +234,7 @@ impl Execution for CpuExecution {
             rows.clone().for_each(|number| row(number, &mut results));
             results
         };
-        let parts: Vec<Vec<Reduced>> = self.pool.install(|| {
+        let parts: Vec<Vec<Reduced>> = self.threads.run(|| {
             let populations: Vec<&Population> = match &self.groups[substate.group] {
                 Group::Cells(_) => Vec::new(),
                 Group::Population(population) => vec![population],
@@ -251,7 +246,7 @@ impl Execution for CpuExecution {
     }
 
     fn workers(&self) -> Option<Arc<dyn Workers>> {
-        Some(Arc::new(Pool(Arc::clone(&self.pool))))
+        Some(Arc::new(self.threads.clone()))
     }
 
     fn memory(&self) -> usize {
@@ -262,14 +257,5 @@ impl Execution for CpuExecution {
                 Group::Population(population) => population.memory(),
             })
             .sum()
-    }
-}
-
-/// The engine's threads.
-struct Pool(Arc<rayon::ThreadPool>);
-
-impl Workers for Pool {
-    fn run(&self, work: &mut (dyn FnMut() + Send)) {
-        self.0.install(work);
     }
 }

@@ -15,18 +15,19 @@ mod population;
 mod rows;
 mod slack;
 mod stages;
+mod threads;
 
 use execution::CpuExecution;
 use layout::Layout;
 use std::fmt;
-use std::sync::Arc;
+use threads::Threads;
 use xca_core::engine::{Engine, Execution, StartError};
 use xca_core::{Model, Precision};
 
 /// The engine for all cores.
 #[derive(Clone)]
 pub struct Cpu {
-    pool: Arc<rayon::ThreadPool>,
+    own: Threads,
 }
 
 impl Cpu {
@@ -65,7 +66,7 @@ impl Cpu {
             .thread_name(|number| format!("xca-cpu-{number}"))
             .build()
             .map_err(|source| CpuError::Threads { threads, source })?;
-        Ok(Self { pool: Arc::new(pool) })
+        Ok(Self { own: Threads::new(pool) })
     }
 }
 
@@ -103,7 +104,7 @@ impl Engine for Cpu {
     }
 
     fn threads(&self) -> usize {
-        self.pool.current_num_threads()
+        self.own.count()
     }
 
     fn least_memory(&self, model: &Model, precision: Precision) -> u128 {
@@ -111,7 +112,7 @@ impl Engine for Cpu {
     }
 
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {
-        Ok(Box::new(CpuExecution::new(model, precision, Arc::clone(&self.pool))?))
+        Ok(Box::new(CpuExecution::new(model, precision, self.own.clone())?))
     }
 }
 
