@@ -28,6 +28,8 @@ use xca_io::atomic::{WriteError, write_atomically};
 pub const MEMBERS: &str = "members.csv";
 /// The file that has mean and spread over the seeds.
 pub const SUMMARY: &str = "summary.csv";
+/// The file in which the command line draws them.
+const PAGE: &str = "summary.html";
 
 /// Many runs of a model: all combinations of the values of some parameters, each with some seeds.
 ///
@@ -344,7 +346,7 @@ impl Ensemble {
             let is_own = told.ensemble == plan && told.program == self.identity.program;
             return if is_own { Ok(folder) } else { Err(other()) };
         }
-        let files = [MEMBERS, SUMMARY].map(str::to_owned);
+        let files = [MEMBERS, SUMMARY, PAGE].map(str::to_owned);
         let folder =
             LockedFolder::prepare(path, &Claim { kind: Kind::Ensemble, files: &files, inputs: &[] })?;
         let Identity { program, version, .. } = self.identity.clone();

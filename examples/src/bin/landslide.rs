@@ -71,6 +71,10 @@ struct Landslide {
     /// The debris: an ESRI ASCII grid of its thickness, in m, of the same cells as the ground; no value is 0 m
     #[arg(long, value_name = "FILE", requires = "dem")]
     debris: Option<PathBuf>,
+    /// Where debris was found afterwards: an ESRI ASCII grid of its thickness, in m, of the same cells as the ground. The observable
+    /// `fitness` then tells how well the debris of the run lies on it: 1 where both cover the same cells, 0 where none
+    #[arg(long, value_name = "FILE")]
+    observed: Option<PathBuf>,
     /// Stop when no cell sends more than this to a neighbour in a step, in m; never where it is below 0
     #[arg(long, value_name = "METRES", default_value_t = 1e-4, value_parser = number_in(..))]
     until: f64,
@@ -138,6 +142,25 @@ impl Terrain {
     }
 }
 
+/// Debris that is thinner, in m, does not count as such.
+const TRACE: f64 = 1e-3;
+
+/// The cells in which debris was found.
+fn read_observed(path: &Path, map: &Map) -> Result<Vec<bool>, Failure> {
+    let found = AsciiGrid::read(path)?;
+    map.check(path, found.placement(), found.values(), "the ground")?;
+    Ok(found.values().iter().map(|metres| *metres > TRACE).collect())
+}
+
+/// The root of the area that a run and the observation share, divided by the area that either covers: the measure by which SCIDDICA was
+/// calibrated (D'Ambrosio, Spataro and Iovine 2006).
+fn fitness(thickness: &[f64], observed: &[bool]) -> f64 {
+    let cells = || thickness.iter().map(|metres| *metres > TRACE).zip(observed.iter().copied());
+    let shared = cells().filter(|(run, found)| *run && *found).count();
+    let either = cells().filter(|(run, found)| *run || *found).count();
+    if either == 0 { 1.0 } else { (shared as f64 / either as f64).sqrt() }
+}
+
 impl Program for Landslide {
     const NAME: &'static str = "landslide";
     const ABOUT: &'static str =
@@ -153,6 +176,8 @@ impl Program for Landslide {
         };
         let ([columns, rows], side, until) = (terrain.ground.extents(), terrain.ground.side(), self.until);
         let (map, files) = (Map::from(&terrain.ground), terrain.files.clone());
+        let observed = self.observed.as_deref().map(|path| read_observed(path, &map)).transpose()?;
+        let files = files.into_iter().chain(self.observed.clone());
         let edge = map.edge();
         let outside = Slope { altitude: WALL, thickness: 0.0, outflow: [0.0; SIDES] };
         let debris = Debris { adherence: 1.0, rate: 0.5 };
@@ -179,18 +204,21 @@ impl Program for Landslide {
             let covered = state.count_where(|slope: &Slope| slope.thickness > adherence)?;
             let area = covered as f64 * side * side;
             let at_edge = edge.iter().filter(|cell| thickness[**cell] > 0.0).count();
-            Ok(vec![
+            let fitness = observed.as_ref().map(|observed| fitness(&thickness, observed));
+            let fitness = fitness.map(|fitness| Observable::number("fitness", fitness));
+            let observables = vec![
                 Observable::new("volume", "m^3", state.sum(Slope::THICKNESS)? * side * side).conserved(),
                 Observable::new("covered_area", "m^2", area),
                 Observable::new("front_from_south", "m", front as f64 * side),
                 Observable::new("largest_thickness", "m", state.maximum(Slope::THICKNESS)?.unwrap_or(0.0)),
                 Observable::new("debris_at_edge", "cells", at_edge as f64),
-            ])
+            ];
+            Ok(observables.into_iter().chain(fitness).collect())
         };
         let view = CellView::named("landslide").draw(Slope::THICKNESS, "thickness of the debris (m)");
         let view = view.relief(Slope::ALTITUDE, 0.0);
         let set_up = SetUp::new(model, 4000).observables(observe).cells(view).map(map);
-        Ok(files.into_iter().fold(set_up, SetUp::input))
+        Ok(files.fold(set_up, SetUp::input))
     }
 }
 

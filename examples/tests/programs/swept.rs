@@ -37,6 +37,30 @@ fn a_member_is_what_a_run_with_its_options_gives() {
     assert_eq!(rows(&place, "out/landslide-sweep/summary.csv").len(), 7);
 }
 
+/// A run with known parameters leaves a map; the sweep that is told of this map finds the parameters again.
+#[test]
+fn a_parameter_is_fitted_to_a_known_final_map() {
+    let place = Workplace::new();
+    place.succeed(LANDSLIDE, "--set adherence=0.8 --steps 200 --every 200 --out known");
+    place.succeed(LANDSLIDE, "--steps 0 --out ground");
+    let map = "--dem ground/final_altitude.asc --debris ground/final_thickness.asc";
+    let observed = "--observed known/final_thickness.asc --steps 200 --maximise fitness";
+    let said =
+        told(place.invocation(LANDSLIDE, &format!("sweep --set adherence=0.4..1.2:5 {map} {observed}")));
+    assert!(said.contains("largest fitness: 1 with adherence=0.8, seed 1\n"), "{said}");
+    let members = rows(&place, "out/landslide-sweep/members.csv");
+    let column = members[0].iter().position(|name| name == "fitness").unwrap();
+    let fitness: Vec<f64> = members[1..].iter().map(|row| row[column].parse().unwrap()).collect();
+    assert!(fitness.windows(2).take(2).all(|pair| pair[0] < pair[1]), "{fitness:?}");
+    assert!(fitness.windows(2).skip(2).all(|pair| pair[0] > pair[1]), "{fitness:?}");
+    let page = place.read("out/landslide-sweep/summary.html");
+    assert!(page.contains("<figcaption>fitness</figcaption>") && page.contains(">adherence<"), "{page}");
+    let output =
+        place.invocation(LANDSLIDE, "sweep --steps 1 --maximise beauty --out other").output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(said.contains("no run observes `beauty`; there are volume, covered_area"), "{said}");
+}
+
 #[test]
 fn a_sweep_that_was_killed_goes_on() {
     let place = Workplace::new();

@@ -76,7 +76,7 @@ impl LockedFolder {
     }
 
     /// The folder of a command that goes on in it.
-    pub(crate) fn again(path: &Path) -> Result<Self, FolderError> {
+    pub fn again(path: &Path) -> Result<Self, FolderError> {
         let folder = Self::open(path)?;
         remove_leftovers(path);
         Ok(folder)

@@ -1,5 +1,6 @@
 //! The subcommand `sweep`.
 
+mod plots;
 mod values;
 
 use super::arguments::steps;
@@ -11,12 +12,16 @@ use crate::interrupt::Interrupt;
 use crate::program::{Assignment, Given};
 use crate::progress::{Progress, duration_text};
 use clap::{Args, Command};
+use plots::PAGE;
 use serde::Serialize;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use values::{Values, ValuesError};
 use xca_core::Engine;
+use xca_io::atomic::write_atomically;
 use xca_record::machine::{check_memory, cores};
+use xca_record::record::LockedFolder;
 use xca_record::report::Identity;
 use xca_record::{
     End, Ensemble, EnsembleError, EnsembleMonitor, Failure, Finished, MEMBERS, Member, SUMMARY, SetUp,
@@ -32,7 +37,7 @@ HIGH, A|B|C are these. All combinations are run, each with so many seeds.
 
 members.csv has a row for each run: its parameters, its seed, how it ended, and
 what is observed at its end. summary.csv has mean, deviation, least and largest
-over the seeds. The same command goes on with a sweep that was interrupted or
+over the seeds; summary.html draws them. The same command goes on with a sweep that was interrupted or
 killed; runs that have failed are tried again.";
 
 /// How many failed runs are told on the terminal.
@@ -53,6 +58,10 @@ pub(super) struct SweepArguments {
     #[arg(long, value_name = "N", value_parser = steps)]
     steps: Option<u64>,
 
+    /// Tell which runs have the largest value of an observable at their end
+    #[arg(long, value_name = "OBSERVABLE")]
+    maximise: Option<String>,
+
     /// The folder of the tables; out/NAME-sweep unless it is given
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -68,7 +77,7 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
     let examples = [
         format!("{name} sweep --seeds 10"),
         format!("{name} sweep --set NAME=0.1..0.5:20 --seeds 10 --jobs 4"),
-        format!("{name} sweep --set 'NAME=0.1|0.2|0.5' --set OTHER=3"),
+        format!("{name} sweep --set 'NAME=0.1|0.2|0.5' --set OTHER=3 --maximise OBSERVABLE"),
     ];
     with_help(command, ABOUT, &examples).long_about(format!("{ABOUT}.\n\n{FILES}"))
 }
@@ -81,6 +90,8 @@ struct Told<'a> {
     done: usize,
     failed: usize,
     seconds: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    best: Option<&'a Best>,
 }
 
 /// What cannot be swept.
@@ -88,6 +99,8 @@ struct Told<'a> {
 enum SweepError {
     #[error(transparent)]
     Values(#[from] ValuesError),
+    #[error("no run observes `{wanted}`; there are {known}")]
+    NoObservable { wanted: String, known: String },
     #[error("{failed} of {all} runs failed; {} says why", table.display())]
     Failed { failed: usize, all: usize, table: PathBuf },
 }
@@ -167,6 +180,9 @@ pub(super) fn sweep(
     let finished = result.map_err(not_run)?;
     let failed: Vec<&Finished> =
         finished.iter().filter(|finished| matches!(finished.end, End::Failed(_))).collect();
+    write_page(&folder, &format!("{}: a sweep", definition.name), &finished)?;
+    let best = arguments.maximise.as_deref().map(|observable| best(&finished, observable));
+    let best = best.transpose().map_err(Unable::failed)?.flatten();
     let seconds = begin.elapsed();
     let told = Told {
         folder: &folder,
@@ -174,11 +190,14 @@ pub(super) fn sweep(
         done: finished.len() - failed.len(),
         failed: failed.len(),
         seconds: seconds.as_secs_f64(),
+        best: best.as_ref(),
     };
     arguments.voice.tell(&told, || {
         let mut text = failed.iter().take(TOLD).map(|failed| told_of(failed)).collect::<String>();
         let (done, wall) = (told.done, duration_text(seconds));
-        text += &format!("{done} of {all} runs in {wall}\n{}: {MEMBERS}, {SUMMARY}", folder.display());
+        text += &best.iter().map(Best::told).collect::<String>();
+        text +=
+            &format!("{done} of {all} runs in {wall}\n{}: {MEMBERS}, {SUMMARY}, {PAGE}", folder.display());
         text
     })?;
     if finished.len() < all {
@@ -188,6 +207,54 @@ pub(super) fn sweep(
         return Ok(Ended::Done);
     }
     Err(Unable::failed(SweepError::Failed { failed: failed.len(), all, table: folder.join(MEMBERS) }))
+}
+
+/// The run with the largest value of an observable.
+#[derive(Serialize)]
+struct Best {
+    observable: String,
+    value: f64,
+    member: Member,
+    /// How many runs have it.
+    runs: usize,
+}
+
+impl Best {
+    fn told(&self) -> String {
+        let Self { observable, value, member, runs } = self;
+        let parameters = member.parameters.iter();
+        let parameters: String = parameters.map(|own| format!("{}={}, ", own.parameter, own.value)).collect();
+        let others = if *runs > 1 { format!(" (the first of {runs})") } else { String::new() };
+        format!("largest {observable}: {value} with {parameters}seed {}{others}\n", member.seed)
+    }
+}
+
+/// The first of the runs with the largest value; none where no run has a number.
+fn best(finished: &[Finished], observable: &str) -> Result<Option<Best>, SweepError> {
+    let observed = finished.iter().find(|row| !row.observables.is_empty());
+    let names: Vec<&str> =
+        observed.iter().flat_map(|row| &row.observables).map(|known| known.name.as_str()).collect();
+    let Some(number) = names.iter().position(|name| *name == observable) else {
+        let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+        return Err(SweepError::NoObservable { wanted: observable.to_owned(), known });
+    };
+    let value = |row: &Finished| row.observables.get(number).map(|it| it.value).filter(|it| it.is_finite());
+    let Some(largest) = finished.iter().filter_map(value).reduce(f64::max) else { return Ok(None) };
+    let mut with_it = finished.iter().filter(|row| value(row) == Some(largest));
+    let first = with_it.next();
+    Ok(first.map(|first| Best {
+        observable: observable.to_owned(),
+        value: largest,
+        member: first.member.clone(),
+        runs: 1 + with_it.count(),
+    }))
+}
+
+/// Draws mean and spread, where a parameter was swept.
+fn write_page(folder: &Path, title: &str, finished: &[Finished]) -> Result<(), Unable> {
+    let Some(page) = plots::page(title, finished).map_err(Unable::Failed)? else { return Ok(()) };
+    let folder = LockedFolder::again(folder).map_err(Unable::failed)?;
+    write_atomically(&folder.top.file(PAGE), |file| file.write_all(page.as_bytes())).map_err(Unable::failed)
 }
 
 /// The parameters that take many values, and those that take one.

@@ -76,7 +76,7 @@ fn can_be_made(name: &str, kind: Kind, others: &[String]) -> bool {
     }
     match kind {
         Kind::Comparison => COMPARISON_FILES.contains(&name),
-        Kind::Ensemble => [MEMBERS, SUMMARY].contains(&name),
+        Kind::Ensemble => [MEMBERS, SUMMARY, "summary.html"].contains(&name),
         Kind::Pictures => {
             matches!(name, "animation.png" | "animation.gif")
                 || shape(name) == Some(Shape { moment: Moment::Each, extension: "png" })
