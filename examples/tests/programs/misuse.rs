@@ -134,7 +134,7 @@ fn faults_end_a_run_that_has_begun() {
     let place = Workplace::new();
     place.write("fast.csv", &format!("{HEADER}7,0.01,0.01,0.01,1e6,0,0\n"));
     let said = place.fail(1, CADEM, "--particles fast.csv --steps 3");
-    assert!(said.contains("error: step 1: a particle moves further than the side of a cell"), "{said}");
+    assert!(said.contains("error: step 1: a particle moves further than its radius"), "{said}");
     assert!(said.contains("item 7 in cell [5, 5, 5]") && said.contains("is in out/cadem"), "{said}");
     // A third particle falls into a cell on the floor, where the floor takes one of three slots.
     let rows = "1,0.0105,0.0105,0.0006,0,0,0\n2,0.0115,0.0115,0.0006,0,0,0\n3,0.011,0.011,0.0025,0,0,-1\n";
