@@ -27,7 +27,7 @@ fn length([x, y, z]: [f64; 3]) -> f64 {
 impl Pair {
     /// A pair that is out of contact and flies apart or towards each other, up to so far in a step.
     fn random(numbers: &mut Numbers, diameter: f64, furthest: f64, time_step: f64) -> Self {
-        let middle = [0.02; 3];
+        let middle = [0.01; 3];
         let aside = numbers.vector(0.7 * diameter);
         loop {
             let half = numbers.vector(2.0 * diameter);
@@ -70,7 +70,7 @@ enum Fate {
 }
 
 fn fate(pair: &Pair) -> Result<Fate, Box<dyn std::error::Error>> {
-    let mut simulation = start(&weightless([20; 3]), pair.particles())?;
+    let mut simulation = start(&weightless([10; 3]), pair.particles())?;
     match simulation.run(STEPS) {
         Err(RunError::Fault { fault: Fault::Reported { code: processes::TOO_FAST, .. }, .. }) => {
             return Ok(Fate::TooFast);
@@ -85,11 +85,11 @@ fn fate(pair: &Pair) -> Result<Fate, Box<dyn std::error::Error>> {
 
 #[test]
 fn no_pair_passes_unseen() -> TestResult {
-    let material = weightless([20; 3]).material();
+    let material = weightless([10; 3]).material();
     let (diameter, time_step) = (2.0 * material.radius, material.time_step);
     let mut numbers = Numbers::new(7);
     let mut fates = [0; 3];
-    for number in 0..1500 {
+    for number in 0..300 {
         let furthest = if number % 3 == 0 { 1.5 * diameter } else { material.radius };
         let pair = Pair::random(&mut numbers, diameter, furthest, time_step);
         // The last positions have not pushed anyone yet.
@@ -104,7 +104,7 @@ fn no_pair_passes_unseen() -> TestResult {
         fates[fate as usize] += 1;
     }
     // Each kind was really there.
-    assert!(fates.iter().all(|count| *count > 100), "{fates:?}");
+    assert!(fates.iter().all(|count| *count > 30), "{fates:?}");
     Ok(())
 }
 
@@ -112,7 +112,7 @@ fn no_pair_passes_unseen() -> TestResult {
 #[test]
 fn a_pair_at_full_speed_head_on_is_too_fast() -> TestResult {
     let pair = Pair {
-        positions: [[0.0194, 0.021, 0.021], [0.0205, 0.021, 0.021]],
+        positions: [[0.0094, 0.011, 0.011], [0.0105, 0.011, 0.011]],
         velocities: [[100.0, 0.0, 0.0], [-100.0, 0.0, 0.0]],
     };
     assert_eq!(fate(&pair)?, Fate::TooFast);
