@@ -209,3 +209,17 @@ fn help_is_there_for_everyone() {
         assert_eq!(Command::new(program).output().unwrap().status.code(), Some(2));
     }
 }
+
+#[test]
+fn warnings_are_printed_also_where_nothing_else_is() {
+    let place = Workplace::new();
+    let wanted = "warning: a contact takes 5.0 steps, and fewer than 20 give it a wrong energy; \
+                  a time step of 1.242e-5 s would do\n";
+    let output = place.run(CADEM, "--set time_step=5e-5 --steps 1 --quiet");
+    assert_eq!(String::from_utf8(output.stderr).unwrap(), wanted);
+    assert!(output.status.success() && output.stdout.is_empty());
+    let report: serde_json::Value = serde_json::from_str(&place.read("out/cadem/run.json")).unwrap();
+    assert_eq!(format!("warning: {}\n", report["warnings"][0].as_str().unwrap()), wanted);
+    let output = place.invocation(CADEM, "list --set time_step=5e-5").output().unwrap();
+    assert_eq!(String::from_utf8(output.stderr).unwrap(), wanted);
+}

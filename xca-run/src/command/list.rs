@@ -4,6 +4,7 @@ mod adapters;
 mod text;
 
 use super::parse::{Choice, with_help, with_model};
+use super::prepare::warn;
 use super::{Definition, Ended, Unable};
 use crate::engines::EngineName;
 use crate::terminal;
@@ -36,7 +37,9 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
 
 /// Tells what a program has, with the options that are given.
 pub(super) fn list(choice: &Choice<'_>, arguments: &ListArguments) -> Result<Ended, Unable> {
-    let model = choice.set_up(&choice.arguments.given(None))?.model;
+    let set_up = choice.set_up(&choice.arguments.given(None))?;
+    warn(&set_up);
+    let model = set_up.model;
     let text = if arguments.json { as_json(&model).map_err(Unable::failed)? } else { as_text(&model) };
     terminal::say(&text).map_err(Unable::failed)?;
     Ok(Ended::Done)
