@@ -9,6 +9,10 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use xca_core::Parameters;
 
+/// The least number of steps in a contact of two particles that needs no warning. The paper says 10 to 50 for a particle
+/// at a wall (eq. 3), which are 7 to 35 for two particles.
+const STEPS_OF_A_CONTACT: f64 = 20.0;
+
 /// A CADEM system: space, material, walls, and how it is integrated. [`Case`] has ready-made ones.
 ///
 /// Read from a file, what is not given is as in [`Case::Illustration`], and a name that is none of these is an error.
@@ -130,6 +134,30 @@ impl Configuration {
     pub fn authors_particles(&self) -> Result<Vec<Particle>, CademError> {
         let placed = initial::authors_placement(self.cells, self.cell_side, self.radius, self.seed)?;
         Ok(placed.into_iter().map(Particle::from).collect())
+    }
+
+    /// What makes the results of the system doubtful, in sentences: a time step that is too long for a contact.
+    ///
+    /// ```
+    /// let mut configuration = cadem::Case::Illustration.configuration();
+    /// assert!(configuration.warnings().is_empty());
+    /// configuration.set("time_step", "5e-5")?;
+    /// assert!(configuration.warnings()[0].contains("takes 5.0 steps"));
+    /// # Ok::<(), cadem::CademError>(())
+    /// ```
+    pub fn warnings(&self) -> Vec<String> {
+        let material = self.material();
+        let duration = material.contact_duration();
+        let steps = duration / material.time_step;
+        let is_short = steps < STEPS_OF_A_CONTACT;
+        let warning = || {
+            format!(
+                "a contact takes {steps:.1} steps, and fewer than {STEPS_OF_A_CONTACT} give it a wrong energy; \
+                 a time step of {:.3e} s would do",
+                duration / STEPS_OF_A_CONTACT
+            )
+        };
+        is_short.then(warning).into_iter().collect()
     }
 
     /// Checks that the system makes sense. [`crate::model()`] does it too.

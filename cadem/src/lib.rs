@@ -54,7 +54,7 @@
 //! touches.
 //!
 //! # What stops a run
-//! A cell that would hold more than N items; a particle that moves further than the side of a cell in one step, so that it could pass
+//! A cell that would hold more than N items; a particle that moves further than its radius in one step, so that it could pass
 //! another unseen ([`processes::TOO_FAST`]); a velocity that is no number ([`processes::NOT_A_NUMBER`]); a particle that leaves the
 //! domain where no [`Opening`] is ([`processes::THROUGH_WALL`]). No particle is ever dropped. The error names step, cell and particle.
 //!

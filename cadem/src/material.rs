@@ -1,6 +1,7 @@
 //! The parameters: P of De Rango et al., section II.C.
 
 use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
 use xca_core::prelude::*;
 
 /// What particles and walls are made of, and the step in time: the parameters of the processes.
@@ -28,4 +29,15 @@ pub struct Material {
     /// The time step dt.
     #[parameter(unit = "s", range = ..f64::INFINITY, positive)]
     pub time_step: Real,
+}
+
+impl Material {
+    /// How long two particles are in contact when they collide, in s: pi / w with w^2 = k_n / m_eff - b^2, where m_eff is m / 2
+    /// and b is eta / (2 m_eff). Damping that lets them creep apart counts as none.
+    pub fn contact_duration(&self) -> f64 {
+        let effective_mass = self.mass / 2.0;
+        let undamped = self.stiffness / effective_mass;
+        let square = undamped - (self.damping / (2.0 * effective_mass)).powi(2);
+        PI / if square > 0.0 { square } else { undamped }.sqrt()
+    }
 }

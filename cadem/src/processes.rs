@@ -16,7 +16,7 @@ use crate::material::Material;
 use crate::substates::{BOUNDARY, Dem, PARTICLE};
 use xca_core::prelude::*;
 
-/// The code of the fault that a particle moves further than the side of a cell in one step; the value is its speed, in m/s.
+/// The code of the fault that a particle moves further than its radius in one step; the value is its speed, in m/s.
 pub const TOO_FAST: u32 = 1;
 
 /// The code of the fault that a velocity is no number.
@@ -102,16 +102,21 @@ pub fn guard_walls(me: &mut Slot<Dem>, p: &Material, space: &Space) {
 
 /// sigma_4, the position: x' = x + v dt (eq. 4), with the velocity that it finds.
 ///
-/// After [`accelerate`] that is semi-implicit Euler, before it the explicit form as printed. A particle that would move further than the
-/// side of a cell could pass others unseen: that is the fault [`TOO_FAST`]; a velocity that is no number is [`NOT_A_NUMBER`].
+/// After [`accelerate`] that is semi-implicit Euler, before it the explicit form as printed.
+///
+/// A particle that would move further than its radius is the fault [`TOO_FAST`]. So two particles come nearer to each other
+/// by at most a diameter d in a step. The straight way between two places outside of a sphere of radius d keeps
+/// sqrt(3) / 2 d from its centre where it is no longer than d: any closer approach is a contact at the end of a step.
+///
+/// A velocity that is NaN is the fault [`NOT_A_NUMBER`].
 #[elementary_process]
-pub fn displace(me: &mut Slot<Dem>, p: &Material, space: &Space) {
+pub fn displace(me: &mut Slot<Dem>, p: &Material) {
     if me.id != PARTICLE {
         return;
     }
     let displacement = me.velocity * p.time_step;
     let square = displacement.length_squared();
-    let limit = space.side() * space.side();
+    let limit = p.radius * p.radius;
     if square > limit {
         me.fault(TOO_FAST, me.velocity.length());
     } else if !(square <= limit) {

@@ -174,6 +174,8 @@ impl Simulation {
             step: self.step,
             operation,
             stop: &mut self.stop,
+            reduced_nan: std::cell::Cell::new(false),
+            undecided: false,
         }
     }
 
@@ -182,8 +184,11 @@ impl Simulation {
             if due(&self.model.steering()[index].schedule) {
                 let operation = self.model.steering()[index].operation.clone();
                 let step = self.step;
-                operation(&mut self.state_for(index as u32))
-                    .map_err(|source| RunError::Steering { step, source })?;
+                let mut state = self.state_for(index as u32);
+                operation(&mut state).map_err(|source| RunError::Steering { step, source })?;
+                if state.undecided {
+                    self.expect_finite()?;
+                }
             }
         }
         Ok(())
@@ -194,9 +199,15 @@ impl Simulation {
         if !self.model.watches().iter().any(due) {
             return Ok(());
         }
+        self.expect_finite()
+    }
+
+    /// Breaks the simulation where a substate is not finite.
+    fn expect_finite(&mut self) -> Result<(), RunError> {
         let result = self.check_finite();
         if let Err(RunError::Fault { step, .. }) = &result {
             self.faulty = Some(*step);
+            self.stop = None;
         }
         result
     }

@@ -26,6 +26,10 @@ pub struct State<'a> {
     /// The number of the steering operation that has the state; for the host beyond all of them.
     pub(crate) operation: u32,
     pub(crate) stop: &'a mut Option<String>,
+    /// Whether a reduction has given NaN.
+    pub(crate) reduced_nan: std::cell::Cell<bool>,
+    /// Whether a stop criterion has asked for such a reduction.
+    pub(crate) undecided: bool,
 }
 
 /// An item of a population on the host.
@@ -294,7 +298,14 @@ impl State<'_> {
         if of_bits && matches!(scalar, StoredScalar::F32 | StoredScalar::F64) {
             return Err(StateError::BitsOfFloats(substate.name()));
         }
-        Ok(self.execution.reduce(id, reduction)?)
+        Ok(self.noted(self.execution.reduce(id, reduction)?))
+    }
+
+    /// The results of a reduction, of which a stop criterion may hear.
+    fn noted(&self, results: Vec<Reduced>) -> Vec<Reduced> {
+        let is_nan = |result: &Reduced| result.number().is_some_and(f64::is_nan);
+        self.reduced_nan.set(self.reduced_nan.get() || results.iter().any(is_nan));
+        results
     }
 
     /// The sum of a substate: in `f64`, or in `i64` of integers.

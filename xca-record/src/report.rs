@@ -44,6 +44,9 @@ pub struct Report {
     /// What the model's program adds.
     #[serde(flatten)]
     pub notes: Map<String, Value>,
+    /// What makes the results doubtful.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
     pub model: ModelReport,
     /// Where the cells lie, of a model on a map.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -102,6 +105,7 @@ impl Report {
             command_line,
             options,
             notes: set_up.notes.clone(),
+            warnings: set_up.warnings.clone(),
             model: of_model(&set_up.model),
             map: of_map(set_up),
             parameters: of_parameters(set_up.model.parameters()),

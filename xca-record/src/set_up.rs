@@ -36,6 +36,8 @@ pub struct SetUp {
     pub formats: Formats,
     /// What `run.json` tells beside options and parameters.
     pub notes: serde_json::Map<String, serde_json::Value>,
+    /// What makes results doubtful, in sentences.
+    pub warnings: Vec<String>,
 }
 
 impl SetUp {
@@ -52,6 +54,7 @@ impl SetUp {
             map: None,
             formats: Formats::default(),
             notes: serde_json::Map::new(),
+            warnings: Vec::new(),
         }
     }
 
@@ -119,6 +122,16 @@ impl SetUp {
     #[must_use]
     pub fn input(mut self, path: impl Into<PathBuf>) -> Self {
         self.inputs.push(path.into());
+        self
+    }
+
+    /// Warns of something that makes results doubtful but does not forbid the run, such as a large time step.
+    ///
+    /// A program prints it on stderr at the start, also with `--quiet`; `run.json` keeps it in `warnings`. Say what is
+    /// wrong, with the number, and what would do.
+    #[must_use]
+    pub fn warning(mut self, text: impl Into<String>) -> Self {
+        self.warnings.push(text.into());
         self
     }
 

@@ -145,3 +145,48 @@ fn a_file_with_an_unknown_name_is_refused() {
         assert!(error.contains(known), "{error}");
     }
 }
+
+#[test]
+fn a_time_step_that_is_too_long_for_a_contact_is_warned_of() {
+    for case in Case::ALL {
+        assert_eq!(case.configuration().warnings(), Vec::<String>::new(), "{case}");
+    }
+    // The numbers of the paper's benchmark, as docs/cadem.md has them.
+    let duration = table1().material().contact_duration();
+    assert!((duration / 2.483649e-4 - 1.0).abs() < 1e-6, "{duration}");
+    let slow = Configuration { time_step: TimeStep::Seconds(2.483649e-5), ..table1() };
+    assert_eq!(
+        slow.warnings(),
+        [
+            "a contact takes 10.0 steps, and fewer than 20 give it a wrong energy; a time step of 1.242e-5 s would do"
+        ]
+    );
+    let advised = Configuration { time_step: TimeStep::Seconds(1.2415e-5), ..table1() };
+    assert!(advised.warnings().is_empty());
+}
+
+/// The largest error of the kinetic energy after an undamped contact of about so many steps.
+fn energy_error(steps: f64) -> f64 {
+    let mut largest = 0.0_f64;
+    for part in -10..=10 {
+        let frequency = std::f64::consts::PI / (steps + f64::from(part) / 20.0);
+        for phase in 0..400 {
+            let (mut overlap, mut speed) = (1e-12 + f64::from(phase) / 400.0, 1.0_f64);
+            while overlap > 0.0 {
+                speed -= frequency * frequency * overlap;
+                overlap += speed;
+            }
+            largest = largest.max((speed * speed - 1.0).abs());
+        }
+    }
+    largest
+}
+
+/// The table of docs/cadem.md.
+#[test]
+fn energy_errors_fall_with_the_steps_of_a_contact() {
+    for (steps, percent) in [(5.0, 13.4), (10.0, 2.8), (20.0, 0.65), (50.0, 0.1)] {
+        let found = 100.0 * energy_error(steps);
+        assert!((found / percent - 1.0).abs() < 0.03, "{steps} steps: {found} %");
+    }
+}

@@ -138,7 +138,7 @@ fn faults_end_a_run_that_has_begun() {
     let place = Workplace::new();
     place.write("fast.csv", &format!("{HEADER}7,0.01,0.01,0.01,1e6,0,0\n"));
     let said = place.fail(1, CADEM, "--particles fast.csv --steps 3");
-    assert!(said.contains("error: step 1: a particle moves further than the side of a cell"), "{said}");
+    assert!(said.contains("error: step 1: a particle moves further than its radius"), "{said}");
     assert!(said.contains("item 7 in cell [5, 5, 5]") && said.contains("is in out/cadem"), "{said}");
     // A third particle falls into a cell on the floor, where the floor takes one of three slots.
     let rows = "1,0.0105,0.0105,0.0006,0,0,0\n2,0.0115,0.0115,0.0006,0,0,0\n3,0.011,0.011,0.0025,0,0,-1\n";
@@ -212,4 +212,18 @@ fn help_is_there_for_everyone() {
         }
         assert_eq!(Command::new(program).output().unwrap().status.code(), Some(2));
     }
+}
+
+#[test]
+fn warnings_are_printed_also_where_nothing_else_is() {
+    let place = Workplace::new();
+    let wanted = "warning: a contact takes 5.0 steps, and fewer than 20 give it a wrong energy; \
+                  a time step of 1.242e-5 s would do\n";
+    let output = place.run(CADEM, "--set time_step=5e-5 --steps 1 --quiet");
+    assert_eq!(String::from_utf8(output.stderr).unwrap(), wanted);
+    assert!(output.status.success() && output.stdout.is_empty());
+    let report: serde_json::Value = serde_json::from_str(&place.read("out/cadem/run.json")).unwrap();
+    assert_eq!(format!("warning: {}\n", report["warnings"][0].as_str().unwrap()), wanted);
+    let output = place.invocation(CADEM, "list --set time_step=5e-5").output().unwrap();
+    assert_eq!(String::from_utf8(output.stderr).unwrap(), wanted);
 }

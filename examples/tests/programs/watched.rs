@@ -195,7 +195,7 @@ fn a_fault_is_told_when_the_terminal_is_back() {
     let status = terminal.ended();
     let text = terminal.text();
     assert_eq!(status.exit_code(), 1, "{text}");
-    assert!(text.starts_with("error: step 1: a particle moves further than the side of a cell"), "{text}");
+    assert!(text.starts_with("error: step 1: a particle moves further than its radius"), "{text}");
     assert!(!text.contains("q quit"), "{text}");
 }
 

@@ -238,6 +238,9 @@ impl ModelBuilder {
     }
 
     /// Stops the run when the condition gives a reason.
+    ///
+    /// A condition that asks for a reduction and gets NaN decides nothing. Where a substate is NaN or infinite then, the run
+    /// ends with the fault [`crate::Fault::NotFinite`], which names the cell; substates of [`Self::allow_non_finite`] are exempt.
     pub fn stop_when(
         self,
         schedule: Schedule,
@@ -247,6 +250,7 @@ impl ModelBuilder {
             if let Some(reason) = condition(state)? {
                 state.stop(reason);
             }
+            state.undecided = state.reduced_nan.get();
             Ok(())
         })
     }

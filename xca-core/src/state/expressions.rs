@@ -51,7 +51,7 @@ impl State<'_> {
             }
         })?;
         let rows = rows.chunks_exact(V::COMPONENTS);
-        Ok(V::total(&combine_rows(&Reduction::Sum, V::COMPONENTS, rows), 0))
+        Ok(V::total(&self.noted(combine_rows(&Reduction::Sum, V::COMPONENTS, rows)), 0))
     }
 
     /// Visits the cells, or the items of a population, row after row, each with the number of its row.

@@ -3,6 +3,7 @@
 mod text;
 
 use super::parse::{Choice, with_help, with_model};
+use super::prepare::warn;
 use super::{Definition, Ended, Unable};
 use crate::engines::Engines;
 use crate::terminal;
@@ -37,7 +38,9 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
 
 /// Tells what a program has, with the options that are given.
 pub(super) fn list(choice: &Choice<'_>, arguments: &ListArguments) -> Result<Ended, Unable> {
-    let SetUp { model, formats, .. } = choice.set_up(&choice.arguments.given(None))?;
+    let set_up = choice.set_up(&choice.arguments.given(None))?;
+    warn(&set_up);
+    let SetUp { model, formats, .. } = set_up;
     let engines = choice.definition.engines;
     let text = if arguments.json {
         as_json(&model, engines, &formats).map_err(Unable::failed)?

@@ -4,6 +4,7 @@ use super::Unable;
 use super::engine::EngineChoice;
 use super::parse::RunInvocation;
 use crate::program::Given;
+use crate::terminal;
 use xca_core::{Engine, RunOptions};
 use xca_record::machine::check_memory;
 use xca_record::report::Identity;
@@ -79,6 +80,13 @@ fn set_up(invocation: &RunInvocation<'_>, engine: &dyn Engine, given: &Given) ->
     let memory = engine.least_memory(&set_up.model, given.precision);
     check_memory(memory, &format!("this model on the {} engine", engine.name())).map_err(Unable::refused)?;
     Ok(set_up)
+}
+
+/// Prints the warnings of a set-up, also where nothing else is said.
+pub(super) fn warn(set_up: &SetUp) {
+    for warning in &set_up.warnings {
+        terminal::remark(&format!("warning: {warning}"));
+    }
 }
 
 /// What cannot begin is a mistake in what was given.

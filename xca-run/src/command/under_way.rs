@@ -5,6 +5,7 @@ mod words;
 #[cfg(feature = "terminal")]
 pub(super) use words::engine_words;
 
+use super::prepare::warn;
 use super::voice::Voice;
 use super::{Ended, Unable};
 use crate::interrupt::Interrupt;
@@ -46,6 +47,7 @@ impl UnderWay {
         if let Some(note) = &self.note {
             self.voice.say(&format!("note: {note}"));
         }
+        warn(self.recording.recorder().set_up());
         let line = self.voice.line(self.recording.report().progress.steps_wanted);
         let mut terminal = Terminal { line, interrupt: &interrupt };
         let result = self.recording.go(&mut terminal);

@@ -10,7 +10,7 @@ mod words;
 mod worker;
 
 use super::super::parse::RunInvocation;
-use super::super::prepare::Prepared;
+use super::super::prepare::{Prepared, warn};
 use super::super::run::not_started;
 use super::super::under_way::engine_words;
 use super::super::{Ended, Unable};
@@ -41,6 +41,8 @@ pub(super) fn show(invocation: &RunInvocation<'_>, arguments: &WatchArguments) -
     let look = arguments.look.look();
     recorder.sighting(&look).map_err(Unable::refused)?;
     let simulation = Simulation::new(recorder.model(), &*engine, options).map_err(not_started)?;
+    // They are read when the terminal is given back.
+    warn(recorder.set_up());
     let interrupt = Interrupt::install().map_err(Unable::failed)?;
     let facts = Facts {
         title: recorder.set_up().title.clone(),
