@@ -179,11 +179,12 @@ fn draw(
     Ok(())
 }
 
-/// A range with some room on both sides; that of one value has a width too.
+/// A range with some room on both sides; that of values which differ by rounding alone has a width too.
 fn around(ranges: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
     let whole = ranges.reduce(|[low, high], [least, most]| [low.min(least), high.max(most)]);
     let [low, high] = whole.unwrap_or([0.0, 1.0]);
-    let room = if high > low { 0.05 * (high - low) } else { 0.5 * low.abs().max(1e-9) };
+    let largest = low.abs().max(high.abs());
+    let room = if high - low > 1e-9 * largest { 0.05 * (high - low) } else { 0.5 * largest.max(1e-9) };
     [low - room, high + room]
 }
 
@@ -203,6 +204,14 @@ mod tests {
             steps: 1,
             observables: heat.map(|heat| Observable::new("heat", "K", heat)).into_iter().collect(),
         }
+    }
+
+    #[test]
+    fn rounding_is_no_change() {
+        assert_eq!(around([[2.0, 2.0 + 1e-15]].into_iter()), [1.0, 3.0 + 1e-15]);
+        assert_eq!(around([[0.0, 0.0]].into_iter()), [-5e-10, 5e-10]);
+        assert_eq!(around([[1.0, 2.0], [0.0, 1.5]].into_iter()), [-0.1, 2.1]);
+        assert_eq!(around(std::iter::empty()), [-0.05, 1.05]);
     }
 
     #[test]
