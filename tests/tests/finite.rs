@@ -117,7 +117,7 @@ fn a_stop_criterion_never_decides_on_nan() -> Result<(), Box<dyn Error>> {
     }
     let summed = model().process(divide).stop_when(Schedule::Every(1), |state| {
         let sum = state.sum_of(|heat: &Heat| heat.temperature)?;
-        Ok((!(sum > -1.0)).then(|| "converged".to_owned()))
+        Ok((sum.is_nan() || sum <= -1.0).then(|| "converged".to_owned()))
     });
     stops(&summed.build()?, said)?;
     // Where NaN has a meaning the criterion decides.
