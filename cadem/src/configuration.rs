@@ -7,7 +7,7 @@ use crate::walls::{Opening, Walls};
 use crate::{Case, Particle, initial};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
-use xca_core::Parameters;
+use xca_core::{Parameters, Precision};
 
 /// The least number of steps in a contact of two particles that needs no warning. The paper says 10 to 50 for a particle
 /// at a wall (eq. 3), which are 7 to 35 for two particles.
@@ -136,16 +136,19 @@ impl Configuration {
         Ok(placed.into_iter().map(Particle::from).collect())
     }
 
-    /// What makes the results of the system doubtful, in sentences: a time step that is too long for a contact.
+    /// What makes the results of the system doubtful, in sentences: a time step that is too long for a contact, and
+    /// `f32`, in which slow particles stand still.
     ///
     /// ```
+    /// use xca_core::Precision;
+    ///
     /// let mut configuration = cadem::Case::Illustration.configuration();
-    /// assert!(configuration.warnings().is_empty());
+    /// assert!(configuration.warnings(Precision::F64).is_empty());
     /// configuration.set("time_step", "5e-5")?;
-    /// assert!(configuration.warnings()[0].contains("takes 5.0 steps"));
+    /// assert!(configuration.warnings(Precision::F64)[0].contains("takes 5.0 steps"));
     /// # Ok::<(), cadem::CademError>(())
     /// ```
-    pub fn warnings(&self) -> Vec<String> {
+    pub fn warnings(&self, precision: Precision) -> Vec<String> {
         let material = self.material();
         let duration = material.contact_duration();
         let steps = duration / material.time_step;
@@ -157,7 +160,23 @@ impl Configuration {
                 duration / STEPS_OF_A_CONTACT
             )
         };
-        is_short.then(warning).into_iter().collect()
+        let stands_still = || {
+            format!(
+                "in f32 a particle stands still along an axis along which it is slower than up to {:.1e} m/s: a step moves it \
+                 by less than half of the last digit of its place; f64 moves it",
+                self.lost_speed()
+            )
+        };
+        let is_single = precision == Precision::F32;
+        is_short.then(warning).into_iter().chain(is_single.then(stands_still)).collect()
+    }
+
+    /// The speed, in m/s, below which x + v dt is x in `f32` where x is largest: half of the distance to the next number,
+    /// divided by the time step.
+    fn lost_speed(&self) -> f64 {
+        let side = self.sides().into_iter().fold(0.0, f64::max);
+        let largest = (side as f32).next_down();
+        f64::from(largest - largest.next_down()) / 2.0 / self.material().time_step
     }
 
     /// Checks that the system makes sense. [`crate::model()`] does it too.

@@ -1,6 +1,6 @@
 //! One model on several engines: what each takes, and whether they agree.
 //!
-//! The engines run beside the first one, with a check every so many steps ([`lockstep`]); then each is timed ([`timing`]). What comes of it
+//! The engines run beside the first one, with a check every so many steps (`lockstep`); then each is timed (`timing`). What comes of it
 //! is a [`ComparisonReport`].
 
 pub mod difference;

@@ -40,7 +40,7 @@
 //! | item | for |
 //! |---|---|
 //! | [`SetUp`], [`CellView`], [`ItemView`], [`Observable`] | what is recorded |
-//! | [`format`] | the formats of its files, and how to add one |
+//! | [`mod@format`] | the formats of its files, and how to add one |
 //! | [`Run`], [`Recording`] | a run, from its beginning or from a checkpoint, and its files |
 //! | [`Comparison`] | one model on several engines: whether they agree, and what each takes |
 //! | [`Ensemble`] | many runs with other parameters and seeds, and one table of them |

@@ -1,4 +1,5 @@
 use crate::*;
+use xca_core::Precision;
 
 fn table1() -> Configuration {
     Case::Table1.configuration()
@@ -149,20 +150,32 @@ fn a_file_with_an_unknown_name_is_refused() {
 #[test]
 fn a_time_step_that_is_too_long_for_a_contact_is_warned_of() {
     for case in Case::ALL {
-        assert_eq!(case.configuration().warnings(), Vec::<String>::new(), "{case}");
+        assert_eq!(case.configuration().warnings(Precision::F64), Vec::<String>::new(), "{case}");
     }
     // The numbers of the paper's benchmark, as docs/cadem.md has them.
     let duration = table1().material().contact_duration();
     assert!((duration / 2.483649e-4 - 1.0).abs() < 1e-6, "{duration}");
     let slow = Configuration { time_step: TimeStep::Seconds(2.483649e-5), ..table1() };
     assert_eq!(
-        slow.warnings(),
+        slow.warnings(Precision::F64),
         [
             "a contact takes 10.0 steps, and fewer than 20 give it a wrong energy; a time step of 1.242e-5 s would do"
         ]
     );
     let advised = Configuration { time_step: TimeStep::Seconds(1.2415e-5), ..table1() };
-    assert!(advised.warnings().is_empty());
+    assert!(advised.warnings(Precision::F64).is_empty());
+}
+
+/// The warning names the speed at which `f32` begins to lose the motion, near the far end of the domain.
+#[test]
+fn f32_loses_slow_motion_where_it_says_so() {
+    let configuration = table1();
+    let lost = configuration.lost_speed();
+    let (place, step) = (0.99 * configuration.sides()[0] as f32, configuration.material().time_step);
+    assert_eq!(place + (0.99 * lost * step) as f32, place);
+    assert!(place + (1.01 * lost * step) as f32 > place);
+    let [warning] = &configuration.warnings(Precision::F32)[..] else { panic!("one warning") };
+    assert!(warning.contains(&format!("slower than up to {lost:.1e} m/s")), "{warning}");
 }
 
 /// The largest error of the kinetic energy after an undamped contact of about so many steps.

@@ -94,7 +94,7 @@ impl Program for Cadem {
             .observables(move |state| Ok(observables(&Diagnostics::of(state, walls)?, is_closed)))
             .items(view)
             .note("configuration", &configuration)?;
-        set_up.warnings.extend(configuration.warnings());
+        set_up.warnings.extend(configuration.warnings(given.precision));
         if let Some(path) = &self.particles {
             set_up = set_up.input(path);
         }

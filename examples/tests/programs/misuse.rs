@@ -224,6 +224,9 @@ fn warnings_are_printed_also_where_nothing_else_is() {
     assert!(output.status.success() && output.stdout.is_empty());
     let report: serde_json::Value = serde_json::from_str(&place.read("out/cadem/run.json")).unwrap();
     assert_eq!(format!("warning: {}\n", report["warnings"][0].as_str().unwrap()), wanted);
+    let output = place.run(CADEM, "--case table1 --precision f32 --steps 0 --quiet --out single");
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.starts_with("warning: in f32 a particle stands still along an axis"), "{said}");
     let output = place.invocation(CADEM, "list --set time_step=5e-5").output().unwrap();
     assert_eq!(String::from_utf8(output.stderr).unwrap(), wanted);
 }

@@ -55,8 +55,8 @@ pub(crate) struct RunArguments {
     #[arg(long, value_name = "N|TIME")]
     pub(crate) checkpoint_every: Option<Interval>,
 
-    /// Write these formats, as `list` tells them: vtk,tif. With a + before each name, write them beside those of
-    /// the model: +tif
+    /// Write these formats, as `list` tells them: vtk,png. With a + before each name, write them beside those of
+    /// the model: +asc
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     pub(crate) formats: Vec<String>,
 

@@ -89,8 +89,8 @@ fn can_be_made(name: &str, kind: Kind, others: &[String]) -> bool {
 const SHAPES: [(Moment, &[&str]); 4] = [
     (Moment::Run, &["pvd"]),
     (Moment::First, &["png"]),
-    (Moment::Each, &["vti", "vtp", "xyz"]),
-    (Moment::Last, &["asc", "csv", "png", "tif"]),
+    (Moment::Each, &["vti", "vtp"]),
+    (Moment::Last, &["asc", "csv", "png"]),
 ];
 
 fn is_of_run(name: &str, others: &[String]) -> bool {
