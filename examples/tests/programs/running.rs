@@ -20,6 +20,11 @@ pub(crate) struct Workplace {
     folder: TempDir,
 }
 
+/// Whether nothing but warnings is said.
+pub(crate) fn warns_at_most(said: &str) -> bool {
+    said.lines().all(|line| line.starts_with("warning: "))
+}
+
 impl Workplace {
     pub(crate) fn new() -> Self {
         Self { folder: tempfile::tempdir().unwrap() }
@@ -62,8 +67,7 @@ impl Workplace {
         let said = String::from_utf8(output.stderr).unwrap();
         assert!(output.status.success(), "{program} run {options}: {said}");
         // The line that shows how far a run has come is for terminals only; warnings are for all.
-        let is_quiet = said.lines().all(|line| line.starts_with("warning: "));
-        assert!(is_quiet, "{program} run {options}: {said}");
+        assert!(warns_at_most(&said), "{program} run {options}: {said}");
         String::from_utf8(output.stdout).unwrap()
     }
 
