@@ -208,6 +208,35 @@ impl Model {
         Ok(self)
     }
 
+    /// How many slots a cell has for the items of a population, by the name of its substates.
+    pub fn slots(&self, population: &str) -> Option<usize> {
+        let group = self.groups.iter().find(|group| group.schema.name == population)?;
+        match group.kind {
+            GroupKind::Population { slots, .. } => Some(slots),
+            GroupKind::Cells { .. } => None,
+        }
+    }
+
+    /// Sets how many slots a cell has for the items of a population, by the name of its substates, before it is run. A run does
+    /// not depend on it, as long as no cell is full.
+    ///
+    /// # Errors
+    /// Where no population has the name, or no slot is left.
+    pub fn set_slots(&mut self, population: &str, slots: usize) -> Result<(), ModelError> {
+        for group in &mut self.groups {
+            if let (true, GroupKind::Population { slots: own, .. }) =
+                (group.schema.name == population, &mut group.kind)
+            {
+                if slots == 0 {
+                    return Err(ModelError::NoSlots { substates: group.schema.name });
+                }
+                *own = slots;
+                return Ok(());
+            }
+        }
+        Err(ModelError::NoPopulation { model: self.name.clone(), population: population.to_owned() })
+    }
+
     /// Sets a parameter of the model by name, before it is run. What the initial state makes of it follows.
     ///
     /// # Errors

@@ -22,6 +22,12 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
+/// A number of things, of which the name is given for one: `1 step`, `20 steps`.
+pub fn counted(number: u64, thing: &str) -> String {
+    let ending = if number == 1 { "" } else { "s" };
+    format!("{number} {thing}{ending}")
+}
+
 fn without_trailing_zeros(text: &str) -> &str {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
 }

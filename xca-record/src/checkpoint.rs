@@ -5,13 +5,13 @@
 mod description;
 mod file;
 mod folder;
+mod origin;
 mod planes;
 
-pub use description::{
-    Description, Difference, GroupShape, Kind, Origin, Parameter, other_model, other_program,
-};
+pub use description::{Description, GroupShape, Kind};
 pub use file::CheckpointError;
 pub use folder::{CHECKPOINTS, CheckpointFolder};
+pub use origin::{Difference, Origin, Parameter, other_model, other_program};
 
 use std::path::Path;
 use xca_core::Snapshot;

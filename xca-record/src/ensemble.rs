@@ -15,7 +15,6 @@ use crate::set_up::SetUp;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
-use std::fs;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -103,23 +102,8 @@ struct Plan {
     steps: Option<u64>,
     /// The options of the program.
     options: Map<String, Value>,
-    /// Of the first member, where it can be made.
-    model: Option<Modelled>,
-}
-
-/// The model of a member, as far as files can tell it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Modelled {
-    /// Shape, processes and parameters, as checkpoints have them.
-    origin: Origin,
-    inputs: Vec<Input>,
-}
-
-/// A file that the set-up has read.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Input {
-    path: String,
-    crc32: Option<u32>,
+    /// The model and the input files of the first member, where it can be made.
+    model: Option<Origin>,
 }
 
 /// The report of an ensemble.
@@ -278,8 +262,7 @@ impl Ensemble {
     ) -> Result<Vec<Finished>, EnsembleError> {
         self.check()?;
         let members = self.members();
-        let model =
-            members.first().and_then(|member| set_up(member).ok()).map(|set_up| self.modelled(&set_up));
+        let model = members.first().and_then(|member| set_up(member).ok()).map(|set_up| self.origin(&set_up));
         let folder = self.open(folder, self.plan(model))?;
         let mut table = Table::open(&folder.top.file(MEMBERS), &members)?;
         monitor.begin(table.len(), members.len());
@@ -317,22 +300,17 @@ impl Ensemble {
         Ok(())
     }
 
-    fn plan(&self, model: Option<Modelled>) -> Plan {
+    fn plan(&self, model: Option<Origin>) -> Plan {
         let Self { axes, first_seed, seeds, precision, steps, identity, .. } = self.clone();
         Plan { axes, first_seed, seeds, precision, steps, options: identity.options, model }
     }
 
-    fn modelled(&self, set_up: &SetUp) -> Modelled {
+    fn origin(&self, set_up: &SetUp) -> Origin {
         let options = RunOptions { precision: self.precision, seed: self.first_seed };
-        // Command lines may say the same in other words.
-        let identity = Identity { command_line: Vec::new(), ..self.identity.clone() };
-        let steps = self.steps.unwrap_or(set_up.steps);
-        let origin = Origin::new(&identity, &set_up.model, options, [steps, 0]);
-        let input = |path: &PathBuf| Input {
-            path: path.display().to_string(),
-            crc32: fs::read(path).ok().map(|bytes| crc32fast::hash(&bytes)),
-        };
-        Modelled { origin, inputs: set_up.inputs.iter().map(input).collect() }
+        // Command lines may say the same in other words, and from other folders.
+        let identity =
+            Identity { command_line: Vec::new(), directory: String::new(), ..self.identity.clone() };
+        Origin::new(&identity, set_up, options, [self.steps.unwrap_or(set_up.steps), 0])
     }
 
     /// The folder of this ensemble, new or known again.

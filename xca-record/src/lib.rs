@@ -59,6 +59,7 @@ pub mod comparison;
 pub mod components;
 mod ensemble;
 pub mod format;
+mod input_file;
 mod interval;
 mod items_file;
 #[doc(hidden)]
@@ -87,6 +88,7 @@ pub use ensemble::{
     Assigned, End, Ensemble, EnsembleError, EnsembleMonitor, Finished, MEMBERS, Member, SUMMARY, Summary,
     TableError,
 };
+pub use input_file::InputFile;
 pub use interval::Interval;
 pub use items_file::{ReadItem, read_items};
 pub use machine::{NotEnoughMemory, check_memory};

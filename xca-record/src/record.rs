@@ -36,7 +36,7 @@ use crate::format::{self, Formats, RecordedState};
 use crate::observable::{Failure, Observable};
 use crate::set_up::{SetUp, SetUpError};
 use crate::view::complete;
-use xca_core::{Model, RunError, Simulation, Snapshot};
+use xca_core::{Model, ModelError, RunError, Simulation, Snapshot};
 use xca_io::atomic::WriteError;
 use xca_io::picture::PictureError;
 use xca_io::table_csv::{SeriesError, SeriesWriter};
@@ -108,6 +108,15 @@ impl Recorder {
 
     pub fn model(&self) -> &Model {
         &self.set_up.model
+    }
+
+    /// Gives the cells at least so many slots for the items of a population of the model's.
+    pub(crate) fn raise_slots(&mut self, population: &str, least: usize) -> Result<(), ModelError> {
+        let model = &mut self.set_up.model;
+        match model.slots(population) {
+            Some(slots) if slots >= least => Ok(()),
+            _ => model.set_slots(population, least),
+        }
     }
 
     pub(crate) fn subject(&self) -> format::Subject<'_> {

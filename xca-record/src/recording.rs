@@ -106,7 +106,6 @@ impl Recording {
     fn steps(&mut self, monitor: &mut dyn Monitor) -> Result<Outcome, Failure> {
         let wanted = self.origin.steps_wanted;
         if !self.recorder.has_begun() {
-            self.check_finite()?;
             self.recorder.begin(self.folder.clone(), &mut self.simulation)?;
         }
         monitor.begin(self.simulation.step_number());
@@ -128,8 +127,8 @@ impl Recording {
                 self.keep()?;
             }
         }
-        if self.is_unfinished() {
-            // Before the end is recorded: the run that goes on from here does not end here.
+        if self.simulation.stop_reason().is_none() {
+            // Before the end is recorded: a run that goes on from here does not end here, also one that is given more steps.
             self.keep()?;
         }
         self.simulation.finish()?;

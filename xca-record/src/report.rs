@@ -7,6 +7,7 @@ pub use earlier::{Earlier, parts, read};
 
 use crate::checkpoint::Origin;
 use crate::components::{json, type_text};
+use crate::input_file::InputFile;
 use crate::machine::cores;
 use crate::observable::Observable;
 use crate::set_up::SetUp;
@@ -27,6 +28,8 @@ pub struct Identity {
     pub version: String,
     /// The command line, with what a configuration file added to it.
     pub command_line: Vec<String>,
+    /// The working directory, from which the relative paths of the command line go.
+    pub directory: String,
     /// All options of the model, with their defaults.
     pub options: Map<String, Value>,
 }
@@ -39,6 +42,10 @@ pub struct Report {
     pub program: String,
     pub version: String,
     pub command_line: Vec<String>,
+    /// The working directory, from which the relative paths of the command line go.
+    pub directory: String,
+    /// The files that the set-up has read.
+    pub inputs: Vec<InputFile>,
     /// All options of the model, with their defaults.
     pub options: Map<String, Value>,
     /// What the model's program adds.
@@ -97,12 +104,14 @@ pub struct Progress {
 impl Report {
     /// That of a run on this engine, before its first step, which has made no files yet.
     pub fn new(identity: &Identity, set_up: &SetUp, engine: &dyn Engine, origin: &Origin) -> Self {
-        let Identity { program, version, command_line, options } = identity.clone();
+        let Identity { program, version, command_line, directory, options } = identity.clone();
         Self {
             xca: origin.xca.clone(),
             program,
             version,
             command_line,
+            directory,
+            inputs: origin.inputs.clone(),
             options,
             notes: set_up.notes.clone(),
             warnings: set_up.warnings.clone(),
@@ -158,6 +167,7 @@ impl Report {
         self.resumed.push(serde_json::json!({
             "at": now(),
             "step": step,
+            "steps_wanted": self.progress.steps_wanted,
             "checkpoint": checkpoint.file_name().map(|name| name.to_string_lossy()),
             "engine": self.engine,
             "threads": self.threads,

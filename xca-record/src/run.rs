@@ -2,13 +2,14 @@
 
 use crate::checkpoint::{Checkpoint, CheckpointError, CheckpointFolder, Difference, Origin};
 use crate::interval::Interval;
+use crate::observable::Failure;
 use crate::record::{Claim, FolderError, Kind, REPORT, RecordError, Recorder, RunFolder};
-use crate::recording::{Checkpoints, Recording};
+use crate::recording::{Checkpoints, Recording, check_finite};
 use crate::report::{Earlier, Identity, ReadReportError, Report};
 use crate::set_up::{SetUp, SetUpError};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use xca_core::{Engine, RunError, RunOptions, Simulation};
+use xca_core::{Engine, Model, ModelError, RunError, RunOptions, Simulation};
 use xca_io::atomic::WriteError;
 
 /// How many times in a run something is written, unless it is said how often.
@@ -46,9 +47,9 @@ const OUTPUTS: u64 = 20;
 /// let mut recording = run()?.begin(&out, &Reference)?;
 /// assert_eq!(recording.go(&mut ())?, Outcome::Done);
 /// drop(recording);
-/// // A run that was killed goes on from its last checkpoint.
-/// let mut recording = run()?.resume(&out, &Reference)?;
-/// assert_eq!(recording.simulation().step_number(), 80);
+/// // A run goes on from its last checkpoint: one that was killed, or beyond its end.
+/// let mut recording = run()?.steps(150).resume(&out, &Reference)?;
+/// assert_eq!(recording.simulation().step_number(), 100);
 /// recording.go(&mut ())?;
 /// # Ok::<(), Box<dyn std::error::Error + Send + Sync>>(())
 /// ```
@@ -85,8 +86,14 @@ pub enum BeginError {
         "the run was begun with rounding that is {found}, and would go on with rounding that is {wanted}, to other files"
     )]
     Rounding { found: String, wanted: String },
+    #[error("{done} steps are done; a run of {steps} steps cannot go on from there")]
+    Past { done: u64, steps: u64 },
+    #[error(transparent)]
+    Slots(#[from] ModelError),
     #[error(transparent)]
     Start(#[from] RunError),
+    #[error(transparent)]
+    NotFinite(Failure),
     #[error(transparent)]
     Record(#[from] RecordError),
 }
@@ -130,13 +137,29 @@ impl Run {
         Self { options, ..self }
     }
 
-    /// Does so many steps.
+    /// Does so many steps. A run that is resumed may do more than it was begun with.
     #[must_use]
     pub fn steps(self, steps: u64) -> Self {
         Self { steps, ..self }
     }
 
-    /// Writes a row of observables and a frame every so many steps, at least 1.
+    /// Gives the cells at least so many slots for the items of each population, so that a run goes on which ended with a full
+    /// cell. The states of a run do not depend on it.
+    ///
+    /// # Errors
+    /// None of a model that could be built.
+    pub fn slots(mut self, least: usize) -> Result<Self, BeginError> {
+        let groups = self.recorder.model().groups().iter();
+        let names: Vec<&str> = groups.map(|group| group.schema().name).collect();
+        for name in names {
+            if self.recorder.model().slots(name).is_some() {
+                self.recorder.raise_slots(name, least)?;
+            }
+        }
+        Ok(self)
+    }
+
+    /// Writes a row of observables and a frame every so many steps, at least 1. One that is resumed does so as often as before.
     #[must_use]
     pub fn every(self, steps: u64) -> Self {
         Self { every: Some(steps.max(1)), ..self }
@@ -175,7 +198,7 @@ impl Run {
     }
 
     /// The model.
-    pub fn model(&self) -> &xca_core::Model {
+    pub fn model(&self) -> &Model {
         self.recorder.model()
     }
 
@@ -198,7 +221,7 @@ impl Run {
     #[doc(hidden)]
     pub fn origin(&self) -> Origin {
         let every = self.every.unwrap_or(self.steps.div_ceil(OUTPUTS).max(1));
-        Origin::new(&self.identity, self.recorder.model(), self.options, [self.steps, every])
+        Origin::new(&self.identity, self.recorder.set_up(), self.options, [self.steps, every])
     }
 
     /// The report of the run on this engine, before its first step.
@@ -223,10 +246,14 @@ impl Run {
         let begin = Instant::now();
         let origin = self.origin().on(engine);
         let report = self.report(engine, &origin);
+        // Before the folder: where there is no initial state, an earlier run keeps its files.
+        let simulation = Simulation::new(self.recorder.model(), engine, self.options)?;
+        if !self.allow_non_finite {
+            check_finite(&simulation).map_err(BeginError::NotFinite)?;
+        }
         let inputs = &self.recorder.set_up().inputs;
         let claim = Claim { kind: Kind::Run, files: &report.files, inputs };
         let folder = RunFolder::prepare(folder.as_ref(), &claim)?;
-        let simulation = Simulation::new(self.recorder.model(), engine, self.options)?;
         let checkpoints = self.checkpoint_every.map(|interval| Checkpoints::new(interval, &folder, None));
         Ok(Recording {
             simulation,
@@ -244,10 +271,11 @@ impl Run {
     }
 
     /// Goes on from the latest checkpoint in the folder of a run of the same model, on any engine. The files
-    /// become those that the run would have had without the interruption, byte by byte.
+    /// become those that the run would have had without the interruption, byte by byte. The number of steps may be larger
+    /// than it was: a run that has come to its end goes on beyond it.
     ///
     /// # Errors
-    /// Where there is no checkpoint, it is not whole, or it is one of another run.
+    /// Where there is no checkpoint, it is not whole, it is one of another run, or an input file has changed.
     pub fn resume(self, folder: impl AsRef<Path>, engine: &dyn Engine) -> Result<Recording, BeginError> {
         let folder = folder.as_ref();
         let latest = CheckpointFolder::of_run(folder).into_iter().next();
@@ -283,6 +311,16 @@ impl Run {
     ) -> Result<Recording, BeginError> {
         let begin = Instant::now();
         let Checkpoint { description, snapshot } = checkpoint;
+        if self.steps < description.step {
+            return Err(BeginError::Past { done: description.step, steps: self.steps });
+        }
+        self.every.get_or_insert(description.run.every);
+        // Items that once needed more slots may need them again; what is no population of the model's is refused below.
+        for (population, slots) in description.run.slots() {
+            if self.recorder.model().slots(population).is_some() {
+                self.recorder.raise_slots(population, slots)?;
+            }
+        }
         let origin = self.origin().on(engine);
         let difference = description.run.other_program(origin.identity());
         if let Some(Difference { what, found, wanted }) =

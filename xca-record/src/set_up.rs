@@ -1,6 +1,7 @@
 //! A model with what its program shows of it.
 
 use crate::format::{Formats, Writer};
+use crate::input_file::InputFile;
 use crate::observable::{Failure, Observable};
 use crate::view::{AnyView, CellView, ItemView, ViewError};
 use serde::Serialize;
@@ -29,7 +30,7 @@ pub struct SetUp {
     pub(crate) observe: Option<Box<Observe>>,
     pub(crate) views: Vec<AnyView>,
     /// The files that the set-up has read.
-    pub inputs: Vec<PathBuf>,
+    pub inputs: Vec<InputFile>,
     /// Where the space lies, and which of its cells have no ground.
     pub map: Option<Map>,
     /// The formats of its files.
@@ -118,10 +119,10 @@ impl SetUp {
         self
     }
 
-    /// A file that the set-up has read. A run never replaces it.
+    /// A file that the set-up has read. A run never replaces it, and does not go on from a checkpoint once it has changed.
     #[must_use]
     pub fn input(mut self, path: impl Into<PathBuf>) -> Self {
-        self.inputs.push(path.into());
+        self.inputs.push(InputFile::new(path));
         self
     }
 

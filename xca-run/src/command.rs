@@ -19,6 +19,7 @@ mod sweep;
 mod under_way;
 mod voice;
 mod watch;
+mod working_directory;
 
 pub use config::ConfigError;
 

@@ -59,7 +59,7 @@ impl Progress {
     fn on(total: Option<u64>, target: ProgressDrawTarget) -> Self {
         let bar = ProgressBar::with_draw_target(total, target);
         let template = if total.is_some() {
-            "{bar:32} {pos}/{len} steps, {rate}, {left} left  {msg}"
+            "{bar:32} {pos}/{len} steps, {rate}{left}  {msg}"
         } else {
             "{spinner} {pos} steps, {rate}, {elapsed}  {msg}"
         };
@@ -71,7 +71,7 @@ impl Progress {
                         let _ = out.write_str(&rate_text(state.per_sec()));
                     })
                     .with_key("left", |state: &ProgressState, out: &mut dyn std::fmt::Write| {
-                        let _ = out.write_str(&duration_text(state.eta()));
+                        let _ = out.write_str(&left_text(state.eta()));
                     })
                     .with_key("elapsed", |state: &ProgressState, out: &mut dyn std::fmt::Write| {
                         let _ = out.write_str(&duration_text(state.elapsed()));
@@ -131,6 +131,11 @@ pub fn duration_text(duration: Duration) -> String {
         3600..86_400 => format!("{} h {:02} min", seconds / 3600, seconds / 60 % 60),
         _ => format!("{} d {:02} h", seconds / 86_400, seconds / 3600 % 24),
     }
+}
+
+/// The time that is left, behind a comma; nothing where it is not known yet, or there is next to none.
+fn left_text(left: Duration) -> String {
+    if left.as_millis() < 50 { String::new() } else { format!(", {} left", duration_text(left)) }
 }
 
 /// One line of the table at the end of a run.
@@ -218,7 +223,9 @@ mod tests {
         let text = paper.0.lock().unwrap().clone();
         let line = text.rsplit('\r').find(|line| !line.trim().is_empty()).unwrap();
         assert!(line.contains("100/200 steps, "), "{text}");
-        assert!(line.contains(" steps/s, ") && line.contains(" left  writing"), "{line}");
+        assert!(line.contains(" steps/s") && line.ends_with("  writing"), "{line}");
+        assert_eq!(left_text(Duration::from_secs(42)), ", 42 s left");
+        assert_eq!(left_text(Duration::from_millis(30)), "");
         let spinner = Progress::on(None, ProgressDrawTarget::term_like(Box::new(paper.clone())));
         spinner.at(7);
         spinner.finish();

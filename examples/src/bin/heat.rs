@@ -78,7 +78,7 @@ impl Program for Cube {
             .fill_with(move |site, copper: &Copper| Heat {
                 temperature: copper.initial * Self::shape(size, site.cell()),
             })
-            .stop_when(Schedule::Every(10), move |state| {
+            .stop_when(Schedule::EveryFromStart(10), move |state| {
                 let hottest = state.maximum(Heat::TEMPERATURE)?.unwrap_or(0.0);
                 let coldest = state.minimum(Heat::TEMPERATURE)?.unwrap_or(0.0);
                 let is_over = hottest <= until && coldest >= -until;

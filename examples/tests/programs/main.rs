@@ -5,6 +5,7 @@
 mod begun;
 mod checkpoints;
 mod compared;
+mod continued;
 mod doors;
 mod files;
 mod gallery;

@@ -140,14 +140,14 @@ fn cadem_with_an_opening() {
     let options = "--particles drop.csv --open z-low:5,5:5,5 --steps 200";
     place.succeed(CADEM, &format!("{options} --out whole"));
     place.succeed(CADEM, &format!("{options} --checkpoint-every 95 --out here"));
-    let older = "here/checkpoints/step_00000095.checkpoint";
+    let older = "here/checkpoints/step_00000190.checkpoint";
     resume(&place, CADEM, &format!("here --checkpoint {older}"));
     assert_same_results(&place.path("whole"), &place.path("here"), options);
     let left = |step: u64| {
         let bytes = fs::read(place.path(&format!("here/checkpoints/step_{step:08}.checkpoint"))).unwrap();
         String::from_utf8_lossy(&bytes).contains("\"left\": 1,")
     };
-    assert!(left(95) && left(190));
+    assert!(left(190) && left(200));
 }
 
 /// What a configuration file said is in the checkpoint; the file is not asked again.
@@ -158,7 +158,7 @@ fn a_configuration_file_may_change_meanwhile() {
     place.succeed(HEAT, "--config run.toml --out whole");
     place.succeed(HEAT, "--config run.toml --out here");
     place.write("run.toml", "size = 11\n");
-    resume(&place, HEAT, "here --checkpoint here/checkpoints/step_00000005.checkpoint --quiet");
+    resume(&place, HEAT, "here --checkpoint here/checkpoints/step_00000010.checkpoint --quiet");
     assert_same_results(&place.path("whole"), &place.path("here"), "with a configuration file");
 }
 
@@ -181,7 +181,7 @@ fn a_run_that_has_ended_stays_as_it_is() {
     place.succeed(MOD2, "--size 8 --steps 9 --checkpoint-every 4");
     let before = fs::read(place.path("out/mod2/run.json")).unwrap();
     let said = resume(&place, MOD2, "out/mod2");
-    assert_eq!(said, "the run in out/mod2 has come to its end already\n");
+    assert_eq!(said, "the run in out/mod2 has ended after 9 steps already; --steps goes on to a later one\n");
     assert_eq!(fs::read(place.path("out/mod2/run.json")).unwrap(), before);
 }
 
@@ -207,7 +207,7 @@ fn a_run_does_not_change_its_rounding_unawares() {
         let output = place.invocation(HEAT, &format!("resume here {words}")).output().unwrap();
         (output.status.code(), String::from_utf8(output.stderr).unwrap())
     };
-    let older = "--checkpoint here/checkpoints/step_00000010.checkpoint";
+    let older = "--checkpoint here/checkpoints/step_00000020.checkpoint";
     for engine in ["--engine cpu", "--engine gpu --arithmetic strict"] {
         let (code, said) = said(&format!("{older} {engine}"));
         assert_eq!(code, Some(2), "{said}");

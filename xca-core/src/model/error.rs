@@ -92,6 +92,8 @@ pub enum ModelError {
         "the process `{process}` uses `opposite`, but the neighbourhood ({neighbourhood}) lacks the displacement {missing:?}, the opposite of {displacement:?}; add it to the list"
     )]
     NoOpposite { process: &'static str, neighbourhood: String, displacement: [i32; 3], missing: [i32; 3] },
+    #[error("the model `{model}` has no population `{population}`")]
+    NoPopulation { model: String, population: String },
     #[error("a population has no slots; `{substates}` needs at least 1 in a cell")]
     NoSlots { substates: &'static str },
     #[error(

@@ -107,7 +107,7 @@ pub(super) fn snapshot(description: &Description, data: &[u8]) -> Option<Snapsho
     data.rest.is_empty().then(|| Snapshot {
         step: description.step,
         groups,
-        parameters: description.parameters.iter().map(super::description::Parameter::bits).collect(),
+        parameters: description.parameters.iter().map(super::Parameter::bits).collect(),
         stop: description.stop.clone(),
         broken: false,
     })

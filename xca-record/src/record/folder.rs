@@ -10,6 +10,7 @@ pub use error::FolderError;
 pub use owner::numbered_files;
 
 use crate::checkpoint::CHECKPOINTS;
+use crate::input_file::InputFile;
 use owner::{Owner, is_folder, meant};
 use std::fs::{self, File, TryLockError};
 use std::io;
@@ -112,7 +113,7 @@ pub struct Claim<'a> {
     /// What it will write, `*` standing for digits; its report beside.
     pub files: &'a [String],
     /// What it has read.
-    pub inputs: &'a [PathBuf],
+    pub inputs: &'a [InputFile],
 }
 
 impl Claim<'_> {
@@ -132,9 +133,9 @@ impl Claim<'_> {
         }
         for input in self.inputs {
             // A path that does not exist any more is in no one's way.
-            let Ok(wanted) = input.canonicalize() else { continue };
+            let Ok(wanted) = input.path.canonicalize() else { continue };
             if old.iter().any(|file| file.canonicalize().is_ok_and(|file| file == wanted)) {
-                return Err(FolderError::Input { file: input.clone() });
+                return Err(FolderError::Input { file: input.path.clone() });
             }
         }
         Ok(old)

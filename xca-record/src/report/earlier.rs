@@ -70,6 +70,11 @@ pub struct Earlier {
 #[serde(default, expecting = "an object")]
 pub struct EarlierProgress {
     outcome: String,
+    reason: Option<String>,
+    /// How many steps were done.
+    pub steps: u64,
+    /// How many were to be done, which may be more than the checkpoint tells.
+    pub steps_wanted: Option<u64>,
     pub set_up_seconds: f64,
     pub step_seconds: f64,
     pub wall_seconds: f64,
@@ -89,6 +94,11 @@ impl Earlier {
     /// Whether there is nothing left to do.
     pub fn has_ended(&self) -> bool {
         ["done", "stopped"].contains(&self.progress.outcome.as_str())
+    }
+
+    /// Why the model has stopped the run, if it has.
+    pub fn stop_reason(&self) -> Option<&str> {
+        self.progress.reason.as_deref().filter(|_| self.progress.outcome == "stopped")
     }
 
     /// How this is the report of another run than one with this command line.

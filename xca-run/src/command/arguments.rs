@@ -83,6 +83,14 @@ pub(crate) struct ResumeArguments {
     #[arg(long, value_name = "FILE")]
     pub(crate) checkpoint: Option<PathBuf>,
 
+    /// How many steps the run has in the end, also more than it was begun with; as the run was told unless it is given
+    #[arg(long, value_name = "N", value_parser = steps)]
+    pub(crate) steps: Option<u64>,
+
+    /// Give the cells at least so many slots for items, where the run ended with a full cell; as before unless it is given
+    #[arg(long, value_name = "N", value_parser = slots)]
+    pub(crate) slots: Option<usize>,
+
     /// Go on although the engine rounds floating numbers otherwise than the one that the run was begun on; the files will not be those of
     /// an uninterrupted run
     #[arg(long)]
@@ -115,6 +123,10 @@ fn seed(text: &str) -> Result<u64, String> {
 
 pub(super) fn steps(text: &str) -> Result<u64, &'static str> {
     text.parse().map_err(|_| "it must be a whole number of steps")
+}
+
+fn slots(text: &str) -> Result<usize, &'static str> {
+    text.parse().ok().filter(|slots| *slots > 0).ok_or("it must be a whole number of slots, at least 1")
 }
 
 pub(super) fn interval(text: &str) -> Result<u64, String> {

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use xca_core::InitialError;
 use xca_io::ascii_grid::{AsciiGrid, ReadGridError};
 use xca_io::map::{Map, OverlayError, Placement};
-use xca_record::SetUp;
+use xca_record::{InputFile, SetUp};
 
 /// A grid that a model cannot begin with.
 #[derive(Debug, thiserror::Error)]
@@ -90,7 +90,7 @@ pub(super) fn apply(set_up: &mut SetUp, initial: &[Initial]) -> Result<(), GridE
         }
         let unfit = |source| GridError::Values { path: path.clone(), source };
         set_up.model.set_initial(substate, values).map_err(unfit)?;
-        set_up.inputs.push(path.clone());
+        set_up.inputs.push(InputFile::new(path));
     }
     Ok(())
 }

@@ -3,9 +3,10 @@
 use super::Unable;
 use super::engine::EngineChoice;
 use super::parse::RunInvocation;
+use super::working_directory::WorkingDirectory;
 use crate::program::Given;
 use crate::terminal;
-use xca_core::{Engine, RunOptions};
+use xca_core::{Engine, Model, Precision, RunOptions};
 use xca_record::machine::check_memory;
 use xca_record::report::Identity;
 use xca_record::{BeginError, Run, SetUp};
@@ -39,6 +40,7 @@ fn run_of(invocation: &RunInvocation<'_>, given: &Given, set_up: SetUp) -> Resul
         program: definition.name.to_owned(),
         version: definition.version.to_owned(),
         command_line: invocation.command_line.clone(),
+        directory: WorkingDirectory::present(),
         options: invocation.model.options.clone(),
     };
     let arguments = &invocation.run;
@@ -77,9 +79,14 @@ fn set_up_of(invocation: &RunInvocation<'_>, given: &Given) -> Result<SetUp, Una
 /// The model, where the machine has room for it.
 fn set_up(invocation: &RunInvocation<'_>, engine: &dyn Engine, given: &Given) -> Result<SetUp, Unable> {
     let set_up = set_up_of(invocation, given)?;
-    let memory = engine.least_memory(&set_up.model, given.precision);
-    check_memory(memory, &format!("this model on the {} engine", engine.name())).map_err(Unable::refused)?;
+    check_room(engine, &set_up.model, given.precision)?;
     Ok(set_up)
+}
+
+/// Refuses a model that the machine has no room for.
+pub(super) fn check_room(engine: &dyn Engine, model: &Model, precision: Precision) -> Result<(), Unable> {
+    let memory = engine.least_memory(model, precision);
+    check_memory(memory, &format!("this model on the {} engine", engine.name())).map_err(Unable::refused)
 }
 
 /// Prints the warnings of a set-up, also where nothing else is said.

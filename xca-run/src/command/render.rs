@@ -20,6 +20,8 @@ use film::Film;
 use running::Running;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+use xca_io::numbers::counted;
+use xca_record::InputFile;
 use xca_record::record::RunFolder;
 use xca_record::record::{Claim, Kind};
 
@@ -101,7 +103,7 @@ fn default_folder(definition: &Definition<'_>) -> PathBuf {
 }
 
 /// Makes the folder for these files.
-fn pictures_folder(path: &Path, files: &[String], inputs: &[PathBuf]) -> Result<RunFolder, Unable> {
+fn pictures_folder(path: &Path, files: &[String], inputs: &[InputFile]) -> Result<RunFolder, Unable> {
     RunFolder::prepare(path, &Claim { kind: Kind::Pictures, files, inputs }).map_err(Unable::refused)
 }
 
@@ -142,7 +144,8 @@ pub(super) fn render(invocation: &RunInvocation<'_>, arguments: &RenderArguments
     arguments.voice.tell(&report, || {
         let end = if interrupt.is_raised() { ", interrupted" } else { "" };
         let places = film.places(&folder);
-        format!("{} pictures of {} steps, one every {every}{end}; {places}", made.pictures, made.steps)
+        let (pictures, steps) = (counted(made.pictures as u64, "picture"), counted(made.steps, "step"));
+        format!("{pictures} of {steps}, one every {every}{end}; {places}")
     })?;
     Ok(if interrupt.is_raised() { Ended::Interrupted } else { Ended::Done })
 }

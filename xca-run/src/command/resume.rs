@@ -3,12 +3,14 @@
 use super::arguments::ResumeArguments;
 use super::engine::{EngineChoice, with_other_engine};
 use super::parse::{self, with_help};
-use super::prepare::Prepared;
+use super::prepare::{Prepared, check_room};
 use super::under_way::UnderWay;
+use super::working_directory::WorkingDirectory;
 use super::{Definition, Ended, Unable};
 use clap::{Args, Command};
 use serde_json::json;
 use std::path::{Path, PathBuf};
+use xca_io::numbers::counted;
 use xca_record::Failure;
 use xca_record::checkpoint::{Checkpoint, CheckpointError, CheckpointFolder, Description, Difference};
 use xca_record::record::REPORT;
@@ -23,12 +25,17 @@ const ABOUT: &str = "Go on with a run that was interrupted or killed, from its l
 const FILES: &str = "\
 The files of the run become those that it would have had without the interruption,
 byte by byte. What the results depend on (the model with its options, seed,
-precision, steps) is what the run was told; engine and threads are free.";
+precision) is what the run was told; engine and threads are free.
+
+--steps goes on beyond the end of the run. --slots goes on where it ended with a full
+cell. Files that the model has read must be as they were. Relative paths go from the
+folder that the run was begun in, as long as it is there.";
 
 pub(super) fn command(definition: &Definition<'_>) -> Command {
     let name = definition.name;
     let examples = [
         format!("{name} resume out/{name}"),
+        format!("{name} resume out/{name} --steps 100000"),
         format!("{name} resume out/{name} --engine reference"),
         format!("{name} resume out/{name} --checkpoint out/{name}/checkpoints/step_00000500.checkpoint"),
     ];
@@ -50,10 +57,12 @@ pub(super) fn resume(
     let report_file = folder.join(REPORT);
     let report = report::read(&report_file).map_err(unread)?.unwrap_or_else(|| json!({}));
     let earlier: Earlier = report::parts(&report_file, &report).map_err(unread)?;
-    if arguments.checkpoint.is_none() && earlier.has_ended() {
+    if arguments.checkpoint.is_none() && arguments.steps.is_none() && earlier.has_ended() {
+        let (folder, steps) = (folder.display(), counted(earlier.taken().steps, "step"));
+        let how = if earlier.stop_reason().is_some() { "" } else { "; --steps goes on to a later one" };
         arguments
             .voice
-            .tell(&report, || format!("the run in {} has come to its end already", folder.display()))?;
+            .tell(&report, || format!("the run in {folder} has ended after {steps} already{how}"))?;
         return Ok(Ended::Done);
     }
     let path = chosen(arguments)?;
@@ -92,7 +101,14 @@ impl Found<'_> {
         self.same(earlier.difference(&description.run.command_line), description)?;
         let invocation = parse::recorded(self.definition, &description.run.command_line, "checkpoint")?;
         let on = self.on.or_as_begun(&invocation.engine);
+        let there = WorkingDirectory::enter(&description.run.directory)?;
         let Prepared { engine, mut run } = Prepared::new(&invocation, &on)?;
+        drop(there);
+        run = run.steps(self.steps(description, &earlier)?);
+        if let Some(slots) = self.arguments.slots {
+            run = run.slots(slots).map_err(Unable::refused)?;
+            check_room(&*engine, run.model(), run.run_options().precision)?;
+        }
         if let Some(interval) = self.arguments.checkpoint_every {
             run = run.checkpoint_every(interval);
         }
@@ -106,6 +122,25 @@ impl Found<'_> {
         let recording = run.resume_from(&self.arguments.folder, &*engine, resumed);
         let recording = recording.map_err(|error| self.not_resumed(error, description))?;
         Ok(UnderWay { recording, voice: self.arguments.voice, note: engine.note() })
+    }
+
+    /// How many steps the run has in the end.
+    fn steps(&self, description: &Description, earlier: &Earlier) -> Result<u64, Unable> {
+        let taken = earlier.taken();
+        let wanted = taken.steps_wanted.unwrap_or(description.run.steps_wanted);
+        let Some(steps) = self.arguments.steps else { return Ok(wanted) };
+        let done = if earlier.has_ended() { taken.steps } else { description.step };
+        if let Some(reason) = earlier.stop_reason() {
+            return Err(Unable::refused(format!(
+                "the model has stopped the run after {}: {reason}; it does not go on, also with --steps",
+                counted(done, "step")
+            )));
+        }
+        if steps < done {
+            let done = counted(done, "step");
+            return Err(Unable::refused(format!("{done} of the run are done; --steps must be more")));
+        }
+        Ok(steps)
     }
 
     /// What stands in the way of a run that is to go on.

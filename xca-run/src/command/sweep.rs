@@ -20,6 +20,7 @@ use std::time::Instant;
 use values::{Values, ValuesError};
 use xca_core::Engine;
 use xca_io::atomic::write_atomically;
+use xca_io::numbers::counted;
 use xca_record::machine::{check_memory, cores};
 use xca_record::record::LockedFolder;
 use xca_record::report::Identity;
@@ -157,6 +158,7 @@ pub(super) fn sweep(
             version: definition.version.to_owned(),
             command_line: Vec::new(),
             options: model.options.clone(),
+            ..Identity::default()
         })
         .seeds(given.seed, arguments.seeds)
         .jobs(jobs)
@@ -292,7 +294,8 @@ fn told_of(failed: &Finished) -> String {
     let End::Failed(reason) = &failed.end else { return String::new() };
     let parameters = failed.member.parameters.iter();
     let parameters: String = parameters.map(|own| format!("{}={}, ", own.parameter, own.value)).collect();
-    format!("failed after {} steps: {parameters}seed {}: {reason}\n", failed.steps, failed.member.seed)
+    let steps = counted(failed.steps, "step");
+    format!("failed after {steps}: {parameters}seed {}: {reason}\n", failed.member.seed)
 }
 
 fn not_run(error: EnsembleError) -> Unable {

@@ -12,8 +12,9 @@ use crate::table::table;
 use sheets::Sheet;
 use std::fmt::Write as _;
 use std::io::{self, Write as _};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use xca_io::atomic::{WriteError, write_atomically};
+use xca_record::InputFile;
 use xca_record::comparison::ComparisonReport;
 use xca_record::record::{COMPARISON as JSON, Claim, FolderError, Kind, LockedFolder};
 
@@ -48,7 +49,7 @@ fn files() -> impl Iterator<Item = &'static str> {
 
 impl Files {
     /// Makes the folder; `inputs` is what the comparison has read.
-    pub(crate) fn prepare(folder: &Path, inputs: &[PathBuf]) -> Result<Self, FolderError> {
+    pub(crate) fn prepare(folder: &Path, inputs: &[InputFile]) -> Result<Self, FolderError> {
         let files: Vec<String> = files().map(str::to_owned).collect();
         let claim = Claim { kind: Kind::Comparison, files: &files, inputs };
         Ok(Self { folder: LockedFolder::prepare(folder, &claim)? })

@@ -20,7 +20,7 @@ fn report(folder: &Path, command: &str, files: &str) {
     fs::write(folder.join(REPORT), text).unwrap();
 }
 
-fn prepare(folder: &Path, files: &[String], inputs: &[PathBuf]) -> Result<RunFolder, FolderError> {
+fn prepare(folder: &Path, files: &[String], inputs: &[InputFile]) -> Result<RunFolder, FolderError> {
     RunFolder::prepare(folder, &Claim { kind: Kind::Run, files, inputs })
 }
 
@@ -160,7 +160,7 @@ fn a_run_does_not_replace_its_own_input() {
     report(folder.path(), "run", r#""final.csv""#);
     let input = folder.path().join("frames/../final.csv");
     fs::create_dir(folder.path().join(FRAMES)).unwrap();
-    let error = prepare(folder.path(), &files(), &[input]).unwrap_err().to_string();
+    let error = prepare(folder.path(), &files(), &[InputFile::new(input)]).unwrap_err().to_string();
     assert!(error.contains("final.csv, which it would replace"), "{error}");
     assert!(folder.path().join("final.csv").is_file());
 }

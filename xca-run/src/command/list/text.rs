@@ -5,6 +5,7 @@ use crate::engines::{EngineKind, Engines};
 use crate::table::{table, table_with_notes};
 use xca_core::model::GroupKind;
 use xca_core::{Field, Model, ScalarType};
+use xca_io::numbers::counted;
 use xca_record::components::state_names;
 use xca_record::format::Formats;
 
@@ -43,7 +44,7 @@ fn substates(model: &Model) -> String {
     let rows = model.groups().iter().flat_map(|group| {
         let of = match group.kind() {
             GroupKind::Cells { .. } => "cells".to_owned(),
-            GroupKind::Population { slots, .. } => format!("items, {slots} slots"),
+            GroupKind::Population { slots, .. } => format!("items, {}", counted(*slots as u64, "slot")),
         };
         let name = group.schema().name;
         group.schema().fields.iter().map(move |field| {

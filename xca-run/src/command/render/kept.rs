@@ -1,6 +1,7 @@
 //! What a run's folder, or a checkpoint, says of the run that it is of.
 
 use crate::command::prepare::described;
+use crate::command::working_directory::WorkingDirectory;
 use crate::command::{Definition, Unable, parse};
 use serde::Deserialize;
 use serde_json::{Map, Value};
@@ -16,6 +17,7 @@ pub(super) struct Kept<'a> {
     /// As [`Definition::identity`].
     identity: [String; 3],
     command_line: Vec<String>,
+    directory: String,
     /// The shape of the model, as in `run.json`.
     model: Value,
     parameters: Vec<String>,
@@ -28,6 +30,7 @@ struct Told {
     program: String,
     version: String,
     command_line: Vec<String>,
+    directory: String,
     model: Value,
     parameters: Map<String, Value>,
     /// Its keys are written anew.
@@ -60,6 +63,7 @@ impl<'a> Kept<'a> {
             path,
             identity: [told.xca, told.program, told.version],
             command_line: told.command_line,
+            directory: told.directory,
             model: told.model,
             parameters: of_report(&told.parameters),
         };
@@ -73,6 +77,7 @@ impl<'a> Kept<'a> {
             path,
             identity: [&run.xca, &run.program, &run.version].map(Clone::clone),
             command_line: run.command_line.clone(),
+            directory: run.directory.clone(),
             model: run.model.clone(),
             parameters: run.parameters.iter().map(ToString::to_string).collect(),
         }
@@ -85,7 +90,10 @@ impl<'a> Kept<'a> {
         let identity = self.identity.each_ref().map(String::as_str);
         self.same(other_program(identity, definition.identity()))?;
         let run = parse::recorded(definition, &self.command_line, "run")?;
-        let run = described(&run)?;
+        let run = {
+            let _there = WorkingDirectory::enter(&self.directory)?;
+            described(&run)?
+        };
         let origin = run.origin();
         self.same(other_model(&self.model, &origin.model))?;
         // A checkpoint writes them in another way than a report.

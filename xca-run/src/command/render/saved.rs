@@ -10,6 +10,7 @@ use serde_json::{Value, json};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use xca_io::atomic::{OutputFolder, write_atomically};
+use xca_io::numbers::counted;
 use xca_record::Failure;
 use xca_record::checkpoint::{Checkpoint, CheckpointFolder};
 use xca_record::record::LockedFolder;
@@ -73,7 +74,8 @@ fn folder(
     arguments.voice.tell(&report.of_run, || {
         let interrupted = if states.interrupt.is_raised() { ", interrupted" } else { "" };
         let (of, places) = (path.display(), film.places(&folder));
-        format!("{} pictures of the states in {of}{interrupted}; {places}", made.pictures)
+        let pictures = counted(made.pictures as u64, "picture");
+        format!("{pictures} of the states in {of}{interrupted}; {places}")
     })?;
     Ok(if outcome == "interrupted" { Ended::Interrupted } else { Ended::Done })
 }
@@ -191,7 +193,7 @@ fn checkpoint(
     }
     let (drawn, files) = (path.display().to_string(), [file.display().to_string()]);
     arguments.voice.tell(&json!({ "drawn": drawn, "step": step, "files": files }), || {
-        format!("the state after {step} steps is drawn in {}", file.display())
+        format!("the state after {} is drawn in {}", counted(step, "step"), file.display())
     })?;
     Ok(Ended::Done)
 }

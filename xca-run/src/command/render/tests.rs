@@ -165,7 +165,7 @@ fn files_that_are_none_of_a_run_are_refused() {
     assert!(said.contains("does not fit the model: it has [4, 2, 3] cells, not [4, 3, 2]"), "{said}");
     fs::remove_dir_all(place.folder.path().join("run/frames")).unwrap();
     let said = place.refused("render @run");
-    assert!(said.contains("no state is saved in") && said.ends_with("step_00000003.checkpoint"), "{said}");
+    assert!(said.contains("no state is saved in") && said.ends_with("step_00000006.checkpoint"), "{said}");
 }
 
 #[test]

@@ -4,7 +4,7 @@ use super::UnderWay;
 use crate::progress::{self, Diagnostic};
 use std::time::Duration;
 use xca_core::Model;
-use xca_io::numbers::significant;
+use xca_io::numbers::{counted, significant};
 use xca_record::report::Report;
 
 impl UnderWay {
@@ -15,11 +15,11 @@ impl UnderWay {
             .then(|| format!(", resumed after step {}", self.recording.simulation().step_number()));
         let time_step = progress.time_step.map(|seconds| format!(" of {} s", significant(seconds, 4)));
         format!(
-            "{}, {}, {}, {} steps{}{}",
+            "{}, {}, {}, {}{}{}",
             self.recording.recorder().set_up().title,
             cells(self.recording.recorder().model()),
             engine_words(self.recording.report()),
-            progress.steps_wanted,
+            counted(progress.steps_wanted, "step"),
             time_step.unwrap_or_default(),
             resumed.unwrap_or_default(),
         )
@@ -28,10 +28,11 @@ impl UnderWay {
     /// What is left of a run that failed.
     pub(super) fn remains(&self) -> String {
         let folder = self.recording.folder().display();
-        format!(
-            "{} steps are done; what was written until then is in {folder}",
-            self.recording.simulation().step_number()
-        )
+        let done = match self.recording.simulation().step_number() {
+            1 => "1 step is done".to_owned(),
+            steps => format!("{steps} steps are done"),
+        };
+        format!("{done}; what was written until then is in {folder}")
     }
 
     fn how_to_go_on(&self) -> String {
@@ -56,10 +57,10 @@ impl UnderWay {
         let again = if self.recording.has_checkpoints() { self.how_to_go_on() } else { String::new() };
         let end = match (progress.outcome, &progress.reason) {
             ("interrupted", _) => {
-                format!("interrupted after {} of {} steps", progress.steps, progress.steps_wanted)
+                format!("interrupted after {} of {}", progress.steps, counted(progress.steps_wanted, "step"))
             }
-            (_, Some(reason)) => format!("stopped after {} steps: {reason}", progress.steps),
-            _ => format!("{} steps", progress.steps),
+            (_, Some(reason)) => format!("stopped after {}: {reason}", counted(progress.steps, "step")),
+            _ => counted(progress.steps, "step"),
         };
         let time = progress.time_step.map(|_| format!(", {} s simulated", significant(progress.time, 6)));
         let rate = progress.steps_per_second.map(|rate| format!(", {}", progress::rate_text(rate)));
@@ -68,14 +69,14 @@ impl UnderWay {
             self.recording.report().files.iter().filter(|file| !file.contains('*')).map(String::as_str);
         let files: Vec<&str> = plain.chain(["run.json"]).collect();
         format!(
-            "\n{}\n\n{end}{} in {wall}{}{}\n{}: {}; {frames} {}",
+            "\n{}\n\n{end}{} in {wall}{}{}\n{}: {}; {}",
             progress::summary(&diagnostics),
             time.unwrap_or_default(),
             rate.unwrap_or_default(),
             if progress.outcome == "interrupted" { again } else { String::new() },
             self.recording.folder().display(),
             files.join(", "),
-            if frames == 1 { "frame" } else { "frames" },
+            counted(frames as u64, "frame"),
         )
     }
 }
@@ -86,8 +87,7 @@ pub(in crate::command) fn engine_words(report: &Report) -> String {
     let fact = |name: &str| device.get(name).and_then(|fact| fact.as_str());
     let means = match (fact("adapter"), fact("arithmetic"), threads) {
         (Some(adapter), Some(arithmetic), _) => format!("on {adapter}, {arithmetic} arithmetic"),
-        (.., 1) => "with 1 thread".to_owned(),
-        (.., threads) => format!("with {threads} threads"),
+        (.., threads) => format!("with {}", counted(*threads as u64, "thread")),
     };
     format!("{engine} engine {means}, {precision}")
 }

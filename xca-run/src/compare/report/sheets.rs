@@ -1,6 +1,6 @@
 //! The tables and sentences that all forms of the report share.
 
-use xca_io::numbers::significant;
+use xca_io::numbers::{counted, significant};
 use xca_record::comparison::difference::{Difference, Kind};
 use xca_record::comparison::lane::FirstDifference;
 use xca_record::comparison::timing::Spread;
@@ -36,12 +36,12 @@ pub(super) fn headline(comparison: &ComparisonReport) -> String {
         repeats => format!("{repeats} times"),
     };
     format!(
-        "{}: {} steps of {} {} on {} engines, timed {times}",
+        "{}: {} of {} {} on {}, timed {times}",
         comparison.subject.title,
-        comparison.steps,
+        counted(comparison.steps, "step"),
         comparison.number,
         comparison.updated,
-        comparison.engines.len(),
+        counted(comparison.engines.len() as u64, "engine"),
     )
 }
 
@@ -134,7 +134,7 @@ fn differences(comparison: &ComparisonReport) -> Sheet {
             |value: f64| if difference.kind == Kind::Cell { "–".to_owned() } else { number(value) };
         let mut place = or_dash(difference.worst.as_ref().map(|worst| worst.place.to_string()));
         if difference.unmatched > 0 {
-            place = format!("{} items in one state only", difference.unmatched);
+            place = format!("{} in one state only", counted(difference.unmatched as u64, "item"));
         }
         vec![
             engine.name.clone(),

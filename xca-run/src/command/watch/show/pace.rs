@@ -1,6 +1,7 @@
 //! How fast a run is shown.
 
 use std::time::Duration;
+use xca_io::numbers::{counted, significant};
 
 /// Steps from picture to picture, and pictures a second.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,12 +50,12 @@ impl Pace {
 
     /// The pace for people.
     pub(super) fn words(self) -> String {
-        let steps = if self.every == 1 { "1 step" } else { &format!("{} steps", self.every) };
+        let steps = counted(self.every, "step");
         if self.slowed == 0 {
             format!("{steps} a picture")
         } else {
             let rate = f64::from(self.full) / f64::from(2_u32.pow(self.slowed));
-            format!("{steps} a picture, {} pictures/s", xca_io::numbers::significant(rate, 2))
+            format!("{steps} a picture, {} pictures/s", significant(rate, 2))
         }
     }
 }

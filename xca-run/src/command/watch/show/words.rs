@@ -9,7 +9,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Style, Stylize};
 use ratatui::text::{Line, Span};
-use xca_io::numbers::significant;
+use xca_io::numbers::{counted, significant};
 use xca_io::picture::Palette;
 use xca_record::record::{Sight, Subject};
 
@@ -138,7 +138,7 @@ fn seen(screen: &Screen, news: &News) -> Vec<Piece> {
         }
         Subject::Items { positions, extents, .. } => {
             let axis = AXES[looked_along(screen.axis(), *extents)];
-            pieces.push(plain(format!("{} items, seen along {axis}", positions.len())));
+            pieces.push(plain(format!("{}, seen along {axis}", counted(positions.len() as u64, "item"))));
         }
     }
     pieces
