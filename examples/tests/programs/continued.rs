@@ -104,6 +104,7 @@ fn a_run_with_a_full_cell_goes_on_with_more_slots() {
     assert_eq!(report(&place.path("here"))["model"]["groups"][0]["slots"], 6);
     // Neither the run that goes on now, nor its pictures, are told of the slots again.
     succeed(&place, CADEM, "here --steps 2010");
+    assert_eq!(report(&place.path("here"))["model"]["groups"][0]["slots"], 6);
     let output = place.invocation(CADEM, "render here --out pictures").output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
 }
