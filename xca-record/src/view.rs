@@ -1,9 +1,11 @@
 //! What of a model's substates is saved and drawn, and how.
 
 mod complete;
+mod quantity;
 
 pub use complete::ViewError;
 pub(crate) use complete::complete;
+pub(crate) use quantity::{Computation, Drawn, Quantity, StoredBytes};
 
 use crate::components::{DrawnPart, Part};
 use std::any::TypeId;
@@ -82,13 +84,6 @@ impl TableColumn {
     }
 }
 
-/// A substate or a component of it that is drawn, and what the scale calls it.
-#[derive(Debug, Clone)]
-pub(crate) struct Drawn {
-    pub(crate) part: Part,
-    pub(crate) label: String,
-}
-
 /// The colour of a value of a substate.
 #[derive(Debug, Clone)]
 pub(crate) struct ValueColour {
@@ -110,24 +105,25 @@ impl ValueColour {
 
 /// The states of what is drawn with their colours, from the colour with this number in the palette on; none
 /// where it is a number.
-fn categories(schema: &Schema, part: Part, colours: &[ValueColour], first: usize) -> Vec<Category> {
-    let states = schema.fields.get(part.field).map(|field| {
-        let drawn = DrawnPart::of(field.value_type, part.component);
+fn categories(schema: &Schema, quantity: &Quantity, colours: &[ValueColour], first: usize) -> Vec<Category> {
+    let Some(Part { field, component }) = quantity.part() else { return Vec::new() };
+    let states = schema.fields.get(field).map(|field| {
+        let drawn = DrawnPart::of(field.value_type, component);
         drawn.states(field.value_type)
     });
     let names = states.unwrap_or_default().into_iter().enumerate();
-    coloured(names.map(|(number, name)| (number as f64, name)), part.field, colours, first)
+    coloured(names.map(|(number, name)| (number as f64, name)), Some(field), colours, first)
 }
 
 /// Values with their names, in the colours that the author gives them, else in those of the palette.
 fn coloured(
     names: impl Iterator<Item = (f64, String)>,
-    field: usize,
+    field: Option<usize>,
     colours: &[ValueColour],
     first: usize,
 ) -> Vec<Category> {
     let category = |(number, (value, name)): (usize, (f64, String))| {
-        let given = colours.iter().find(|given| given.field == field && given.value == value);
+        let given = colours.iter().find(|given| Some(given.field) == field && given.value == value);
         let plain = Category::new(first + number, value, name);
         given.map_or(plain.clone(), |given| Category { colour: given.colour, ..plain })
     };
@@ -196,8 +192,8 @@ impl<S: Substates> ItemView<S> {
     /// of its elements. `^` in the label raises what follows: `speed (m s^-1)`.
     #[must_use]
     pub fn colour<V: HostValue>(mut self, substate: Substate<S, V>, label: impl Into<String>) -> Self {
-        self.view.colour =
-            Some(Drawn { part: Part { field: substate.index(), component: None }, label: label.into() });
+        let part = Part { field: substate.index(), component: None };
+        self.view.colour = Some(Drawn { quantity: Quantity::Part(part), label: label.into() });
         self
     }
 
@@ -211,7 +207,19 @@ impl<S: Substates> ItemView<S> {
         label: impl Into<String>,
     ) -> Self {
         let part = Part { field: substate.index(), component: Some(component) };
-        self.view.colour = Some(Drawn { part, label: label.into() });
+        self.view.colour = Some(Drawn { quantity: Quantity::Part(part), label: label.into() });
+        self
+    }
+
+    /// Colours items by a number that is computed of their substates, such as an energy.
+    #[must_use]
+    pub fn colour_with(
+        mut self,
+        label: impl Into<String>,
+        quantity: impl Fn(&S) -> f64 + Send + Sync + 'static,
+    ) -> Self {
+        let quantity = Quantity::Computed(Computation::of(quantity));
+        self.view.colour = Some(Drawn { quantity, label: label.into() });
         self
     }
 
@@ -243,8 +251,8 @@ impl<S: Substates> CellView<S> {
     /// element).
     #[must_use]
     pub fn draw<V: HostValue>(mut self, substate: Substate<S, V>, label: impl Into<String>) -> Self {
-        self.view.drawn =
-            Some(Drawn { part: Part { field: substate.index(), component: None }, label: label.into() });
+        let part = Part { field: substate.index(), component: None };
+        self.view.drawn = Some(Drawn { quantity: Quantity::Part(part), label: label.into() });
         self
     }
 
@@ -258,7 +266,33 @@ impl<S: Substates> CellView<S> {
         label: impl Into<String>,
     ) -> Self {
         let part = Part { field: substate.index(), component: Some(component) };
-        self.view.drawn = Some(Drawn { part, label: label.into() });
+        self.view.drawn = Some(Drawn { quantity: Quantity::Part(part), label: label.into() });
+        self
+    }
+
+    /// Draws a number that is computed of the substates of a cell.
+    ///
+    /// ```
+    /// use xca_core::prelude::*;
+    /// use xca_record::CellView;
+    ///
+    /// #[derive(Substates, Clone)]
+    /// struct Land {
+    ///     altitude: Real,
+    ///     thickness: Real,
+    /// }
+    ///
+    /// let view = CellView::<Land>::named("surface")
+    ///     .draw_with("surface (m)", |cell: &Land| cell.altitude + cell.thickness);
+    /// ```
+    #[must_use]
+    pub fn draw_with(
+        mut self,
+        label: impl Into<String>,
+        quantity: impl Fn(&S) -> f64 + Send + Sync + 'static,
+    ) -> Self {
+        let quantity = Quantity::Computed(Computation::of(quantity));
+        self.view.drawn = Some(Drawn { quantity, label: label.into() });
         self
     }
 
@@ -350,7 +384,7 @@ impl AnyItemView {
             let field = vector.or_else(|| (0..schema.fields.len()).find(other))?;
             let value_type = schema.fields[field].value_type;
             let label = DrawnPart::of(value_type, None).label(&schema.fields[field]);
-            Some(Drawn { part: Part { field, component: None }, label })
+            Some(Drawn { quantity: Quantity::Part(Part { field, component: None }), label })
         };
         self.colour.clone().or_else(default)
     }
@@ -359,7 +393,7 @@ impl AnyItemView {
     pub(crate) fn categories(&self, schema: &Schema) -> Vec<Category> {
         let colour = self.colour(schema);
         // White spheres are hard to see on the ground.
-        colour.map(|drawn| categories(schema, drawn.part, &self.colours, 1)).unwrap_or_default()
+        colour.map(|drawn| categories(schema, &drawn.quantity, &self.colours, 1)).unwrap_or_default()
     }
 }
 
@@ -381,8 +415,9 @@ impl AnyCellView {
     }
 
     /// What is drawn.
-    pub(crate) fn part(&self) -> Part {
-        self.drawn.as_ref().map_or(Part { field: 0, component: None }, |drawn| drawn.part)
+    pub(crate) fn quantity(&self) -> Quantity {
+        let first = Quantity::Part(Part { field: 0, component: None });
+        self.drawn.as_ref().map_or(first, |drawn| drawn.quantity.clone())
     }
 
     /// What the scale calls it.
@@ -396,11 +431,11 @@ impl AnyCellView {
 
     /// The kinds or states of what is drawn; none where it is a number.
     pub(crate) fn categories(&self, schema: &Schema) -> Vec<Category> {
-        let part = self.part();
+        let quantity = self.quantity();
         if self.kinds.is_empty() {
-            categories(schema, part, &self.colours, 0)
+            categories(schema, &quantity, &self.colours, 0)
         } else {
-            coloured(self.kinds.iter().cloned(), part.field, &self.colours, 0)
+            coloured(self.kinds.iter().cloned(), quantity.field(), &self.colours, 0)
         }
     }
 

@@ -223,7 +223,7 @@ mod tests {
         let text = paper.0.lock().unwrap().clone();
         let line = text.rsplit('\r').find(|line| !line.trim().is_empty()).unwrap();
         assert!(line.contains("100/200 steps, "), "{text}");
-        assert!(line.contains(" steps/s") && line.ends_with("  writing"), "{line}");
+        assert!(line.contains(" steps/s") && line.trim_end().ends_with("  writing"), "{line}");
         assert_eq!(left_text(Duration::from_secs(42)), ", 42 s left");
         assert_eq!(left_text(Duration::from_millis(30)), "");
         let spinner = Progress::on(None, ProgressDrawTarget::term_like(Box::new(paper.clone())));

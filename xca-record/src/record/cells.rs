@@ -4,7 +4,7 @@ use super::seen::Seen;
 use super::substate_values::SubstateValues;
 use super::values::Plane;
 use crate::components::{DrawnPart, Part};
-use crate::view::AnyCellView;
+use crate::view::{AnyCellView, Quantity, StoredBytes};
 use xca_core::model::Group;
 use xca_core::{Geometry, Precision, StoredScalar, StoredType};
 
@@ -77,34 +77,58 @@ impl<'a> CellState<'a> {
             let stored = schema.fields.get(field)?.value_type.stored(self.precision);
             Some(drawn(self.view, self.geometry, stored, self.fields.get(field)?))
         };
-        let Part { field, component } = self.view.part();
-        match (plane(field), schema.fields.get(field)) {
-            (Some(values), Some(field)) => {
-                let part = DrawnPart::of(field.value_type, component);
-                let heights = self.view.relief.and_then(|(field, _)| plane(field));
-                let hidden = self.ground.missing.map(|missing| drawn_mask(self.view, self.geometry, missing));
-                seen(&values, part, heights, hidden)
+        let drawn = match self.view.quantity() {
+            Quantity::Part(Part { field, component }) => {
+                let definition = schema.fields.get(field).zip(plane(field));
+                definition.map(|(definition, plane)| {
+                    DrawnValues::of_part(&plane, DrawnPart::of(definition.value_type, component))
+                })
             }
-            _ => Seen::Cells { is_float: false, values: Vec::new(), heights: None, hidden: None },
-        }
+            Quantity::Computed(computation) => {
+                let fields = schema.fields.iter().zip(self.fields);
+                let fields: Vec<StoredBytes<'_>> = fields
+                    .map(|(field, bytes)| StoredBytes {
+                        stored: field.value_type.stored(self.precision),
+                        bytes,
+                    })
+                    .collect();
+                let cells = drawn_cells(self.view, self.geometry);
+                Some(DrawnValues::of_numbers(computation.values(self.precision, &fields, cells)))
+            }
+        };
+        let heights = self.view.relief.and_then(|(field, _)| plane(field));
+        let hidden = self.ground.missing.map(|missing| drawn_mask(self.view, self.geometry, missing));
+        seen(drawn.unwrap_or_default(), heights, hidden)
     }
 }
 
-/// What is seen of a substate, over the heights of the ground.
-pub(super) fn seen(
-    values: &Plane,
-    part: DrawnPart,
-    heights: Option<Plane>,
-    hidden: Option<Vec<bool>>,
-) -> Seen {
+/// The numbers that are drawn, one for each cell that is.
+#[derive(Debug, Default)]
+pub(super) struct DrawnValues {
+    is_float: bool,
+    values: Vec<f64>,
+}
+
+impl DrawnValues {
+    pub(super) fn of_part(plane: &Plane, part: DrawnPart) -> Self {
+        Self { is_float: plane.is_float(), values: plane.drawn(part) }
+    }
+
+    pub(super) fn of_numbers(values: Vec<f64>) -> Self {
+        Self { is_float: true, values }
+    }
+}
+
+/// What is seen of them, over the heights of the ground.
+pub(super) fn seen(drawn: DrawnValues, heights: Option<Plane>, hidden: Option<Vec<bool>>) -> Seen {
     let masked = |mut values: Vec<f64>| {
         let masked = values.iter_mut().zip(hidden.as_deref().unwrap_or_default());
         masked.filter(|(_, is_hidden)| **is_hidden).for_each(|(value, _)| *value = f64::NAN);
         values
     };
     Seen::Cells {
-        is_float: values.is_float(),
-        values: masked(values.drawn(part)),
+        is_float: drawn.is_float,
+        values: masked(drawn.values),
         heights: heights.map(|heights| masked(heights.component(0))),
         hidden,
     }
@@ -117,24 +141,30 @@ pub(super) fn drawn_mask(view: &AnyCellView, geometry: &Geometry, mask: &[bool])
     drawn(view, geometry, BYTES, &bytes).component(0).into_iter().map(|byte| byte != 0.0).collect()
 }
 
-/// What a view draws of the stored bytes of a substate: those of its layer, or all of them.
-pub(super) fn drawn(view: &AnyCellView, geometry: &Geometry, stored: StoredType, bytes: &[u8]) -> Plane {
+/// The cells that a view draws: those of its layer, or all of them.
+pub(super) fn drawn_cells(view: &AnyCellView, geometry: &Geometry) -> Box<dyn Iterator<Item = usize>> {
     let [columns, rows, layers] = geometry.extents();
     let (layer, plane) = (view.drawn_layer(geometry), columns * rows);
     match view.axis {
-        _ if view.block => Plane::all(stored, bytes),
-        0 => {
-            let cells: Vec<usize> = (0..rows * layers).map(|row| row * columns + layer).collect();
-            Plane::chosen(stored, bytes, &cells)
-        }
+        _ if view.block => Box::new(0..plane * layers),
+        0 => Box::new((0..rows * layers).map(move |row| row * columns + layer)),
         1 => {
-            let cell = |i: usize| i / columns * plane + layer * columns + i % columns;
-            let cells: Vec<usize> = (0..columns * layers).map(cell).collect();
-            Plane::chosen(stored, bytes, &cells)
+            Box::new((0..columns * layers).map(move |i| i / columns * plane + layer * columns + i % columns))
         }
-        _ => {
-            let size = plane * stored.size();
-            Plane::all(stored, &bytes[layer * size..(layer + 1) * size])
-        }
+        _ => Box::new(layer * plane..(layer + 1) * plane),
+    }
+}
+
+/// What a view draws of the stored bytes of a substate.
+pub(super) fn drawn(view: &AnyCellView, geometry: &Geometry, stored: StoredType, bytes: &[u8]) -> Plane {
+    let [columns, rows, _] = geometry.extents();
+    // Cells that follow each other are taken at once.
+    if view.block {
+        Plane::all(stored, bytes)
+    } else if view.axis == 2 {
+        let (layer, size) = (view.drawn_layer(geometry), columns * rows * stored.size());
+        Plane::all(stored, &bytes[layer * size..(layer + 1) * size])
+    } else {
+        Plane::chosen(stored, bytes, &drawn_cells(view, geometry).collect::<Vec<_>>())
     }
 }

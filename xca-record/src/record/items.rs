@@ -3,8 +3,8 @@
 use super::seen::Seen;
 use super::substate_values::SubstateValues;
 use super::values::Plane;
-use crate::components::DrawnPart;
-use crate::view::{AnyItemView, Drawn, TableColumn};
+use crate::components::{DrawnPart, Part};
+use crate::view::{AnyItemView, Quantity, StoredBytes, TableColumn};
 use xca_core::engine::Population;
 use xca_core::model::Group;
 use xca_core::{Geometry, Precision, ScalarType, StoredType};
@@ -16,6 +16,7 @@ pub struct ItemState<'a> {
     view: &'a AnyItemView,
     group: &'a Group,
     geometry: &'a Geometry,
+    precision: Precision,
     stored: Vec<StoredType>,
     population: &'a Population,
     /// The places of the items in the population.
@@ -53,7 +54,7 @@ impl<'a> ItemState<'a> {
         }
         which.sort_unstable_by_key(|&place| population.labels[place]);
         let labels = which.iter().map(|&place| population.labels[place]).collect();
-        Self { view, group, geometry, stored, population, which, labels, corner }
+        Self { view, group, geometry, precision, stored, population, which, labels, corner }
     }
 
     fn plane(&self, field: usize) -> Plane {
@@ -127,10 +128,16 @@ impl<'a> ItemState<'a> {
     /// Where they are, and what colours them.
     pub(super) fn seen(&self) -> Seen {
         let schema = self.group.schema();
-        let colour = self.view.colour(schema);
-        let values = colour.map(|Drawn { part, .. }| {
-            let drawn = DrawnPart::of(schema.fields[part.field].value_type, part.component);
-            self.plane(part.field).drawn(drawn)
+        let values = self.view.colour(schema).map(|drawn| match drawn.quantity {
+            Quantity::Part(Part { field, component }) => {
+                self.plane(field).drawn(DrawnPart::of(schema.fields[field].value_type, component))
+            }
+            Quantity::Computed(computation) => {
+                let fields = self.stored.iter().zip(&self.population.fields);
+                let fields: Vec<StoredBytes<'_>> =
+                    fields.map(|(stored, bytes)| StoredBytes { stored: *stored, bytes }).collect();
+                computation.values(self.precision, &fields, self.which.iter().copied())
+            }
         });
         let values = values.unwrap_or_default();
         Seen::Items { positions: self.positions().to_points(), values }

@@ -4,7 +4,7 @@ use super::Recorder;
 use super::drawing::Panel;
 use super::shown::Shown;
 use crate::components::{DrawnPart, Part};
-use crate::view::{AnyView, Drawn};
+use crate::view::{AnyView, Drawn, Quantity};
 
 /// How a state is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -119,7 +119,7 @@ impl Recorder {
             if let Some(part) = Part::named(fields(shown), name) {
                 let field = &fields(shown)[part.field];
                 let label = DrawnPart::of(field.value_type, part.component).label(field);
-                return Ok((shown, Some(Drawn { part, label })));
+                return Ok((shown, Some(Drawn { quantity: Quantity::Part(part), label })));
             }
         }
         let known = self.shown.iter().flat_map(fields).map(|field| {
@@ -135,7 +135,7 @@ impl Recorder {
 
 /// Whether a view shows this already, and has words for it.
 fn is_drawn(shown: Option<&Drawn>, wanted: &Drawn) -> bool {
-    shown.is_some_and(|shown| shown.part == wanted.part)
+    shown.is_some_and(|shown| shown.quantity.part().is_some_and(|part| Some(part) == wanted.quantity.part()))
 }
 
 impl ViewKind {

@@ -1,20 +1,20 @@
 //! What a view sees of the states that a run has saved: its frames.
 
 use super::Recorder;
-use super::cells;
+use super::cells::{self, DrawnValues};
 use super::seen::Seen;
 use super::shown::Shown;
 use super::values::{Plane, stored_of};
 use crate::components::{DrawnPart, Part, state_names};
 use crate::format::{Moment, OutputFile, SavedState, Writer};
 use crate::observable::Failure;
-use crate::view::{AnyCellView, AnyItemView, AnyView, Drawn};
+use crate::view::{AnyCellView, AnyItemView, AnyView, Computation, Quantity, StoredBytes};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use xca_core::model::Group;
-use xca_core::{Geometry, GroupSnapshot, Model, Precision, Snapshot};
+use xca_core::{Geometry, GroupSnapshot, Model, Precision, ScalarType, Snapshot, StoredType};
 use xca_io::atomic::OutputFolder;
-use xca_io::vtk::ReadArray;
+use xca_io::vtk::{NumberType, ReadArray};
 
 /// A saved state that cannot be drawn.
 #[derive(Debug, thiserror::Error)]
@@ -122,10 +122,19 @@ fn of_cells(
         Ok(cells::drawn(view, geometry, stored_of(array), &array.bytes))
     };
     let heights = view.relief.map(|(field, _)| plane(field)).transpose()?;
-    let Part { field, component } = view.part();
-    let part = DrawnPart::of(group.schema().fields[field].value_type, component);
+    let drawn = match view.quantity() {
+        Quantity::Part(Part { field, component }) => {
+            let part = DrawnPart::of(group.schema().fields[field].value_type, component);
+            DrawnValues::of_part(&plane(field)?, part)
+        }
+        Quantity::Computed(computation) => {
+            let count = geometry.extents().iter().product();
+            let all = arrays.all(None, count)?;
+            DrawnValues::of_numbers(all.computed(&computation, cells::drawn_cells(view, geometry)))
+        }
+    };
     let hidden = missing.map(|missing| cells::drawn_mask(view, geometry, missing));
-    Ok(cells::seen(&plane(field)?, part, heights, hidden))
+    Ok(cells::seen(drawn, heights, hidden))
 }
 
 fn items(
@@ -142,9 +151,13 @@ fn items(
     let schema = group.schema();
     // In the model, the corner of the map is at 0, 0.
     let positions = Plane::of_array(positions).shifted([-x, -y]);
-    let values = match view.colour(schema) {
+    let values = match view.colour(schema).map(|drawn| drawn.quantity) {
         None => Vec::new(),
-        Some(Drawn { part: Part { field, component }, .. }) => {
+        Some(Quantity::Computed(computation)) => {
+            let count = positions.count();
+            arrays.all(Some(&positions), count)?.computed(&computation, 0..count)
+        }
+        Some(Quantity::Part(Part { field, component })) => {
             let drawn = DrawnPart::of(schema.fields[field].value_type, component);
             if schema.position == Some(field) {
                 positions.drawn(drawn)
@@ -188,6 +201,59 @@ impl<'a> Arrays<'a> {
             return Err(SavedError::OtherShape { path: self.path.to_owned(), what });
         }
         Ok(array)
+    }
+}
+
+impl Arrays<'_> {
+    /// All substates of so many cells or items, as a simulation stores them. The file has the positions of items apart.
+    fn all(&self, positions: Option<&Plane>, count: usize) -> Result<AllStored, SavedError> {
+        let schema = self.group.schema();
+        // The types of `Real` tell the precision of the run.
+        let mut precision = Precision::F64;
+        let mut found = Vec::new();
+        for (field, definition) in schema.fields.iter().enumerate() {
+            if positions.is_some() && schema.position == Some(field) {
+                found.push(None);
+                continue;
+            }
+            let array = self.of_field(field)?;
+            if definition.value_type.scalar == ScalarType::Real && array.numbers == NumberType::F32 {
+                precision = Precision::F32;
+            }
+            found.push(Some(array));
+        }
+        let stored = self.group.stored(precision);
+        let mut bytes = Vec::new();
+        for ((definition, stored), array) in schema.fields.iter().zip(&stored).zip(found) {
+            let of_field = match (array, positions) {
+                (Some(array), _) => array.bytes.clone(),
+                (None, Some(positions)) => positions.stored_as(*stored),
+                (None, None) => Vec::new(),
+            };
+            let is_other = array.is_some_and(|array| stored_of(array).scalar != stored.scalar);
+            if is_other || of_field.len() != count * stored.size() {
+                let what = format!("`{}` is not stored as it is in the model", definition.name);
+                return Err(SavedError::OtherShape { path: self.path.to_owned(), what });
+            }
+            bytes.push(of_field);
+        }
+        Ok(AllStored { precision, stored, bytes })
+    }
+}
+
+/// All substates of a file, as a simulation stores them.
+struct AllStored {
+    precision: Precision,
+    stored: Vec<StoredType>,
+    bytes: Vec<Vec<u8>>,
+}
+
+impl AllStored {
+    fn computed(&self, computation: &Computation, which: impl Iterator<Item = usize>) -> Vec<f64> {
+        let fields = self.stored.iter().zip(&self.bytes);
+        let fields: Vec<StoredBytes<'_>> =
+            fields.map(|(stored, bytes)| StoredBytes { stored: *stored, bytes }).collect();
+        computation.values(self.precision, &fields, which)
     }
 }
 

@@ -6,7 +6,7 @@ use super::painting::Field;
 use super::seen::{Seen, wider};
 use super::{Recorder, Shown};
 use crate::components::{Part, name_of};
-use crate::view::{AnyView, Drawn};
+use crate::view::{AnyView, Quantity};
 use xca_core::{Model, Precision, Snapshot};
 use xca_io::picture::{Category, ColourMap, Scalar};
 
@@ -86,8 +86,12 @@ impl Panel {
     ) -> Option<Sight> {
         let (group, geometry) = (&model.groups()[self.shown.group], model.geometry());
         let schema = group.schema();
-        let name = |Part { field, component }: Part| {
-            schema.fields.get(field).map_or_else(String::new, |field| name_of(field, component))
+        // What is computed has no other name than its label.
+        let name = |quantity: &Quantity, label: &str| match quantity.part() {
+            Some(Part { field, component }) => {
+                schema.fields.get(field).map_or_else(String::new, |field| name_of(field, component))
+            }
+            None => label.to_owned(),
         };
         let seen = self.shown.seen(model, precision, snapshot)?;
         let present = seen.range();
@@ -110,7 +114,7 @@ impl Panel {
                 let ([across, down], layers) = field.plane();
                 let (axis, layer) = (view.axis, view.drawn_layer(geometry));
                 let subject = Subject::Layer { cells: [across, down], axis, layer, layers };
-                let substate = name(view.part());
+                let substate = name(&view.quantity(), &label);
                 Some(Sight { subject, values, hidden, substate, label, map, kinds, range })
             }
             (AnyView::Items(view), Seen::Items { positions, values }) => {
@@ -123,8 +127,9 @@ impl Panel {
                     radius: view.radius.unwrap_or(side / 4.0) / side,
                     extents: geometry.extents(),
                 };
-                let (substate, label) =
-                    colour.map(|Drawn { part, label }| (name(part), label)).unwrap_or_default();
+                let (substate, label) = colour
+                    .map(|drawn| (name(&drawn.quantity, &drawn.label), drawn.label))
+                    .unwrap_or_default();
                 let (map, range) = (ColourMap::default(), self.range.or(range));
                 let kinds = view.categories(schema);
                 Some(Sight { subject, values, hidden: None, substate, label, map, kinds, range })

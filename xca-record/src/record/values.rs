@@ -182,6 +182,20 @@ impl Plane {
         }
     }
 
+    /// Floating numbers as a simulation stores them, as many components of each value as are stored.
+    pub(super) fn stored_as(&self, stored: StoredType) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        for index in 0..self.count() {
+            for number in self.value(index).into_iter().take(stored.components()) {
+                match stored.scalar {
+                    StoredScalar::F32 => bytes.extend((number as f32).to_ne_bytes()),
+                    _ => bytes.extend(number.to_ne_bytes()),
+                }
+            }
+        }
+        bytes
+    }
+
     /// Values of three components as points.
     pub fn to_points(&self) -> Vec<[f64; 3]> {
         (0..self.count())

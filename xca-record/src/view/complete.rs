@@ -96,7 +96,7 @@ fn wrong_component(view: &AnyView, schema: &Schema) -> Option<ViewError> {
         AnyView::Items(view) => view.colour.as_ref(),
         AnyView::Cells(view) => view.drawn.as_ref(),
     };
-    let Part { field, component } = drawn?.part;
+    let Part { field, component } = drawn?.quantity.part()?;
     let (field, component) = (schema.fields.get(field)?, component?);
     let components = field.value_type.components();
     (component >= components).then(|| ViewError::Component {

@@ -2,7 +2,7 @@
 
 mod pond;
 
-use pond::{Place, pond};
+use pond::{Place, measured, pond};
 use std::fs;
 use xca_core::{GroupSnapshot, Precision, Reference, RunOptions, Simulation};
 use xca_record::record::Recorder;
@@ -46,6 +46,31 @@ fn saved_states_look_as_they_did_when_they_were_run() {
         }
         assert!(place.files("run") == before, "the run is as it was");
         assert_eq!(place.files("run/frames").len(), 12);
+    }
+}
+
+/// What is computed looks as the substate does that it is equal to, in a run and drawn of its files.
+#[test]
+fn what_is_computed_of_substates_is_drawn() {
+    for precision in ["f64", "f32"] {
+        let pictures = [false, true].map(|is_computed| {
+            let place = Place::new(move |width| measured(width, is_computed));
+            let run = format!("--width 4 --steps 6 --every 3 --precision {precision}");
+            place.succeed(&format!("run {run} --out @run"));
+            let mut pictures = Vec::new();
+            for look in ["", "--axis x --layer 1", "--axis y", "--view isometric", "--view spheres"] {
+                place.succeed(&format!("render {run} {look} {SMALL} --out @again"));
+                place.succeed(&format!("render @run {look} {SMALL} --out @saved"));
+                let saved = place.files("saved/frames");
+                assert!(place.files("again/frames") == saved, "{precision} {look}");
+                assert!(saved.windows(2).all(|pair| pair[0].1 != pair[1].1), "{look}: all look alike");
+                pictures.push(saved);
+            }
+            let of_run = place.files("run").into_iter().filter(|(name, _)| name.ends_with("png"));
+            (pictures, of_run.collect::<Vec<_>>())
+        });
+        assert_eq!(pictures[0].1.len(), 6);
+        assert!(pictures[0] == pictures[1], "{precision}");
     }
 }
 

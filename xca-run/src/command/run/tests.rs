@@ -369,6 +369,28 @@ fn nan_ends_the_run_at_an_output() {
     assert!(!folder.path().join("final.png").exists());
 }
 
+/// Before an earlier run loses its files.
+#[test]
+fn an_initial_state_with_nan_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let (_, earlier) = run_model(&plain, &["--steps", "3"], folder.path());
+    let rotten = |_: Given| -> Result<SetUp, Failure> {
+        let model = Model::builder("meadow").extents([4, 3, 2]).substates::<Grass>();
+        let nan = Grass { height: f64::NAN, wind: Vector2::new(0.0, 0.0), kind: 0 };
+        Ok(SetUp::new(model.fill(move |_| nan).build()?, 5))
+    };
+    let (ended, report) = run_model(&rotten, &[], folder.path());
+    assert!(matches!(ended, Err(Unable::Refused(_))));
+    assert!(
+        message(&ended).starts_with("step 0: `Grass.height` is NaN in cell [0, 0, 0]"),
+        "{}",
+        message(&ended)
+    );
+    assert_eq!(report, earlier);
+    let (ended, _) = run_model(&rotten, &["--allow-non-finite"], folder.path());
+    assert!(matches!(ended, Ok(Ended::Done)));
+}
+
 #[test]
 fn a_time_step_must_be_positive() {
     let folder = tempfile::tempdir().unwrap();

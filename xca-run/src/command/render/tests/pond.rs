@@ -104,6 +104,18 @@ pub(super) fn pond(width: usize) -> Result<SetUp, Failure> {
     Ok(SetUp::new(model(width)?, 6).title("A pond").time_step(0.25).cells(water).items(fish))
 }
 
+/// The depth of the water and the speed of the fish: as substates, or computed of them.
+pub(super) fn measured(width: usize, is_computed: bool) -> Result<SetUp, Failure> {
+    let (water, fish) = (CellView::<Water>::named("water"), ItemView::<Fish>::named("fish"));
+    let (water, fish) = if is_computed {
+        let speed = |fish: &Fish| fish.velocity.dot(fish.velocity).sqrt();
+        (water.draw_with("depth (m)", |cell: &Water| cell.depth), fish.colour_with("speed", speed))
+    } else {
+        (water.draw(Water::DEPTH, "depth (m)"), fish.colour(Fish::VELOCITY, "speed"))
+    };
+    Ok(SetUp::new(model(width)?, 6).cells(water).items(fish))
+}
+
 /// A program, and a folder that it works in.
 pub(super) struct Place {
     pub(super) folder: TempDir,
