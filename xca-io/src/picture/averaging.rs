@@ -1,5 +1,7 @@
 //! Which cells a pixel shows.
 
+use super::lattice::Lattice;
+
 /// The cells that a pixel shows along one axis.
 pub(super) struct Share {
     first: usize,
@@ -46,6 +48,16 @@ pub fn fitted(cells: [usize; 2], room: [usize; 2]) -> [usize; 2] {
     }
     let share = (0..2).map(|i| room[i] as f64 / cells[i] as f64).fold(f64::INFINITY, f64::min);
     std::array::from_fn(|i| ((cells[i] as f64 * share).round() as usize).clamp(1, room[i]))
+}
+
+/// The pixels across and down that show a layer in a room; cells of squares get whole ones as [`fitted`] says.
+pub(super) fn fitted_layer(lattice: Lattice, cells: [usize; 2], room: [usize; 2]) -> [usize; 2] {
+    if lattice == Lattice::Squares {
+        return fitted(cells, room);
+    }
+    let size = lattice.size(cells);
+    let scale = (0..2).map(|i| room[i] as f64 / size[i]).fold(f64::INFINITY, f64::min);
+    std::array::from_fn(|i| ((size[i] * scale).round() as usize).clamp(1, room[i].max(1)))
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use super::averaging::Share;
 use super::category::Category;
 use super::colour::ColourMap;
+use super::lattice::Lattice;
 use super::legend::Scale;
 use super::relief::Ground;
 
@@ -58,6 +59,7 @@ pub struct Mosaic<'a> {
     ground: Option<&'a Ground>,
     /// The cells that are not drawn.
     hidden: Option<&'a [bool]>,
+    lattice: Lattice,
 }
 
 impl<'a> Mosaic<'a> {
@@ -69,12 +71,28 @@ impl<'a> Mosaic<'a> {
         scale: Scale,
         palette: &'a Palette,
     ) -> Self {
-        Self { columns, rows, values, scale, kinds, palette, ground: None, hidden: None }
+        Self {
+            columns,
+            rows,
+            values,
+            scale,
+            kinds,
+            palette,
+            ground: None,
+            hidden: None,
+            lattice: Lattice::Squares,
+        }
     }
 
     /// The same over this ground.
     pub(super) fn over(self, ground: Option<&'a Ground>) -> Self {
         Self { ground, ..self }
+    }
+
+    /// The same of cells that lie so in the plane.
+    #[must_use]
+    pub fn on(self, lattice: Lattice) -> Self {
+        Self { lattice, ..self }
     }
 
     /// The same without the cells where this mask is true: the background is seen there.
@@ -84,17 +102,46 @@ impl<'a> Mosaic<'a> {
     }
 
     /// Calls `set` with the column and the row of each pixel, from the top left, and its colour: that of its cell, or of the
-    /// mean of its cells. Pixels whose cells are all hidden are left out.
+    /// mean of its cells. Pixels whose cells are all hidden are left out, and those beside all hexagons.
     pub fn draw(&self, [width, height]: [usize; 2], mut set: impl FnMut(usize, usize, [f32; 3])) {
         if self.columns == 0 || self.rows == 0 {
             return;
+        }
+        if self.lattice != Lattice::Squares {
+            return self.draw_hexagons([width, height], set);
         }
         let across: Vec<Share> = (0..width).map(|x| Share::new(x, width, self.columns)).collect();
         for y in 0..height {
             // The first row of cells is at the bottom.
             let down = Share::new(height - 1 - y, height, self.rows);
             for (x, across) in across.iter().enumerate() {
-                if let Some(colour) = self.colour(across, &down) {
+                let cells = down.cells().flat_map(|(row, a)| {
+                    across.cells().map(move |(column, b)| (row * self.columns + column, a * b))
+                });
+                if let Some(colour) = self.colour(cells) {
+                    set(x, y, colour);
+                }
+            }
+        }
+    }
+
+    /// Looks at several points of each pixel: two a cell in each direction, from 3 to 8.
+    fn draw_hexagons(&self, pixels: [usize; 2], mut set: impl FnMut(usize, usize, [f32; 3])) {
+        let cells = [self.columns, self.rows];
+        let size = self.lattice.size(cells);
+        let [width, height] = std::array::from_fn(|i| size[i] / pixels[i] as f64);
+        let points = ((2.0 * f64::max(width, height)).ceil() as usize).clamp(3, 8);
+        let part = |point: usize| (point as f64 + 0.5) / points as f64;
+        for y in 0..pixels[1] {
+            for x in 0..pixels[0] {
+                let from_below = (pixels[1] - 1 - y) as f64;
+                let of_pixel = (0..points * points).filter_map(|point| {
+                    let u = (x as f64 + part(point % points)) * width;
+                    let v = (from_below + part(point / points)) * height;
+                    let [column, row] = self.lattice.cell_at([u, v], cells)?;
+                    Some((row * self.columns + column, 1.0))
+                });
+                if let Some(colour) = self.colour(of_pixel) {
                     set(x, y, colour);
                 }
             }
@@ -109,12 +156,9 @@ impl<'a> Mosaic<'a> {
         self.hidden.is_some_and(|hidden| hidden.get(cell) == Some(&true))
     }
 
-    fn colour(&self, across: &Share, down: &Share) -> Option<[f32; 3]> {
-        let mut cells = down
-            .cells()
-            .flat_map(|(row, a)| across.cells().map(move |(column, b)| (row * self.columns + column, a * b)))
-            .filter(|(cell, _)| !self.is_hidden(*cell))
-            .peekable();
+    /// The colour of a pixel with these parts of cells.
+    fn colour(&self, cells: impl Iterator<Item = (usize, f64)>) -> Option<[f32; 3]> {
+        let mut cells = cells.filter(|(cell, _)| !self.is_hidden(*cell)).peekable();
         cells.peek()?;
         if self.kinds.is_empty() && self.ground.is_none() {
             let (sum, weight) = cells

@@ -1,9 +1,10 @@
 //! Pictures of dense substates, one layer at a time.
 
-use super::averaging::fitted;
+use super::averaging::fitted_layer;
 use super::canvas::{Canvas, Strokes};
 use super::category::Category;
 use super::colour::encode;
+use super::lattice::Lattice;
 use super::legend::{FAINT_INK, INK, Scalar, draw_bar, draw_categories, draw_title};
 use super::mosaic::{Mosaic, Palette};
 use super::relief::{Ground, Relief};
@@ -19,7 +20,7 @@ const RIGHT: usize = 176;
 
 /// One layer of a dense substate, a colour a cell, x to the right and y upwards.
 ///
-/// Cells become squares of a whole number of pixels as long as there is room; where there are more cells than pixels,
+/// Square cells become squares of a whole number of pixels as long as there is room; where there are more cells than pixels,
 /// a pixel shows the mean of its cells.
 #[derive(Debug, Clone)]
 pub struct SlicePicture<'a> {
@@ -27,6 +28,8 @@ pub struct SlicePicture<'a> {
     pub columns: usize,
     /// The number of cells along y.
     pub rows: usize,
+    /// How the cells lie in the plane.
+    pub lattice: Lattice,
     /// The values, `columns * rows` of them, x fastest, the lowest y first.
     pub scalar: Scalar<'a>,
     /// If not empty, the values are no magnitudes but these kinds or states. Others are drawn in grey.
@@ -39,7 +42,7 @@ pub struct SlicePicture<'a> {
     pub title: &'a str,
     /// The smaller text below the title.
     pub caption: &'a str,
-    /// The side of a cell in `length_unit`, for the scale below the picture.
+    /// The side of a cell in `length_unit`, of a hexagon the distance to its neighbours, for the scale below the picture.
     pub cell_side: f64,
     /// The unit of length.
     pub length_unit: &'a str,
@@ -56,6 +59,7 @@ impl<'a> SlicePicture<'a> {
         Self {
             columns,
             rows,
+            lattice: Lattice::Squares,
             scalar,
             categories: &[],
             relief: None,
@@ -111,7 +115,7 @@ impl<'a> SlicePicture<'a> {
     fn plate_and_drawing(&self) -> Result<[[usize; 2]; 2], PictureError> {
         let Some(size) = self.size else {
             check_size([self.pixels; 2])?;
-            let drawing = fitted([self.columns, self.rows], [self.pixels; 2]);
+            let drawing = fitted_layer(self.lattice, [self.columns, self.rows], [self.pixels; 2]);
             // A narrow drawing leaves room for the title, a flat one for the bar.
             return Ok([[drawing[0].max(320), drawing[1].max(240)], drawing]);
         };
@@ -119,7 +123,7 @@ impl<'a> SlicePicture<'a> {
         if plate.iter().any(|room| *room < 100) {
             return Err(PictureError::Size { size });
         }
-        Ok([plate, fitted([self.columns, self.rows], plate)])
+        Ok([plate, fitted_layer(self.lattice, [self.columns, self.rows], plate)])
     }
 
     fn draw_cells(&self, canvas: &mut Canvas, [x0, y0]: [usize; 2], size: [usize; 2]) {
@@ -129,6 +133,7 @@ impl<'a> SlicePicture<'a> {
         let ground = self.relief.map(|relief| Ground::new(relief, cells, self.cell_side));
         let mosaic = Mosaic::new(cells, self.scalar.values, &kinds, self.scalar.scale(), &palette);
         mosaic
+            .on(self.lattice)
             .over(ground.as_ref())
             .without(self.hidden)
             .draw(size, |x, y, colour| canvas.set(x0 + x, y0 + y, encode(colour)));
@@ -136,7 +141,7 @@ impl<'a> SlicePicture<'a> {
 
     /// A bar of a round length below the drawing, whose lower left corner is at `[x, y]`.
     fn draw_scale(&self, canvas: &mut Canvas, [x, y]: [usize; 2], width: usize) {
-        let length = self.columns as f64 * self.cell_side;
+        let length = self.lattice.size([self.columns, self.rows])[0] * self.cell_side;
         if !(length.is_finite() && length > 0.0) {
             return;
         }

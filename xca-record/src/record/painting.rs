@@ -5,10 +5,10 @@ use super::shown::Shown;
 use crate::format::Subject;
 use crate::view::{AnyCellView, AnyItemView, AnyView, Drawn};
 use xca_core::model::Group;
-use xca_core::{Geometry, Model, Schema};
+use xca_core::{Geometry, Model, Parity, Schema};
 use xca_io::picture::{
-    BlockPicture, Category, ColourMap, Domain, ParticlePicture, Picture, PictureError, Relief, Scalar,
-    SlicePicture,
+    BlockPicture, Category, ColourMap, Domain, Lattice, ParticlePicture, Picture, PictureError, Relief,
+    Scalar, SlicePicture,
 };
 
 /// The texts above a picture, its scale and its size.
@@ -118,6 +118,7 @@ impl Field<'_> {
         let ([across, down], _) = self.plane();
         let mut picture = SlicePicture::new(across, down, self.scalar(frame.range, present));
         picture.categories = &kinds;
+        picture.lattice = self.lattice();
         let relief = self.heights.zip(self.view.relief);
         picture.relief = relief.map(|(heights, (_, bare))| Relief { heights, bare });
         picture.hidden = self.hidden;
@@ -143,6 +144,15 @@ impl Field<'_> {
         (picture.title, picture.caption) = (frame.title, frame.caption);
         picture.size = frame.size.unwrap_or(picture.size);
         picture.render()
+    }
+
+    /// How the cells of the layer lie.
+    fn lattice(&self) -> Lattice {
+        match self.geometry.neighbourhood().parity() {
+            Parity::Row if self.view.axis == 2 => Lattice::HexagonRows,
+            Parity::Column if self.view.axis == 2 => Lattice::HexagonColumns,
+            _ => Lattice::Squares,
+        }
     }
 
     /// The cells of a layer across and down, and the number of layers.
