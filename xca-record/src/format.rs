@@ -5,6 +5,7 @@ mod file;
 mod formats;
 mod pictures;
 mod saved_state;
+mod space_time;
 mod subject;
 mod table;
 mod vtk;
@@ -13,6 +14,7 @@ pub use file::{Moment, OutputFile};
 pub(crate) use file::{Shape, shape};
 pub use formats::{FormatError, Formats};
 pub use saved_state::SavedState;
+pub(crate) use space_time::is_row;
 pub use subject::{RecordedState, Subject, View};
 
 pub use crate::record::{CellState, ItemState, Plane, SubstateValues};

@@ -117,6 +117,7 @@ impl Run {
     pub fn new(set_up: SetUp) -> Result<Self, BeginError> {
         set_up.check()?;
         let steps = set_up.steps;
+        let every = set_up.every;
         let recorder = Recorder::new(set_up)?;
         let identity = Identity { program: recorder.model().name().to_owned(), ..Identity::default() };
         Ok(Self {
@@ -124,7 +125,7 @@ impl Run {
             identity,
             options: RunOptions::default(),
             steps,
-            every: None,
+            every,
             checkpoint_every: None,
             allow_non_finite: false,
             allow_rounding: false,

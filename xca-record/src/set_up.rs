@@ -1,6 +1,6 @@
 //! A model with what its program shows of it.
 
-use crate::format::{Formats, Writer};
+use crate::format::{Formats, Writer, is_row};
 use crate::input_file::InputFile;
 use crate::observable::{Failure, Observable};
 use crate::view::{AnyView, CellView, ItemView, ViewError};
@@ -25,6 +25,8 @@ pub struct SetUp {
     pub title: String,
     /// How many steps are done.
     pub steps: u64,
+    /// How often something is written; without it, 20 times in the run.
+    pub every: Option<u64>,
     /// How long a step is, in s; without it, time is counted in steps.
     pub time_step: Option<f64>,
     pub(crate) observe: Option<Box<Observe>>,
@@ -44,16 +46,22 @@ pub struct SetUp {
 impl SetUp {
     /// A model that is run for so many steps, unless the command line says otherwise.
     pub fn new(model: Model, steps: u64) -> Self {
+        let mut formats = Formats::default();
+        if is_row(&model) {
+            // It is known.
+            let _ = formats.choose_too(&["spacetime"]);
+        }
         Self {
             title: model.name().to_owned(),
             model,
             steps,
+            every: None,
             time_step: None,
             observe: None,
             views: Vec::new(),
             inputs: Vec::new(),
             map: None,
-            formats: Formats::default(),
+            formats,
             notes: serde_json::Map::new(),
             warnings: Vec::new(),
         }
@@ -64,6 +72,12 @@ impl SetUp {
     pub fn title(mut self, title: impl Into<String>) -> Self {
         self.title = title.into();
         self
+    }
+
+    /// Writes a row of observables and a frame every so many steps, at least 1, unless the command line says otherwise.
+    #[must_use]
+    pub fn every(self, steps: u64) -> Self {
+        Self { every: Some(steps.max(1)), ..self }
     }
 
     /// How many seconds a step is: a positive number, or the program refuses to run. Without it, time is counted in steps.

@@ -1,4 +1,4 @@
-//! Wolfram's elementary cellular automata in space and time: row t from the top is step t.
+//! Wolfram's elementary cellular automata in space and time.
 use xca_examples::models::elementary::{Row, model};
 use xca_run::prelude::*;
 
@@ -10,23 +10,20 @@ struct Elementary {
     /// Cells in a row
     #[arg(long, value_name = "N", default_value_t = 401)]
     width: usize,
-    /// Rows, the first one included
-    #[arg(long, value_name = "N", default_value_t = 200)]
-    rows: usize,
 }
 
 impl Program for Elementary {
     const NAME: &'static str = "elementary";
     const ABOUT: &'static str = "Elementary cellular automata in space and time";
-    const EXAMPLES: &'static str = "--rule 90\n--rule 110 --width 800 --rows 600";
+    const EXAMPLES: &'static str = "--rule 90\n--rule 110 --width 800 --steps 600";
 
     fn set_up(&self, _given: Given) -> Result<SetUp, Failure> {
         let middle = self.width / 2;
-        let model = model(self.width, self.rows, self.rule, move |x| x == middle)?;
+        let model = model(self.width, self.rule, move |x| x == middle)?;
         let view = CellView::named("elementary").draw(Row::ON, "cell is on");
         let view = view.colours(Row::ON, &[(false, [245, 245, 245]), (true, [20, 30, 60])]);
         let title = format!("rule {}", self.rule);
-        Ok(SetUp::new(model, self.rows as u64 - 1).title(title).cells(view))
+        Ok(SetUp::new(model, 200).every(1).title(title).cells(view))
     }
 }
 

@@ -33,6 +33,7 @@ fn a_run_goes_on_beyond_its_end() {
         (POND, "", 7),
         (LANDSLIDE, "--until 0", 6),
         (CADEM, "--case published --walls single", 9),
+        (env!("CARGO_BIN_EXE_elementary"), "", 7),
     ] {
         let place = Workplace::new();
         place.succeed(program, &format!("{options} --steps 41 --every {every} --out whole"));

@@ -1,6 +1,6 @@
 //! Each program of the gallery runs, draws its first and last state, and keeps what its model keeps.
 
-use crate::running::{Table, Workplace};
+use crate::running::{Pixels, Table, Workplace};
 use std::collections::BTreeSet;
 use std::fs;
 
@@ -21,7 +21,7 @@ const GALLERY: [Short; 11] = [
     short!("boltzmann", "--steps 2"),
     short!("cavity", "--steps 5 --size 16"),
     short!("debris", "--steps 20"),
-    short!("elementary", "--rule 110 --width 41 --rows 20"),
+    short!("elementary", "--rule 110 --width 41 --steps 20"),
     short!("excitable", "--steps 3"),
     short!("ising", "--steps 3"),
     short!("lava", "--steps 20 --vent 60,75 --vent 80,70"),
@@ -66,6 +66,40 @@ fn the_sandpile_keeps_its_grains() {
     assert!(series.column("grains").iter().all(|grains| *grains == 3000.0));
     assert_eq!(series.last("unstable"), 0.0);
     assert!(series.last("lost") > 0.0);
+}
+
+/// From one cell, rule 90 draws Pascal's triangle modulo 2: by Lucas, a binomial coefficient is odd where the bits of k are
+/// among those of n. All rows are of the same height.
+#[test]
+fn a_model_of_one_row_is_drawn_in_space_and_time() {
+    let (width, steps) = (41, 20);
+    let place = Workplace::new();
+    place.succeed(GALLERY[3].path, &format!("--rule 90 --width {width} --steps {steps}"));
+    let picture = Pixels::read(&place.path("out/elementary/final_spacetime.png"));
+    let is_on = |pixel: &[u8; 3]| *pixel == [20, 30, 60];
+    let places: Vec<[usize; 2]> = picture
+        .colours
+        .iter()
+        .enumerate()
+        .filter(|(_, pixel)| is_on(pixel))
+        .map(|(place, _)| [place % picture.width, place / picture.width])
+        .collect();
+    // The legend has the same colour, to the right of the drawing; the triangle begins and ends at its borders.
+    let left = places.iter().map(|[x, _]| *x).min().unwrap();
+    let top = places.iter().find(|[x, _]| *x < left + 41 * 18).unwrap()[1];
+    let mut checked = 0;
+    for step in 0..=steps {
+        for cell in 0..width {
+            let [x, y] = [left + 18 * cell + 9, top + 18 * step + 9];
+            let from_left = (cell + step).wrapping_sub(20);
+            let wanted =
+                from_left <= 2 * step && from_left % 2 == 0 && (from_left / 2) & step == from_left / 2;
+            assert_eq!(is_on(&picture.colours[y * picture.width + x]), wanted, "step {step}, cell {cell}");
+            checked += usize::from(wanted);
+        }
+    }
+    // The sum of 2 to the number of ones of each step.
+    assert_eq!(checked, 103);
 }
 
 #[test]

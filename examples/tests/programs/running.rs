@@ -218,11 +218,24 @@ pub(crate) fn check_files(folder: &Path) {
     assert_eq!(entries.count(), found);
 }
 
+/// A picture, pixel by pixel.
+pub(crate) struct Pixels {
+    pub(crate) width: usize,
+    pub(crate) colours: Vec<[u8; 3]>,
+}
+
+impl Pixels {
+    pub(crate) fn read(path: &Path) -> Self {
+        let decoder = png::Decoder::new(std::io::BufReader::new(fs::File::open(path).unwrap()));
+        let mut reader = decoder.read_info().unwrap();
+        let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut bytes).unwrap();
+        Self { width: reader.info().width as usize, colours: bytes.as_chunks().0.to_vec() }
+    }
+}
+
 /// Checks that a picture is whole and not of one colour.
 fn check_picture(path: &Path) {
-    let decoder = png::Decoder::new(std::io::BufReader::new(fs::File::open(path).unwrap()));
-    let mut reader = decoder.read_info().unwrap();
-    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
-    reader.next_frame(&mut pixels).unwrap();
+    let pixels = Pixels::read(path).colours;
     assert!(pixels.iter().any(|&value| value != pixels[0]), "{}", path.display());
 }

@@ -1,6 +1,6 @@
 //! A model whose values are of every type, through all files and commands.
 
-use crate::running::{POND, Workplace, report};
+use crate::running::{POND, Pixels, Workplace, report};
 use serde_json::{Value, json};
 use std::fs;
 
@@ -99,7 +99,7 @@ fn a_resumed_run_has_the_same_files() {
 #[test]
 fn inspect_counts_states_and_names_components() {
     let place = Workplace::new();
-    place.succeed(POND, "--steps 60 --every 60 --checkpoint-every 60 --out out");
+    place.succeed(POND, "--steps 60 --every 60 --out out");
     // The last frames, and a checkpoint of another run of the same steps.
     place.succeed(POND, "--steps 61 --checkpoint-every 60 --out kept");
     let kept = "kept/checkpoints/step_00000060.checkpoint";
@@ -225,11 +225,7 @@ fn every_substate_and_component_is_drawn() {
         "{said}"
     );
     // Rock has the colour that the model gives it.
-    let decoder =
-        png::Decoder::new(std::io::BufReader::new(fs::File::open(place.path("out/final.png")).unwrap()));
-    let mut reader = decoder.read_info().unwrap();
-    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
-    reader.next_frame(&mut pixels).unwrap();
-    let count = |colour: [u8; 3]| pixels.chunks(3).filter(|pixel| *pixel == colour).count();
+    let pixels = Pixels::read(&place.path("out/final.png")).colours;
+    let count = |colour: [u8; 3]| pixels.iter().filter(|pixel| **pixel == colour).count();
     assert!(count([150, 150, 150]) > 1000 && count([110, 70, 40]) > 100);
 }

@@ -81,11 +81,44 @@ impl Shown {
                 let field =
                     Field { view, schema, geometry, label: &label, is_float, values, heights, hidden };
                 let range = seen.range();
-                Some(if view.block { field.block(frame, range)? } else { field.slice(frame, range)? })
+                let layer = Layer { cells: field.plane().0, lattice: field.lattice() };
+                Some(if view.block {
+                    field.block(frame, range)?
+                } else {
+                    field.slice(frame, range, layer)?
+                })
             }
             _ => None,
         })
     }
+}
+
+impl Shown {
+    /// A picture of so many rows of cells, the lowest first.
+    pub(crate) fn paint_rows(
+        &self,
+        model: &Model,
+        seen: &Seen,
+        rows: usize,
+        frame: Frame<'_>,
+    ) -> Result<Option<Picture>, PictureError> {
+        let (AnyView::Cells(view), Seen::Cells { is_float, values, .. }) = (&self.view, seen) else {
+            return Ok(None);
+        };
+        let (schema, geometry) = (model.groups()[self.group].schema(), model.geometry());
+        let (label, is_float) = (view.label(schema), *is_float);
+        let field =
+            Field { view, schema, geometry, label: &label, is_float, values, heights: None, hidden: None };
+        let layer = Layer { cells: [geometry.extents()[0], rows], lattice: Lattice::Squares };
+        field.slice(frame, seen.range(), layer).map(Some)
+    }
+}
+
+/// What is drawn flat.
+struct Layer {
+    /// Cells across and down.
+    cells: [usize; 2],
+    lattice: Lattice,
 }
 
 /// Draws items as spheres.
@@ -113,12 +146,17 @@ fn spheres(
 
 impl Field<'_> {
     /// Draws a layer. The picture has its natural size unless one is given.
-    fn slice(&self, frame: Frame<'_>, present: Option<[f64; 2]>) -> Result<Picture, PictureError> {
+    fn slice(
+        &self,
+        frame: Frame<'_>,
+        present: Option<[f64; 2]>,
+        layer: Layer,
+    ) -> Result<Picture, PictureError> {
+        let [across, down] = layer.cells;
         let kinds = self.kinds(frame.range);
-        let ([across, down], _) = self.plane();
         let mut picture = SlicePicture::new(across, down, self.scalar(frame.range, present));
         picture.categories = &kinds;
-        picture.lattice = self.lattice();
+        picture.lattice = layer.lattice;
         let relief = self.heights.zip(self.view.relief);
         picture.relief = relief.map(|(heights, (_, bare))| Relief { heights, bare });
         picture.hidden = self.hidden;
