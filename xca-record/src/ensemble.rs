@@ -9,6 +9,7 @@ pub use table::{Summary, TableError};
 
 use crate::checkpoint::Origin;
 use crate::observable::Failure;
+use crate::outputs::Outputs;
 use crate::record::{Claim, ENSEMBLE, FolderError, Kind, LockedFolder};
 use crate::report::{self, Identity, ReadReportError};
 use crate::set_up::SetUp;
@@ -310,7 +311,9 @@ impl Ensemble {
         // Command lines may say the same in other words, and from other folders.
         let identity =
             Identity { command_line: Vec::new(), directory: String::new(), ..self.identity.clone() };
-        Origin::new(&identity, set_up, options, [self.steps.unwrap_or(set_up.steps), 0])
+        let steps = self.steps.unwrap_or(set_up.steps);
+        // An ensemble writes no states.
+        Origin::new(&identity, set_up, options, steps, Outputs::Growing)
     }
 
     /// The folder of this ensemble, new or known again.

@@ -68,6 +68,7 @@ mod monitor;
 #[doc(hidden)]
 pub mod numbers;
 mod observable;
+mod outputs;
 #[doc(hidden)]
 pub mod record;
 #[doc(hidden)]
@@ -94,6 +95,7 @@ pub use items_file::{ReadItem, read_items};
 pub use machine::{NotEnoughMemory, check_memory};
 pub use monitor::Monitor;
 pub use observable::{Failure, Observable};
+pub use outputs::Outputs;
 pub use record::{FolderError, Kind as FolderKind, RecordError};
 pub use recording::{Outcome, Recording};
 pub use report::ReadReportError;

@@ -119,7 +119,7 @@ impl Recording {
             result?;
             let done = self.simulation.step_number();
             monitor.at(done);
-            if done.is_multiple_of(self.origin.every) {
+            if self.origin.every.is_due(done) {
                 self.check_finite()?;
                 self.recorder.record(&mut self.simulation)?;
             }
@@ -159,7 +159,7 @@ impl Recording {
 
     /// The step up to which nothing has to be written.
     fn next_output(&self, done: u64) -> u64 {
-        let record = (done / self.origin.every + 1).saturating_mul(self.origin.every);
+        let record = self.origin.every.next(done);
         let checkpoint = self.checkpoints.as_ref().map_or(u64::MAX, |all| all.next(done));
         record.min(checkpoint).min(self.origin.steps_wanted)
     }

@@ -10,6 +10,7 @@ use crate::components::{json, type_text};
 use crate::input_file::InputFile;
 use crate::machine::cores;
 use crate::observable::Observable;
+use crate::outputs::Outputs;
 use crate::set_up::SetUp;
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -67,7 +68,7 @@ pub struct Report {
     pub device: Map<String, Value>,
     pub precision: Precision,
     pub seed: u64,
-    pub every: u64,
+    pub every: Outputs,
     /// Steps or time.
     pub checkpoint_every: Option<String>,
     pub host: Host,

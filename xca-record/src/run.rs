@@ -3,6 +3,7 @@
 use crate::checkpoint::{Checkpoint, CheckpointError, CheckpointFolder, Difference, Origin};
 use crate::interval::Interval;
 use crate::observable::Failure;
+use crate::outputs::Outputs;
 use crate::record::{Claim, FolderError, Kind, REPORT, RecordError, Recorder, RunFolder};
 use crate::recording::{Checkpoints, Recording, check_finite};
 use crate::report::{Earlier, Identity, ReadReportError, Report};
@@ -59,7 +60,7 @@ pub struct Run {
     identity: Identity,
     options: RunOptions,
     steps: u64,
-    every: Option<u64>,
+    outputs: Option<Outputs>,
     checkpoint_every: Option<Interval>,
     allow_non_finite: bool,
     allow_rounding: bool,
@@ -117,7 +118,7 @@ impl Run {
     pub fn new(set_up: SetUp) -> Result<Self, BeginError> {
         set_up.check()?;
         let steps = set_up.steps;
-        let every = set_up.every;
+        let outputs = set_up.outputs;
         let recorder = Recorder::new(set_up)?;
         let identity = Identity { program: recorder.model().name().to_owned(), ..Identity::default() };
         Ok(Self {
@@ -125,7 +126,7 @@ impl Run {
             identity,
             options: RunOptions::default(),
             steps,
-            every,
+            outputs,
             checkpoint_every: None,
             allow_non_finite: false,
             allow_rounding: false,
@@ -163,7 +164,7 @@ impl Run {
     /// Writes a row of observables and a frame every so many steps, at least 1. One that is resumed does so as often as before.
     #[must_use]
     pub fn every(self, steps: u64) -> Self {
-        Self { every: Some(steps.max(1)), ..self }
+        Self { outputs: Some(Outputs::Every(steps.max(1))), ..self }
     }
 
     /// Writes a row of observables and a frame every so many seconds of simulated time, rounded to whole
@@ -221,8 +222,8 @@ impl Run {
     /// The run as its checkpoints name it, on an exact engine.
     #[doc(hidden)]
     pub fn origin(&self) -> Origin {
-        let every = self.every.unwrap_or(self.steps.div_ceil(OUTPUTS).max(1));
-        Origin::new(&self.identity, self.recorder.set_up(), self.options, [self.steps, every])
+        let outputs = self.outputs.unwrap_or(Outputs::Every(self.steps.div_ceil(OUTPUTS).max(1)));
+        Origin::new(&self.identity, self.recorder.set_up(), self.options, self.steps, outputs)
     }
 
     /// The report of the run on this engine, before its first step.
@@ -315,7 +316,7 @@ impl Run {
         if self.steps < description.step {
             return Err(BeginError::Past { done: description.step, steps: self.steps });
         }
-        self.every.get_or_insert(description.run.every);
+        self.outputs.get_or_insert(description.run.every);
         // Items that once needed more slots may need them again; what is no population of the model's is refused below.
         for (population, slots) in description.run.slots() {
             if self.recorder.model().slots(population).is_some() {

@@ -3,6 +3,7 @@
 use crate::format::{Formats, Writer, is_row};
 use crate::input_file::InputFile;
 use crate::observable::{Failure, Observable};
+use crate::outputs::Outputs;
 use crate::view::{AnyView, CellView, ItemView, ViewError};
 use serde::Serialize;
 use std::fmt;
@@ -25,8 +26,10 @@ pub struct SetUp {
     pub title: String,
     /// How many steps are done.
     pub steps: u64,
-    /// How often something is written; without it, 20 times in the run.
-    pub every: Option<u64>,
+    /// After which steps something is written; without it, 20 times in the run.
+    pub outputs: Option<Outputs>,
+    /// Whether a criterion of the model ends the run, and the number of steps is only the most that it may take.
+    pub is_until_stopped: bool,
     /// How long a step is, in s; without it, time is counted in steps.
     pub time_step: Option<f64>,
     pub(crate) observe: Option<Box<Observe>>,
@@ -55,7 +58,8 @@ impl SetUp {
             title: model.name().to_owned(),
             model,
             steps,
-            every: None,
+            outputs: None,
+            is_until_stopped: false,
             time_step: None,
             observe: None,
             views: Vec::new(),
@@ -65,6 +69,13 @@ impl SetUp {
             notes: serde_json::Map::new(),
             warnings: Vec::new(),
         }
+    }
+
+    /// A model that is run until it stops itself ([`xca_core::ModelBuilder::stop_when`]), or for so many steps at most.
+    ///
+    /// No one knows beforehand how long that takes, so states are written ever further apart ([`Outputs::Growing`]).
+    pub fn until_stopped(model: Model, most: u64) -> Self {
+        Self { is_until_stopped: true, outputs: Some(Outputs::Growing), ..Self::new(model, most) }
     }
 
     /// What pictures and the terminal call the run; the model's name unless it is given.
@@ -77,7 +88,7 @@ impl SetUp {
     /// Writes a row of observables and a frame every so many steps, at least 1, unless the command line says otherwise.
     #[must_use]
     pub fn every(self, steps: u64) -> Self {
-        Self { every: Some(steps.max(1)), ..self }
+        Self { outputs: Some(Outputs::Every(steps.max(1))), ..self }
     }
 
     /// How many seconds a step is: a positive number, or the program refuses to run. Without it, time is counted in steps.

@@ -31,7 +31,7 @@ impl Program for Sandpile {
                 Observable::number("unstable", state.count_where(|pile: &Pile| pile.grains > 3)? as f64),
             ])
         };
-        Ok(SetUp::new(model(self.size, self.grains)?, 1_000_000).observables(observe).cells(view))
+        Ok(SetUp::until_stopped(model(self.size, self.grains)?, 1_000_000).observables(observe).cells(view))
     }
 }
 

@@ -1,6 +1,8 @@
 //! Runs that go on otherwise than they were begun: beyond their end, with more slots, from another folder, with other inputs.
 
-use crate::running::{CADEM, LANDSLIDE, LIFE, POND, Workplace, assert_same_results, report, warns_at_most};
+use crate::running::{
+    CADEM, LANDSLIDE, LIFE, POND, Table, Workplace, assert_same_results, report, warns_at_most,
+};
 use std::fs;
 use std::process::Output;
 
@@ -60,6 +62,23 @@ fn the_interval_of_outputs_stays() {
     succeed(&place, LIFE, "here --steps 60");
     place.succeed(LIFE, "--steps 60 --every 2 --out whole");
     assert_same_results(&place.path("whole"), &place.path("here"), "every 2 steps");
+}
+
+/// A run until its criterion holds writes states ever further apart, also after it was interrupted.
+#[test]
+fn a_run_until_it_stops_goes_on() {
+    let place = Workplace::new();
+    let sandpile = env!("CARGO_BIN_EXE_sandpile");
+    place.succeed(sandpile, "--grains 3000 --size 31 --out whole");
+    place.succeed(sandpile, "--grains 3000 --size 31 --checkpoint-every 100 --out here");
+    let older =
+        fs::read_dir(place.path("here/checkpoints")).unwrap().map(|entry| entry.unwrap().path()).min();
+    let said = succeed(&place, sandpile, &format!("here --checkpoint {}", older.unwrap().display()));
+    assert!(said.contains(", at most 1000000 steps, resumed after step "), "{said}");
+    assert_same_results(&place.path("whole"), &place.path("here"), "until it stops");
+    let steps = Table::read(&place.path("here/observables.csv")).column("step");
+    assert_eq!(steps[..12], [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 10.0, 12.0, 14.0]);
+    assert_eq!(report(&place.path("here"))["every"], "growing");
 }
 
 /// A run that is killed on its way beyond its end, before its next checkpoint, goes on without being told again.

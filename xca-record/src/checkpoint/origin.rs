@@ -3,6 +3,7 @@
 use crate::components::{state_names, text};
 use crate::input_file::InputFile;
 use crate::numbers::Exact;
+use crate::outputs::Outputs;
 use crate::report::{self, Identity};
 use crate::set_up::SetUp;
 use serde::{Deserialize, Serialize};
@@ -25,7 +26,7 @@ pub struct Origin {
     pub precision: Precision,
     pub seed: u64,
     pub steps_wanted: u64,
-    pub every: u64,
+    pub every: Outputs,
     /// The shape of the model, as in `run.json`.
     pub model: Value,
     /// The CRC-32 of the text of the processes and of the helpers that they call.
@@ -203,7 +204,8 @@ impl Origin {
         identity: &Identity,
         set_up: &SetUp,
         options: RunOptions,
-        [steps_wanted, every]: [u64; 2],
+        steps_wanted: u64,
+        every: Outputs,
     ) -> Self {
         let model = &set_up.model;
         Self {
@@ -260,7 +262,7 @@ impl Origin {
         first_difference([
             ("precision", self.precision.to_string(), own.precision.to_string()),
             ("seed", text(self.seed), text(own.seed)),
-            ("interval of outputs", text(self.every), text(own.every)),
+            ("interval of outputs", self.every.to_string(), own.every.to_string()),
         ])
         .or_else(|| other_inputs(&self.inputs, &own.inputs))
         .or_else(|| other_model(&self.model, &own.model))

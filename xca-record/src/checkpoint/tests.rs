@@ -1,4 +1,5 @@
 use super::*;
+use crate::outputs::Outputs;
 use crate::record::{Recorded, Recorder};
 use crate::report::Identity;
 use crate::set_up::SetUp;
@@ -104,7 +105,7 @@ fn identity() -> Identity {
 
 fn checkpoint(simulation: &Simulation) -> Checkpoint {
     let recorder = Recorder::new(SetUp::new(model(), 10).time_step(0.25)).unwrap();
-    let run = Origin::new(&identity(), recorder.set_up(), simulation.options(), [10, 2]);
+    let run = Origin::new(&identity(), recorder.set_up(), simulation.options(), 10, Outputs::Every(2));
     let snapshot = simulation.snapshot().unwrap();
     let recorded = recorder.recorded().unwrap();
     Checkpoint { description: Description::new(run, &recorder, &snapshot, recorded), snapshot }
@@ -303,7 +304,7 @@ fn parameters_of_several_structs() -> Result<(), ParameterError> {
         .build()
         .unwrap();
     let origin = |model: &Model| {
-        Origin::new(&identity(), &SetUp::new(model.clone(), 10), RunOptions::default(), [10, 2])
+        Origin::new(&identity(), &SetUp::new(model.clone(), 10), RunOptions::default(), 10, Outputs::Every(2))
     };
     let listed = |parameters: &[Parameter]| parameters.iter().map(ToString::to_string).collect::<Vec<_>>();
     let run = origin(&model);
@@ -335,9 +336,9 @@ fn parameters_of_several_structs() -> Result<(), ParameterError> {
 fn another_run_is_known_by_what_differs() -> Result<(), ParameterError> {
     let simulation = simulation();
     let run = checkpoint(&simulation).description.run;
-    let own = |model: &Model, seed, steps| {
+    let own = |model: &Model, seed, [steps, every]: [u64; 2]| {
         let options = RunOptions { seed, ..RunOptions::default() };
-        Origin::new(&identity(), &SetUp::new(model.clone(), 10), options, steps)
+        Origin::new(&identity(), &SetUp::new(model.clone(), 10), options, steps, Outputs::Every(every))
     };
     let text = |difference: Option<Difference>| {
         difference.map(|Difference { what, found, wanted }| format!("{what}: {found}, not {wanted}"))

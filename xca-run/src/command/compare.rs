@@ -111,7 +111,8 @@ pub(super) fn compare(
         arguments.out.unwrap_or_else(|| PathBuf::from("out").join(format!("{}-compare", definition.name)));
     let files = Files::prepare(&folder, &comparison.set_up().inputs).map_err(Unable::refused)?;
     let interrupt = Interrupt::install().map_err(Unable::failed)?;
-    let mut terminal = Terminal { line: arguments.voice.line(comparison.work()), interrupt: &interrupt };
+    let mut terminal =
+        Terminal { line: arguments.voice.line(Some(comparison.work())), interrupt: &interrupt };
     let result = comparison.run(&mut terminal);
     terminal.line.finish();
     let mut comparison = match result {

@@ -21,9 +21,9 @@ use running::Running;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use xca_io::numbers::counted;
-use xca_record::InputFile;
 use xca_record::record::RunFolder;
 use xca_record::record::{Claim, Kind};
+use xca_record::{InputFile, Outputs};
 
 pub(super) const NAME: &str = "render";
 
@@ -102,6 +102,14 @@ fn default_folder(definition: &Definition<'_>) -> PathBuf {
     PathBuf::from("out").join(format!("{}_pictures", definition.name))
 }
 
+/// How far apart the states are that are drawn.
+fn distance(outputs: Outputs) -> String {
+    match outputs {
+        Outputs::Every(steps) => format!(", one every {steps}"),
+        Outputs::Growing => ", ever further apart".to_owned(),
+    }
+}
+
 /// Makes the folder for these files.
 fn pictures_folder(path: &Path, files: &[String], inputs: &[InputFile]) -> Result<RunFolder, Unable> {
     RunFolder::prepare(path, &Claim { kind: Kind::Pictures, files, inputs }).map_err(Unable::refused)
@@ -115,12 +123,24 @@ pub(super) fn render(invocation: &RunInvocation<'_>, arguments: &RenderArguments
     let (mut report, options) = (run.report(&*engine, &origin), run.run_options());
     let recorder = run.into_recorder();
     let steps = origin.steps_wanted;
-    report.every = arguments.every.unwrap_or(steps.div_ceil(PICTURES).max(1));
+    report.every = match (arguments.every, recorder.set_up().outputs) {
+        (Some(every), _) => Outputs::Every(every),
+        (None, Some(Outputs::Growing)) => Outputs::Growing,
+        (None, _) => Outputs::Every(steps.div_ceil(PICTURES).max(1)),
+    };
     let drawing = arguments.drawing(&recorder)?;
     let interrupt = Interrupt::install().map_err(Unable::failed)?;
     let (drawing, interrupt, every) = (&drawing, &interrupt, report.every);
-    let states =
-        Running { engine: &*engine, options, drawing, steps, every, interrupt, voice: arguments.voice };
+    let states = Running {
+        engine: &*engine,
+        options,
+        drawing,
+        steps,
+        every,
+        is_known: !recorder.set_up().is_until_stopped,
+        interrupt,
+        voice: arguments.voice,
+    };
     let film = Film { drawing, states: &states, animation: arguments.animation, fps: arguments.fps };
     report.files = film.files();
     let path = arguments.out.clone().unwrap_or_else(|| default_folder(invocation.model.definition));
@@ -145,7 +165,7 @@ pub(super) fn render(invocation: &RunInvocation<'_>, arguments: &RenderArguments
         let end = if interrupt.is_raised() { ", interrupted" } else { "" };
         let places = film.places(&folder);
         let (pictures, steps) = (counted(made.pictures as u64, "picture"), counted(made.steps, "step"));
-        format!("{pictures} of {steps}, one every {every}{end}; {places}")
+        format!("{pictures} of {steps}{}{end}; {places}", distance(every))
     })?;
     Ok(if interrupt.is_raised() { Ended::Interrupted } else { Ended::Done })
 }

@@ -41,6 +41,12 @@ impl Monitor for Terminal<'_> {
 }
 
 impl UnderWay {
+    /// How many steps it takes, where that is known beforehand.
+    fn known_steps(&self) -> Option<u64> {
+        let is_known = !self.recording.recorder().set_up().is_until_stopped;
+        is_known.then_some(self.recording.report().progress.steps_wanted)
+    }
+
     pub(super) fn go(mut self) -> Result<Ended, Unable> {
         let interrupt = Interrupt::install().map_err(Unable::failed)?;
         self.voice.say(&self.headline());
@@ -48,7 +54,7 @@ impl UnderWay {
             self.voice.say(&format!("note: {note}"));
         }
         warn(self.recording.recorder().set_up());
-        let line = self.voice.line(self.recording.report().progress.steps_wanted);
+        let line = self.voice.line(self.known_steps());
         let mut terminal = Terminal { line, interrupt: &interrupt };
         let result = self.recording.go(&mut terminal);
         terminal.line.finish();

@@ -44,7 +44,7 @@ impl Voice {
     }
 
     /// The line that shows how far so many steps have come.
-    pub(super) fn line(self, steps: u64) -> Progress {
-        if self.quiet { Progress::hidden() } else { Progress::new(Some(steps)) }
+    pub(super) fn line(self, steps: Option<u64>) -> Progress {
+        if self.quiet { Progress::hidden() } else { Progress::new(steps) }
     }
 }

@@ -5,9 +5,9 @@ use crate::command::voice::Voice;
 use crate::interrupt::Interrupt;
 use std::time::Instant;
 use xca_core::{Engine, RunOptions, Simulation};
-use xca_record::Failure;
 use xca_record::record::Drawing;
 use xca_record::recording::Batch;
+use xca_record::{Failure, Outputs};
 
 /// A run from its beginning, each time that its states are wanted.
 pub(super) struct Running<'a> {
@@ -15,8 +15,10 @@ pub(super) struct Running<'a> {
     pub(super) options: RunOptions,
     pub(super) drawing: &'a Drawing<'a>,
     pub(super) steps: u64,
-    /// How many steps there are from picture to picture.
-    pub(super) every: u64,
+    /// The steps whose states are drawn.
+    pub(super) every: Outputs,
+    /// Whether it takes all these steps.
+    pub(super) is_known: bool,
     pub(super) interrupt: &'a Interrupt,
     pub(super) voice: Voice,
 }
@@ -25,20 +27,20 @@ impl States for Running<'_> {
     fn each(&self, doing: &str, look: &mut Look<'_>) -> Result<u64, Failure> {
         let Self { steps: wanted, every, .. } = *self;
         let mut simulation = Simulation::new(self.drawing.model(), self.engine, self.options)?;
-        let line = self.voice.line(wanted);
+        let line = self.voice.line(self.is_known.then_some(wanted));
         line.message(doing);
         let mut batch = Batch::default();
         loop {
             let done = simulation.step_number();
             line.at(done);
-            if done.is_multiple_of(every) {
+            if every.is_due(done) {
                 look(done, &self.drawing.seen(self.options.precision, &simulation.snapshot()?))?;
             }
             if done >= wanted || simulation.stop_reason().is_some() || self.interrupt.is_raised() {
                 line.finish();
                 return Ok(done);
             }
-            let next = (done / every + 1).saturating_mul(every).min(wanted);
+            let next = every.next(done).min(wanted);
             let begin = Instant::now();
             simulation.run(batch.steps.min(next - done))?;
             batch.adapt(begin.elapsed());

@@ -147,7 +147,7 @@ impl Frames<'_> {
 impl States for Frames<'_> {
     fn each(&self, doing: &str, look: &mut Look<'_>) -> Result<u64, Failure> {
         let last = self.steps.last().copied().unwrap_or(0);
-        let line = self.voice.line(last);
+        let line = self.voice.line(Some(last));
         line.message(doing);
         let mut reached = 0;
         for step in self.steps.iter().copied() {

@@ -15,10 +15,11 @@ impl UnderWay {
             .then(|| format!(", resumed after step {}", self.recording.simulation().step_number()));
         let time_step = progress.time_step.map(|seconds| format!(" of {} s", significant(seconds, 4)));
         format!(
-            "{}, {}, {}, {}{}{}",
+            "{}, {}, {}, {}{}{}{}",
             self.recording.recorder().set_up().title,
             cells(self.recording.recorder().model()),
             engine_words(self.recording.report()),
+            if self.known_steps().is_none() { "at most " } else { "" },
             counted(progress.steps_wanted, "step"),
             time_step.unwrap_or_default(),
             resumed.unwrap_or_default(),
