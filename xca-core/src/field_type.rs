@@ -4,9 +4,11 @@
 //! word `Real` stands, and all that it says of the field follows from the traits here: the host's type, that of kernels and the
 //! description are those of one type, whatever its words mean.
 
+use crate::float::Float;
+use crate::host_value::{HostScalar, HostValue};
 use crate::kernel::{KernelElement, KernelValue};
 use crate::states::States;
-use crate::value::{Float, HostScalar, HostValue, ScalarType, ValueType};
+use crate::value::{ScalarType, ValueType};
 use crate::vector::{Vector2, Vector3, Vector4};
 
 /// Stands for the word `Real` in the type of a field.

@@ -8,9 +8,9 @@
 //! nothing: what it asks for is compared with the row's entries, once a row.
 #![allow(unsafe_code)]
 
+use crate::float::Float;
 use crate::geometry::Geometry;
 use crate::random::{Draw, Stream};
-use crate::value::Float;
 use crate::vector::Vector3;
 use std::any::Any;
 use std::cell::Cell;

@@ -95,7 +95,9 @@ pub mod directions;
 pub mod engine;
 #[doc(hidden)]
 pub mod field_type;
+mod float;
 mod geometry;
+mod host_value;
 mod interval;
 pub mod ir;
 mod ir_constant;
@@ -125,7 +127,9 @@ mod vector;
 mod vocabulary;
 
 pub use engine::{Engine, EngineFailure, Fault, StartError};
+pub use float::Float;
 pub use geometry::{Boundary, Face, Faces, Geometry, Reached};
+pub use host_value::{HostScalar, HostValue};
 pub use interval::{End, Interval};
 pub use model::{InitialError, Model, ModelBuilder, ModelError};
 pub use neighbourhood::{Hexagons, Neighbourhood, NeighbourhoodError, Parity};
@@ -141,10 +145,7 @@ pub use state::{Item, State, StateError};
 pub use states::{StateNames, States};
 pub use steering::{Schedule, SteeringError};
 pub use substates::{HasSubstate, Substate, Substates};
-pub use value::{
-    Float, HostScalar, HostValue, Precision, Real, ScalarType, StoredScalar, StoredType, UnknownPrecision,
-    ValueType,
-};
+pub use value::{Precision, Real, ScalarType, StoredScalar, StoredType, UnknownPrecision, ValueType};
 pub use vector::{Vector2, Vector3, Vector4};
 pub use vocabulary::{Cell, Destination, Other, Others, Slot, Slots, Space};
 pub use xca_macros::{Parameters, States, Substates, elementary_process, helper, migration};

@@ -1,6 +1,7 @@
 //! Models: what a scientist defines and an engine runs.
 
 mod builder;
+mod check;
 mod error;
 mod filling;
 mod initial;

@@ -1,8 +1,10 @@
 //! Parameters: values that are the same in all cells, and that steering may change between steps.
 
+use crate::float::Float;
+use crate::host_value::{HostScalar, HostValue};
 use crate::interval::Interval;
 use crate::schema::{Field, Schema};
-use crate::value::{Float, HostScalar, HostValue, Precision, ScalarType, Shortest, ValueType};
+use crate::value::{Precision, ScalarType, Shortest, ValueType};
 use std::any::{Any, TypeId};
 use std::fmt;
 use std::sync::Arc;

@@ -3,7 +3,7 @@
 //! J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw: "Parallel random numbers: as easy as 1, 2, 3", SC11. A number is
 //! a function of its counter and key alone, so that it does not matter who draws it, when, or in which order.
 
-use crate::value::Float;
+use crate::float::Float;
 
 const MULTIPLIERS: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];
 const KEY_INCREMENTS: [u32; 2] = [0x9E37_79B9, 0xBB67_AE85];

@@ -9,7 +9,8 @@
 //! value, so [`Reduction::CountEqual`] does not count it, and it is not zero, so logical reductions take it
 //! for true. [`Reduction::CountNonFinite`] counts NaN and infinities.
 
-use crate::value::{HostValue, StoredScalar, StoredType};
+use crate::host_value::HostValue;
+use crate::value::{StoredScalar, StoredType};
 
 /// What is made of the values.
 #[derive(Debug, Clone, PartialEq)]
@@ -255,7 +256,7 @@ macro_rules! reducible_vector {
     ($($vector:ident { $($index:literal),+ }),*) => {$(
         impl<T> Reducible for crate::vector::$vector<T>
         where
-            T: Reducible<Scalar = T> + crate::value::HostScalar,
+            T: Reducible<Scalar = T> + crate::host_value::HostScalar,
         {
             type Sum = crate::vector::$vector<T::Sum>;
 

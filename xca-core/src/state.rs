@@ -6,13 +6,14 @@ mod initial;
 
 use crate::engine::{EngineFailure, Execution, Fault, Population, SubstateId};
 use crate::geometry::Geometry;
+use crate::host_value::{HostScalar, HostValue};
 use crate::model::Model;
 use crate::parameter_set::ParameterSet;
 use crate::parameters::{ParameterError, ParameterValue, Parameters};
 use crate::random::{Draw, Stream, uniform};
 use crate::reduction::{Reduced, Reducible, Reduction};
 use crate::substates::{Substate, Substates};
-use crate::value::{HostScalar, HostValue, Precision, StoredScalar};
+use crate::value::{Precision, StoredScalar};
 
 /// The state between steps. Values of `Real` pass as `f64`, whatever the precision of the run.
 pub struct State<'a> {

@@ -1,6 +1,7 @@
 //! States: enums without fields as values of substates and parameters.
 
-use crate::value::{HostScalar, HostValue, StoredScalar};
+use crate::host_value::{HostScalar, HostValue};
+use crate::value::StoredScalar;
 
 /// An enum whose values are the states of a cell, of an item or of a parameter; derive it.
 ///

@@ -1,7 +1,9 @@
 //! Substates: the state of a cell, or of an item in a slot, decomposed into named values.
 
+use crate::float::Float;
+use crate::host_value::HostValue;
 use crate::schema::Schema;
-use crate::value::{Float, HostValue, Precision};
+use crate::value::Precision;
 use std::marker::PhantomData;
 
 /// A struct whose fields are substates; derive it.

@@ -2,7 +2,7 @@
 //!
 //! The operations are fixed to the last bit: lane by lane, and [`Vector3::dot`] adds from the first lane to the last.
 
-use crate::value::{HostScalar, HostValue};
+use crate::host_value::{HostScalar, HostValue};
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
 macro_rules! vector {

@@ -1,7 +1,7 @@
 //! Constants as kernels have them.
 
+use crate::float::Float;
 use crate::states::States;
-use crate::value::Float;
 
 /// A constant of the user's code as a kernel of precision `R` sees it: `f64`, which is `Real` there, becomes `R`.
 pub trait KernelConstant<R> {

@@ -5,9 +5,10 @@
 
 use super::wide::{self, Wide};
 use super::{Column, Row, WRONG_RADIUS};
+use crate::float::Float;
 use crate::geometry::Geometry;
 use crate::neighbourhood::Parity;
-use crate::value::{Float, Precision};
+use crate::value::Precision;
 use crate::vector::Vector3;
 use std::cell::RefCell;
 use std::ops::Range;

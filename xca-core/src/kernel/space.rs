@@ -1,7 +1,7 @@
 //! The cellular space in a kernel.
 
 use super::{Frame, NOWHERE, OUTSIDE};
-use crate::value::Float;
+use crate::float::Float;
 use crate::vector::Vector3;
 use std::marker::PhantomData;
 

@@ -2,8 +2,8 @@
 
 use super::{State, StateError};
 use crate::engine::SubstateId;
+use crate::host_value::HostValue;
 use crate::substates::{Substate, Substates};
-use crate::value::HostValue;
 use std::collections::HashMap;
 
 impl State<'_> {
