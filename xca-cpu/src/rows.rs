@@ -4,19 +4,21 @@
 //! result: a row writes only what is its own, and faults are compared by process and cell.
 #![allow(unsafe_code)]
 
+mod now;
+mod prepare;
+
 use crate::blocks::blocks;
 use crate::dense::Dense;
 use crate::layout::Layout;
 use crate::population::Population;
-use crate::slack::{largest, slack as slack_of};
+use now::{Now, Report};
+use prepare::{filter, prepare_buffers};
 use rayon::prelude::*;
-use std::cell::Cell;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use xca_core::engine::{Fault, StepContext, SubstateId};
 use xca_core::kernel::{
-    Access, CellFilter, Entry, Frame, Memory, MemoryOf, Row, RowFault, RowItems, RowKernel, STAY, Scratch,
-    StoppedAt,
+    Access, Entry, Frame, Memory, MemoryOf, Row, RowItems, RowKernel, STAY, Scratch, StoppedAt,
 };
 use xca_core::{Model, Parity, Precision, Process, ProcessKind, Stream};
 
@@ -166,70 +168,6 @@ pub(crate) fn run(
         }
     }
     Ok(movers)
-}
-
-/// Which cells searches can leave out, where a process of the pass searches.
-fn filter(
-    model: &Model,
-    layout: &Layout,
-    precision: Precision,
-    groups: &[Group],
-    prepared: &[Prepared<'_>],
-) -> Option<CellFilter> {
-    let position = |process: &Process| {
-        let field = process.subject().schema.position?;
-        let reads = process
-            .access
-            .iter()
-            .any(|access| access.argument == 0 && access.others && access.field == field);
-        reads.then_some(field)
-    };
-    let mut slack: f64 = 0.0;
-    let mut searched = false;
-    for prepared in prepared.iter().filter(|prepared| prepared.process.kind == ProcessKind::Items) {
-        if let (Some(field), Some(number)) = (position(prepared.process), prepared.population)
-            && let Group::Population(population) = &groups[number]
-        {
-            slack = largest(slack, slack_of(population, field, layout, model.geometry()));
-            searched = true;
-        }
-    }
-    if searched { CellFilter::new(model.geometry(), precision, layout.steps(), slack) } else { None }
-}
-
-/// Fills halos that will be read and makes second buffers; gives the substates that the pass writes, and whether to a second buffer.
-fn prepare_buffers(
-    model: &Model,
-    layout: &Layout,
-    groups: &mut [Group],
-    processes: &[usize],
-) -> Vec<(SubstateId, bool)> {
-    let mut written: Vec<(SubstateId, bool)> = Vec::new();
-    for found in processes.iter().flat_map(|&number| &model.plan().process(number).uses) {
-        let substate = found.substate;
-        match &mut groups[substate.group] {
-            Group::Cells(planes) if found.elsewhere => planes[substate.field].refresh(layout),
-            Group::Cells(_) => {}
-            Group::Population(population) if found.is_doubled() => {
-                let bytes = population.items.fields[substate.field].len();
-                population.next.fields[substate.field].resize(bytes);
-            }
-            Group::Population(_) => {}
-        }
-        if found.written {
-            match written.iter_mut().find(|(known, _)| *known == substate) {
-                Some((_, second)) => *second |= found.elsewhere,
-                None => written.push((substate, found.elsewhere)),
-            }
-        }
-    }
-    // A plane that is written no longer has the halo of its cells.
-    for (substate, _) in &written {
-        if let Group::Cells(planes) = &mut groups[substate.group] {
-            planes[substate.field].touch();
-        }
-    }
-    written
 }
 
 fn prepare<'a>(
@@ -493,42 +431,6 @@ struct Work<'a> {
     answers: Vec<u32>,
     scratch: Scratch,
     now: &'a Now,
-}
-
-/// What is being done, to be known after a panic.
-#[derive(Default)]
-struct Now {
-    /// The number of the process in the pass.
-    process: Cell<usize>,
-    row: Cell<usize>,
-    /// The first fault that the process has reported in the row.
-    reported: Cell<Option<RowFault>>,
-    /// Where the process was when it ended or panicked.
-    stopped: Cell<Option<StoppedAt>>,
-}
-
-impl Now {
-    fn start(&self, process: usize, row: usize) {
-        self.process.set(process);
-        self.row.set(row);
-        self.reported.set(None);
-        self.stopped.set(None);
-    }
-}
-
-/// Keeps what a kernel has reported when it ends, and when it panics.
-struct Report<'a> {
-    row: &'a Row<'a>,
-    now: &'a Now,
-}
-
-impl Drop for Report<'_> {
-    fn drop(&mut self) {
-        if self.now.reported.get().is_none() {
-            self.now.reported.set(self.row.first_fault());
-        }
-        self.now.stopped.set(Some(self.row.stopped_at()));
-    }
 }
 
 /// The cells that a kernel is given.

@@ -1,25 +1,27 @@
 //! A model under way on a device.
 
+mod memory;
+
+pub(crate) use memory::least_memory;
+
 use crate::device::{Binding, Buffer, Device, DeviceError, Landing, Recorder};
 use crate::error::NotOnDevice;
-use crate::groups::{Group, Groups, JOURNAL, JOURNAL_WORDS};
+use crate::groups::{Groups, JOURNAL, JOURNAL_WORDS};
 use crate::halo::Halo;
 use crate::migration::Migration;
 use crate::pace::Pace;
-use crate::plane::{Plane, size_on_device};
-use crate::population::Population;
+use crate::plane::size_on_device;
 use crate::program::{Manner, Program, Texts};
 use crate::service::{ADVANCE, SEAL_AIM, SEAL_FULL, SEAL_REPORT, Services};
-use crate::space::{Part, Space};
+use crate::space::Space;
 use crate::stop::Cause;
+use memory::{check_types, groups_of, looked_at, records, space_of};
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
 use xca_core::engine::{EngineFailure, Fault, Interruption, StepContext, SubstateId};
-use xca_core::model::GroupKind;
-use xca_core::{Face, Faces, Model, ParameterValue, ProcessKind, StoredScalar, Stream};
-use xca_wgsl::{Content, Dispatch};
+use xca_core::{Face, Faces, Model, ParameterValue, ProcessKind, Stream};
 
 /// A model with its state on a device.
 pub(crate) struct GpuExecution {
@@ -374,110 +376,4 @@ fn long(low: u32, high: u32) -> u64 {
 /// What the host hears of an error of the device.
 pub(crate) fn failure(error: &DeviceError) -> EngineFailure {
     EngineFailure::Broken { engine: "gpu".to_owned(), reason: error.to_string() }
-}
-
-/// The bytes that a model takes at least: every substate of cells once.
-pub(crate) fn least_memory(model: &Model, precision: xca_core::Precision) -> u128 {
-    let size = |group: &xca_core::model::Group| match group.kind() {
-        GroupKind::Cells { .. } => group.stored(precision).into_iter().map(size_on_device).sum(),
-        GroupKind::Population { .. } => 2 * size_of::<u32>(),
-    };
-    let bytes: usize = model.groups().iter().map(size).sum();
-    model.geometry().cells() as u128 * bytes as u128
-}
-
-/// Whether the device knows all types of the model.
-fn check_types(model: &Model, manner: Manner, device: &Device) -> Result<(), NotOnDevice> {
-    if device.adapter().has_f64 {
-        return Ok(());
-    }
-    if manner.precision == xca_core::Precision::F64 {
-        return Err(NotOnDevice::NoF64 { what: "this precision".to_owned() });
-    }
-    for group in model.groups() {
-        for (field, stored) in group.schema().fields.iter().zip(group.stored(manner.precision)) {
-            if stored.scalar == StoredScalar::F64 {
-                return Err(NotOnDevice::NoF64 { what: format!("the substate `{}`", field.name) });
-            }
-        }
-    }
-    Ok(())
-}
-
-/// The space, cut so that the largest substate of cells can be reached.
-fn space_of(model: &Model, manner: Manner) -> Result<Space, NotOnDevice> {
-    let of_cells = model.groups().iter().filter(|group| matches!(group.kind(), GroupKind::Cells { .. }));
-    let sizes = of_cells.flat_map(|group| group.stored(manner.precision)).map(size_on_device);
-    let largest = sizes.max().unwrap_or(4);
-    let most = manner.reach;
-    Space::new(model.geometry(), most / largest as u64).map_err(|too_large| NotOnDevice::TooLarge {
-        what: "a substate with its neighbours".to_owned(),
-        wanted: too_large.wanted * largest as u128,
-        most,
-    })
-}
-
-/// Memory for all substates.
-fn groups_of(
-    model: &Model,
-    manner: Manner,
-    device: &Device,
-    (space, programs, doubled): (&Space, &[Program], &HashSet<SubstateId>),
-) -> Result<Groups, NotOnDevice> {
-    let mut groups = Vec::new();
-    for (number, group) in model.groups().iter().enumerate() {
-        let types = group.stored(manner.precision);
-        let fields = group.schema().fields;
-        let doubled = |field| doubled.contains(&SubstateId { group: number, field });
-        groups.push(match group.kind() {
-            GroupKind::Cells { .. } => {
-                let planes = types.iter().enumerate().map(|(field, stored)| {
-                    Plane::new(device, fields[field].name, *stored, space.stored(), doubled(field))
-                });
-                Group::Cells(planes.collect::<Result<_, _>>()?)
-            }
-            GroupKind::Population { slots, may_leave } => {
-                let moves = programs.iter().any(|program| {
-                    program.process.kind == ProcessKind::Migration
-                        && program.population(model) == Some(number)
-                });
-                let doubled = (0..types.len()).map(doubled).collect();
-                let rules = (*slots, *may_leave);
-                let population = Population::new(device, space, fields, types, rules, (doubled, moves))?;
-                Group::Population(Box::new(population))
-            }
-        });
-    }
-    Ok(Groups::new(device, groups, records(space, programs, |_| 0))?)
-}
-
-/// The bytes of the records of faults: one for each workgroup of a process over cells, or over the items that there are.
-fn records(space: &Space, programs: &[Program], items: impl Fn(&Program) -> usize) -> u64 {
-    let of = |program: &Program| {
-        let layout = program.shader.bindings.iter().find_map(|binding| match &binding.content {
-            Content::Faults(layout) => Some(layout),
-            _ => None,
-        })?;
-        let workgroups = match program.shader.dispatch {
-            Dispatch::Cells(size) => {
-                let along =
-                    |part: &Part, axis: usize| (part.count[axis] as u64).div_ceil(u64::from(size[axis]));
-                let of_parts =
-                    space.parts().iter().map(|part| (0..3).map(|axis| along(part, axis)).product());
-                of_parts.max().unwrap_or(1)
-            }
-            Dispatch::Items(size) => (items(program) as u64).div_ceil(u64::from(size)).max(1),
-        };
-        Some(workgroups * u64::from(layout.size))
-    };
-    programs.iter().filter_map(of).max().unwrap_or(0)
-}
-
-/// The substates of cells that some process reads at neighbours.
-fn looked_at(model: &Model) -> HashSet<SubstateId> {
-    let uses = (0..model.processes().len()).flat_map(|process| &model.plan().process(process).uses);
-    uses.filter(|used| used.elsewhere)
-        .map(|used| used.substate)
-        .filter(|substate| matches!(model.groups()[substate.group].kind(), GroupKind::Cells { .. }))
-        .collect()
 }
