@@ -3,14 +3,15 @@
 use super::canvas::{Canvas, Strokes};
 use super::category::Category;
 use super::colour::{encode, mix};
+use super::eye::Eye;
 use super::legend::{INK, Scalar, draw_bar, draw_categories, draw_title};
 use super::mosaic::GREY;
 use super::{Picture, PictureError, check_size};
 
 /// Samples a pixel, each way.
-const SAMPLES: usize = 2;
+pub(super) const SAMPLES: usize = 2;
 /// How bright the faces are that look along x, y and z.
-const BRIGHTNESS: [f32; 3] = [0.60, 0.80, 1.0];
+pub(super) const BRIGHTNESS: [f32; 3] = [0.60, 0.80, 1.0];
 /// How much of white the faces of cubes have that stand alone.
 const LIT: [f32; 3] = [0.0, 0.06, 0.22];
 
@@ -34,42 +35,6 @@ pub struct BlockPicture<'a> {
     pub caption: &'a str,
     /// Width and height in pixels, from 200 to 8192 each.
     pub size: [usize; 2],
-}
-
-/// Where the eye is, and which pixel shows what.
-struct Eye {
-    right: [f64; 3],
-    up: [f64; 3],
-    forward: [f64; 3],
-    /// Pixels for the side of a cell.
-    scale: f64,
-    /// The pixel that shows the middle of the block.
-    centre: [f64; 2],
-}
-
-impl Eye {
-    /// The isometric view: x to the right, y away, z up, and all three equally foreshortened.
-    fn new(extents: [f64; 3], low: [f64; 2], high: [f64; 2]) -> Self {
-        let [two, three, six] = [2.0_f64, 3.0, 6.0].map(f64::sqrt);
-        let right = [1.0 / two, 1.0 / two, 0.0];
-        let up = [-1.0 / six, 1.0 / six, 2.0 / six];
-        let forward = [-1.0 / three, 1.0 / three, -1.0 / three];
-        let reach = |axis: [f64; 3]| (0..3).map(|i| axis[i].abs() * extents[i]).sum::<f64>();
-        let scale = ((high[0] - low[0]) / reach(right)).min((high[1] - low[1]) / reach(up));
-        Self { right, up, forward, scale, centre: [(low[0] + high[0]) / 2.0, (low[1] + high[1]) / 2.0] }
-    }
-
-    /// The pixel of a point, told from the middle of the block.
-    fn project(&self, point: [f64; 3]) -> [f64; 2] {
-        let along = |axis: [f64; 3]| (0..3).map(|i| axis[i] * point[i]).sum::<f64>();
-        [self.centre[0] + self.scale * along(self.right), self.centre[1] - self.scale * along(self.up)]
-    }
-
-    /// A point that a pixel shows: that in the plane through the middle of the block.
-    fn point(&self, x: f64, y: f64) -> [f64; 3] {
-        let (u, v) = ((x - self.centre[0]) / self.scale, (self.centre[1] - y) / self.scale);
-        std::array::from_fn(|i| u * self.right[i] + v * self.up[i])
-    }
 }
 
 impl<'a> BlockPicture<'a> {

@@ -88,7 +88,7 @@ impl Recorder {
                 }
                 view.range = look.range.or(view.range);
                 if view.block {
-                    view.relief = None;
+                    view.relief = view.relief.filter(|_| self.model().geometry().extents()[2] == 1);
                 } else {
                     if let Some(axis) = look.axis {
                         (view.axis, view.layer) = (axis, None);

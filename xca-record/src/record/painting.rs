@@ -7,8 +7,8 @@ use crate::view::{AnyCellView, AnyItemView, AnyView, Drawn};
 use xca_core::model::Group;
 use xca_core::{Geometry, Model, Parity, Schema};
 use xca_io::picture::{
-    BlockPicture, Category, ColourMap, Domain, Lattice, ParticlePicture, Picture, PictureError, Relief,
-    Scalar, SlicePicture,
+    BlockPicture, Category, ColourMap, Domain, LandscapePicture, Lattice, ParticlePicture, Picture,
+    PictureError, Relief, Scalar, SlicePicture,
 };
 
 /// The texts above a picture, its scale and its size.
@@ -170,9 +170,19 @@ impl Field<'_> {
         picture.render()
     }
 
-    /// Draws all cells, or those that are not 0 where the substate is a whole number.
+    /// Draws all cells, or those that are not 0 where the substate is a whole number; one layer over its relief.
     fn block(&self, frame: Frame<'_>, present: Option<[f64; 2]>) -> Result<Picture, PictureError> {
         let kinds = self.kinds(frame.range);
+        if let Some((heights, (_, bare))) = self.heights.zip(self.view.relief) {
+            let relief = Relief { heights, bare };
+            let scalar = self.scalar(frame.range, present);
+            let [columns, rows, _] = self.geometry.extents();
+            let mut picture = LandscapePicture::new([columns, rows], self.geometry.side(), scalar, relief);
+            (picture.categories, picture.hidden) = (&kinds, self.hidden);
+            (picture.title, picture.caption) = (frame.title, frame.caption);
+            picture.size = frame.size.unwrap_or(picture.size);
+            return picture.render();
+        }
         let mut picture = BlockPicture::new(self.geometry.extents(), self.scalar(frame.range, present));
         picture.categories = &kinds;
         // In a single layer nothing is hidden that an empty cell would show.
