@@ -3,6 +3,7 @@
 mod ascii_grid;
 mod file;
 mod formats;
+mod geotiff;
 mod pictures;
 mod saved_state;
 mod subject;

@@ -90,7 +90,7 @@ const SHAPES: [(Moment, &[&str]); 4] = [
     (Moment::Run, &["pvd"]),
     (Moment::First, &["png"]),
     (Moment::Each, &["vti", "vtp"]),
-    (Moment::Last, &["asc", "csv", "png"]),
+    (Moment::Last, &["asc", "csv", "png", "tif"]),
 ];
 
 fn is_of_run(name: &str, others: &[String]) -> bool {
@@ -148,6 +148,7 @@ mod tests {
             "final.csv",
             "final_fish.csv",
             "final_altitude.asc",
+            "final_altitude.tif",
             "initial.png",
             "final_pond-2.png",
             "water.pvd",
