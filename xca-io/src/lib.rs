@@ -7,6 +7,7 @@
 //! | module | file | for |
 //! |---|---|---|
 //! | [`particle_csv`] | `.csv` | particles, exact to the last bit; can be read back as an initial state |
+//! | [`extended_xyz`] | `.xyz` | particles for OVITO and ASE |
 //! | [`table_csv`] | `.csv` | time series |
 //! | [`raster`] | | a layer of cells, of whichever of the next two formats |
 //! | [`ascii_grid`] | `.asc` | a layer of cells for geographic information systems, also to begin from |
@@ -23,6 +24,7 @@
 pub mod animation;
 pub mod ascii_grid;
 pub mod atomic;
+pub mod extended_xyz;
 pub mod geotiff;
 pub mod map;
 pub mod numbers;

@@ -1,6 +1,7 @@
 //! Formats: each writes the states of a run to files of its own, in one file of code.
 
 mod ascii_grid;
+mod extended_xyz;
 mod file;
 mod formats;
 mod geotiff;

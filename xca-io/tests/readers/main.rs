@@ -1,7 +1,8 @@
-//! Files read and written by other libraries too: GeoTIFF by rasterio.
+//! Files read and written by other libraries too: GeoTIFF by rasterio, extended XYZ by ASE.
 
 #![allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should")]
 
+mod extended_xyz;
 mod geotiff;
 
 use serde_json::Value;

@@ -1,6 +1,7 @@
 //! The formats that there are, and those of a run.
 
 use super::ascii_grid::AsciiGrids;
+use super::extended_xyz::ExtendedXyz;
 use super::geotiff::GeoTiffs;
 use super::pictures::Pictures;
 use super::table::ItemTable;
@@ -30,11 +31,11 @@ pub struct FormatError {
 }
 
 impl Default for Formats {
-    /// `vtk`, `csv` and `png` are chosen, `asc` and `tif` are known too.
+    /// `vtk`, `csv` and `png` are chosen, `asc`, `tif` and `xyz` are known too.
     fn default() -> Self {
         let chosen: [Box<dyn Writer>; 3] =
             [Box::new(Vtk::default()), Box::new(ItemTable), Box::new(Pictures::default())];
-        let others: [Box<dyn Writer>; 2] = [Box::new(AsciiGrids), Box::new(GeoTiffs)];
+        let others: [Box<dyn Writer>; 3] = [Box::new(AsciiGrids), Box::new(GeoTiffs), Box::new(ExtendedXyz)];
         let known = |is_chosen: bool| move |writer| Known { writer, is_chosen };
         Self {
             known: chosen.into_iter().map(known(true)).chain(others.into_iter().map(known(false))).collect(),
@@ -115,7 +116,7 @@ mod tests {
         formats.choose(&["png"]).unwrap();
         assert_eq!(formats.names(), ["png"]);
         let error = formats.choose_too(&["png", "gif"]).unwrap_err().to_string();
-        assert_eq!(error, "there is no format `gif`; there are vtk, csv, png, asc, tif");
+        assert_eq!(error, "there is no format `gif`; there are vtk, csv, png, asc, tif, xyz");
         formats.add(Pictures::default());
         assert_eq!(formats.all().filter(|writer| writer.name() == "png").count(), 1);
     }

@@ -89,7 +89,7 @@ fn can_be_made(name: &str, kind: Kind, others: &[String]) -> bool {
 const SHAPES: [(Moment, &[&str]); 4] = [
     (Moment::Run, &["pvd"]),
     (Moment::First, &["png"]),
-    (Moment::Each, &["vti", "vtp"]),
+    (Moment::Each, &["vti", "vtp", "xyz"]),
     (Moment::Last, &["asc", "csv", "png", "tif"]),
 ];
 
@@ -155,6 +155,7 @@ mod tests {
             "final_lava.pvd",
             "frames/water_*.vti",
             "frames/fish_*.vtp",
+            "frames/fish_*.xyz",
             "checkpoints/step_*.checkpoint",
         ] {
             assert!(can_be_made(name, Kind::Run, &[]), "{name}");
