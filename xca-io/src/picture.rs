@@ -32,7 +32,6 @@ mod canvas;
 mod category;
 mod colour;
 mod depth;
-mod glyphs;
 mod legend;
 mod light;
 mod mosaic;
