@@ -1,10 +1,12 @@
 //! Extended XYZ (`.xyz`): particles as text, for OVITO, ASE and others that show or analyse particles.
 //!
-//! A frame is a line with the number of particles, a line of keys, and a line for each particle. The keys are `Lattice`
-//! (the sides of the space), `Origin`, `Properties` (name, type and width of each column), `pbc` (which axes are periodic)
-//! and `Time`. The columns begin with `pos`. OVITO knows `id` and `radius` by these names.
+//! A frame is a line with the number of particles, a line of keys, and a line for each particle. The keys are
+//! `Lattice` (the sides of the space), `Origin`, `Properties` (name, type and width of each column), `pbc`
+//! (which axes are periodic) and `Time`. The columns begin with `pos`. OVITO knows `id` and `radius` by these
+//! names.
 //!
-//! Numbers have as many digits as it takes to read them back to the last bit. ASE holds whole numbers up to 2147483647.
+//! Numbers have as many digits as it takes to read them back to the last bit. ASE holds whole numbers up to
+//! 2147483647.
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -127,9 +129,9 @@ fn is_word(text: &str) -> bool {
 
 /// Writes one frame. The file appears complete or not at all.
 ///
-/// `positions` has one entry for each particle, and every column one for each particle and component, in the same order.
-/// `time` and `space` are in the units of the positions. Values that are not finite are written as `NaN`, `inf` and
-/// `-inf`, so that a broken state can be looked at.
+/// `positions` has one entry for each particle, and every column one for each particle and component, in the
+/// same order. `time` and `space` are in the units of the positions. Values that are not finite are written
+/// as `NaN`, `inf` and `-inf`, so that a broken state can be looked at.
 ///
 /// # Errors
 /// [`WriteXyzError`], each with the path.

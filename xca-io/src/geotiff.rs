@@ -1,8 +1,8 @@
 //! GeoTIFF (`.tif`): a layer of cells with its place on the map and its coordinate system.
 //!
-//! The first band of the first image is read: integers of 8 to 64 bits, `f32` or `f64`; in strips or tiles; uncompressed or
-//! with Deflate, LZW or PackBits, with any predictor. The rows of a file begin in the north, those of a [`Raster`] in the
-//! south.
+//! The first band of the first image is read: integers of 8 to 64 bits, `f32` or `f64`; in strips or tiles;
+//! uncompressed or with Deflate, LZW or PackBits, with any predictor. The rows of a file begin in the north,
+//! those of a [`Raster`] in the south.
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -37,8 +37,8 @@ use std::path::Path;
 
 /// Reads the first band of a GeoTIFF.
 ///
-/// NODATA is the value of GDAL's tag 42113, and NaN. A file whose pixels are points (`PixelIsPoint`) has cells around
-/// these points.
+/// NODATA is the value of GDAL's tag 42113, and NaN. A file whose pixels are points (`PixelIsPoint`) has
+/// cells around these points.
 ///
 /// # Errors
 /// [`ReadGeoTiffError`] with the path.
@@ -51,8 +51,8 @@ pub(crate) fn read_placed(path: &Path, on: Option<Placement>) -> Result<Raster, 
     read::read(path, on)
 }
 
-/// Writes a raster as a GeoTIFF of one band, with Deflate compression. NODATA is NaN. The file appears complete or not at
-/// all.
+/// Writes a raster as a GeoTIFF of one band, with Deflate compression. NODATA is NaN. The file appears
+/// complete or not at all.
 ///
 /// # Errors
 /// [`WriteError`] with the path.

@@ -1,7 +1,7 @@
 //! A layer of square cells with a number for each, as geographic information systems have it.
 //!
-//! [`Raster::read`] reads GeoTIFF and ESRI ASCII grids; [`geotiff::write`] and [`ascii_grid::write`] write them.
-//! Rows count from the south, as in a model: `[0, 0]` is the cell in the south-west.
+//! [`Raster::read`] reads GeoTIFF and ESRI ASCII grids; [`geotiff::write`] and [`ascii_grid::write`] write
+//! them. Rows count from the south, as in a model: `[0, 0]` is the cell in the south-west.
 
 use crate::ascii_grid::{self, ReadGridError};
 use crate::geotiff::{self, GeoKeys, ReadGeoTiffError};
@@ -19,8 +19,9 @@ pub struct Raster {
 }
 
 impl Raster {
-    /// A raster of so many columns and rows. `values` has one number for each cell, x fastest, from the south; NaN
-    /// stands for NODATA. The south-west corner is at 0, 0 unless [`Raster::with_corner`] moves it.
+    /// A raster of so many columns and rows. `values` has one number for each cell, x fastest, from the
+    /// south; NaN stands for NODATA. The south-west corner is at 0, 0 unless [`Raster::with_corner`] moves
+    /// it.
     ///
     /// None if the number of values differs from that of the cells, or the side is not a positive number.
     #[must_use]
@@ -95,8 +96,8 @@ impl Raster {
         Self::read_either(path, None)
     }
 
-    /// As [`Raster::read`], of a file that may lack its place on the map: a GeoTIFF without georeference, a grid without
-    /// a header. It must have the columns and rows of this place.
+    /// As [`Raster::read`], of a file that may lack its place on the map: a GeoTIFF without georeference, a
+    /// grid without a header. It must have the columns and rows of this place.
     ///
     /// # Errors
     /// As [`Raster::read`].
@@ -112,7 +113,8 @@ impl Raster {
         }
     }
 
-    /// As [`Raster::read`], of altitudes in m. Altitudes beyond [`HIGHEST`] and rasters without any value are refused.
+    /// As [`Raster::read`], of altitudes in m. Altitudes beyond [`HIGHEST`] and rasters without any value are
+    /// refused.
     ///
     /// # Errors
     /// As [`Raster::read`]; [`ReadRasterError::Height`] and [`ReadRasterError::Empty`].
@@ -172,8 +174,8 @@ pub enum ReadRasterError {
     GeoTiff(#[from] ReadGeoTiffError),
     /// An altitude that no ground has.
     #[error(
-        "{}: {height} in column {}, row {} from the north is no altitude in m; if it stands for no value, name it in \
-         the line NODATA_value, or in the NODATA tag of a GeoTIFF",
+        "{}: {height} in column {}, row {} from the north is no altitude in m; if it stands for no value, name \
+         it in the line NODATA_value, or in the NODATA tag of a GeoTIFF",
         path.display(), place[0], place[1]
     )]
     Height {

@@ -1,4 +1,5 @@
-//! How many bytes a list of frames costs. The system counts those of a whole process, so the test has one of its own.
+//! How many bytes a list of frames costs. The system counts those of a whole process, so the test has one of
+//! its own.
 
 #![cfg(target_os = "linux")]
 #![allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should")]

@@ -12,7 +12,10 @@ pub enum WriteXyzError {
     #[error(transparent)]
     Write(#[from] WriteError),
     /// A name that is more than one word.
-    #[error("cannot write {}: the column name `{}` must be one word without `:`", path.display(), column.escape_debug())]
+    #[error(
+        "cannot write {}: the column name `{}` must be one word without `:`",
+        path.display(), column.escape_debug()
+    )]
     Name {
         /// The file.
         path: PathBuf,
@@ -29,7 +32,8 @@ pub enum WriteXyzError {
     },
     /// A column that is too long or too short.
     #[error(
-        "cannot write {}: column `{column}` has {found} values for {particles} particles of {components} components",
+        "cannot write {}: column `{column}` has {found} values for {particles} particles of {components} \
+         components",
         path.display()
     )]
     Length {
@@ -45,7 +49,10 @@ pub enum WriteXyzError {
         components: usize,
     },
     /// A text that is more than one word.
-    #[error("cannot write {}: `{}` in column `{column}` must be one word", path.display(), text.escape_debug())]
+    #[error(
+        "cannot write {}: `{}` in column `{column}` must be one word",
+        path.display(), text.escape_debug()
+    )]
     Text {
         /// The file.
         path: PathBuf,

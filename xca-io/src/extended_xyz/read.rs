@@ -44,9 +44,9 @@ pub enum ReadValues {
 
 /// Reads all frames of a file.
 ///
-/// The lattice must be a box along the axes. Columns other than `pos` may have any names, and keys other than `Lattice`,
-/// `Origin`, `Properties`, `pbc` and `Time` are passed over. Without `pbc` a lattice is periodic along all axes, as the
-/// format says.
+/// The lattice must be a box along the axes. Columns other than `pos` may have any names, and keys other than
+/// `Lattice`, `Origin`, `Properties`, `pbc` and `Time` are passed over. Without `pbc` a lattice is periodic
+/// along all axes, as the format says.
 ///
 /// # Errors
 /// [`ReadXyzError`] with the path and the line.

@@ -36,7 +36,10 @@ pub enum ReadGeoTiffError {
         found: String,
     },
     /// It has more cells than can be held.
-    #[error("{}: the GeoTIFF has {} x {} cells, which do not fit into memory", path.display(), extents[0], extents[1])]
+    #[error(
+        "{}: the GeoTIFF has {} x {} cells, which do not fit into memory",
+        path.display(), extents[0], extents[1]
+    )]
     Size {
         /// The file.
         path: PathBuf,
@@ -95,7 +98,10 @@ pub enum ReadGeoTiffError {
         dy: f64,
     },
     /// An infinite value.
-    #[error("{}: {value} in column {}, row {} from the north is not a finite number", path.display(), place[0], place[1])]
+    #[error(
+        "{}: {value} in column {}, row {} from the north is not a finite number",
+        path.display(), place[0], place[1]
+    )]
     Infinite {
         /// The file.
         path: PathBuf,

@@ -42,8 +42,8 @@ impl GeoKeys {
         Self::of_code(MODEL_IS_PROJECTED, PROJECTED, code)
     }
 
-    /// The keys of a geographic coordinate system, longitude and latitude in degrees, by its code in the register of
-    /// EPSG: 4326 is WGS 84.
+    /// The keys of a geographic coordinate system, longitude and latitude in degrees, by its code in the
+    /// register of EPSG: 4326 is WGS 84.
     #[must_use]
     pub fn geographic(code: u16) -> Self {
         Self::of_code(MODEL_IS_GEOGRAPHIC, GEODETIC, code)
@@ -59,8 +59,8 @@ impl GeoKeys {
         }
     }
 
-    /// The code of the coordinate system in the register of EPSG, such as 32633 for UTM zone 33N; none of a system that
-    /// the file defines itself.
+    /// The code of the coordinate system in the register of EPSG, such as 32633 for UTM zone 33N; none of a
+    /// system that the file defines itself.
     pub fn epsg(&self) -> Option<u16> {
         let codes = [PROJECTED, GEODETIC].into_iter().map(|key| self.short(key));
         // A projected system that the file defines has a code for its datum alone, which is another system.

@@ -10,6 +10,7 @@ use std::io::BufReader;
 use std::path::Path;
 use std::sync::Arc;
 use tiff::TiffError;
+use tiff::decoder::ifd::Value;
 use tiff::decoder::{ChunkType, Decoder, DecodingResult, Limits};
 use tiff::tags::{PhotometricInterpretation, PlanarConfiguration, Tag};
 
@@ -68,7 +69,7 @@ fn placed_on(path: &Path, found: [usize; 2], on: Option<Placement>) -> Result<Pl
 }
 
 fn numbers(image: &mut Image, tag: Tag) -> Result<Vec<f64>, TiffError> {
-    image.find_tag(tag)?.map_or_else(|| Ok(Vec::new()), |value| value.into_f64_vec())
+    image.find_tag(tag)?.map_or_else(|| Ok(Vec::new()), Value::into_f64_vec)
 }
 
 fn georeference(image: &mut Image) -> Result<Georeference, TiffError> {
@@ -87,7 +88,7 @@ fn keys(path: &Path, image: &mut Image) -> Result<Option<GeoKeys>, ReadGeoTiffEr
     let directory = directory.into_u16_vec().map_err(undecoded)?;
     let doubles = numbers(image, Tag::GeoDoubleParamsTag).map_err(undecoded)?;
     let text = image.find_tag(Tag::GeoAsciiParamsTag).map_err(undecoded)?;
-    let text = text.map_or_else(|| Ok(String::new()), |text| text.into_string()).map_err(undecoded)?;
+    let text = text.map_or_else(|| Ok(String::new()), Value::into_string).map_err(undecoded)?;
     let broken = || ReadGeoTiffError::Tag {
         path: path.to_owned(),
         tag: "GeoKeyDirectory",
@@ -218,7 +219,7 @@ impl Samples {
             DecodingResult::I16(samples) => samples.into_iter().map(f64::from).collect(),
             DecodingResult::I32(samples) => samples.into_iter().map(f64::from).collect(),
             DecodingResult::I64(samples) => samples.into_iter().map(|sample| sample as f64).collect(),
-            DecodingResult::F16(samples) => samples.into_iter().map(|sample| sample.to_f64()).collect(),
+            DecodingResult::F16(samples) => samples.into_iter().map(f64::from).collect(),
             DecodingResult::F32(samples) => samples.into_iter().map(f64::from).collect(),
             DecodingResult::F64(samples) => samples,
         };

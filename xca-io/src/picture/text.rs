@@ -32,8 +32,8 @@ fn font() -> Option<&'static FontRef<'static>> {
     FONT.get_or_init(|| FontRef::try_from_slice(dejavu::sans::regular()).ok()).as_ref()
 }
 
-/// Draws one line of text with its base line at `at`. `^` raises the characters up to the next blank or closing
-/// bracket: `m s^-2`. Characters without a glyph show as a box.
+/// Draws one line of text with its base line at `at`. `^` raises the characters up to the next blank or
+/// closing bracket: `m s^-2`. Characters without a glyph show as a box.
 pub(super) fn draw(canvas: &mut Canvas, text: &str, at: [f32; 2], anchor: Anchor, style: &Style) {
     let Some(font) = font() else { return };
     let line = Line::new(font, text, style);

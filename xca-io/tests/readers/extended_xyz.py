@@ -41,7 +41,8 @@ if sys.argv[1] == "read":
 else:
     frames = []
     for number in range(2):
-        atoms = Atoms("H2O", positions=[[0, 0, 0.1], [1 / 3, 0, 0], [0, 2e-9, -5]], cell=[2, 3, 4], pbc=[True, False, True])
+        positions = [[0, 0, 0.1], [1 / 3, 0, 0], [0, 2e-9, -5]]
+        atoms = Atoms("H2O", positions=positions, cell=[2, 3, 4], pbc=[True, False, True])
         atoms.info["Time"] = 0.5 * number
         atoms.info["remark"] = "two words"
         atoms.arrays["id"] = numpy.array([3, 2, 1 + number])
