@@ -7,8 +7,11 @@
 //! | module | file | for |
 //! |---|---|---|
 //! | [`particle_csv`] | `.csv` | particles, exact to the last bit; can be read back as an initial state |
+//! | [`extended_xyz`] | `.xyz` | particles for OVITO and ASE |
 //! | [`table_csv`] | `.csv` | time series |
+//! | [`raster`] | | a layer of cells, of whichever of the next two formats |
 //! | [`ascii_grid`] | `.asc` | a layer of cells for geographic information systems, also to begin from |
+//! | [`geotiff`] | `.tif` | the same in binary, with a coordinate system |
 //! | [`map`] | | where a layer of cells lies, and which of its cells have no ground |
 //! | [`vtk`] | `.vtp`, `.vti`, `.pvd` | particles and dense substates in ParaView |
 //! | [`picture`] | `.png` | pictures, made without a display |
@@ -21,10 +24,13 @@
 pub mod animation;
 pub mod ascii_grid;
 pub mod atomic;
+pub mod extended_xyz;
+pub mod geotiff;
 pub mod map;
 pub mod numbers;
 pub mod particle_csv;
 pub mod picture;
+pub mod raster;
 pub mod regular_file;
 pub mod table_csv;
 pub mod vtk;

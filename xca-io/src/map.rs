@@ -1,5 +1,7 @@
 //! Where a layer of cells lies on a map, and which of its cells have no ground.
 
+use crate::geotiff::GeoKeys;
+use crate::raster::Raster;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -71,12 +73,13 @@ pub struct Map {
     placement: Placement,
     /// By linear index, x fastest, from the south; none where every cell has ground.
     missing: Option<Arc<[bool]>>,
+    coordinate_system: Option<Arc<GeoKeys>>,
 }
 
 impl Map {
     /// A map with ground in every cell.
     pub fn new(placement: Placement) -> Self {
-        Self { placement, missing: None }
+        Self { placement, missing: None, coordinate_system: None }
     }
 
     /// The same map, without ground in the cells where the mask is true (x fastest, from the south). None where the mask
@@ -89,9 +92,20 @@ impl Map {
             .then(|| Self { missing: has_any.then(|| missing.into()), ..self })
     }
 
+    /// The same map in this coordinate system, or in none.
+    #[must_use]
+    pub fn with_coordinate_system(self, coordinate_system: Option<Arc<GeoKeys>>) -> Self {
+        Self { coordinate_system, ..self }
+    }
+
     /// Where it lies.
     pub fn placement(&self) -> Placement {
         self.placement
+    }
+
+    /// The coordinate system of its corner and side, if a file has named one.
+    pub fn coordinate_system(&self) -> Option<&Arc<GeoKeys>> {
+        self.coordinate_system.as_ref()
     }
 
     /// The mask of the cells without ground, x fastest, from the south; none where every cell has ground.
@@ -118,31 +132,31 @@ impl Map {
         (0..columns * rows).filter(|cell| self.has_ground(*cell) && is_edge(*cell)).collect()
     }
 
-    /// Checks that a layer of this place lies on the map, with nothing (0 or NaN) where the map has no ground. `path` is the
-    /// file of the layer, `on` says what the map is of.
+    /// Checks that a layer lies on the map, in its coordinate system, with nothing (0 or NaN) where the map has no ground.
+    /// `path` is the file of the layer, `on` says what the map is of.
     ///
     /// # Errors
     /// [`OverlayError`] with both values of the first difference, or with the cell.
-    pub fn check(
-        &self,
-        path: &Path,
-        placement: Placement,
-        values: &[f64],
-        on: &str,
-    ) -> Result<(), OverlayError> {
-        if let Some(difference) = placement.difference(&self.placement) {
-            let (path, on) = (path.to_owned(), on.to_owned());
+    pub fn check(&self, path: &Path, layer: &Raster, on: &str) -> Result<(), OverlayError> {
+        let names = || (path.to_owned(), on.to_owned());
+        if let Some(difference) = layer.placement().difference(&self.placement) {
+            let (path, on) = names();
             return Err(OverlayError::Elsewhere { path, on, difference });
+        }
+        let codes = [layer.coordinate_system(), self.coordinate_system()].map(|keys| keys?.epsg());
+        if let [Some(found), Some(wanted)] = codes
+            && found != wanted
+        {
+            let (path, on) = names();
+            return Err(OverlayError::CoordinateSystem { path, on, found, wanted });
         }
         let is_lost =
             |(cell, value): &(usize, &f64)| !value.is_nan() && **value != 0.0 && !self.has_ground(*cell);
-        match values.iter().enumerate().find(is_lost) {
-            Some((cell, value)) => Err(OverlayError::NoGround {
-                path: path.to_owned(),
-                on: on.to_owned(),
-                place: self.placement.place(cell),
-                value: *value,
-            }),
+        match layer.values().iter().enumerate().find(is_lost) {
+            Some((cell, value)) => {
+                let (path, on) = names();
+                Err(OverlayError::NoGround { path, on, place: self.placement.place(cell), value: *value })
+            }
             None => Ok(()),
         }
     }
@@ -161,6 +175,21 @@ pub enum OverlayError {
         on: String,
         /// The first difference.
         difference: PlacementDifference,
+    },
+    /// It is in another coordinate system.
+    #[error(
+        "{} does not lie on {on}: its coordinate system is EPSG:{found}, not EPSG:{wanted}; warp it with `gdalwarp`",
+        path.display()
+    )]
+    CoordinateSystem {
+        /// The file of the layer.
+        path: PathBuf,
+        /// What the map is of.
+        on: String,
+        /// The code of the layer.
+        found: u16,
+        /// The code of the map.
+        wanted: u16,
     },
     /// It has something where the map has no ground.
     #[error("{}: {value} in column {}, row {} from the north, where {on} has no ground (NODATA); clip the grid to \
@@ -226,8 +255,9 @@ mod tests {
         let mut mask = vec![false; 12];
         mask[9] = true;
         let map = Map::new(PLACE).without(mask).unwrap();
-        let check = |placement, values: &[f64]| {
-            map.check(Path::new("d.asc"), placement, values, "g.asc").map_err(|error| error.to_string())
+        let check = |Placement { extents, corner, side }, values: &[f64]| {
+            let layer = Raster::new(extents, side, values.to_vec()).unwrap().with_corner(corner);
+            map.check(Path::new("d.asc"), &layer, "g.asc").map_err(|error| error.to_string())
         };
         let mut values = vec![5.0; 12];
         values[9] = 0.0;

@@ -33,7 +33,6 @@ mod category;
 mod colour;
 mod depth;
 mod eye;
-mod glyphs;
 mod landscape;
 mod lattice;
 mod legend;

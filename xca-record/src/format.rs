@@ -1,8 +1,10 @@
 //! Formats: each writes the states of a run to files of its own, in one file of code.
 
 mod ascii_grid;
+mod extended_xyz;
 mod file;
 mod formats;
+mod geotiff;
 mod pictures;
 mod saved_state;
 mod space_time;

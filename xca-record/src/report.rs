@@ -20,7 +20,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use xca_core::model::GroupKind;
 use xca_core::{Boundary, Engine, Faces, Model, ParameterSet, ParameterValue, Precision, ValueType};
 use xca_io::atomic::{WriteError, write_atomically};
-use xca_io::map::Placement;
+use xca_io::map::{self, Placement};
 
 /// The program that runs a model.
 #[derive(Debug, Clone, Default)]
@@ -195,6 +195,9 @@ pub struct MapReport {
     corner: [f64; 2],
     cell_side: f64,
     cells_without_ground: usize,
+    /// The code of its coordinate system, if a file has named one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    epsg: Option<u16>,
 }
 
 /// The place of a model on the map.
@@ -202,7 +205,11 @@ pub fn of_map(set_up: &SetUp) -> Option<MapReport> {
     let missing = set_up.missing().unwrap_or_default();
     let Placement { corner, side, .. } = set_up.placement();
     let cells_without_ground = missing.iter().filter(|is_missing| **is_missing).count();
-    set_up.map.as_ref().map(|_| MapReport { corner, cell_side: side, cells_without_ground })
+    let report = |map: &map::Map| {
+        let epsg = map.coordinate_system().and_then(|keys| keys.epsg());
+        MapReport { corner, cell_side: side, cells_without_ground, epsg }
+    };
+    set_up.map.as_ref().map(report)
 }
 
 /// Substates that belong together.

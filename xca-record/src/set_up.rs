@@ -128,7 +128,7 @@ impl SetUp {
     ///
     /// Frames lie at this place. Files, pictures and default observables leave out the cells without ground. The final state
     /// is written as ESRI ASCII grids too, one for each substate of cells (`final_altitude.asc`); any other model of one layer
-    /// does so with `run --formats +asc`, and its corner is at 0, 0.
+    /// does so with `run --formats +asc`, and its corner is at 0, 0. `--formats +tif` writes GeoTIFF.
     #[must_use]
     pub fn map(mut self, map: impl Into<Map>) -> Self {
         self.map = Some(map.into());

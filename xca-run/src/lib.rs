@@ -41,9 +41,11 @@
 //! | `observables.csv` | a row of numbers every so many steps; statistics of each substate unless [`SetUp::observables`] says others |
 //! | `life.pvd` | what ParaView opens: all frames with their times |
 //! | `frames/life_00000050.vti`, … | all substates (`.vtp` for the items of a population) |
+//! | `frames/fish_00000050.xyz`, … | with `--formats +xyz`, the items of a population for OVITO and ASE |
 //! | `initial.png`, `final.png` | pictures of the first state and the last |
 //! | `final.csv` | of a population, all items by label, exact; [`read_items`] reads them back |
 //! | `final_altitude.asc`, … | of a model of one layer, if [`SetUp::map`] or `--formats +asc` says so, each component of each substate of cells for geographic information systems |
+//! | `final_altitude.tif`, … | with `--formats +tif`, the same as GeoTIFF |
 //! | `run.json` | everything about the run: options, parameters, engine, seed, times, why it ended |
 //!
 //! Every program has the same command line: `--engine`, `--threads`, `--precision`, `--steps`, `--seed`, `--set`, `--config`, `--out`, `--every`, `--formats`,
@@ -54,7 +56,7 @@
 //! # The parts
 //! | module | holds |
 //! |---|---|
-//! | [`io`] | the files: particles and time series as CSV, VTK files for ParaView, ESRI ASCII grids, PNG pictures |
+//! | [`io`] | the files: particles and time series as CSV, VTK files for ParaView, ESRI ASCII grids, GeoTIFF, PNG pictures |
 //! | [`progress`] | the line that shows how far a run has come, and the table at its end |
 //! | [`number_in`], [`positive_number`] | value parsers for a model's own options |
 //! | [`interrupt`] | Ctrl-C and termination: the run ends after its current step |
@@ -90,8 +92,8 @@ pub mod prelude {
     pub use clap::{self, Args};
     pub use std::process::ExitCode;
     pub use xca_core::prelude::*;
-    pub use xca_io::ascii_grid::AsciiGrid;
     pub use xca_io::map::{Map, Placement};
     pub use xca_io::picture::ColourMap;
+    pub use xca_io::raster::Raster;
     pub use xca_record::{CellView, Failure, ItemView, Observable, SetUp};
 }

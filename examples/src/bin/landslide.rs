@@ -65,13 +65,13 @@ fn settle(cell: &mut Cell<Slope>) {
 
 #[derive(Args)]
 struct Landslide {
-    /// The ground: an ESRI ASCII grid of altitudes, in m; a valley is made up unless it is given
+    /// The ground: a GeoTIFF or ESRI ASCII grid of altitudes, in m; a valley is made up unless it is given
     #[arg(long, value_name = "FILE")]
     dem: Option<PathBuf>,
-    /// The debris: an ESRI ASCII grid of its thickness, in m, of the same cells as the ground; no value is 0 m
+    /// The debris: a GeoTIFF or ESRI ASCII grid of its thickness, in m, of the same cells as the ground; no value is 0 m
     #[arg(long, value_name = "FILE", requires = "dem")]
     debris: Option<PathBuf>,
-    /// Where debris was found afterwards: an ESRI ASCII grid of its thickness, in m, of the same cells as the ground. The observable
+    /// Where debris was found afterwards: a GeoTIFF or ESRI ASCII grid of its thickness, in m, of the same cells as the ground. The observable
     /// `fitness` then tells how well the debris of the run lies on it: 1 where both cover the same cells, 0 where none
     #[arg(long, value_name = "FILE")]
     observed: Option<PathBuf>,
@@ -82,8 +82,8 @@ struct Landslide {
 
 /// Ground and debris, with their place on the map.
 struct Terrain {
-    ground: AsciiGrid,
-    debris: AsciiGrid,
+    ground: Raster,
+    debris: Raster,
     /// How much the ground rises at random in each cell at most, in m.
     roughness: f64,
     files: Vec<PathBuf>,
@@ -109,17 +109,17 @@ impl Terrain {
             20.0 * (1.0 - away[0] * away[0] - away[1] * away[1]).max(0.0)
         });
         Some(Self {
-            ground: AsciiGrid::new(extents, side, ground.collect())?,
-            debris: AsciiGrid::new(extents, side, debris.collect())?,
+            ground: Raster::new(extents, side, ground.collect())?,
+            debris: Raster::new(extents, side, debris.collect())?,
             roughness: 2.0,
             files: Vec::new(),
         })
     }
 
     fn read(dem: &Path, debris: &Path) -> Result<Self, Failure> {
-        let [ground, thickness] = [AsciiGrid::read_heights(dem)?, AsciiGrid::read(debris)?];
+        let [ground, thickness] = [Raster::read_heights(dem)?, Raster::read(debris)?];
         let map = Map::from(&ground);
-        map.check(debris, thickness.placement(), thickness.values(), &dem.display().to_string())?;
+        map.check(debris, &thickness, &dem.display().to_string())?;
         if let Some(cell) = thickness.values().iter().position(|thickness| *thickness < 0.0) {
             let [column, row] = thickness.placement().place(cell);
             let (path, metres) = (debris.display(), thickness.values()[cell]);
@@ -147,8 +147,8 @@ const TRACE: f64 = 1e-3;
 
 /// The cells in which debris was found.
 fn read_observed(path: &Path, map: &Map) -> Result<Vec<bool>, Failure> {
-    let found = AsciiGrid::read(path)?;
-    map.check(path, found.placement(), found.values(), "the ground")?;
+    let found = Raster::read(path)?;
+    map.check(path, &found, "the ground")?;
     Ok(found.values().iter().map(|metres| *metres > TRACE).collect())
 }
 

@@ -7,7 +7,7 @@ use xca_run::prelude::*;
 
 #[derive(Args)]
 struct Eruption {
-    /// The ground: an ESRI ASCII grid of altitudes, in m; a volcano is made up without it
+    /// The ground: a GeoTIFF or ESRI ASCII grid of altitudes, in m; a volcano is made up without it
     #[arg(long, value_name = "FILE")]
     dem: Option<PathBuf>,
     /// A vent: column and row from the south-west; can be given several times. Default: the highest cell
@@ -41,7 +41,7 @@ impl FromStr for Place {
 const VENTS: [Place; 2] = [Place { x: 70, y: 82 }, Place { x: 85, y: 70 }];
 
 /// A cone with a flank that has a valley, in cells of 10 m.
-fn volcano() -> Option<AsciiGrid> {
+fn volcano() -> Option<Raster> {
     const EXTENTS: [usize; 2] = [200, 150];
     let cells = (0..EXTENTS[1]).flat_map(|y| (0..EXTENTS[0]).map(move |x| [x as f64, y as f64]));
     let altitudes = cells.map(|[x, y]| {
@@ -49,12 +49,12 @@ fn volcano() -> Option<AsciiGrid> {
         let valley = -20.0 * (-((y - 75.0 - 20.0 * (x / 25.0).sin()) / 8.0).powi(2)).exp();
         cone.max(150.0 - 0.5 * x) + valley
     });
-    AsciiGrid::new(EXTENTS, 10.0, altitudes.collect())
+    Raster::new(EXTENTS, 10.0, altitudes.collect())
 }
 
 impl Eruption {
     /// The vents: they begin, are at their height for half an hour, and go on at a lower rate.
-    fn vents(&self, ground: &AsciiGrid) -> Result<Vec<Vent>, Failure> {
+    fn vents(&self, ground: &Raster) -> Result<Vec<Vent>, Failure> {
         let [columns, rows] = ground.extents();
         if let Some(Place { x, y }) = self.vent.iter().find(|place| place.x >= columns || place.y >= rows) {
             return Err(format!("no cell {x},{y} for a vent: the ground has {columns} x {rows} cells").into());
@@ -85,7 +85,7 @@ impl Program for Eruption {
 
     fn set_up(&self, _given: Given) -> Result<SetUp, Failure> {
         let ground = match &self.dem {
-            Some(path) => AsciiGrid::read_heights(path)?,
+            Some(path) => Raster::read_heights(path)?,
             None => volcano().ok_or("a volcano has cells")?,
         };
         let (extents, side, map) = (ground.extents(), ground.side(), Map::from(&ground));

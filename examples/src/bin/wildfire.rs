@@ -5,7 +5,7 @@ use xca_run::prelude::*;
 
 #[derive(Args)]
 struct Wildfire {
-    /// Fuel: an ESRI ASCII grid of numbers from 0 (bare) to 1, on flat ground; hills are made up without it.
+    /// Fuel: a GeoTIFF or ESRI ASCII grid of numbers from 0 (bare) to 1, on flat ground; hills are made up without it.
     /// The fire begins in the cell with a value that is nearest to a quarter of the map
     #[arg(long, value_name = "FILE")]
     fuel: Option<PathBuf>,
@@ -24,9 +24,9 @@ fn hills(site: Site) -> Landscape {
 
 impl Wildfire {
     /// The grid, whose cells without a value are bare.
-    fn grid(&self) -> Result<Option<AsciiGrid>, Failure> {
+    fn grid(&self) -> Result<Option<Raster>, Failure> {
         let Some(path) = &self.fuel else { return Ok(None) };
-        let grid = AsciiGrid::read(path)?;
+        let grid = Raster::read(path)?;
         let Some(cell) = grid.values().iter().position(|fuel| *fuel < 0.0 || *fuel > 1.0) else {
             return Ok(Some(grid));
         };

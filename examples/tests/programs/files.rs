@@ -1,7 +1,8 @@
 //! What runs leave behind.
 
-use crate::running::{CADEM, HEAT, LIFE, MOD2, Table, Workplace, check_files, report, vtk_array};
+use crate::running::{CADEM, HEAT, LIFE, MOD2, POND, Table, Workplace, check_files, report, vtk_array};
 use std::fs;
+use xca_run::io::extended_xyz::{self, ReadValues};
 
 #[test]
 fn every_program_leaves_complete_files() {
@@ -138,4 +139,68 @@ fn particles_leave_through_an_opening_and_are_counted() {
 fn life_has_at_most_thirty_lines() {
     let lines = include_str!("../../src/bin/life.rs").lines().count();
     assert!(lines <= 30, "{lines}");
+}
+
+/// The frames in extended XYZ hold what the exact table holds, in the units and with the names of the model.
+#[test]
+fn frames_in_extended_xyz_are_those_of_the_table() {
+    let place = Workplace::new();
+    for precision in ["f32", "f64"] {
+        let formats = "--formats csv,xyz --steps 20 --every 10";
+        place.succeed(CADEM, &format!("--case published --precision {precision} {formats}"));
+        let folder = place.path("out/cadem");
+        let table = Table::read(&folder.join("final.csv"));
+        let frames = extended_xyz::read(&folder.join("frames/particles_00000020.xyz")).unwrap();
+        let [frame] = &frames[..] else { panic!("{} frames", frames.len()) };
+        let time_step = report(&folder)["progress"]["time_step"].as_f64().unwrap();
+        assert_eq!(frame.time, Some(20.0 * time_step));
+        // The neighbourhood of this case is toroidal, as docs/cadem.md says.
+        assert_eq!(frame.space.unwrap().periodic, [true; 3]);
+        let column = |name: &str| frame.columns.iter().find(|column| column.name == name).unwrap();
+        let labels = table.column("label").iter().map(|label| *label as i64).collect();
+        assert_eq!(column("id").values, ReadValues::Whole(labels));
+        let ReadValues::Real(velocities) = &column("velocity").values else { panic!("no numbers") };
+        for (lane, [position, velocity]) in [["x", "vx"], ["y", "vy"], ["z", "vz"]].into_iter().enumerate() {
+            let found: Vec<f64> = frame.positions.iter().map(|point| point[lane]).collect();
+            assert_eq!(found, table.column(position), "{position} in {precision}");
+            let found = velocities.iter().skip(lane).step_by(3);
+            // Few digits are enough for f32.
+            let rounded =
+                found.map(|number| if precision == "f32" { f64::from(*number as f32) } else { *number });
+            assert_eq!(rounded.collect::<Vec<_>>(), table.column(velocity), "{velocity} in {precision}");
+        }
+        let ReadValues::Real(radii) = &column("radius").values else { panic!("no numbers") };
+        assert!(radii[0] > 0.0 && radii.iter().all(|radius| *radius == radii[0]), "{}", radii[0]);
+        let files = report(&folder)["files"].to_string();
+        assert!(files.contains("frames/particles_*.xyz"), "{files}");
+    }
+    // States and truth have their names.
+    place.succeed(POND, "--formats csv,xyz --steps 4");
+    let file = fs::read_dir(place.path("out/pond/frames")).unwrap().filter_map(Result::ok);
+    let file = file.map(|entry| entry.path()).max().unwrap();
+    let frame = extended_xyz::read(&file).unwrap().remove(0);
+    assert_eq!(frame.space.unwrap().periodic, [true, true, false]);
+    let table = place.read("out/pond/final.csv");
+    let mut lines = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let header = lines.next().unwrap();
+    let rows: Vec<Vec<&str>> = lines.collect();
+    assert_eq!(frame.positions.len(), rows.len());
+    let words = |name: &str| {
+        let place = header.iter().position(|known| *known == name).unwrap();
+        rows.iter().map(|row| row[place].to_owned()).collect::<Vec<String>>()
+    };
+    let mut checked = 0;
+    for column in &frame.columns {
+        match &column.values {
+            ReadValues::Bool(values) => {
+                assert_eq!(values.iter().map(bool::to_string).collect::<Vec<_>>(), words(&column.name));
+            }
+            ReadValues::Text(values) => assert_eq!(values, &words(&column.name)),
+            _ => continue,
+        }
+        checked += 1;
+    }
+    assert!(checked >= 2, "{header:?}");
+    let said = place.fail(2, HEAT, "--formats +xyz");
+    assert!(said.contains("the format xyz is for models with items, and `heat` has none"), "{said}");
 }

@@ -1,8 +1,11 @@
-//! ESRI ASCII grids in and out, and the landslide that runs over them.
+//! ESRI ASCII grids and GeoTIFF in and out, and the landslide that runs over them.
 
 use crate::running::{HEAT, LANDSLIDE, LIFE, Table, Workplace, report};
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
+use xca_run::io::geotiff::{self, GeoKeys, SampleType};
+use xca_run::io::raster::Raster;
 
 /// The header lines of a grid and its numbers, x fastest and from the south, as plainly as can be.
 fn grid(path: &Path) -> (Vec<String>, Vec<f64>) {
@@ -61,6 +64,50 @@ fn a_landslide_goes_on_from_its_grids() {
             assert!(whole == rest, "{file} in {precision}");
         }
     }
+}
+
+/// Place, holes and coordinate system go through a run, and the numbers are those of the run over the same text grids.
+#[test]
+fn a_landslide_runs_from_geotiff_to_geotiff() {
+    let place = Workplace::new();
+    let system = Arc::new(GeoKeys::projected(32633));
+    let ground = |x: usize, y: usize| if (x, y) == (2, 3) { f64::NAN } else { (7 * y + (x * x) % 5) as f64 };
+    let debris = |x: usize, y: usize| if (2..5).contains(&x) && y == 6 { 4.5 } else { 0.0 };
+    for (name, height) in [("ground", &ground as &dyn Fn(usize, usize) -> f64), ("debris", &debris)] {
+        let values = (0..8).flat_map(|y| (0..6).map(move |x| height(x, y))).collect();
+        let raster = Raster::new([6, 8], 10.0, values).unwrap().with_corner([499_000.0, 4_177_000.0]);
+        xca_run::io::ascii_grid::write(&place.path(&format!("{name}.asc")), &raster).unwrap();
+        let raster = raster.with_coordinate_system(Some(system.clone()));
+        geotiff::write(&place.path(&format!("{name}.tif")), &raster, SampleType::F32).unwrap();
+    }
+    for (precision, bits) in [("f32", 32), ("f64", 64)] {
+        for kind in ["asc", "tif"] {
+            let files = format!("--dem ground.{kind} --debris debris.{kind} --out {kind}");
+            place.succeed(LANDSLIDE, &format!("--precision {precision} {files} --formats asc,tif --steps 5"));
+        }
+        for name in ["final_thickness", "final_altitude", "final_outflow_1"] {
+            let read = |folder: &str, kind: &str| {
+                Raster::read(&place.path(folder).join(format!("{name}.{kind}"))).unwrap()
+            };
+            let (text, image) = (read("asc", "asc"), read("tif", "tif"));
+            assert_eq!(image.placement(), text.placement(), "{name}");
+            assert_eq!(image.coordinate_system(), Some(&system), "{name}");
+            assert_eq!(read("asc", "tif").coordinate_system(), None);
+            for (cell, (text, image)) in text.values().iter().zip(image.values()).enumerate() {
+                let same = if bits == 32 { *text as f32 == *image as f32 } else { text == image };
+                assert!(same || text.is_nan() && image.is_nan(), "{name} in cell {cell}: {text} {image}");
+            }
+            assert!(image.values()[3 * 6 + 2].is_nan(), "{name}");
+        }
+        assert!(place.path("tif/final_thickness.tif").metadata().unwrap().len() < 2000);
+    }
+    let report = report(&place.path("tif"));
+    assert_eq!((&report["map"]["epsg"], &report["map"]["cells_without_ground"]), (&32633.into(), &1.into()));
+    let said = place.fail(2, LIFE, "--initial alive=ground.tif");
+    assert!(
+        said.contains("ground.tif does not lie on the model: it has 6 x 8 cells, not 256 x 256"),
+        "{said}"
+    );
 }
 
 #[test]

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 use xca::Cpu;
-use xca::io::ascii_grid::AsciiGrid;
+use xca::io::ascii_grid;
+use xca::io::raster::Raster;
 use xca::prelude::*;
 use xca::record::{CellView, Failure, Interval, Run, SetUp};
 
@@ -35,6 +36,6 @@ fn main() -> Result<(), Failure> {
     let mut recording = run.resume_or_begin(&out, &Cpu::new()?)?;
     recording.go(&mut ())?;
     let temperatures = recording.into_simulation().state().read(Plate::TEMPERATURE)?;
-    let grid = AsciiGrid::new([64, 64], 1.0, temperatures).ok_or("a grid has cells")?;
-    Ok(grid.write(&Path::new(&out).join("temperature.asc"))?)
+    let grid = Raster::new([64, 64], 1.0, temperatures).ok_or("a grid has cells")?;
+    Ok(ascii_grid::write(&Path::new(&out).join("temperature.asc"), &grid)?)
 }

@@ -100,26 +100,6 @@ pub enum ReadGridError {
         /// The text.
         text: String,
     },
-    /// An altitude that no ground has.
-    #[error(
-        "{}: {height} in column {}, row {} from the north is no altitude in m; if it stands for no value, name it in \
-         the line NODATA_value",
-        path.display(), place[0], place[1]
-    )]
-    Height {
-        /// The file.
-        path: PathBuf,
-        /// Column and row of the cell, from 1, from the west and the north.
-        place: [usize; 2],
-        /// The altitude.
-        height: f64,
-    },
-    /// No cell has a value.
-    #[error("{}: no cell has a value", path.display())]
-    Empty {
-        /// The file.
-        path: PathBuf,
-    },
     /// A text that is no number.
     #[error("{}:{line}: `{text}` is not a number", path.display())]
     Number {

@@ -1,6 +1,6 @@
 //! The header of a grid: keys with their values, in any order.
 
-use super::{AsciiGrid, ReadGridError};
+use super::ReadGridError;
 use crate::map::Placement;
 use std::path::Path;
 
@@ -131,8 +131,8 @@ impl Header {
         if is_new { Ok(()) } else { Err(place.key(key, "stands twice in the header")) }
     }
 
-    /// A grid with this header, and no values yet.
-    pub(super) fn grid(&self, path: &Path) -> Result<AsciiGrid, ReadGridError> {
+    /// Where the grid lies.
+    pub(super) fn placement(&self, path: &Path) -> Result<Placement, ReadGridError> {
         let missing = |key| ReadGridError::MissingKey { path: path.to_owned(), key };
         let columns = self.columns.ok_or_else(|| missing("ncols"))?;
         let rows = self.rows.ok_or_else(|| missing("nrows"))?;
@@ -140,8 +140,7 @@ impl Header {
         let x = self.x.ok_or_else(|| missing("xllcorner"))?;
         let y = self.y.ok_or_else(|| missing("yllcorner"))?;
         let corner = [x.corner(side), y.corner(side)];
-        let placement = Placement { extents: [columns, rows], corner, side };
-        Ok(AsciiGrid { placement, values: Vec::new() })
+        Ok(Placement { extents: [columns, rows], corner, side })
     }
 
     /// Whether no key has been found.

@@ -1,8 +1,9 @@
 //! Reading a grid.
 
+use super::ReadGridError;
 use super::header::{Header, Place, is_key};
-use super::{AsciiGrid, ReadGridError, stands_for_none};
 use crate::map::Placement;
+use crate::raster::{Raster, from_the_south, stands_for_none};
 use crate::regular_file;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
@@ -11,7 +12,7 @@ use std::path::Path;
 /// What stands for no value unless the header says otherwise.
 const NOTHING: f64 = -9999.0;
 
-pub(super) fn read(path: &Path, on: Option<Placement>) -> Result<AsciiGrid, ReadGridError> {
+pub(super) fn read(path: &Path, on: Option<Placement>) -> Result<Raster, ReadGridError> {
     let mut lines = Lines::open(path)?;
     let mut header = Header::default();
     while lines.advance()? {
@@ -26,9 +27,9 @@ pub(super) fn read(path: &Path, on: Option<Placement>) -> Result<AsciiGrid, Read
             Some(_) => break,
         }
     }
-    let mut grid = header.grid(path)?;
+    let placement = header.placement(path)?;
     let nothing = header.nothing.unwrap_or(NOTHING);
-    let extents = grid.placement.extents;
+    let extents = placement.extents;
     let cells = extents[0].saturating_mul(extents[1]);
     let wrong_count = |line, found: &str| ReadGridError::Count {
         path: path.to_owned(),
@@ -52,12 +53,11 @@ pub(super) fn read(path: &Path, on: Option<Placement>) -> Result<AsciiGrid, Read
     if values.len() < cells {
         return Err(wrong_count(None, &values.len().to_string()));
     }
-    grid.values = from_the_south(&values, extents[0]);
-    Ok(grid)
+    Ok(Raster { placement, values: from_the_south(&values, extents[0]), coordinate_system: None })
 }
 
 /// The rest of a file that has no header: a line for each row.
-fn matrix(mut lines: Lines<'_>, placement: Placement) -> Result<AsciiGrid, ReadGridError> {
+fn matrix(mut lines: Lines<'_>, placement: Placement) -> Result<Raster, ReadGridError> {
     let [columns, rows] = placement.extents;
     let other = |line, found: String, wanted| ReadGridError::Matrix {
         path: lines.place.path.to_owned(),
@@ -86,18 +86,13 @@ fn matrix(mut lines: Lines<'_>, placement: Placement) -> Result<AsciiGrid, ReadG
     if found < rows {
         return Err(wrong_rows(&found.to_string()));
     }
-    Ok(AsciiGrid { placement, values: from_the_south(&values, columns) })
+    Ok(Raster { placement, values: from_the_south(&values, columns), coordinate_system: None })
 }
 
 fn value(place: Place<'_>, word: &str, nothing: f64) -> Result<f64, ReadGridError> {
     // A number that stands for none may be infinite.
     let number = place.number(word)?;
     if stands_for_none(number, nothing) { Ok(f64::NAN) } else { place.value(word) }
-}
-
-/// Files begin with the northernmost row.
-fn from_the_south(values: &[f64], columns: usize) -> Vec<f64> {
-    values.chunks_exact(columns).rev().flatten().copied().collect()
 }
 
 /// The lines of a file, one at a time.

@@ -1,11 +1,12 @@
 use super::*;
+use crate::map::Map;
 use std::fs;
 
-fn read_text(text: &[u8]) -> Result<AsciiGrid, ReadGridError> {
+fn read_text(text: &[u8]) -> Result<Raster, ReadGridError> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("dem.asc");
     fs::write(&path, text).unwrap();
-    AsciiGrid::read(&path)
+    read(&path)
 }
 
 /// The message without the folder, which differs from run to run.
@@ -21,13 +22,13 @@ fn rows_count_from_the_south_and_stand_from_the_north() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("dem.asc");
     let values = vec![0.5, 1.0, 2.0, f64::NAN, -4.25, 5e-7];
-    let grid = AsciiGrid::new([3, 2], 10.0, values).unwrap().with_corner([100.0, 200.5]);
+    let grid = Raster::new([3, 2], 10.0, values).unwrap().with_corner([100.0, 200.5]);
     assert_eq!((grid.value([1, 1]), grid.value([2, 0])), (Some(-4.25), Some(2.0)));
     assert_eq!((grid.value([0, 1]), grid.value([3, 0]), grid.value([0, 2])), (None, None, None));
-    grid.write(&path).unwrap();
+    write(&path, &grid).unwrap();
     let wanted = format!("{HEADER}NODATA_value -9999\n-9999 -4.25 5e-7\n0.5 1 2\n");
     assert_eq!(fs::read_to_string(&path).unwrap(), wanted);
-    let back = AsciiGrid::read(&path).unwrap();
+    let back = read(&path).unwrap();
     assert_eq!((back.extents(), back.corner(), back.side()), ([3, 2], [100.0, 200.5], 10.0));
     assert_eq!(back.value([0, 1]), None);
     assert_eq!(back.values()[4..], [-4.25, 5e-7]);
@@ -44,9 +45,9 @@ fn every_number_comes_back_with_its_bits() {
         bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         values.extend(Some(f64::from_bits(bits)).filter(|value| value.is_finite()));
     }
-    let grid = AsciiGrid::new([50, 40], 1.0 / 3.0, values.clone()).unwrap().with_corner([-0.1, 1e20]);
-    grid.write(&path).unwrap();
-    let back = AsciiGrid::read(&path).unwrap();
+    let grid = Raster::new([50, 40], 1.0 / 3.0, values.clone()).unwrap().with_corner([-0.1, 1e20]);
+    write(&path, &grid).unwrap();
+    let back = read(&path).unwrap();
     assert_eq!((back.side(), back.corner()), (1.0 / 3.0, [-0.1, 1e20]));
     for (written, read) in values.iter().zip(back.values()) {
         assert_eq!(written.to_bits(), read.to_bits(), "{written:e}");
@@ -107,7 +108,7 @@ fn bytes_that_are_no_text_and_a_missing_file_are_errors() {
     let error = read_text(b"ncols 3\nnrows \xFF\n").unwrap_err();
     assert!(error.to_string().ends_with("dem.asc:2: cannot read the grid on"), "{error}");
     assert!(std::error::Error::source(&error).is_some());
-    let error = AsciiGrid::read(Path::new("/nowhere/dem.asc")).unwrap_err();
+    let error = read(Path::new("/nowhere/dem.asc")).unwrap_err();
     assert!(error.to_string().contains("/nowhere/dem.asc"), "{error}");
 }
 
@@ -120,7 +121,7 @@ fn a_grid_has_a_value_for_each_cell_and_square_cells() {
         ([2, 2], f64::NAN, 4),
         ([usize::MAX, 2], 1.0, 4),
     ] {
-        assert_eq!(AsciiGrid::new(extents, side, vec![0.0; count]), None, "{extents:?} {side} {count}");
+        assert_eq!(Raster::new(extents, side, vec![0.0; count]), None, "{extents:?} {side} {count}");
     }
 }
 
@@ -162,8 +163,8 @@ fn a_written_grid_has_no_value_that_stands_for_none() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.asc");
     let values = vec![-9_999.000_01, f64::NAN];
-    AsciiGrid::new([2, 1], 1.0, values.clone()).unwrap().write(&path).unwrap();
-    let back = AsciiGrid::read(&path).unwrap();
+    write(&path, &Raster::new([2, 1], 1.0, values.clone()).unwrap()).unwrap();
+    let back = read(&path).unwrap();
     assert_eq!((back.value([0, 0]), back.value([1, 0])), (Some(values[0]), None));
 }
 
@@ -175,7 +176,7 @@ fn infinite_numbers_and_impossible_heights_are_refused() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("dem.asc");
         fs::write(&path, format!("{HEADER}{cells}\n")).unwrap();
-        AsciiGrid::read_heights(&path).map(|grid| grid.values().len()).map_err(|error| {
+        Raster::read_heights(&path).map(|grid| grid.values().len()).map_err(|error| {
             let message = error.to_string();
             message[message.find("dem.asc").unwrap()..].to_owned()
         })
@@ -226,7 +227,7 @@ fn a_matrix_is_read_where_the_cells_are_known() {
     let placement = Placement { extents: [3, 2], corner: [100.0, 200.5], side: 10.0 };
     let read = |text: &str| {
         fs::write(&path, text).unwrap();
-        AsciiGrid::read_on(&path, placement).map_err(|error| error.to_string())
+        read_placed(&path, Some(placement)).map_err(|error| error.to_string())
     };
     let grid = read("1 2.5 3\n\n4 -9999 6\n").unwrap();
     assert_eq!((grid.placement(), grid.value([1, 1]), grid.value([1, 0])), (placement, Some(2.5), None));
@@ -242,10 +243,7 @@ fn a_matrix_is_read_where_the_cells_are_known() {
         read("1 2 3\n1 2 3\n1 2 3\n").unwrap_err().ends_with("no header, and more rows, not 2 as the model")
     );
     assert!(
-        AsciiGrid::read(&path)
-            .unwrap_err()
-            .to_string()
-            .contains("the grid has no header; put the lines ncols")
+        super::read(&path).unwrap_err().to_string().contains("the grid has no header; put the lines ncols")
     );
 }
 

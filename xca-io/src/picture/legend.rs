@@ -100,7 +100,7 @@ pub(super) fn draw_bar(
     map: ColourMap,
     scale: Scale,
 ) {
-    let style = Style { height: 11.0, weight: 0.115, colour: INK };
+    let style = Style { height: 11.0, colour: INK };
     let ticks = ticks(scale.low, scale.high, h / 70);
     let right = (x + w) as f32;
     let mut above = y as f32 - 20.0;
@@ -145,7 +145,7 @@ pub(super) fn draw_categories(
     categories: &[Category],
 ) {
     const LINE: usize = 26;
-    let style = Style { height: 11.0, weight: 0.115, colour: INK };
+    let style = Style { height: 11.0, colour: INK };
     let room = canvas.width() as f32 - 14.0 - x as f32;
     text::draw(canvas, label, [x as f32, y as f32 - 10.0], Anchor::Left, &text::fitted(label, style, room));
     let lines = (bottom.saturating_sub(y + 8) / LINE).max(1);
@@ -168,10 +168,8 @@ pub(super) fn draw_categories(
 /// Draws title and caption in the top left corner.
 pub(super) fn draw_title(canvas: &mut Canvas, left: f32, title: &str, caption: &str) {
     let room = canvas.width() as f32 - 2.0 * left;
-    for (text, height, weight, colour, line) in
-        [(title, 17.0, 0.125, INK, 44.0), (caption, 11.5, 0.11, FAINT_INK, 70.0)]
-    {
-        let style = text::fitted(text, Style { height, weight, colour }, room);
+    for (text, height, colour, line) in [(title, 17.0, INK, 44.0), (caption, 11.5, FAINT_INK, 70.0)] {
+        let style = text::fitted(text, Style { height, colour }, room);
         text::draw(canvas, text, [left, line], Anchor::Left, &style);
     }
 }

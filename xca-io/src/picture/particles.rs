@@ -159,7 +159,7 @@ impl<'a> ParticlePicture<'a> {
 
     /// Writes the lengths of the sides next to three edges of the box.
     fn draw_sides(&self, canvas: &mut Canvas, scene: &Scene<'_>, sides: [f64; 3]) {
-        let style = Style { height: 11.0, weight: 0.11, colour: FAINT_INK };
+        let style = Style { height: 11.0, colour: FAINT_INK };
         let middle = scene.camera.project([0.0; 3]);
         for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
             // The edge on the outline of the box, where one of its two faces is seen and the other is not: for x and y

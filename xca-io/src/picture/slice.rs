@@ -155,7 +155,7 @@ impl<'a> SlicePicture<'a> {
         let segments = vec![[[left, line], [right, line]], end(left), end(right)];
         canvas.stroke(&Strokes { segments, width: 1.4 }, INK);
         let text = format!("{} {}", significant(round, 4), self.length_unit);
-        let style = Style { height: 11.0, weight: 0.11, colour: FAINT_INK };
+        let style = Style { height: 11.0, colour: FAINT_INK };
         text::draw(canvas, &text, [right + 12.0, line + 5.5], Anchor::Left, &style);
     }
 }

@@ -1,18 +1,14 @@
-//! Text drawn with a pen.
+//! Text in pictures: DejaVu Sans, which has the letters, superscripts and signs of most units.
 
-use super::canvas::{Canvas, Strokes};
-use super::glyphs::strokes_of;
+use super::canvas::Canvas;
+use ab_glyph::{Font, FontRef, Glyph, GlyphId, Point, PxScale, ScaleFont, point};
+use std::sync::OnceLock;
 
-/// The grid of the glyphs: the base line is at 4, small letters reach 14 and capitals 18.
-const BASE: f32 = 4.0;
-const CAPITAL: f32 = 14.0;
-/// The gap between letters, in grid units.
-const GAP: f32 = 4.6;
-const SPACE: f32 = 7.0;
-const DOT: f32 = 0.4;
-/// The size of a superscript, and how far it is raised, in grid units of the text around it.
+/// The height of a capital as a share of the height of a line.
+const CAPITAL: f32 = 1493.0 / 2384.0;
+/// The size of a superscript, and how far it is raised, as shares of the height of a capital.
 const SUPERSCRIPT: f32 = 0.68;
-const RAISED: f32 = 8.5;
+const RAISED: f32 = 0.55;
 
 /// Where a text is anchored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,75 +22,89 @@ pub(super) enum Anchor {
 pub(super) struct Style {
     /// The height of a capital, in pixels.
     pub(super) height: f32,
-    /// The width of the pen as a share of the height.
-    pub(super) weight: f32,
     /// The colour, in encoded RGB.
     pub(super) colour: [f32; 3],
 }
 
-/// Draws one line of text with its base line at `at`. `^` raises the characters up to the next blank or closing
-/// bracket: `m s^-2`. Characters without a glyph show as a box.
+/// The font. It is part of the program, so its bytes are those of a font.
+fn font() -> Option<&'static FontRef<'static>> {
+    static FONT: OnceLock<Option<FontRef<'static>>> = OnceLock::new();
+    FONT.get_or_init(|| FontRef::try_from_slice(dejavu::sans::regular()).ok()).as_ref()
+}
+
+/// Draws one line of text with its base line at `at`. `^` raises the characters up to the next blank or
+/// closing bracket: `m s^-2`. Characters without a glyph show as a box.
 pub(super) fn draw(canvas: &mut Canvas, text: &str, at: [f32; 2], anchor: Anchor, style: &Style) {
-    let (mut strokes, width) = lay_out(text, style);
+    let Some(font) = font() else { return };
+    let line = Line::new(font, text, style);
     let shift = match anchor {
         Anchor::Left => 0.0,
-        Anchor::Right => -width,
+        Anchor::Right => -line.width,
     };
-    for point in strokes.segments.iter_mut().flatten() {
-        *point = [point[0] + at[0] + shift, point[1] + at[1]];
+    let [x, y] = at;
+    for mut glyph in line.glyphs {
+        glyph.position += point(x + shift, y);
+        let Some(outline) = font.outline_glyph(glyph) else { continue };
+        let Point { x: left, y: top } = outline.px_bounds().min;
+        outline.draw(|column, row, cover| {
+            let place = [left + column as f32, top + row as f32];
+            if place.iter().all(|pixel| *pixel >= 0.0) {
+                canvas.blend(place[0] as usize, place[1] as usize, style.colour, cover.min(1.0));
+            }
+        });
     }
-    canvas.stroke(&strokes, style.colour);
 }
 
 /// `style`, or as much smaller as it takes for `text` to fit into `width` pixels.
 pub(super) fn fitted(text: &str, style: Style, width: f32) -> Style {
-    let found = lay_out(text, &style).1;
+    let found = font().map_or(0.0, |font| Line::new(font, text, &style).width);
     if found > width { Style { height: style.height * (width / found).max(0.1), ..style } } else { style }
 }
 
-/// The strokes of a text that begins at (0, 0), y downwards, and its width.
-fn lay_out(text: &str, style: &Style) -> (Strokes, f32) {
-    let pixels = style.height / CAPITAL;
-    let mut strokes = Strokes { segments: Vec::new(), width: (style.height * style.weight).max(1.0) };
-    let (mut x, mut end) = (0.0, 0.0);
-    let mut raised = false;
-    for c in text.chars() {
-        match c {
-            '^' => {
-                raised = true;
-                continue;
+/// A line of text that begins at (0, 0), y downwards.
+struct Line {
+    glyphs: Vec<Glyph>,
+    width: f32,
+}
+
+impl Line {
+    fn new(font: &FontRef<'_>, text: &str, style: &Style) -> Self {
+        let (mut glyphs, mut x) = (Vec::new(), 0.0);
+        let mut raised = false;
+        let mut before: Option<GlyphId> = None;
+        for letter in text.chars() {
+            match letter {
+                '^' => {
+                    (raised, before) = (true, None);
+                    continue;
+                }
+                ' ' | ')' | ']' if raised => (raised, before) = (false, None),
+                _ => {}
             }
-            ' ' | ')' | ']' => raised = false,
-            _ => {}
+            let (size, lift) = if raised { (SUPERSCRIPT, RAISED * style.height) } else { (1.0, 0.0) };
+            let scale = PxScale::from(style.height / CAPITAL * size);
+            let scaled = font.as_scaled(scale);
+            // The hyphen is short for the sign of an exponent.
+            let shown = if raised && letter == '-' { '\u{2212}' } else { letter };
+            let id = font.glyph_id(shown);
+            x += before.map_or(0.0, |before| scaled.kern(before, id));
+            glyphs.push(id.with_scale_and_position(scale, point(x, -lift)));
+            x += scaled.h_advance(id);
+            before = Some(id);
         }
-        if c == ' ' {
-            x += SPACE;
-            continue;
-        }
-        let (size, lift) = if raised { (SUPERSCRIPT, RAISED) } else { (1.0, 0.0) };
-        let lines = strokes_of(c);
-        let place = |p: [f32; 2]| [(x + p[0] * size) * pixels, ((BASE - p[1]) * size - lift) * pixels];
-        let mut right = 0.0_f32;
-        for line in &lines {
-            right = line.iter().fold(right, |right, p| right.max(p[0]));
-            if let [[x, y]] = line[..] {
-                // A dot is a little wider than the pen.
-                strokes.segments.push([place([x - DOT, y]), place([x + DOT, y])]);
-                strokes.segments.push([place([x, y - DOT]), place([x, y + DOT])]);
-            }
-            strokes.segments.extend(line.windows(2).map(|pair| [place(pair[0]), place(pair[1])]));
-        }
-        end = x + right * size;
-        x = end + GAP * size;
+        Self { glyphs, width: x }
     }
-    (strokes, end * pixels)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const STYLE: Style = Style { height: 14.0, weight: 0.1, colour: [0.0; 3] };
+    const STYLE: Style = Style { height: 14.0, colour: [0.0; 3] };
+
+    fn width(text: &str, style: &Style) -> f32 {
+        Line::new(font().unwrap(), text, style).width
+    }
 
     fn ink(text: &str) -> Vec<(usize, usize)> {
         let mut canvas = Canvas::new(200, 60, [1.0; 3]);
@@ -115,7 +125,7 @@ mod tests {
         let lowest = |text: &str| ink(text).iter().map(|p| p.1).max().unwrap();
         assert!(lowest("^2") < lowest("2") - 5);
         assert_eq!(lowest("^2)2"), lowest("2)2"));
-        assert!(lay_out("m^2", &STYLE).1 < lay_out("m2", &STYLE).1);
+        assert!(width("m^2", &STYLE) < width("m2", &STYLE));
     }
 
     #[test]
@@ -123,20 +133,39 @@ mod tests {
         let text = "displacement (m)";
         assert_eq!(fitted(text, STYLE, 1000.0).height, STYLE.height);
         let small = fitted(text, STYLE, 60.0);
-        assert!((lay_out(text, &small).1 - 60.0).abs() < 0.1);
+        assert!((width(text, &small) - 60.0).abs() < 0.1);
     }
 
     #[test]
     fn every_character_draws_something_of_its_own() {
         let mut drawings: Vec<(char, Vec<(usize, usize)>)> = Vec::new();
-        for c in (33..127_u8).map(char::from).filter(|&c| c != '^') {
+        let others = "αβγδεζηθικλμνξπρστφχψωΓΔΘΛΞΠΣΦΨΩ°·×÷±¹²³⁻⁴⁵⁰₀₂√∂∇∞≈≤≥‰…äöüßéñçÅøłšž";
+        let letters = (33..127_u8).map(char::from).chain(others.chars());
+        // The first is the box of what the font does not have.
+        for c in std::iter::once('\u{e000}').chain(letters.filter(|&c| c != '^')) {
             let drawn = ink(&c.to_string());
             assert!(!drawn.is_empty(), "{c}");
             let twin = drawings.iter().find(|(_, other)| *other == drawn);
-            // A capital I and a small l are one stroke in many typefaces.
-            assert!(twin.is_none_or(|(other, _)| (*other, c) == ('I', 'l')), "{c} looks like {twin:?}");
+            assert!(twin.is_none(), "{c} looks like {twin:?}");
             drawings.push((c, drawn));
         }
+    }
+
+    #[test]
+    fn a_text_beyond_the_edges_is_cut_off() {
+        let drawn = |width, height, [x, y]: [f32; 2]| {
+            let mut canvas = Canvas::new(width, height, [1.0; 3]);
+            draw(&mut canvas, "Wy^2 \u{1b}WWWWWWWW", [x, y], Anchor::Left, &STYLE);
+            canvas.into_picture()
+        };
+        let (cut, whole) = (drawn(30, 12, [-9.0, 5.0]), drawn(300, 60, [41.0, 35.0]));
+        let mut dark = 0;
+        for (x, y) in (0..30 * 12).map(|i| (i % 30, i / 30)) {
+            let [found, wanted] = [cut.pixel(x, y)[0], whole.pixel(x + 50, y + 30)[0]];
+            assert!(found.abs_diff(wanted) <= 2, "{found} and {wanted} at {x}, {y}");
+            dark += usize::from(found < 128);
+        }
+        assert!(dark > 20, "{dark}");
     }
 
     #[test]

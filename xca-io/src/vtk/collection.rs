@@ -1,16 +1,20 @@
 //! The files of a run with their times.
 
-use std::io::Write;
+use std::fs::{self, OpenOptions};
+use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Component, Path, PathBuf};
 
-use super::super::atomic::write_atomically;
+use super::super::atomic::{WriteError, write_atomically};
 use super::VtkError;
 use super::appended::escaped;
 
 /// A ParaView collection (`.pvd`): which file shows which time.
 ///
-/// The file is rewritten whole and atomically after each addition, so ParaView can open it while the run goes on, and
-/// after a run that was cut short. A run with particles and dense substates makes one collection of each.
+/// The file is complete after each addition, so ParaView can open it while the run goes on, and after a run that was
+/// killed. An addition is one write over the closing tags: of the new entry and of the tags again. A machine that fails
+/// meanwhile can leave a file without its last entry or without its closing tags; [`Collection::of`] makes it anew.
+///
+/// A run with particles and dense substates makes one collection of each.
 ///
 /// ```
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -31,9 +35,17 @@ use super::appended::escaped;
 #[derive(Debug)]
 pub struct Collection {
     path: PathBuf,
-    /// One line for each file.
-    entries: String,
+    /// The file but for the closing tags: one line for each file.
+    text: String,
 }
+
+/// What a collection begins with.
+const BEGIN: &str = "<?xml version=\"1.0\"?>\n\
+                     <VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n\
+                     <Collection>\n";
+
+/// The closing tags.
+const END: &str = "</Collection>\n</VTKFile>\n";
 
 impl Collection {
     /// Makes an empty collection, in place of an earlier one.
@@ -49,25 +61,53 @@ impl Collection {
     /// # Errors
     /// As [`Collection::add`].
     pub fn of(path: &Path, entries: &[(f64, PathBuf)]) -> Result<Self, VtkError> {
-        let mut collection = Self { path: path.to_owned(), entries: String::new() };
+        let mut collection = Self { path: path.to_owned(), text: BEGIN.to_owned() };
         for (time, file) in entries {
-            collection.enter(*time, file)?;
+            let entry = collection.entry(*time, file)?;
+            collection.text.push_str(&entry);
         }
         collection.write()?;
         Ok(collection)
     }
 
-    /// Adds `file`, which shows `time`, and rewrites the collection. The file must lie in the collection's folder or
+    /// Adds `file`, which shows `time`. The file must lie in the collection's folder or
     /// below, so that the folder can be moved; both paths must begin alike.
     ///
     /// # Errors
     /// [`VtkError::OutsideFolder`], [`VtkError::Geometry`] for a time that is not finite, [`VtkError::Write`].
     pub fn add(&mut self, time: f64, file: &Path) -> Result<(), VtkError> {
-        self.enter(time, file)?;
+        let entry = self.entry(time, file)?;
+        if self.is_as_written() {
+            let failed = |source| WriteError::File { path: self.path.clone(), source };
+            self.append(&entry).map_err(failed)?;
+            self.text.push_str(&entry);
+            return Ok(());
+        }
+        self.text.push_str(&entry);
         self.write()
     }
 
-    fn enter(&mut self, time: f64, file: &Path) -> Result<(), VtkError> {
+    /// Whether the file is still there, with the length that it was left with.
+    fn is_as_written(&self) -> bool {
+        let length = (self.text.len() + END.len()) as u64;
+        fs::symlink_metadata(&self.path).is_ok_and(|found| found.is_file() && found.len() == length)
+    }
+
+    /// Writes an entry and the closing tags over the closing tags.
+    fn append(&self, entry: &str) -> io::Result<()> {
+        let end = self.text.len() as u64;
+        let mut file = OpenOptions::new().write(true).open(&self.path)?;
+        file.seek(SeekFrom::Start(end))?;
+        let written = file.write_all(format!("{entry}{END}").as_bytes());
+        if written.is_err() {
+            // A full disk still has room for what was there. The first error is the one to report.
+            let _ = file.set_len(end).and_then(|()| file.seek(SeekFrom::Start(end)));
+            let _ = file.write_all(END.as_bytes());
+        }
+        written
+    }
+
+    fn entry(&self, time: f64, file: &Path) -> Result<String, VtkError> {
         if !time.is_finite() {
             return Err(VtkError::Geometry { path: self.path.clone(), what: "the time", value: time });
         }
@@ -83,20 +123,11 @@ impl Collection {
             }
         }
         let name = escaped(&parts.join("/"));
-        self.entries.push_str(&format!("<DataSet timestep=\"{time:?}\" part=\"0\" file=\"{name}\"/>\n"));
-        Ok(())
+        Ok(format!("<DataSet timestep=\"{time:?}\" part=\"0\" file=\"{name}\"/>\n"))
     }
 
     fn write(&self) -> Result<(), VtkError> {
-        write_atomically(&self.path, |file| {
-            write!(
-                file,
-                "<?xml version=\"1.0\"?>\n\
-                 <VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n\
-                 <Collection>\n{}</Collection>\n</VTKFile>\n",
-                self.entries
-            )
-        })?;
+        write_atomically(&self.path, |file| write!(file, "{}{END}", self.text))?;
         Ok(())
     }
 }
@@ -133,6 +164,35 @@ mod tests {
         assert_eq!(fs::read_to_string(&path).unwrap(), text);
     }
 
+    /// A file that someone has cut, removed or replaced is made anew, and a link is not written through.
+    #[test]
+    fn what_others_did_to_the_file_is_mended() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.pvd");
+        let file = |number: usize| folder.path().join(format!("{number}.vtp"));
+        let mut collection = Collection::create(&path).unwrap();
+        let other = folder.path().join("other");
+        for number in 0..4 {
+            match number {
+                1 => fs::write(&path, "<?xml").unwrap(),
+                2 => fs::remove_file(&path).unwrap(),
+                #[cfg(unix)]
+                3 => {
+                    fs::copy(&path, &other).unwrap();
+                    fs::remove_file(&path).unwrap();
+                    std::os::unix::fs::symlink(&other, &path).unwrap();
+                }
+                _ => {}
+            }
+            collection.add(number as f64, &file(number)).unwrap();
+            let entries: Vec<_> = (0..=number).map(|number| (number as f64, file(number))).collect();
+            let whole = folder.path().join("whole.pvd");
+            Collection::of(&whole, &entries).unwrap();
+            assert_eq!(fs::read_to_string(&path).unwrap(), fs::read_to_string(&whole).unwrap());
+        }
+        assert!(fs::symlink_metadata(&path).unwrap().is_file());
+    }
+
     #[test]
     fn only_files_below_the_collection_are_taken() {
         let folder = tempfile::tempdir().unwrap();
@@ -143,5 +203,7 @@ mod tests {
         assert!(collection.add(0.0, &folder.path().join("below/../../a.vtp")).is_err());
         assert!(collection.add(f64::INFINITY, &folder.path().join("a.vtp")).is_err());
         assert!(!fs::read_to_string(&path).unwrap().contains("DataSet"));
+        collection.add(1.0, &folder.path().join("a.vtp")).unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap().matches("DataSet").count(), 1);
     }
 }

@@ -3,7 +3,7 @@
 use super::{Moment, OutputFile, RecordedState, Subject, Writer};
 use crate::observable::Failure;
 use crate::record::layer;
-use xca_io::ascii_grid::AsciiGrid;
+use xca_io::ascii_grid;
 
 /// `final_SUBSTATE.asc`, one for each component of each substate of cells. `bool` and states are numbers.
 #[derive(Debug)]
@@ -28,12 +28,10 @@ impl Writer for AsciiGrids {
     }
 
     fn finish(&mut self, state: RecordedState<'_>) -> Result<(), Failure> {
-        let place = state.subject().placement();
         for band in layer::bands(state.subject().model()) {
-            let Some(values) = band.values(state) else { continue };
-            if let Some(grid) = AsciiGrid::new(place.extents, place.side, values) {
+            if let Some(raster) = band.raster(state) {
                 let file = OutputFile::named(Moment::Last, &band.name, "asc");
-                grid.with_corner(place.corner).write(&state.path(&file))?;
+                ascii_grid::write(&state.path(&file), &raster)?;
             }
         }
         Ok(())

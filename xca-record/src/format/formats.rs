@@ -1,6 +1,8 @@
 //! The formats that there are, and those of a run.
 
 use super::ascii_grid::AsciiGrids;
+use super::extended_xyz::ExtendedXyz;
+use super::geotiff::GeoTiffs;
 use super::pictures::Pictures;
 use super::space_time::SpaceTime;
 use super::table::ItemTable;
@@ -30,11 +32,12 @@ pub struct FormatError {
 }
 
 impl Default for Formats {
-    /// `vtk`, `csv` and `png` are chosen, `asc` and `spacetime` are known too.
+    /// `vtk`, `csv` and `png` are chosen, `asc`, `tif`, `xyz` and `spacetime` are known too.
     fn default() -> Self {
         let chosen: [Box<dyn Writer>; 3] =
             [Box::new(Vtk::default()), Box::new(ItemTable), Box::new(Pictures::default())];
-        let others: [Box<dyn Writer>; 2] = [Box::new(AsciiGrids), Box::new(SpaceTime::default())];
+        let others: [Box<dyn Writer>; 4] =
+            [Box::new(AsciiGrids), Box::new(GeoTiffs), Box::new(ExtendedXyz), Box::new(SpaceTime::default())];
         let known = |is_chosen: bool| move |writer| Known { writer, is_chosen };
         Self {
             known: chosen.into_iter().map(known(true)).chain(others.into_iter().map(known(false))).collect(),
@@ -115,7 +118,7 @@ mod tests {
         formats.choose(&["png"]).unwrap();
         assert_eq!(formats.names(), ["png"]);
         let error = formats.choose_too(&["png", "gif"]).unwrap_err().to_string();
-        assert_eq!(error, "there is no format `gif`; there are vtk, csv, png, asc, spacetime");
+        assert_eq!(error, "there is no format `gif`; there are vtk, csv, png, asc, tif, xyz, spacetime");
         formats.add(Pictures::default());
         assert_eq!(formats.all().filter(|writer| writer.name() == "png").count(), 1);
     }

@@ -5,6 +5,8 @@ use crate::observable::Failure;
 use xca_core::engine::SubstateId;
 use xca_core::model::GroupKind;
 use xca_core::{Model, StoredScalar};
+use xca_io::map::Map;
+use xca_io::raster::Raster;
 
 /// One component of a substate of cells.
 pub(crate) struct Band {
@@ -55,8 +57,22 @@ pub(crate) fn bands(model: &Model) -> Vec<Band> {
 }
 
 impl Band {
-    /// Its values, the lowest row first; NaN where there is no ground.
-    pub(crate) fn values(&self, state: RecordedState<'_>) -> Option<Vec<f64>> {
+    /// Its values at their place on the map; NaN where there is no ground.
+    pub(crate) fn raster(&self, state: RecordedState<'_>) -> Option<Raster> {
+        let (place, map) = (state.subject().placement(), &state.subject().set_up.map);
+        let coordinate_system = map.as_ref().and_then(Map::coordinate_system).cloned();
+        let raster = Raster::new(place.extents, place.side, self.values(state)?)?;
+        Some(raster.with_corner(place.corner).with_coordinate_system(coordinate_system))
+    }
+
+    /// Whether `f32` holds all its values.
+    pub(crate) fn fits_f32(&self, state: RecordedState<'_>) -> bool {
+        let stored = state.subject().model().stored(self.substate, state.precision()).scalar;
+        matches!(stored, StoredScalar::F32 | StoredScalar::U8)
+    }
+
+    /// The lowest row first; NaN where there is no ground.
+    fn values(&self, state: RecordedState<'_>) -> Option<Vec<f64>> {
         let mut values = state.values(self.substate)?.component(self.component);
         if state.subject().model().stored(self.substate, state.precision()).scalar == StoredScalar::F32 {
             values.iter_mut().for_each(|value| *value = with_digits_of_f32(*value));

@@ -24,7 +24,7 @@ pub(crate) struct ModelArguments {
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<Assignment>,
 
-    /// Start a substate of a one-layer model from an ESRI ASCII grid; can be given several times. NAME can be
+    /// Start a substate of a one-layer model from a GeoTIFF or an ESRI ASCII grid; can be given several times. NAME can be
     /// a component: outflow.3. bool is 0 or 1 in a grid, a state its number. NAME:0=FILE takes 0 where the
     /// grid has no value
     #[arg(long, value_name = "NAME=FILE")]

@@ -1,18 +1,18 @@
-//! Initial values from ESRI ASCII grids.
+//! Initial values from GeoTIFF and ESRI ASCII grids.
 
 use crate::program::Assignment;
 use std::path::PathBuf;
 use std::str::FromStr;
 use xca_core::InitialError;
-use xca_io::ascii_grid::{AsciiGrid, ReadGridError};
 use xca_io::map::{Map, OverlayError, Placement};
+use xca_io::raster::{Raster, ReadRasterError};
 use xca_record::{InputFile, SetUp};
 
 /// A grid that a model cannot begin with.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum GridError {
     #[error(transparent)]
-    Read(#[from] ReadGridError),
+    Read(#[from] ReadRasterError),
     #[error("{option} is for models of one layer, and `{model}` has {layers}")]
     Layers { option: &'static str, model: String, layers: usize },
     #[error(transparent)]
@@ -70,14 +70,18 @@ pub(super) fn apply(set_up: &mut SetUp, initial: &[Initial]) -> Result<(), GridE
     for Initial { substate, otherwise, path } in initial {
         one_layer(set_up, "--initial")?;
         let placement = set_up.placement();
-        let grid = AsciiGrid::read_on(path, placement)?;
+        let grid = Raster::read_on(path, placement)?;
         // A model without a map says nothing of the corner.
         let place = |corner| Map::new(Placement { corner, ..placement });
         let map = set_up.map.clone().unwrap_or_else(|| place(grid.corner()));
-        map.check(path, grid.placement(), grid.values(), &on)?;
+        map.check(path, &grid, &on)?;
         if set_up.map.is_none() {
-            (set_up.map, on) = (Some(map.clone()), path.display().to_string());
+            on = path.display().to_string();
         }
+        // The first file that names a coordinate system tells that of the map.
+        let coordinate_system = map.coordinate_system().or(grid.coordinate_system()).cloned();
+        let map = map.with_coordinate_system(coordinate_system);
+        set_up.map = Some(map.clone());
         let mut values = Vec::new();
         for (cell, value) in grid.values().iter().enumerate() {
             let value = Some(*value).filter(|value| !value.is_nan()).or(*otherwise);

@@ -89,8 +89,8 @@ fn can_be_made(name: &str, kind: Kind, others: &[String]) -> bool {
 const SHAPES: [(Moment, &[&str]); 4] = [
     (Moment::Run, &["pvd"]),
     (Moment::First, &["png"]),
-    (Moment::Each, &["vti", "vtp"]),
-    (Moment::Last, &["asc", "csv", "png"]),
+    (Moment::Each, &["vti", "vtp", "xyz"]),
+    (Moment::Last, &["asc", "csv", "png", "tif"]),
 ];
 
 fn is_of_run(name: &str, others: &[String]) -> bool {
@@ -148,12 +148,14 @@ mod tests {
             "final.csv",
             "final_fish.csv",
             "final_altitude.asc",
+            "final_altitude.tif",
             "initial.png",
             "final_pond-2.png",
             "water.pvd",
             "final_lava.pvd",
             "frames/water_*.vti",
             "frames/fish_*.vtp",
+            "frames/fish_*.xyz",
             "checkpoints/step_*.checkpoint",
         ] {
             assert!(can_be_made(name, Kind::Run, &[]), "{name}");

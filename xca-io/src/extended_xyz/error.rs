@@ -1,0 +1,98 @@
+//! What can go wrong with extended XYZ.
+
+use crate::atomic::WriteError;
+use std::io;
+use std::path::PathBuf;
+
+/// A frame that cannot be written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum WriteXyzError {
+    /// The file.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// A name that is more than one word.
+    #[error(
+        "cannot write {}: the column name `{}` must be one word without `:`",
+        path.display(), column.escape_debug()
+    )]
+    Name {
+        /// The file.
+        path: PathBuf,
+        /// The name.
+        column: String,
+    },
+    /// Two columns of one name.
+    #[error("cannot write {}: two columns are named `{column}`", path.display())]
+    Repeated {
+        /// The file.
+        path: PathBuf,
+        /// The name.
+        column: String,
+    },
+    /// A column that is too long or too short.
+    #[error(
+        "cannot write {}: column `{column}` has {found} values for {particles} particles of {components} \
+         components",
+        path.display()
+    )]
+    Length {
+        /// The file.
+        path: PathBuf,
+        /// The column.
+        column: String,
+        /// Its values.
+        found: usize,
+        /// The particles.
+        particles: usize,
+        /// The components of the column.
+        components: usize,
+    },
+    /// A text that is more than one word.
+    #[error(
+        "cannot write {}: `{}` in column `{column}` must be one word",
+        path.display(), text.escape_debug()
+    )]
+    Text {
+        /// The file.
+        path: PathBuf,
+        /// The column.
+        column: String,
+        /// The text.
+        text: String,
+    },
+}
+
+/// A file that cannot be read.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReadXyzError {
+    /// The file is not there or not readable.
+    #[error("cannot open the particles {}", path.display())]
+    Open {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// Reading broke off, or the file is no text.
+    #[error("{}:{line}: cannot read the particles on", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// The line.
+        line: u64,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// A line that makes no sense.
+    #[error("{}:{line}: {problem}", path.display())]
+    Line {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: u64,
+        /// What is wrong with it.
+        problem: String,
+    },
+}
