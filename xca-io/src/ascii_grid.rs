@@ -83,7 +83,7 @@ impl AsciiGrid {
 
     /// Reads a grid.
     ///
-    /// Keys may stand in any order and in any case, on lines of their own or on one; values in lines of any length.
+    /// Keys may stand in any order and in any case, on lines of their own or on one; values in lines of any length up to 16 MiB.
     /// `xllcenter` and `yllcenter` serve in place of `xllcorner` and `yllcorner`, and `dx` and `dy` that are equal in place of
     /// `cellsize`. Without a `NODATA_value`, -9999 stands for no value, as the format says. A value that is the same in `f32`
     /// stands for it too, as does any beyond 1e38 where it is beyond 1e38: programs write such numbers with few digits.

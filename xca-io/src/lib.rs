@@ -21,6 +21,8 @@
 pub mod animation;
 pub mod ascii_grid;
 pub mod atomic;
+mod deflate;
+mod lines;
 pub mod map;
 pub mod numbers;
 pub mod particle_csv;

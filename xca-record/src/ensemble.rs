@@ -15,7 +15,6 @@ use crate::set_up::SetUp;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
-use std::fs;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -23,6 +22,7 @@ use table::Table;
 use work::Work;
 use xca_core::{Engine, Precision, RunOptions};
 use xca_io::atomic::{WriteError, write_atomically};
+use xca_io::regular_file;
 
 /// The file that has a row for each member.
 pub const MEMBERS: &str = "members.csv";
@@ -330,7 +330,7 @@ impl Ensemble {
         let origin = Origin::new(&identity, &set_up.model, options, [steps, 0]);
         let input = |path: &PathBuf| Input {
             path: path.display().to_string(),
-            crc32: fs::read(path).ok().map(|bytes| crc32fast::hash(&bytes)),
+            crc32: regular_file::read(path, u64::MAX).ok().map(|bytes| crc32fast::hash(&bytes)),
         };
         Modelled { origin, inputs: set_up.inputs.iter().map(input).collect() }
     }

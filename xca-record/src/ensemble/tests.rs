@@ -1,4 +1,5 @@
 use super::*;
+use std::fs;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use xca_core::Reference;
 use xca_core::prelude::*;
