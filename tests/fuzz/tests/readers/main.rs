@@ -3,6 +3,7 @@
 //!
 //! `XCA_FUZZ_INPUTS` says how many files each reader is given.
 
+mod large_files;
 mod measured;
 mod model;
 mod run_files;
