@@ -58,6 +58,7 @@ impl Container for Checkpoint {
         match mutator.below(8) {
             0 => return self.whole().damaged(mutator),
             1 => mutator.mutate(&mut parts.data),
+            2 | 3 => mutator.overwrite(&mut parts.data),
             _ => mutator.mutate(&mut parts.description),
         }
         parts.whole()
@@ -154,7 +155,11 @@ impl Container for Vtk {
                 let array = mutator.below(parts.arrays.len());
                 mutator.mutate(&mut parts.arrays[array]);
             }
-            2 => {
+            2 | 3 => {
+                let array = mutator.below(parts.arrays.len());
+                mutator.overwrite(&mut parts.arrays[array]);
+            }
+            4 => {
                 return self.whole(|numbers| {
                     if mutator.below(3) == 0 {
                         let place = mutator.below(numbers.len());

@@ -68,6 +68,15 @@ impl Mutator {
         }
     }
 
+    /// Puts other values in place of some bytes, as many as there were.
+    pub fn overwrite(&mut self, bytes: &mut [u8]) {
+        for _ in 0..=self.below(4) {
+            let (at, value) = (self.below(bytes.len()), self.edge().to_le_bytes());
+            let length = 1 + self.below(value.len());
+            bytes[at..].iter_mut().zip(&value[..length]).for_each(|(byte, other)| *byte = *other);
+        }
+    }
+
     fn mutate_once(&mut self, bytes: &mut Vec<u8>) {
         match self.below(12) {
             0 => self.flip(bytes),
@@ -179,6 +188,15 @@ mod tests {
         };
         assert_eq!(damaged(1), damaged(1));
         assert_ne!(damaged(1), damaged(2));
+    }
+
+    #[test]
+    fn what_is_overwritten_stays_as_long() {
+        let mut mutator = Mutator::new(3, &[]);
+        let mut bytes = vec![77; 100];
+        mutator.overwrite(&mut bytes);
+        assert!(bytes.len() == 100 && bytes != vec![77; 100], "{bytes:?}");
+        mutator.overwrite(&mut []);
     }
 
     #[test]
