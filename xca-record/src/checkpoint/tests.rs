@@ -226,6 +226,7 @@ fn forged_checkpoints_are_refused() {
     let changes: [fn(&mut Checkpoint); 12] = [
         |forged| {
             forged.description.groups[0].substates[2].stored.lanes = 0;
+            forged.description.groups[0].substates[2].components.clear();
             let GroupSnapshot::Cells(fields) = &mut forged.snapshot.groups[0] else { panic!("no cells") };
             fields[2].clear();
         },
