@@ -24,8 +24,10 @@
 pub mod animation;
 pub mod ascii_grid;
 pub mod atomic;
+mod deflate;
 pub mod extended_xyz;
 pub mod geotiff;
+mod lines;
 pub mod map;
 pub mod numbers;
 pub mod particle_csv;

@@ -158,8 +158,13 @@ pub(crate) fn are_huge(number: f64, nothing: f64) -> bool {
 }
 
 /// Files begin with the northernmost row.
-pub(crate) fn from_the_south(values: &[f64], columns: usize) -> Vec<f64> {
-    values.chunks_exact(columns.max(1)).rev().flatten().copied().collect()
+pub(crate) fn from_the_south(mut values: Vec<f64>, columns: usize) -> Vec<f64> {
+    let rows = values.len() / columns.max(1);
+    for row in 0..rows / 2 {
+        let (before, after) = values.split_at_mut((rows - 1 - row) * columns);
+        before[row * columns..][..columns].swap_with_slice(&mut after[..columns]);
+    }
+    values
 }
 
 /// A raster that cannot be read.

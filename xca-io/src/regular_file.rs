@@ -10,13 +10,22 @@ use std::path::Path;
 /// Of the system, and [`io::ErrorKind::InvalidInput`] for a folder, a pipe or a device.
 pub fn open(path: &Path) -> io::Result<File> {
     // Before it is opened: to open a pipe is to wait for its writer.
+    check(path)?;
+    File::open(path)
+}
+
+/// Checks that a file is a regular one, before it is opened in whatever way.
+///
+/// # Errors
+/// As [`open`].
+pub fn check(path: &Path) -> io::Result<()> {
     if !fs::metadata(path)?.is_file() {
         return Err(io::Error::new(
             io::ErrorKind::InvalidInput,
             "it is not a regular file but a folder, a pipe or a device",
         ));
     }
-    File::open(path)
+    Ok(())
 }
 
 /// Reads a regular file of at most `most` bytes.

@@ -4,6 +4,7 @@
 //! row goes to the file whole, in one write, as soon as it is known: whenever the run ends, by Ctrl-C or a crash of the
 //! machine's power aside, the file holds complete rows. Numbers are the shortest decimals that give back the same `f64`.
 
+use crate::regular_file;
 use std::fs::File;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -108,7 +109,9 @@ impl SeriesWriter {
     /// # Errors
     /// [`SeriesError::Write`], and [`SeriesError::Changed`] where the file does not begin with what was written.
     pub fn resume(path: &Path, names: usize, written: Written) -> Result<Self, SeriesError> {
-        let resumed = File::options().read(true).write(true).open(path).and_then(|mut file| {
+        let opened =
+            regular_file::check(path).and_then(|()| File::options().read(true).write(true).open(path));
+        let resumed = opened.and_then(|mut file| {
             let mut start = Vec::new();
             Read::by_ref(&mut file).take(written.bytes).read_to_end(&mut start)?;
             Ok((file, start))

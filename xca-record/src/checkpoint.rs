@@ -33,8 +33,7 @@ impl Checkpoint {
 
     /// Reads a file. Nothing of a file that is not whole is used.
     pub fn read(path: &Path) -> Result<Self, CheckpointError> {
-        let (description, data) = file::read(path)?;
-        let snapshot = planes::snapshot(&description, &data).ok_or_else(|| file::inconsistent(path))?;
+        let (description, snapshot) = file::read(path)?;
         Ok(Self { description, snapshot })
     }
 }

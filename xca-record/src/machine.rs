@@ -39,6 +39,11 @@ pub fn check_memory(needed: u128, what: &str) -> Result<(), NotEnoughMemory> {
     }
 }
 
+/// The bytes of memory that are left, where the system tells.
+pub fn free_memory() -> Option<u64> {
+    limits::free_memory(Path::new("/")).map(|free| free.bytes)
+}
+
 /// The most bytes that this process has had in memory.
 pub fn peak_memory() -> Option<u64> {
     kilobytes(Path::new("/proc/self/status"), "VmHWM:")

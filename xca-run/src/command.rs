@@ -208,10 +208,26 @@ impl<'a> CommandLine<'a> {
 
     /// Reads the arguments of the process, does what they say, and tells how it went.
     pub fn main(self) -> ExitCode {
-        let Self { name, about, version, examples, options, set_up, engines } = &self;
+        main_of(&self.definition())
+    }
+
+    /// Reads arguments, with the configuration that they name. Runs nothing, but gives what `inspect` would print.
+    ///
+    /// # Errors
+    /// What [`CommandLine::main`] would print.
+    #[doc(hidden)]
+    pub fn read(&self, arguments: &[OsString]) -> Result<String, Failure> {
+        let text = match parse::invocation(&self.definition(), arguments) {
+            Ok(Invocation::Inspect(arguments)) => inspect::text(&arguments),
+            other => other.map(|_| String::new()),
+        };
+        text.map_err(Unable::into_failure)
+    }
+
+    fn definition(&self) -> Definition<'_> {
+        let Self { name, about, version, examples, options, set_up, engines } = self;
         let (name, about, version, examples) = (*name, *about, *version, *examples);
-        let options = *options;
-        main_of(&Definition { name, about, version, examples, options, set_up: &**set_up, engines })
+        Definition { name, about, version, examples, options: *options, set_up: &**set_up, engines }
     }
 }
 

@@ -6,7 +6,7 @@ use portable_pty::{Child, CommandBuilder, ExitStatus, MasterPty, PtySize, native
 use std::io::{Read, Write};
 use std::process::Command;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
-use std::thread;
+use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 /// How long a screen may take to become what it should be. It takes a moment; this only ends a test that waits for what never comes.
@@ -19,6 +19,7 @@ struct Terminal {
     child: Box<dyn Child + Send + Sync>,
     /// What the program writes; its end is that of the program.
     written: Receiver<Vec<u8>>,
+    reader: Option<JoinHandle<()>>,
     screen: vt100::Parser,
     /// How the terminal was before the program began.
     before: String,
@@ -41,7 +42,7 @@ impl Terminal {
         let child = pair.slave.spawn_command(command).unwrap();
         let mut reader = pair.master.try_clone_reader().unwrap();
         let (sender, written) = mpsc::channel();
-        thread::spawn(move || {
+        let reader = thread::spawn(move || {
             let mut bytes = [0; 4096];
             // At its end a terminal gives nothing, or an error.
             while let Ok(count @ 1..) = reader.read(&mut bytes) {
@@ -54,12 +55,33 @@ impl Terminal {
         let screen = vt100::Parser::new(30.try_into().unwrap(), 100.try_into().unwrap(), 0);
         // What the program has of the terminal is its own now: so its end can be seen.
         drop(pair.slave);
-        Self { master: pair.master, keys, child, written, screen, before }
+        Self { master: pair.master, keys, child, written, reader: Some(reader), screen, before }
     }
 
     fn press(&mut self, keys: &str) {
-        self.keys.write_all(keys.as_bytes()).unwrap();
+        self.feed(keys.as_bytes());
+    }
+
+    fn feed(&mut self, bytes: &[u8]) {
+        self.keys.write_all(bytes).unwrap();
         self.keys.flush().unwrap();
+    }
+
+    /// Closes the terminal, as whoever closes its window does, and waits for the end of the program.
+    fn close(&mut self) -> ExitStatus {
+        // The reader ends with the next picture.
+        self.written = mpsc::channel().1;
+        self.reader.take().unwrap().join().unwrap();
+        self.keys = Box::new(std::io::sink());
+        self.master = native_pty_system().openpty(PtySize::default()).unwrap().master;
+        let begin = Instant::now();
+        loop {
+            if let Some(status) = self.child.try_wait().unwrap() {
+                return status;
+            }
+            assert!(begin.elapsed() < PATIENCE, "the program goes on without its terminal");
+            thread::sleep(Duration::from_millis(20));
+        }
     }
 
     fn text(&self) -> String {
@@ -167,6 +189,33 @@ fn ctrl_c_and_signals_give_the_terminal_back() {
         let process = terminal.child.process_id().unwrap().to_string();
         assert!(Command::new("kill").args([signal, &process]).status().unwrap().success());
         assert_eq!(terminal.ended().exit_code(), 130, "{signal}");
+    }
+}
+
+#[test]
+fn the_end_of_the_terminal_is_that_of_the_program() {
+    let place = Workplace::new();
+    for time in 0..5 {
+        let mut terminal = Terminal::watch(&place, LIFE, "--engine reference");
+        terminal.until("the run begins", |text| step(text) > Some(0));
+        let status = terminal.close();
+        assert_eq!(status.exit_code(), 130, "{time}: {status:?}");
+    }
+}
+
+#[test]
+fn keys_are_found_again_behind_broken_ones() {
+    let place = Workplace::new();
+    // Half of a character, of a sequence, and of a bracketed paste.
+    for broken in [&b"\xc3"[..], b"\xf0\x9f", b"\x1b[", b"\x1b[200~", b"\x1bO", b"\xff\x80"] {
+        let mut terminal = Terminal::watch(&place, LIFE, "--engine reference");
+        terminal.until("the run begins", |text| step(text) > Some(0));
+        terminal.feed(broken);
+        // The run goes on meanwhile: the first keys after it come later.
+        let seen = terminal.step();
+        terminal.until("it goes on", |text| step(text) > Some(seen + 20));
+        terminal.press("q");
+        assert_eq!(terminal.ended().exit_code(), 0, "{broken:?}");
     }
 }
 

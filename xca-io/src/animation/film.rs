@@ -1,7 +1,8 @@
 //! Pictures that follow each other, and what changes between them.
 
+use crate::deflate::can_hold;
 use crate::picture::Picture;
-use std::fs::File;
+use crate::regular_file;
 use std::io::{self, BufReader};
 use std::path::{Path, PathBuf};
 
@@ -49,16 +50,31 @@ impl<'a> Film<'a> {
     }
 }
 
+/// No picture of an animation has more pixels.
+const MOST_PIXELS: u64 = 1 << 28;
+
 /// A picture as [`Picture::write`] writes it.
 pub(super) fn read(path: &Path) -> io::Result<Picture> {
-    let mut reader = png::Decoder::new(BufReader::new(File::open(path)?)).read_info()?;
-    let [width, height] = [reader.info().width as usize, reader.info().height as usize];
-    let mut rgb = vec![0; 3 * width * height];
-    if reader.output_buffer_size() != Some(rgb.len()) {
-        return Err(io::Error::other(format!("{} is not in RGB with 8 bits", path.display())));
+    let refused = |what: &str| io::Error::other(format!("{} {what}", path.display()));
+    let file = regular_file::open(path)?;
+    let length = file.metadata()?.len();
+    let mut reader = png::Decoder::new(BufReader::new(file)).read_info()?;
+    let info = reader.info();
+    if (info.color_type, info.bit_depth) != (png::ColorType::Rgb, png::BitDepth::Eight) {
+        return Err(refused("is not in RGB with 8 bits"));
     }
+    let (width, height) = (info.width, info.height);
+    let pixels = u64::from(width) * u64::from(height);
+    // Before the pixels have a place in memory: the header may ask for any number of them.
+    if pixels > MOST_PIXELS {
+        return Err(refused(&format!("has {width} x {height} pixels, which are too many for an animation")));
+    }
+    if !can_hold(length, 3 * pixels) {
+        return Err(refused(&format!("is too short for its {width} x {height} pixels")));
+    }
+    let mut rgb = vec![0; 3 * width as usize * height as usize];
     reader.next_frame(&mut rgb)?;
-    Ok(Picture::new(width, height, rgb))
+    Ok(Picture::new(width as usize, height as usize, rgb))
 }
 
 /// Corner and size of the least rectangle with all pixels that two pictures of the same size do not share; one pixel where there are none, as a

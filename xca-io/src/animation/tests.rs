@@ -146,3 +146,37 @@ fn what_cannot_be_made_is_said() {
         assert!(!path.exists());
     }
 }
+
+/// A header and the end of its picture: 69 bytes with a bit of data.
+fn header_alone(width: u32, height: u32) -> Vec<u8> {
+    let chunk = |content: &[u8]| {
+        let length = (content.len() as u32 - 4).to_be_bytes();
+        [&length[..], content, &crc32fast::hash(content).to_be_bytes()].concat()
+    };
+    let header = [&b"IHDR"[..], &width.to_be_bytes(), &height.to_be_bytes(), &[8, 2, 0, 0, 0]].concat();
+    let data = b"IDAT\x78\x9c\x63\0\0\0\x01\0\x01";
+    [b"\x89PNG\r\n\x1a\n".to_vec(), chunk(&header), chunk(data), chunk(b"IEND")].concat()
+}
+
+#[test]
+fn pictures_are_refused_before_there_is_room_for_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("small.png");
+    for (width, height, wanted) in [
+        (60_000, 61_000, "has 60000 x 61000 pixels, which are too many"),
+        (u32::MAX >> 1, u32::MAX >> 1, ""),
+        (16_000, 16_000, "is too short for its 16000 x 16000 pixels"),
+        (1, 1, ""),
+    ] {
+        let bytes = header_alone(width, height);
+        assert!(bytes.len() < 70, "{}", bytes.len());
+        std::fs::write(&path, bytes).unwrap();
+        let error = read(&path).map(drop).unwrap_err().to_string();
+        assert!(error.contains(wanted), "{width} x {height}: {error}");
+    }
+    if cfg!(unix) {
+        let pipe = folder.path().join("pipe");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        assert!(read(&pipe).map(drop).unwrap_err().to_string().contains("not a regular file"));
+    }
+}

@@ -2,11 +2,12 @@
 
 use super::ReadGridError;
 use super::header::{Header, Place, is_key};
+use crate::lines::read_line;
 use crate::map::Placement;
 use crate::raster::{Raster, from_the_south, stands_for_none};
 use crate::regular_file;
 use std::fs::File;
-use std::io::{BufRead, BufReader};
+use std::io::{self, BufReader};
 use std::path::Path;
 
 /// What stands for no value unless the header says otherwise.
@@ -38,7 +39,7 @@ pub(super) fn read(path: &Path, on: Option<Placement>) -> Result<Raster, ReadGri
         cells,
         found: found.to_owned(),
     };
-    let mut values = Vec::new();
+    let mut values = Vec::with_capacity(cells.min(lines.most_values()));
     loop {
         for word in lines.words() {
             if values.len() == cells {
@@ -53,7 +54,7 @@ pub(super) fn read(path: &Path, on: Option<Placement>) -> Result<Raster, ReadGri
     if values.len() < cells {
         return Err(wrong_count(None, &values.len().to_string()));
     }
-    Ok(Raster { placement, values: from_the_south(&values, extents[0]), coordinate_system: None })
+    Ok(Raster { placement, values: from_the_south(values, extents[0]), coordinate_system: None })
 }
 
 /// The rest of a file that has no header: a line for each row.
@@ -67,7 +68,8 @@ fn matrix(mut lines: Lines<'_>, placement: Placement) -> Result<Raster, ReadGrid
     };
     let wrong_row = |line, found: usize| other(Some(line), format!("{found} values in this row"), columns);
     let wrong_rows = |found: &str| other(None, format!("{found} rows"), rows);
-    let (mut values, mut found) = (Vec::new(), 0);
+    let cells = columns.saturating_mul(rows);
+    let (mut values, mut found) = (Vec::with_capacity(cells.min(lines.most_values())), 0);
     loop {
         let before = values.len();
         for word in lines.words() {
@@ -86,7 +88,7 @@ fn matrix(mut lines: Lines<'_>, placement: Placement) -> Result<Raster, ReadGrid
     if found < rows {
         return Err(wrong_rows(&found.to_string()));
     }
-    Ok(Raster { placement, values: from_the_south(&values, columns), coordinate_system: None })
+    Ok(Raster { placement, values: from_the_south(values, columns), coordinate_system: None })
 }
 
 fn value(place: Place<'_>, word: &str, nothing: f64) -> Result<f64, ReadGridError> {
@@ -98,25 +100,36 @@ fn value(place: Place<'_>, word: &str, nothing: f64) -> Result<f64, ReadGridErro
 /// The lines of a file, one at a time.
 struct Lines<'a> {
     file: BufReader<File>,
+    /// The bytes of the file.
+    length: u64,
     place: Place<'a>,
     text: String,
 }
 
 impl<'a> Lines<'a> {
     fn open(path: &'a Path) -> Result<Self, ReadGridError> {
-        let file = regular_file::open(path)
-            .map_err(|source| ReadGridError::Open { path: path.to_owned(), source })?;
+        let failed = |source| ReadGridError::Open { path: path.to_owned(), source };
+        let file = regular_file::open(path).map_err(failed)?;
+        let length = file.metadata().map_err(failed)?.len();
         let file = BufReader::with_capacity(1 << 18, file);
-        Ok(Self { file, place: Place { path, line: 0 }, text: String::new() })
+        Ok(Self { file, length, place: Place { path, line: 0 }, text: String::new() })
+    }
+
+    /// How many values the file can have: each takes a digit, and a blank before the next.
+    fn most_values(&self) -> usize {
+        usize::try_from(self.length / 2 + 1).unwrap_or(usize::MAX)
     }
 
     /// Goes to the next line; there is none after the last.
     fn advance(&mut self) -> Result<bool, ReadGridError> {
-        self.text.clear();
         self.place.line += 1;
         let Place { path, line } = self.place;
         let failed = |source| ReadGridError::Read { path: path.to_owned(), line, source };
-        Ok(self.file.read_line(&mut self.text).map_err(failed)? > 0)
+        let mut bytes = std::mem::take(&mut self.text).into_bytes();
+        read_line(&mut self.file, &mut bytes).map_err(failed)?;
+        let no_text = |_| failed(io::Error::new(io::ErrorKind::InvalidData, "it is not UTF-8 text"));
+        self.text = String::from_utf8(bytes).map_err(no_text)?;
+        Ok(!self.text.is_empty())
     }
 
     fn words(&self) -> impl Iterator<Item = &str> {

@@ -52,7 +52,7 @@ pub(super) fn read(path: &Path, on: Option<Placement>) -> Result<Raster, ReadGeo
         return Err(ReadGeoTiffError::Infinite { path, place, value: values[cell] });
     }
     if !is_upside_down {
-        values = from_the_south(&values, extents[0]);
+        values = from_the_south(values, extents[0]);
     }
     let coordinate_system = keys.filter(GeoKeys::is_named).map(Arc::new);
     Ok(Raster { placement, values, coordinate_system })

@@ -57,7 +57,7 @@ fn write_image<W: Write + Seek, K: TiffKind>(
     raster: &Raster,
     samples: SampleType,
 ) -> TiffResult<()> {
-    let values = from_the_south(&raster.values, raster.placement.extents[0]);
+    let values = from_the_south(raster.values.clone(), raster.placement.extents[0]);
     match samples {
         SampleType::F32 => {
             let values: Vec<f32> = values.into_iter().map(|value| value as f32).collect();

@@ -1,5 +1,6 @@
 //! The lines of a text file that say something, with their numbers.
 
+use crate::lines::read_line;
 use std::io::{self, BufRead, Read};
 
 /// Passes on the lines of `source` that are neither blank nor comments (`#`), each ending in `\n` alone, and remembers
@@ -32,8 +33,8 @@ impl<R: BufRead> MeaningfulLines<R> {
     fn advance(&mut self) -> io::Result<()> {
         self.passed = 0;
         loop {
-            self.line.clear();
-            if self.source.read_until(b'\n', &mut self.line)? == 0 {
+            read_line(&mut self.source, &mut self.line)?;
+            if self.line.is_empty() {
                 return Ok(());
             }
             self.read += 1;

@@ -14,7 +14,7 @@ pub(super) const END: &str = "\n</AppendedData>\n</VTKFile>\n";
 /// How the element begins that holds the names of the states of an array.
 pub(super) const STATES_OF: &str = "<Array type=\"String\" Name=\"states of ";
 /// The attribute with the name of a component, before its number.
-pub(super) const COMPONENT_NAME: &str = "ComponentName";
+pub(super) const COMPONENT_NAME: &str = " ComponentName";
 
 /// The first lines of a file of this kind.
 pub(super) fn head(kind: &str) -> String {
@@ -40,7 +40,7 @@ impl Appended {
         );
         for (number, name) in array.components.iter().enumerate() {
             // Writing to a string cannot fail.
-            let _ = write!(attributes, r#" {COMPONENT_NAME}{number}="{}""#, escaped(name));
+            let _ = write!(attributes, r#"{COMPONENT_NAME}{number}="{}""#, escaped(name));
         }
         self.append(&attributes, |out| array.values.write_to(out))
     }

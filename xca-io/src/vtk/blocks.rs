@@ -3,6 +3,7 @@
 //! Before the streams stand, as `u64`: how many blocks there are, how long each is before compression, how long the last one is if it is
 //! shorter (0 if not), and how long each stream is.
 
+use crate::deflate::can_hold;
 use flate2::Compression;
 use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
@@ -63,43 +64,99 @@ impl Write for Blocks {
     }
 }
 
+/// No stream of a block is longer than this: what cannot be compressed grows by a few bytes.
+const LONGEST_STREAM: usize = BLOCK + BLOCK / 64 + 64;
+
 /// Compressed values that cannot be expanded.
-#[derive(Debug, PartialEq, Eq)]
+#[derive(Debug)]
 pub(super) enum Broken {
     /// The bytes end within them.
     Short,
     /// They are not as many as they should be, or were changed.
     Wrong,
+    /// The system refused to read on.
+    Read(io::Error),
 }
 
-/// The `length` bytes of values at the beginning of `bytes`, and what follows them.
-pub(super) fn expanded(bytes: &[u8], length: usize) -> Result<(Vec<u8>, &[u8]), Broken> {
-    let mut rest = bytes;
-    let mut number = || -> Result<usize, Broken> {
-        let (first, others) = rest.split_first_chunk().ok_or(Broken::Short)?;
-        rest = others;
-        usize::try_from(u64::from_le_bytes(*first)).map_err(|_| Broken::Wrong)
-    };
-    let [count, block, last] = [number()?, number()?, number()?];
-    let whole = length.checked_div(block).ok_or(Broken::Wrong)?;
-    if length % block != last || whole + usize::from(last > 0) != count {
-        return Err(Broken::Wrong);
+/// Bytes that follow each other in a file.
+pub(super) struct Source<R> {
+    file: R,
+    /// How many are left.
+    left: u64,
+}
+
+impl<R: Read> Source<R> {
+    /// The next `left` bytes of a file.
+    pub(super) fn new(file: R, left: u64) -> Self {
+        Self { file, left }
     }
-    let lengths: Vec<usize> = (0..count).map(|_| number()).collect::<Result<_, _>>()?;
-    let mut values = Vec::new();
-    for (index, stream) in lengths.into_iter().enumerate() {
-        let (stream, others) = rest.split_at_checked(stream).ok_or(Broken::Short)?;
-        rest = others;
-        let wanted = if index < whole { block } else { last };
-        let before = values.len();
-        // One more than is wanted would be one too many.
-        let mut decoder = ZlibDecoder::new(stream).take(wanted as u64 + 1);
-        decoder.read_to_end(&mut values).map_err(|_| Broken::Wrong)?;
-        if values.len() - before != wanted {
+
+    /// How many are left.
+    pub(super) fn left(&self) -> u64 {
+        self.left
+    }
+
+    /// Fills a buffer with the next bytes.
+    pub(super) fn fill(&mut self, buffer: &mut [u8]) -> Result<(), Broken> {
+        self.left = self.left.checked_sub(buffer.len() as u64).ok_or(Broken::Short)?;
+        self.file.read_exact(buffer).map_err(|error| match error.kind() {
+            io::ErrorKind::UnexpectedEof => Broken::Short,
+            _ => Broken::Read(error),
+        })
+    }
+
+    fn number(&mut self) -> Result<u64, Broken> {
+        let mut bytes = [0; 8];
+        self.fill(&mut bytes)?;
+        Ok(u64::from_le_bytes(bytes))
+    }
+
+    /// The lengths of the streams of `length` bytes of values.
+    fn lengths(&mut self, length: usize) -> Result<Vec<usize>, Broken> {
+        let [count, block, last] = [self.number()?, self.number()?, self.number()?];
+        let wanted = [length.div_ceil(BLOCK), BLOCK, length % BLOCK].map(|number| number as u64);
+        if [count, block, last] != wanted {
             return Err(Broken::Wrong);
         }
+        if count > self.left / 8 {
+            return Err(Broken::Short);
+        }
+        let mut lengths = Vec::new();
+        for index in 0..length.div_ceil(BLOCK) {
+            let expanded = (length - index * BLOCK).min(BLOCK) as u64;
+            let stream = self.number()?;
+            if stream > LONGEST_STREAM as u64 || !can_hold(stream, expanded) {
+                return Err(Broken::Wrong);
+            }
+            lengths.push(stream as usize);
+        }
+        if lengths.iter().map(|stream| *stream as u64).sum::<u64>() > self.left {
+            return Err(Broken::Short);
+        }
+        Ok(lengths)
     }
-    Ok((values, rest))
+
+    /// Expands the next values, which are `length` bytes. No more than these are ever in memory, and one block.
+    pub(super) fn expanded(&mut self, length: usize) -> Result<Vec<u8>, Broken> {
+        let lengths = self.lengths(length)?;
+        let mut values = Vec::with_capacity(length);
+        let mut stream = Vec::new();
+        for compressed in lengths {
+            stream.resize(compressed, 0);
+            self.fill(&mut stream)?;
+            let wanted = (length - values.len()).min(BLOCK);
+            let before = values.len();
+            let mut decoder = ZlibDecoder::new(stream.as_slice());
+            let read = decoder.by_ref().take(wanted as u64).read_to_end(&mut values);
+            read.map_err(|_| Broken::Wrong)?;
+            // The end of the stream has its checksum. One more byte than is wanted would be one too many.
+            let is_over = matches!(decoder.read(&mut [0]), Ok(0));
+            if values.len() - before != wanted || !is_over {
+                return Err(Broken::Wrong);
+            }
+        }
+        Ok(values)
+    }
 }
 
 #[cfg(test)]
@@ -114,6 +171,15 @@ mod tests {
 
     fn numbers(bytes: &[u8], count: usize) -> Vec<u64> {
         bytes.as_chunks().0[..count].iter().map(|number| u64::from_le_bytes(*number)).collect()
+    }
+
+    /// What is expanded, and what follows it.
+    fn expanded(bytes: &[u8], length: usize) -> Result<(Vec<u8>, Vec<u8>), Broken> {
+        let mut source = Source::new(bytes, bytes.len() as u64);
+        let values = source.expanded(length)?;
+        let mut rest = vec![0; source.left() as usize];
+        source.fill(&mut rest)?;
+        Ok((values, rest))
     }
 
     /// Bytes that no compressor makes much of, and some that it does.
@@ -147,7 +213,7 @@ mod tests {
         for length in [0, 1, 5000, BLOCK - 1, BLOCK, BLOCK + 1, 3 * BLOCK + 17] {
             let values = values(length);
             let bytes = [compressed(&values), b"after".to_vec()].concat();
-            assert_eq!(expanded(&bytes, length), Ok((values, &b"after"[..])), "{length}");
+            assert_eq!(expanded(&bytes, length).unwrap(), (values, b"after".to_vec()), "{length}");
         }
     }
 
@@ -156,10 +222,10 @@ mod tests {
         let values = values(3000);
         let whole = compressed(&values);
         for length in 0..whole.len() {
-            assert_eq!(expanded(&whole[..length], 3000), Err(Broken::Short), "{length}");
+            assert!(matches!(expanded(&whole[..length], 3000), Err(Broken::Short)), "{length}");
         }
         for length in [0, 2999, 3001, BLOCK + 3000] {
-            assert_eq!(expanded(&whole, length), Err(Broken::Wrong), "{length}");
+            assert!(matches!(expanded(&whole, length), Err(Broken::Wrong)), "{length}");
         }
         for place in 0..whole.len() {
             let mut changed = whole.clone();
@@ -168,6 +234,21 @@ mod tests {
             if let Ok((found, rest)) = expanded(&changed, 3000) {
                 assert!(found == values && rest.is_empty(), "{place}");
             }
+        }
+    }
+
+    #[test]
+    fn what_a_stream_cannot_hold_is_refused_before_there_is_room_for_it() {
+        let short = compressed(&[7; 100]);
+        for length in [1 << 20, 1 << 40, usize::MAX / 2] {
+            assert!(matches!(expanded(&short, length), Err(Broken::Wrong)), "{length}");
+            // The same with a header that agrees, and streams of no length.
+            let count = length.div_ceil(BLOCK) as u64;
+            let header = [count, BLOCK as u64, (length % BLOCK) as u64].map(u64::to_le_bytes).concat();
+            let streams = vec![0; 8 * count.min(1000) as usize];
+            let bytes = [header, streams].concat();
+            let mut source = Source::new(bytes.as_slice(), bytes.len() as u64);
+            assert!(source.lengths(length).is_err(), "{length}");
         }
     }
 }

@@ -1,19 +1,25 @@
 //! Reading back the files that this crate writes: these, and no other forms that VTK knows.
 
-use std::io;
+mod element;
+
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use super::Grid;
-use super::appended::{COMPONENT_NAME, DATA, END, STATES_OF, escaped, head, read_names, unescaped};
-use super::blocks::{Broken, expanded};
+use super::appended::{DATA, END, STATES_OF, head, read_names, unescaped};
+use super::blocks::{Broken, Source};
 use super::dense::{GHOST_TYPE, hidden_cells};
+use crate::deflate::can_hold;
 use crate::regular_file;
+use element::{Element, attribute, default_name};
 
 /// The array that tells the time.
 const TIME: &str = "TimeValue";
 
-/// No value has more components: their names alone would fill the memory.
-const MOST_COMPONENTS: usize = 1 << 20;
+/// No file has longer lines of XML, in bytes.
+const LONGEST_HEAD: u64 = 1 << 24;
 
 /// A VTK file that cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -34,6 +40,16 @@ pub enum ReadVtkError {
         path: PathBuf,
         /// The bytes that it has.
         found: usize,
+    },
+    /// The values do not fit into memory.
+    #[error("the values of {} take {needed} bytes of memory, and {most} are free", path.display())]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// The bytes of its values.
+        needed: u64,
+        /// The most bytes that they may have.
+        most: u64,
     },
     /// The file is something else, or was changed.
     #[error("{} is not a VTK file as this program writes them: {what}", path.display())]
@@ -65,13 +81,22 @@ pub struct ReadArray {
     pub numbers: NumberType,
     /// How many of them a value has.
     pub components: usize,
-    /// What follows the name of the array in the name of each component: nothing for a scalar, else `.x`,
-    /// `[3]`, `[3].x`.
+    /// What follows the name of the array in the names of its components, where the file tells it.
+    /// [`Self::component_name`] knows it of all.
     pub component_names: Vec<String>,
     /// What its values are called, by number, if they are states.
     pub states: Vec<String>,
     /// The numbers, in the byte order of this machine.
     pub bytes: Vec<u8>,
+}
+
+impl ReadArray {
+    /// What follows the name of the array in the name of a component: nothing for a scalar, else `.x`, `[3]`,
+    /// `[3].x`.
+    pub fn component_name(&self, component: usize) -> String {
+        let given = self.component_names.get(component).cloned();
+        given.unwrap_or_else(|| default_name(component, self.components))
+    }
 }
 
 /// What [`super::write_dense`] has written.
@@ -98,12 +123,12 @@ pub struct ParticleFile {
     pub arrays: Vec<ReadArray>,
 }
 
-/// Reads dense substates from `path` (`.vti`).
+/// Reads dense substates from `path` (`.vti`), whose values may take at most `most` bytes of memory.
 ///
 /// # Errors
-/// [`ReadVtkError`] where the file is not one that [`super::write_dense`] has written.
-pub fn read_dense(path: &Path) -> Result<DenseFile, ReadVtkError> {
-    let parts = Parts::read(path, "ImageData")?;
+/// [`ReadVtkError`] where the file is not one that [`super::write_dense`] has written, or is too large.
+pub fn read_dense(path: &Path, most: u64) -> Result<DenseFile, ReadVtkError> {
+    let parts = Parts::read(path, "ImageData", most)?;
     let grid = parts.grid().ok_or_else(|| parts.foreign("its grid makes no sense"))?;
     let cells = grid.cells.iter().try_fold(1_usize, |product, n| product.checked_mul(*n));
     let cells = cells.ok_or_else(|| parts.foreign("its grid makes no sense"))?;
@@ -112,29 +137,33 @@ pub fn read_dense(path: &Path) -> Result<DenseFile, ReadVtkError> {
     let hidden = arrays.iter().position(is_ghosts).map(|at| arrays.remove(at));
     let is_whole = |ghosts: &ReadArray| ghosts.numbers == NumberType::U8 && ghosts.components == 1;
     if !hidden.as_ref().is_none_or(is_whole) {
-        return Err(parts.foreign("its ghost types make no sense"));
+        return Err(foreign(path, "its ghost types make no sense"));
     }
     let hidden = hidden.map(|ghosts| hidden_cells(&ghosts.bytes));
     Ok(DenseFile { time, grid, hidden, arrays })
 }
 
-/// Reads particles from `path` (`.vtp`).
+/// Reads particles from `path` (`.vtp`), whose values may take at most `most` bytes of memory.
 ///
 /// # Errors
-/// [`ReadVtkError`] where the file is not one that [`super::write_particles`] has written.
-pub fn read_particles(path: &Path) -> Result<ParticleFile, ReadVtkError> {
-    let parts = Parts::read(path, "PolyData")?;
+/// [`ReadVtkError`] where the file is not one that [`super::write_particles`] has written, or is too large.
+pub fn read_particles(path: &Path, most: u64) -> Result<ParticleFile, ReadVtkError> {
+    let parts = Parts::read(path, "PolyData", most)?;
     let count = parts.attribute("<Piece ", "NumberOfPoints").and_then(|count| count.parse().ok());
     let count = count.ok_or_else(|| parts.foreign("it does not say how many points it has"))?;
     let (time, mut arrays) = parts.arrays(count)?;
     // The points, and which of them belong to which vertex, come before what the points have.
     let names: Vec<&str> = arrays.iter().take(3).map(|array| array.name.as_str()).collect();
     if names != ["Points", "connectivity", "offsets"] || arrays[0].components != 3 {
-        return Err(parts.foreign("it has no points"));
+        return Err(foreign(path, "it has no points"));
     }
     let positions = arrays.remove(0);
     arrays.drain(..2);
     Ok(ParticleFile { time, positions, arrays })
+}
+
+fn foreign(path: &Path, what: &'static str) -> ReadVtkError {
+    ReadVtkError::Foreign { path: path.to_owned(), what }
 }
 
 /// A file in its parts.
@@ -143,31 +172,47 @@ struct Parts<'a> {
     /// The lines of XML.
     head: String,
     /// What follows them.
-    data: Vec<u8>,
+    data: Source<BufReader<File>>,
+    /// The bytes of the file.
+    found: usize,
+    /// The most bytes that its values may have.
+    most: u64,
 }
 
 impl<'a> Parts<'a> {
-    fn read(path: &'a Path, kind: &str) -> Result<Self, ReadVtkError> {
-        let mut bytes = regular_file::read(path, u64::MAX)
-            .map_err(|source| ReadVtkError::Read { path: path.to_owned(), source })?;
-        let foreign = |what| ReadVtkError::Foreign { path: path.to_owned(), what };
-        let truncated = || ReadVtkError::Truncated { path: path.to_owned(), found: bytes.len() };
+    fn read(path: &'a Path, kind: &str, most: u64) -> Result<Self, ReadVtkError> {
+        let failed = |source| ReadVtkError::Read { path: path.to_owned(), source };
+        let file = regular_file::open(path).map_err(failed)?;
+        let found = file.metadata().map_err(failed)?.len();
+        let truncated = || ReadVtkError::Truncated { path: path.to_owned(), found: found as usize };
+        let mut file = BufReader::with_capacity(1 << 18, file);
         let first = head(kind);
-        if !bytes.starts_with(first.as_bytes()) {
+        let mut bytes = Vec::new();
+        file.by_ref().take(first.len() as u64).read_to_end(&mut bytes).map_err(failed)?;
+        if bytes != first.as_bytes() {
             let is_beginning = first.as_bytes().starts_with(&bytes);
-            return Err(if is_beginning { truncated() } else { foreign("its first lines are others") });
+            return Err(if is_beginning { truncated() } else { foreign(path, "its first lines are others") });
         }
-        let Some(end) = bytes.windows(DATA.len()).position(|window| window == DATA.as_bytes()) else {
-            return Err(truncated());
-        };
-        let data = bytes.split_off(end + DATA.len());
-        bytes.truncate(end);
-        let head = String::from_utf8(bytes).map_err(|_| foreign("its first lines are no text"))?;
-        Ok(Self { path, head, data })
+        let mut limited = file.by_ref().take(LONGEST_HEAD);
+        while !bytes.ends_with(DATA.as_bytes()) {
+            // The values begin behind a mark.
+            if limited.read_until(b'_', &mut bytes).map_err(failed)? == 0 {
+                let is_long = bytes.len() as u64 > LONGEST_HEAD;
+                return Err(if is_long {
+                    foreign(path, "its first lines are too long")
+                } else {
+                    truncated()
+                });
+            }
+        }
+        let left = found.saturating_sub(bytes.len() as u64);
+        bytes.truncate(bytes.len() - DATA.len());
+        let head = String::from_utf8(bytes).map_err(|_| foreign(path, "its first lines are no text"))?;
+        Ok(Self { path, head, data: Source::new(file, left), found: found as usize, most })
     }
 
     fn foreign(&self, what: &'static str) -> ReadVtkError {
-        ReadVtkError::Foreign { path: self.path.to_owned(), what }
+        foreign(self.path, what)
     }
 
     /// An attribute of the first element that begins so.
@@ -187,33 +232,43 @@ impl<'a> Parts<'a> {
         Some(Grid { cells: [nx, ny, nz], origin: origin.try_into().ok()?, spacing: spacing.try_into().ok()? })
     }
 
+    /// What the head says of the arrays, which have so many values each.
+    fn elements(&self, count: usize) -> Result<Vec<Element>, ReadVtkError> {
+        let lines = self.head.lines().filter(|line| line.starts_with("<DataArray "));
+        let elements = lines.map(|line| Element::new(line, count)).collect::<Option<Vec<_>>>();
+        let elements = elements.ok_or_else(|| self.foreign("one of its arrays makes no sense"))?;
+        let needed = elements.iter().fold(0_u64, |sum, element| sum.saturating_add(element.length as u64));
+        // Before anything is expanded.
+        if !can_hold(self.data.left(), needed) {
+            return Err(self.truncated());
+        }
+        if needed > self.most {
+            return Err(ReadVtkError::TooLarge { path: self.path.to_owned(), needed, most: self.most });
+        }
+        Ok(elements)
+    }
+
     /// The time, and all arrays, which have so many values each.
-    fn arrays(&self, count: usize) -> Result<(f64, Vec<ReadArray>), ReadVtkError> {
-        let wrong = || self.foreign("one of its arrays makes no sense");
+    fn arrays(mut self, count: usize) -> Result<(f64, Vec<ReadArray>), ReadVtkError> {
+        let elements = self.elements(count)?;
+        let states = self.states();
+        let begin = self.data.left();
         let mut arrays = Vec::new();
-        let mut rest = self.data.as_slice();
-        for line in self.head.lines().filter(|line| line.starts_with("<DataArray ")) {
-            let element = Element::new(line, count).ok_or_else(wrong)?;
+        for element in elements {
             // The values of one array follow those of the one before.
-            if element.offset != self.data.len() - rest.len() {
-                return Err(wrong());
-            }
-            let (bytes, others) = expanded(rest, element.length).map_err(|broken| match broken {
+            let states = states.get(&element.name).map_or(Some(Vec::new()), |line| read_names(line));
+            let is_next = element.offset as u64 == begin - self.data.left();
+            let (true, Some(states)) = (is_next, states.filter(|states| element.can_have(states))) else {
+                return Err(self.foreign("one of its arrays makes no sense"));
+            };
+            let bytes = self.data.expanded(element.length).map_err(|broken| match broken {
                 Broken::Short => self.truncated(),
                 Broken::Wrong => self.foreign("its data are not those of its arrays"),
+                Broken::Read(source) => ReadVtkError::Read { path: self.path.to_owned(), source },
             })?;
-            let states = self.states_of(&element.name).ok_or_else(wrong)?;
             arrays.push(element.array(bytes, states));
-            rest = others;
         }
-        if rest != END.as_bytes() {
-            let is_short = END.as_bytes().starts_with(rest);
-            return Err(if is_short {
-                self.truncated()
-            } else {
-                self.foreign("it goes on where it should end")
-            });
-        }
+        self.check_end()?;
         match arrays.first() {
             Some(ReadArray { name, bytes, .. }) if name == TIME && bytes.len() == 8 => {
                 let time = arrays.remove(0).bytes.as_chunks().0[0];
@@ -223,91 +278,29 @@ impl<'a> Parts<'a> {
         }
     }
 
-    /// The names of the states of an array; none where it has numbers.
-    fn states_of(&self, array: &str) -> Option<Vec<String>> {
-        let start = format!("{STATES_OF}{}\" ", escaped(array));
-        let element = self.head.lines().find(|line| line.starts_with(&start));
-        element.map_or(Some(Vec::new()), read_names)
+    /// Checks that nothing but the last lines is left.
+    fn check_end(&mut self) -> Result<(), ReadVtkError> {
+        let mut end = vec![0; self.data.left().min(END.len() as u64 + 1) as usize];
+        // A file that has become shorter meanwhile does not end as it should either.
+        let is_read = self.data.fill(&mut end).is_ok();
+        match end.as_slice() {
+            end if is_read && end == END.as_bytes() => Ok(()),
+            end if END.as_bytes().starts_with(end) => Err(self.truncated()),
+            _ => Err(self.foreign("it goes on where it should end")),
+        }
+    }
+
+    /// The elements with the names of states, by the arrays that they are of.
+    fn states(&self) -> HashMap<String, String> {
+        let of_line = |line: &str| {
+            let (array, _) = line.strip_prefix(STATES_OF)?.split_once('"')?;
+            Some((unescaped(array), line.to_owned()))
+        };
+        self.head.lines().filter_map(of_line).collect()
     }
 
     fn truncated(&self) -> ReadVtkError {
-        let found = self.head.len() + DATA.len() + self.data.len();
-        ReadVtkError::Truncated { path: self.path.to_owned(), found }
-    }
-}
-
-/// An attribute of an element.
-fn attribute(element: &str, name: &str) -> Option<String> {
-    let value = element.split_once(&format!(" {name}=\""))?.1.split_once('"')?.0;
-    Some(unescaped(value))
-}
-
-/// What the head says of an array.
-struct Element {
-    name: String,
-    numbers: NumberType,
-    components: usize,
-    component_names: Vec<String>,
-    /// Where its values stand, and how many bytes they are when they are expanded.
-    offset: usize,
-    length: usize,
-}
-
-impl Element {
-    /// From a line of the head; `count` is the number of its values.
-    fn new(element: &str, count: usize) -> Option<Self> {
-        let (numbers, size) = match attribute(element, "type")?.as_str() {
-            "UInt8" => (NumberType::U8, 1),
-            "Int32" => (NumberType::I32, 4),
-            "UInt32" => (NumberType::U32, 4),
-            "Float32" => (NumberType::F32, 4),
-            "Float64" => (NumberType::F64, 8),
-            _ => return None,
-        };
-        let number = |name: &str| attribute(element, name).map(|text| text.parse::<usize>());
-        let components = number("NumberOfComponents").unwrap_or(Ok(1)).ok()?;
-        if !(1..=MOST_COMPONENTS).contains(&components) {
-            return None;
-        }
-        // The time alone is one number in a file of many values.
-        let given = number("NumberOfTuples").transpose().ok()?;
-        let name = attribute(element, "Name")?;
-        let is_time = name == TIME && given == Some(1);
-        let count = if is_time {
-            1
-        } else {
-            Some(count).filter(|count| given.is_none_or(|given| given == *count))?
-        };
-        let length = count.checked_mul(components)?.checked_mul(size)?;
-        let component_name = |number: usize| {
-            let given = attribute(element, &format!("{COMPONENT_NAME}{number}"));
-            given.unwrap_or_else(|| default_name(number, components))
-        };
-        let component_names = (0..components).map(component_name).collect();
-        let offset = number("offset")?.ok()?;
-        Some(Self { name, numbers, components, component_names, offset, length })
-    }
-
-    /// The array with its values.
-    fn array(self, bytes: Vec<u8>, states: Vec<String>) -> ReadArray {
-        let Self { name, numbers, components, component_names, .. } = self;
-        ReadArray {
-            name,
-            numbers,
-            components,
-            component_names,
-            states,
-            bytes: numbers.of_this_machine(bytes),
-        }
-    }
-}
-
-/// What follows the name of an array for a component that the file does not name.
-fn default_name(number: usize, components: usize) -> String {
-    match (components, [".x", ".y", ".z", ".w"].get(number)) {
-        (1, _) => String::new(),
-        (2..=4, Some(lane)) => (*lane).to_owned(),
-        _ => format!("[{number}]"),
+        ReadVtkError::Truncated { path: self.path.to_owned(), found: self.found }
     }
 }
 

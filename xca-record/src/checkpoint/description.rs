@@ -6,7 +6,7 @@ use crate::numbers::Exact;
 use crate::record::{Recorded, Recorder};
 use serde::{Deserialize, Serialize};
 use xca_core::model::Group;
-use xca_core::{GroupSnapshot, Model, Precision, Snapshot, StoredType};
+use xca_core::{GroupSnapshot, Model, Precision, Snapshot, StoredScalar, StoredType};
 
 /// The JSON part of a checkpoint.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -36,7 +36,7 @@ pub(crate) struct Run {
 
 impl Run {
     /// The cells of a mask.
-    fn all(mask: &[bool]) -> Vec<Self> {
+    pub(super) fn all(mask: &[bool]) -> Vec<Self> {
         let mut first = 0;
         let mut runs = Vec::new();
         for chunk in mask.chunk_by(|one, other| one == other) {
@@ -113,12 +113,18 @@ impl Description {
         self.extents()?.into_iter().try_fold(1, usize::checked_mul)
     }
 
-    /// Whether a run can have come to this: the whole has a checksum, but anyone can forge that.
-    pub(super) fn makes_sense(&self) -> bool {
+    /// Whether a run can have come to this, with so many bytes of data: the whole has a checksum, but anyone can
+    /// forge that.
+    pub(super) fn makes_sense(&self, data: u64) -> bool {
         let components = self.parameters.iter().flat_map(|parameter| &parameter.components);
+        let mut substates = self.groups.iter().flat_map(|group| &group.substates);
+        // Each cell has at least a byte.
+        let has_mask = self.missing.is_empty() || self.cells().is_some_and(|cells| cells as u64 <= data);
         self.step <= self.run.steps_wanted
             && self.recorded.can_be_after(self.step)
             && components.into_iter().all(|component| !component.0.is_nan())
+            && substates.all(SubstateShape::makes_sense)
+            && has_mask
     }
 
     /// The mask of the cells without ground; none where all have ground.
@@ -142,6 +148,17 @@ impl Description {
             }
         };
         self.groups.iter().map(of_group).sum()
+    }
+}
+
+impl SubstateShape {
+    /// Whether there is such a type.
+    fn makes_sense(&self) -> bool {
+        let Self { states, components, stored, .. } = self;
+        (1..=4).contains(&stored.lanes)
+            && stored.length > 0
+            && components.len() == stored.components()
+            && (states.is_empty() || stored.scalar == StoredScalar::U8)
     }
 }
 

@@ -1,9 +1,10 @@
 //! The frame of the file: a line, a description, binary data, a checksum.
 
 use super::Description;
-use super::planes::Plane;
+use super::planes::{self, Plane};
 use std::io::{self, BufReader, Read, Seek, Write};
 use std::path::{Path, PathBuf};
+use xca_core::Snapshot;
 use xca_io::atomic::{WriteError, write_atomically};
 use xca_io::regular_file;
 
@@ -95,8 +96,8 @@ impl Lengths {
     }
 }
 
-/// The description and the data of a checkpoint, once its checksum is known to be right.
-pub(super) fn read(path: &Path) -> Result<(Description, Vec<u8>), CheckpointError> {
+/// The description and the state of a checkpoint, once its checksum is known to be right.
+pub(super) fn read(path: &Path) -> Result<(Description, Snapshot), CheckpointError> {
     let failed = |source| CheckpointError::Read { path: path.to_owned(), source };
     let file = regular_file::open(path).map_err(failed)?;
     let found = file.metadata().map_err(failed)?.len();
@@ -108,7 +109,7 @@ pub(super) fn read_from(
     path: &Path,
     mut file: impl Read + Seek,
     found: u64,
-) -> Result<(Description, Vec<u8>), CheckpointError> {
+) -> Result<(Description, Snapshot), CheckpointError> {
     let failed = |source| CheckpointError::Read { path: path.to_owned(), source };
     let lengths = first_line(path, &mut file, found)?;
     let altered = |what: String| CheckpointError::Altered { path: path.to_owned(), what };
@@ -128,17 +129,16 @@ pub(super) fn read_from(
         return Err(altered("its checksum is not that of its content".to_owned()));
     }
     file.seek(io::SeekFrom::Start(lengths.line)).map_err(failed)?;
-    let mut part = |length: u64| -> io::Result<Vec<u8>> {
-        let mut bytes = Vec::with_capacity(usize::try_from(length).unwrap_or(0));
-        file.by_ref().take(length).read_to_end(&mut bytes)?;
-        Ok(bytes)
-    };
-    let description = part(lengths.description).map_err(failed)?;
-    let data = part(lengths.data).map_err(failed)?;
-    let description = serde_json::from_slice(&description);
-    let description =
-        description.map_err(|error| altered(format!("its description makes no sense: {error}")))?;
-    Ok((description, data))
+    let mut description = Vec::with_capacity(usize::try_from(lengths.description).unwrap_or(0));
+    file.by_ref().take(lengths.description).read_to_end(&mut description).map_err(failed)?;
+    let description: Description = serde_json::from_slice(&description)
+        .map_err(|error| altered(format!("its description makes no sense: {error}")))?;
+    let snapshot = planes::read(&description, &mut file, lengths.data);
+    let snapshot = snapshot.map_err(|error| match error.kind() {
+        io::ErrorKind::InvalidData => altered("its data are not those of its description".to_owned()),
+        _ => failed(error),
+    })?;
+    Ok((description, snapshot))
 }
 
 fn first_line(path: &Path, file: &mut impl Read, found: u64) -> Result<Lengths, CheckpointError> {
@@ -174,10 +174,4 @@ fn first_line(path: &Path, file: &mut impl Read, found: u64) -> Result<Lengths, 
 /// A file that ends within its first line.
 fn cut_off(path: &Path, found: u64) -> CheckpointError {
     CheckpointError::Truncated { path: path.to_owned(), found, wanted: LONGEST_LINE }
-}
-
-/// A checkpoint whose checksum is right, and whose parts still contradict each other.
-pub(super) fn inconsistent(path: &Path) -> CheckpointError {
-    let what = "its data are not those of its description".to_owned();
-    CheckpointError::Altered { path: path.to_owned(), what }
 }

@@ -3,7 +3,7 @@
 use super::Description;
 use super::description::{GroupShape, Kind};
 use std::borrow::Cow;
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use xca_core::engine::Population;
 use xca_core::{GroupSnapshot, Snapshot, StoredType};
 
@@ -58,53 +58,69 @@ pub(super) fn of<'a>(description: &Description, snapshot: &'a Snapshot) -> Vec<P
 }
 
 /// The data of a file, plane after plane.
-struct Data<'a> {
-    rest: &'a [u8],
+struct Data<R> {
+    file: R,
+    /// The bytes that are left.
+    left: u64,
 }
 
-impl Data<'_> {
-    /// The next plane of so many values; nothing where there is less.
-    fn plane(&mut self, count: usize, components: usize, size: usize) -> Option<Vec<u8>> {
-        let length = count.checked_mul(components)?.checked_mul(size)?;
-        let (bytes, rest) = self.rest.split_at_checked(length)?;
-        self.rest = rest;
-        Some(if cfg!(target_endian = "little") { bytes.to_vec() } else { turned(bytes.to_vec(), size) })
+/// Data that the description contradicts.
+fn inconsistent() -> io::Error {
+    io::ErrorKind::InvalidData.into()
+}
+
+impl<R: Read> Data<R> {
+    /// The next plane of so many values. There is no room made for more than the file has.
+    fn plane(&mut self, count: usize, components: usize, size: usize) -> io::Result<Vec<u8>> {
+        let length = count.checked_mul(components).and_then(|numbers| numbers.checked_mul(size));
+        let left = length.and_then(|length| self.left.checked_sub(length as u64));
+        let (Some(length), Some(left)) = (length, left) else { return Err(inconsistent()) };
+        self.left = left;
+        let mut bytes = vec![0; length];
+        self.file.read_exact(&mut bytes)?;
+        Ok(if cfg!(target_endian = "little") { bytes } else { turned(bytes, size) })
     }
 
-    fn numbers(&mut self, count: usize) -> Option<Vec<u32>> {
+    fn numbers(&mut self, count: usize) -> io::Result<Vec<u32>> {
         let bytes = self.plane(count, 1, size_of::<u32>())?;
-        Some(bytes.as_chunks().0.iter().map(|bytes| u32::from_ne_bytes(*bytes)).collect())
+        Ok(bytes.as_chunks().0.iter().map(|bytes| u32::from_ne_bytes(*bytes)).collect())
     }
 
-    fn substates(&mut self, shape: &GroupShape, count: usize) -> Option<Vec<Vec<u8>>> {
+    fn substates(&mut self, shape: &GroupShape, count: usize) -> io::Result<Vec<Vec<u8>>> {
         let stored = shape.substates.iter().map(|substate| substate.stored);
         stored.map(|stored| self.plane(count, stored.components(), stored.scalar.size())).collect()
     }
 }
 
-/// The snapshot that these data are; nothing where the description says otherwise.
-pub(super) fn snapshot(description: &Description, data: &[u8]) -> Option<Snapshot> {
-    let space = description.cells()?;
-    if !description.makes_sense() {
-        return None;
+/// The snapshot that the next `length` bytes of a file are.
+///
+/// # Errors
+/// Of the system, and [`io::ErrorKind::InvalidData`] where the description says otherwise.
+pub(super) fn read(description: &Description, file: impl Read, length: u64) -> io::Result<Snapshot> {
+    let space = description.cells().ok_or_else(inconsistent)?;
+    if !description.makes_sense(length) {
+        return Err(inconsistent());
     }
-    let mut data = Data { rest: data };
+    let mut data = Data { file, left: length };
     let mut groups = Vec::new();
     for shape in &description.groups {
         groups.push(match shape.kind {
-            Kind::Cells { cells } | Kind::Items { cells, .. } if cells != space => return None,
+            Kind::Cells { cells } | Kind::Items { cells, .. } if cells != space => return Err(inconsistent()),
             Kind::Cells { cells } => GroupSnapshot::Cells(data.substates(shape, cells)?),
             Kind::Items { cells, items, left, .. } => {
                 let (counts, labels) = (data.numbers(cells)?, data.numbers(items)?);
                 if counts.iter().map(|count| u64::from(*count)).sum::<u64>() != items as u64 {
-                    return None;
+                    return Err(inconsistent());
                 }
                 let fields = data.substates(shape, items)?;
                 GroupSnapshot::Population(Population { counts, labels, fields }, left)
             }
         });
     }
-    data.rest.is_empty().then(|| Snapshot {
+    if data.left > 0 {
+        return Err(inconsistent());
+    }
+    Ok(Snapshot {
         step: description.step,
         groups,
         parameters: description.parameters.iter().map(super::Parameter::bits).collect(),

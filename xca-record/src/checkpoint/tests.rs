@@ -224,7 +224,22 @@ fn parts_that_contradict_each_other_are_refused() {
 fn forged_checkpoints_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.checkpoint");
-    let changes: [fn(&mut Checkpoint); 8] = [
+    let changes: [fn(&mut Checkpoint); 12] = [
+        |forged| {
+            forged.description.groups[0].substates[2].stored.lanes = 0;
+            forged.description.groups[0].substates[2].components.clear();
+            let GroupSnapshot::Cells(fields) = &mut forged.snapshot.groups[0] else { panic!("no cells") };
+            fields[2].clear();
+        },
+        |forged| forged.description.groups[0].substates[0].components.clear(),
+        |forged| forged.description.groups[0].substates[0].states.push("Hot".to_owned()),
+        // A mask of more cells than there is memory.
+        |forged| {
+            forged.description.run.model["cells"] = serde_json::json!([1_u64 << 40, 1, 1]);
+            forged.description.missing.push(description::Run::all(&[true])[0]);
+            forged.description.groups.clear();
+            forged.snapshot.groups.clear();
+        },
         |forged| forged.description.run.model["cells"] = serde_json::json!([1000, 1000, 1]),
         |forged| forged.description.run.model["cells"] = serde_json::json!([1_u64 << 32, 1_u64 << 32, 1]),
         |forged| forged.description.run.model["cells"] = serde_json::json!("many"),

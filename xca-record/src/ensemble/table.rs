@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 use xca_io::atomic::{WriteError, write_atomically};
+use xca_io::regular_file;
 
 /// A table that cannot be read or written.
 #[derive(Debug, thiserror::Error)]
@@ -49,7 +50,8 @@ impl Table {
     fn read(&mut self, members: &[Member]) -> Result<(), TableError> {
         let path = self.path.clone();
         let broken = |source| TableError::Read { path: path.clone(), source };
-        let mut reader = csv::Reader::from_path(&path).map_err(broken)?;
+        let file = regular_file::open(&path).map_err(|error| broken(error.into()))?;
+        let mut reader = csv::Reader::from_reader(file);
         let header = reader.headers().map_err(broken)?.clone();
         let wanted = BEFORE.iter().copied().chain(self.parameters.iter().map(String::as_str)).chain(BETWEEN);
         if !wanted.eq(header.iter().take(self.width())) {

@@ -1,6 +1,7 @@
 //! VTK files of each state, and the list of them that ParaView opens.
 
 use super::{Moment, OutputFile, RecordedState, ResumedRun, SavedState, Subject, View, Writer};
+use crate::machine::free_memory;
 use crate::observable::Failure;
 use crate::record::{CellState, ItemState, SubstateValues};
 use serde_json::Value;
@@ -90,12 +91,17 @@ fn write_items(path: &Path, time: f64, items: &ItemState<'_>) -> Result<(), Fail
     Ok(write_particles(path, time, items.positions_on_map().as_values(), &arrays)?)
 }
 
+/// The most bytes of memory that the values of a file may take.
+fn most() -> u64 {
+    free_memory().unwrap_or(u64::MAX)
+}
+
 fn saved_cells(path: &Path) -> Result<SavedState, Failure> {
-    let file = read_dense(path)?;
+    let file = read_dense(path, most())?;
     Ok(SavedState { hidden: file.hidden, ..SavedState::of_cells(file.time, file.grid.cells, file.arrays) })
 }
 
 fn saved_items(path: &Path) -> Result<SavedState, Failure> {
-    let file = read_particles(path)?;
+    let file = read_particles(path, most())?;
     Ok(SavedState::of_items(file.time, file.positions, file.arrays))
 }

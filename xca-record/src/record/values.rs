@@ -84,13 +84,6 @@ impl Plane {
         self
     }
 
-    /// The values where the mask is not true.
-    pub fn kept(&self, component: usize, missing: Option<&[bool]>) -> Vec<f64> {
-        let is_missing = |index: usize| missing.is_some_and(|missing| missing.get(index) == Some(&true));
-        let values = self.component(component).into_iter().enumerate();
-        values.filter(|(index, _)| !is_missing(*index)).map(|(_, value)| value).collect()
-    }
-
     /// Points.
     pub fn points(points: Vec<[f64; 3]>) -> Self {
         Self { numbers: Numbers::F64(points.into_flattened()), components: 3 }
@@ -238,8 +231,7 @@ mod tests {
         let bytes: Vec<u8> = [3.0_f32, -4.0, 0.5, 0.0].iter().flat_map(|x| x.to_ne_bytes()).collect();
         let plane = Plane::all(VECTOR, &bytes).without(Some(&[true, false]));
         assert!(plane.value(0).iter().all(|number| number.is_nan()));
-        assert_eq!((plane.value(1), plane.kept(0, Some(&[true, false]))), (vec![0.5, 0.0], vec![0.5]));
-        assert_eq!(Plane::all(VECTOR, &bytes).kept(1, None), [-4.0, 0.0]);
+        assert_eq!(plane.value(1), [0.5, 0.0]);
         let stored = StoredType { scalar: StoredScalar::U8, lanes: 1, length: 1 };
         assert_eq!(Plane::all(stored, &[7, 8]).without(Some(&[false, true])).component(0), [7.0, 0.0]);
         let points = Plane::points(vec![[1.0, 2.0, 3.0]]).shifted([10.0, -2.0]);

@@ -1,6 +1,7 @@
 //! The subcommand `inspect`.
 
 mod frames;
+mod numbers;
 mod state;
 mod words;
 
@@ -99,14 +100,18 @@ struct Inside {
 
 /// Looks into a folder or a checkpoint.
 pub(super) fn inspect(arguments: &InspectArguments) -> Result<Ended, Unable> {
-    let findings = if arguments.path.is_dir() { in_folder(arguments)? } else { in_file(arguments)? };
-    let text = if arguments.json {
-        serde_json::to_string_pretty(&findings).map_err(Unable::failed)?
-    } else {
-        short_lines(&findings.to_string())
-    };
-    terminal::say(&text).map_err(Unable::failed)?;
+    terminal::say(&text(arguments)?).map_err(Unable::failed)?;
     Ok(Ended::Done)
+}
+
+/// What there is to tell of a folder or a checkpoint.
+pub(super) fn text(arguments: &InspectArguments) -> Result<String, Unable> {
+    let findings = if arguments.path.is_dir() { in_folder(arguments)? } else { in_file(arguments)? };
+    if arguments.json {
+        serde_json::to_string_pretty(&findings).map_err(Unable::failed)
+    } else {
+        Ok(short_lines(&findings.to_string()))
+    }
 }
 
 fn in_file(arguments: &InspectArguments) -> Result<Findings, Unable> {

@@ -9,6 +9,7 @@ use ratatui::crossterm::terminal::{
 };
 use ratatui::layout::{Position, Rect};
 use std::io::{self, Stdout, stdout};
+use std::mem::ManuallyDrop;
 use std::panic;
 use std::sync::Once;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -18,7 +19,8 @@ static TAKEN: AtomicBool = AtomicBool::new(false);
 
 /// A terminal that shows nothing but what is drawn, and gives keys one by one; until this is dropped.
 pub(crate) struct FullScreen {
-    terminal: ratatui::Terminal<CrosstermBackend<Stdout>>,
+    /// Not dropped: it would print what goes wrong then, and printing on a terminal that is gone is a panic.
+    terminal: ManuallyDrop<ratatui::Terminal<CrosstermBackend<Stdout>>>,
 }
 
 impl FullScreen {
@@ -28,7 +30,7 @@ impl FullScreen {
         let terminal = enable_raw_mode()
             .and_then(|()| execute!(stdout(), EnterAlternateScreen, Hide))
             .and_then(|()| ratatui::Terminal::new(CrosstermBackend::new(stdout())));
-        terminal.map(|terminal| Self { terminal }).inspect_err(|_| give_back())
+        terminal.map(|terminal| Self { terminal: ManuallyDrop::new(terminal) }).inspect_err(|_| give_back())
     }
 
     /// Takes the size that the terminal has now, and forgets what is on the screen: a terminal that has changed its size may have kept

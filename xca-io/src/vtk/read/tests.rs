@@ -40,7 +40,7 @@ fn particles(count: usize) -> (TempDir, PathBuf) {
 #[test]
 fn what_is_written_of_cells_is_read_back_to_the_last_bit() {
     let (_folder, path) = dense();
-    let file = read_dense(&path).unwrap();
+    let file = read_dense(&path, u64::MAX).unwrap();
     assert_eq!((file.time, file.grid), (-1.25e-3, GRID));
     let found: Vec<(&str, NumberType, usize)> =
         file.arrays.iter().map(|array| (array.name.as_str(), array.numbers, array.components)).collect();
@@ -66,12 +66,13 @@ fn names_of_components_and_states_are_read_back() {
         DataArray::new("many", &[[0_u8; 5]; 6][..]),
     ];
     write_dense(&path, 0.0, &GRID, &arrays).unwrap();
-    let file = read_dense(&path).unwrap();
+    let file = read_dense(&path, u64::MAX).unwrap();
     let found = |number: usize| &file.arrays[number];
     assert_eq!((&found(0).component_names, found(0).states.len()), (&elements, 0));
-    assert_eq!((&found(1).component_names, &found(1).states), (&names(&[""]), &ground));
-    assert_eq!(found(2).component_names, [".x", ".y", ".z"]);
-    assert_eq!(found(3).component_names[4], "[4]");
+    assert_eq!((&found(1).component_names, &found(1).states), (&names(&[]), &ground));
+    assert_eq!(found(0).component_name(3), "[1].y");
+    assert_eq!((found(1).component_name(0).as_str(), found(2).component_name(2).as_str()), ("", ".z"));
+    assert_eq!(found(3).component_name(4), "[4]");
     // Names that are no text.
     let text = String::from_utf8_lossy(&fs::read(&path).unwrap()).into_owned();
     assert!(text.contains(">82 111 99 107 0 195 150 108 "), "{text}");
@@ -79,7 +80,7 @@ fn names_of_components_and_states_are_read_back() {
     let place = bytes.windows(4).position(|window| window == b"195 ").unwrap();
     bytes[place..place + 3].copy_from_slice(b"300");
     fs::write(&path, bytes).unwrap();
-    let error = read_dense(&path).unwrap_err().to_string();
+    let error = read_dense(&path, u64::MAX).unwrap_err().to_string();
     assert!(error.contains("one of its arrays makes no sense"), "{error}");
 }
 
@@ -87,7 +88,7 @@ fn names_of_components_and_states_are_read_back() {
 fn what_is_written_of_particles_is_read_back_to_the_last_bit() {
     for count in [0, 1, 4] {
         let (_folder, path) = particles(count);
-        let file = read_particles(&path).unwrap();
+        let file = read_particles(&path, u64::MAX).unwrap();
         assert_eq!(file.time, 0.5);
         assert_eq!((file.positions.numbers, file.positions.components), (NumberType::F64, 3));
         let points: Vec<f64> = (0..count).flat_map(|i| [i as f64, 0.1, f64::NEG_INFINITY]).collect();
@@ -102,8 +103,8 @@ fn what_is_written_of_particles_is_read_back_to_the_last_bit() {
 #[test]
 fn a_truncated_file_is_refused_wherever_it_ends() {
     for (path, read) in [
-        (dense(), (|path| read_dense(path).map(drop)) as fn(&Path) -> Result<(), ReadVtkError>),
-        (particles(4), |path| read_particles(path).map(drop)),
+        (dense(), (|path| read_dense(path, u64::MAX).map(drop)) as fn(&Path) -> Result<(), ReadVtkError>),
+        (particles(4), |path| read_particles(path, u64::MAX).map(drop)),
     ] {
         let ((_folder, path), whole) = (&path, fs::read(&path.1).unwrap());
         // Everywhere near the end, and here and there before it.
@@ -125,7 +126,7 @@ fn a_truncated_file_is_refused_wherever_it_ends() {
 fn a_file_of_something_else_is_refused() {
     let (_folder, path) = dense();
     let whole = fs::read(&path).unwrap();
-    let error = read_particles(&path).unwrap_err().to_string();
+    let error = read_particles(&path, u64::MAX).unwrap_err().to_string();
     assert!(error.contains("d.vti is not a VTK file as this program writes them"), "{error}");
     let text = String::from_utf8_lossy(&whole).into_owned();
     // Only the lines of XML are text, but these are the ones to be changed.
@@ -134,7 +135,7 @@ fn a_file_of_something_else_is_refused() {
         let at = text.find(from).unwrap();
         let bytes = [&whole[..at], to.as_bytes(), &whole[at + from.len()..]].concat();
         fs::write(&path, bytes).unwrap();
-        read_dense(&path).unwrap_err().to_string()
+        read_dense(&path, u64::MAX).unwrap_err().to_string()
     };
     for (from, to, wanted) in [
         ("type=\"UInt8\"", "type=\"UInt9\"", "one of its arrays"),
@@ -173,9 +174,14 @@ fn a_file_of_something_else_is_refused() {
     let mut bytes = whole.clone();
     bytes[data + 16] ^= 1;
     fs::write(&path, bytes).unwrap();
-    assert!(read_dense(&path).unwrap_err().to_string().contains("its data are not those of its arrays"));
     assert!(
-        read_dense(Path::new("/nowhere/d.vti")).unwrap_err().to_string().contains("cannot read /nowhere")
+        read_dense(&path, u64::MAX).unwrap_err().to_string().contains("its data are not those of its arrays")
+    );
+    assert!(
+        read_dense(Path::new("/nowhere/d.vti"), u64::MAX)
+            .unwrap_err()
+            .to_string()
+            .contains("cannot read /nowhere")
     );
 }
 
@@ -189,11 +195,46 @@ fn hidden_cells_come_back_apart_from_the_substates() {
     let values = [1.0; 6];
     let arrays = [DataArray::new("t", &values[..]), DataArray::new(GHOST_TYPE, &ghosts[..])];
     write_dense(&path, 0.0, &GRID, &arrays).unwrap();
-    let file = read_dense(&path).unwrap();
+    let file = read_dense(&path, u64::MAX).unwrap();
     assert_eq!((file.hidden.as_deref(), file.arrays.len()), (Some(&hidden[..]), 1));
     write_dense(&path, 0.0, &GRID, &arrays[..1]).unwrap();
-    assert_eq!(read_dense(&path).unwrap().hidden, None);
+    assert_eq!(read_dense(&path, u64::MAX).unwrap().hidden, None);
     let wide = [[0_u8; 2]; 6];
     write_dense(&path, 0.0, &GRID, &[DataArray::new(GHOST_TYPE, &wide[..])]).unwrap();
-    assert!(read_dense(&path).unwrap_err().to_string().contains("its ghost types make no sense"));
+    assert!(read_dense(&path, u64::MAX).unwrap_err().to_string().contains("its ghost types make no sense"));
+}
+
+#[test]
+fn values_that_do_not_fit_are_refused_before_they_are_expanded() {
+    let (_folder, path) = dense();
+    // The time, and 6 cells with 1, 8 and 4 bytes.
+    let needed = 8 + 6 * 13;
+    read_dense(&path, needed).unwrap();
+    let error = read_dense(&path, needed - 1).unwrap_err().to_string();
+    assert!(error.contains("d.vti take 86 bytes of memory, and 85 are free"), "{error}");
+    // A short file cannot hold what its head promises.
+    let text = fs::read(&path).unwrap();
+    let more = b"Extent=\"0 30000 0 30000 0 10000\"";
+    let place = text.windows(20).rposition(|window| window == b"Extent=\"0 3 0 1 0 2\"").unwrap();
+    fs::write(&path, [&text[..place], more, &text[place + 20..]].concat()).unwrap();
+    let error = read_dense(&path, u64::MAX).unwrap_err();
+    assert!(matches!(error, ReadVtkError::Truncated { .. }), "{error}");
+}
+
+#[test]
+fn names_of_components_take_no_more_than_the_file_has() {
+    let (_folder, path) = particles(0);
+    let text = fs::read(&path).unwrap();
+    let from = &b"Name=\"label\" NumberOfComponents=\"1\""[..];
+    let place = text.windows(from.len()).position(|window| window == from).unwrap();
+    let to = b"Name=\"label\" NumberOfComponents=\"1048576\"";
+    fs::write(&path, [&text[..place], to, &text[place + from.len()..]].concat()).unwrap();
+    let file = read_particles(&path, u64::MAX).unwrap();
+    assert_eq!((file.arrays[0].components, file.arrays[0].component_names.len()), (1 << 20, 0));
+    assert_eq!(file.arrays[0].component_name(1_000_000), "[1000000]");
+    // The name of an array may look like that of a component.
+    let arrays = [DataArray::new("a ComponentName0=", &[[1_u8, 2]; 6][..])];
+    write_dense(&path, 0.0, &GRID, &arrays).unwrap();
+    let array = read_dense(&path, u64::MAX).unwrap().arrays.remove(0);
+    assert_eq!((array.name.as_str(), array.component_name(0).as_str()), ("a ComponentName0=", ".x"));
 }

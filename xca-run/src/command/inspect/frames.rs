@@ -1,5 +1,6 @@
 //! The last state that a run has saved as frames, where there is no checkpoint to look into.
 
+use super::numbers::Numbers;
 use super::state::{Described, NamedValue, Place, Statistics, linear};
 use super::{Inside, InspectArguments, Unable};
 use serde_json::Value;
@@ -10,7 +11,7 @@ use xca_io::vtk::{NumberType, ReadArray};
 use xca_record::Failure;
 use xca_record::format::{Formats, SavedState};
 use xca_record::numbers::Exact;
-use xca_record::record::{FRAMES, Plane};
+use xca_record::record::FRAMES;
 
 /// A file of a state by its name, `NAME_STEP.EXTENSION`, and what is in it.
 struct Frame {
@@ -101,7 +102,8 @@ fn statistics(view: &str, array: &ReadArray, hidden: Option<&[bool]>) -> Vec<Sta
         NumberType::F32 => "f32",
         NumberType::F64 => "f64",
     };
-    let value_type = match (array.components, array.component_names.first()) {
+    let names: Vec<String> = (0..array.components).map(|component| array.component_name(component)).collect();
+    let value_type = match (array.components, names.first()) {
         (1, _) => scalar.to_owned(),
         (components, Some(first)) if first.starts_with('[') => format!("[{scalar}; {components}]"),
         (components, _) => format!("Vector{components}<{scalar}>"),
@@ -109,16 +111,16 @@ fn statistics(view: &str, array: &ReadArray, hidden: Option<&[bool]>) -> Vec<Sta
     let described = Described {
         name: format!("{view}.{}", array.name),
         value_type: &value_type,
-        components: &array.component_names,
+        components: &names,
         states: &array.states,
     };
-    described.statistics(&Plane::of_array(array), hidden)
+    described.statistics(Numbers::of_array(array), hidden)
 }
 
 /// The values of the item or the cell with this number.
 fn values(arrays: &[ReadArray], index: usize) -> Vec<NamedValue> {
     let value = |array: &ReadArray| {
-        NamedValue::new(array.name.clone(), &array.states, &Plane::of_array(array), index)
+        NamedValue::new(array.name.clone(), &array.states, &Numbers::of_array(array).value(index))
     };
     arrays.iter().map(value).collect()
 }
@@ -129,7 +131,7 @@ fn of_cell(view: &str, extents: [usize; 3], arrays: &[ReadArray], cell: [usize; 
 }
 
 fn of_item(view: &str, arrays: &[ReadArray], label: u32) -> Option<Place> {
-    let labels = Plane::of_array(arrays.iter().find(|array| array.name == LABEL)?).component(0);
-    let index = labels.iter().position(|other| *other == f64::from(label))?;
+    let mut labels = Numbers::of_array(arrays.iter().find(|array| array.name == LABEL)?).component(0);
+    let index = labels.position(|other| other == f64::from(label))?;
     Some(Place { of: view.to_owned(), cell: None, label: Some(label), values: values(arrays, index) })
 }

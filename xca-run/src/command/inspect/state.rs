@@ -1,5 +1,6 @@
 //! What a checkpoint says of the state.
 
+use super::numbers::Numbers;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -7,7 +8,6 @@ use xca_core::GroupSnapshot;
 use xca_record::checkpoint::{Checkpoint, GroupShape, Kind};
 use xca_record::components::{state_name, text};
 use xca_record::numbers::Exact;
-use xca_record::record::Plane;
 
 /// One component of a substate over all cells or items.
 #[derive(Debug, Serialize)]
@@ -114,7 +114,7 @@ pub(super) fn statistics(checkpoint: &Checkpoint) -> Vec<Statistics> {
                 components: &substate.components,
                 states: &substate.states,
             };
-            all.extend(described.statistics(&Plane::all(substate.stored, bytes), missing.as_deref()));
+            all.extend(described.statistics(Numbers::new(substate.stored, bytes), missing.as_deref()));
         }
     }
     all
@@ -131,25 +131,28 @@ pub(super) struct Described<'a> {
 
 impl Described<'_> {
     /// Of each component, without the cells that have no ground.
-    pub(super) fn statistics(&self, plane: &Plane, missing: Option<&[bool]>) -> Vec<Statistics> {
+    pub(super) fn statistics(&self, numbers: Numbers<'_>, missing: Option<&[bool]>) -> Vec<Statistics> {
+        let is_kept = |index: usize| missing.is_none_or(|missing| missing.get(index) != Some(&true));
         let of_component = |component: usize| {
-            let values = plane.kept(component, missing);
+            let values = numbers.component(component).enumerate();
+            let values = values.filter(|(index, _)| is_kept(*index)).map(|(_, value)| value);
+            let count = values.clone().count();
             let suffix = self.components.get(component).map_or("", String::as_str);
             Statistics {
                 name: format!("{}{suffix}", self.name),
                 value_type: self.value_type.to_owned(),
-                count: values.len(),
-                values: if self.states.is_empty() { Spread::of(&values) } else { self.counts(&values) },
+                count,
+                values: if self.states.is_empty() { Spread::new(count, values) } else { self.counts(values) },
             }
         };
-        (0..plane.components()).map(of_component).collect()
+        (0..numbers.components()).map(of_component).collect()
     }
 
     /// How often each state occurs, and each value that is none.
-    fn counts(&self, values: &[f64]) -> Spread {
+    fn counts(&self, values: impl Iterator<Item = f64>) -> Spread {
         let mut counts: BTreeMap<usize, usize> = (0..self.states.len()).map(|state| (state, 0)).collect();
         for value in values {
-            *counts.entry(*value as usize).or_default() += 1;
+            *counts.entry(value as usize).or_default() += 1;
         }
         let name = |state: usize| text(self.states, state as f64);
         let states = counts.into_iter().map(|(state, count)| StateCount { state: name(state), count });
@@ -158,14 +161,15 @@ impl Described<'_> {
 }
 
 impl Spread {
-    fn of(values: &[f64]) -> Self {
-        let numbers = || values.iter().copied().filter(|value| !value.is_nan());
+    /// Of so many values.
+    fn new(count: usize, values: impl Iterator<Item = f64> + Clone) -> Self {
+        let numbers = || values.clone().filter(|value| !value.is_nan());
         let found = numbers().count();
         Self::Numbers {
             least: numbers().reduce(f64::min).map(Exact),
             mean: (found > 0).then(|| Exact(numbers().sum::<f64>() / found as f64)),
             largest: numbers().reduce(f64::max).map(Exact),
-            not_numbers: values.len() - found,
+            not_numbers: count - found,
         }
     }
 }
@@ -175,17 +179,17 @@ fn values(shape: &GroupShape, fields: &[Vec<u8>], index: usize, ground: bool) ->
     let substates = shape.substates.iter().zip(fields);
     substates
         .map(|(substate, bytes)| {
-            let plane = Plane::chosen(substate.stored, bytes, &[index]).without(Some(&[!ground]));
-            NamedValue::new(substate.name.clone(), &substate.states, &plane, 0)
+            let numbers = Numbers::new(substate.stored, bytes);
+            let value = if ground { numbers.value(index) } else { numbers.nothing() };
+            NamedValue::new(substate.name.clone(), &substate.states, &value)
         })
         .collect()
 }
 
 impl NamedValue {
-    /// The value with this number.
-    pub(super) fn new(name: String, states: &[String], plane: &Plane, index: usize) -> Self {
-        let numbers = plane.value(index).into_iter();
-        Self { name, components: numbers.map(|number| Component::new(states, number)).collect() }
+    /// A value with these components.
+    pub(super) fn new(name: String, states: &[String], components: &[f64]) -> Self {
+        Self { name, components: components.iter().map(|number| Component::new(states, *number)).collect() }
     }
 }
 

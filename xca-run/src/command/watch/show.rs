@@ -1,6 +1,8 @@
 //! What shows a run in the terminal.
 
 mod blocks;
+mod keyboard;
+mod keys;
 mod pace;
 mod pixels;
 mod screen;

@@ -1,11 +1,11 @@
 //! The keys, the clock and the terminal.
 
+use super::keyboard::{Input, Keyboard};
 use super::screen::{Reaction, Screen};
 use super::worker::{Advance, News, Order, Shared, Worker};
 use crate::command::Ended;
 use crate::interrupt::Interrupt;
 use crate::terminal::FullScreen;
-use ratatui::crossterm::event::{self, Event};
 use std::collections::VecDeque;
 use std::panic;
 use std::sync::atomic::Ordering;
@@ -18,6 +18,8 @@ use xca_record::Failure;
 /// How long one waits for a key before one looks for other things: while steps are done, and else.
 const BUSY: Duration = Duration::from_millis(8);
 const IDLE: Duration = Duration::from_millis(40);
+/// So many keys are heard before the next picture.
+const MOST_KEYS: usize = 1000;
 /// An order that takes longer than this shows how far it has come.
 const LONG: Duration = Duration::from_millis(300);
 /// The time over which steps a second are counted.
@@ -36,8 +38,8 @@ pub(super) fn watch(
         let at_work = scope.spawn(move || worker.work(simulation, &received, &answers));
         // The terminal is given back at the end of this statement, while the worker may be in a long step.
         let ended = FullScreen::enter().map_err(Failure::from).and_then(|full_screen| {
-            Session { screen, full_screen, orders, news, shared: worker.shared, interrupt, under_way: None }
-                .go()
+            let (shared, keyboard) = (worker.shared, Keyboard::listen()?);
+            Session { screen, full_screen, keyboard, orders, news, shared, interrupt, under_way: None }.go()
         });
         worker.shared.halt.store(true, Ordering::Relaxed);
         // From now on Ctrl-C is a signal again, and ends the program at once.
@@ -52,6 +54,7 @@ pub(super) fn watch(
 struct Session<'a> {
     screen: &'a mut Screen,
     full_screen: FullScreen,
+    keyboard: Keyboard,
     orders: Sender<Order>,
     news: Receiver<Result<News, Failure>>,
     shared: &'a Shared,
@@ -103,24 +106,44 @@ impl Session<'_> {
             self.screen.rate = rate.of(self.screen.is_running(), self.screen.done, now);
             if is_stale {
                 let screen = &mut *self.screen;
-                self.full_screen.draw(|area, buffer| screen.draw(area, buffer))?;
+                let drawn = self.full_screen.draw(|area, buffer| screen.draw(area, buffer));
+                if let Err(error) = drawn {
+                    return if self.is_alone() { Ok(Ended::Interrupted) } else { Err(error.into()) };
+                }
                 is_stale = false;
             }
             let mut patience = if self.screen.is_running() || self.under_way.is_some() { BUSY } else { IDLE };
-            while event::poll(patience)? {
-                patience = Duration::ZERO;
-                match event::read()? {
-                    Event::Key(key) => match self.screen.press(key) {
-                        Reaction::Nothing => continue,
-                        Reaction::Redraw => {}
-                        Reaction::AtOnce => self.hurry(),
+            for _ in 0..MOST_KEYS {
+                match self.keyboard.next(patience) {
+                    Input::Nothing => break,
+                    Input::Closed => return Ok(Ended::Interrupted),
+                    Input::Resized => {
+                        self.full_screen.resize()?;
+                        is_stale = true;
+                    }
+                    Input::Key(key) => match self.screen.press(key) {
+                        Reaction::Nothing => {}
+                        Reaction::Redraw => is_stale = true,
+                        Reaction::AtOnce => {
+                            self.hurry();
+                            is_stale = true;
+                        }
                         Reaction::Quit => return Ok(Ended::Done),
                         Reaction::Interrupt => return Ok(Ended::Interrupted),
                     },
-                    Event::Resize(..) => self.full_screen.resize()?,
-                    _ => continue,
                 }
-                is_stale = true;
+                patience = Duration::ZERO;
+            }
+        }
+    }
+
+    /// Whether the terminal has gone, which its keys and a signal tell soon after a picture could not be drawn.
+    fn is_alone(&mut self) -> bool {
+        loop {
+            match self.keyboard.next(LONG) {
+                Input::Closed => return true,
+                Input::Nothing => return self.interrupt.is_raised(),
+                Input::Key(_) | Input::Resized => {}
             }
         }
     }

@@ -1,0 +1,98 @@
+//! What the head of a file says of an array.
+
+use super::super::appended::{COMPONENT_NAME, unescaped};
+use super::{NumberType, ReadArray, TIME};
+
+/// No value has more components.
+const MOST_COMPONENTS: usize = 1 << 20;
+
+/// An attribute of an element.
+pub(super) fn attribute(element: &str, name: &str) -> Option<String> {
+    let value = element.split_once(&format!(" {name}=\""))?.1.split_once('"')?.0;
+    Some(unescaped(value))
+}
+
+/// What the head says of an array.
+pub(super) struct Element {
+    pub(super) name: String,
+    numbers: NumberType,
+    components: usize,
+    component_names: Vec<String>,
+    /// Where its values stand, and how many bytes they are when they are expanded.
+    pub(super) offset: usize,
+    pub(super) length: usize,
+}
+
+impl Element {
+    /// From a line of the head; `count` is the number of its values.
+    pub(super) fn new(element: &str, count: usize) -> Option<Self> {
+        let (numbers, size) = match attribute(element, "type")?.as_str() {
+            "UInt8" => (NumberType::U8, 1),
+            "Int32" => (NumberType::I32, 4),
+            "UInt32" => (NumberType::U32, 4),
+            "Float32" => (NumberType::F32, 4),
+            "Float64" => (NumberType::F64, 8),
+            _ => return None,
+        };
+        let number = |name: &str| attribute(element, name).map(|text| text.parse::<usize>());
+        let components = number("NumberOfComponents").unwrap_or(Ok(1)).ok()?;
+        if !(1..=MOST_COMPONENTS).contains(&components) {
+            return None;
+        }
+        // The time alone is one number in a file of many values.
+        let given = number("NumberOfTuples").transpose().ok()?;
+        let name = attribute(element, "Name")?;
+        let is_time = name == TIME && given == Some(1);
+        let count = if is_time {
+            1
+        } else {
+            Some(count).filter(|count| given.is_none_or(|given| given == *count))?
+        };
+        let length = count.checked_mul(components)?.checked_mul(size)?;
+        let component_names = component_names(element, components)?;
+        let offset = number("offset")?.ok()?;
+        Some(Self { name, numbers, components, component_names, offset, length })
+    }
+
+    /// Whether its values can be these states.
+    pub(super) fn can_have(&self, states: &[String]) -> bool {
+        states.is_empty() || self.numbers == NumberType::U8
+    }
+
+    /// The array with its values.
+    pub(super) fn array(self, bytes: Vec<u8>, states: Vec<String>) -> ReadArray {
+        let Self { name, numbers, components, component_names, .. } = self;
+        ReadArray {
+            name,
+            numbers,
+            components,
+            component_names,
+            states,
+            bytes: numbers.of_this_machine(bytes),
+        }
+    }
+}
+
+/// What an element calls its components, by number; none where it names them otherwise.
+fn component_names(element: &str, components: usize) -> Option<Vec<String>> {
+    let mut names = Vec::new();
+    // Only an attribute has a quotation mark of its own; what is before it is the name of the array.
+    let attributes = element.split_once(" NumberOfComponents=\"").map_or("", |(_, attributes)| attributes);
+    for part in attributes.split(COMPONENT_NAME).skip(1) {
+        let (number, rest) = part.split_once("=\"")?;
+        if names.len() == components || number.parse() != Ok(names.len()) {
+            return None;
+        }
+        names.push(unescaped(rest.split_once('"')?.0));
+    }
+    Some(names)
+}
+
+/// What follows the name of an array for a component that the file does not name.
+pub(super) fn default_name(number: usize, components: usize) -> String {
+    match (components, [".x", ".y", ".z", ".w"].get(number)) {
+        (1, _) => String::new(),
+        (2..=4, Some(lane)) => (*lane).to_owned(),
+        _ => format!("[{number}]"),
+    }
+}
