@@ -1,7 +1,7 @@
 //! What the compression of zlib, PNG and VTK can do at best.
 
 /// No stream grows by more than this factor when it is expanded: two bits become 258 bytes.
-const MOST_GROWTH: u64 = 1032;
+pub(crate) const MOST_GROWTH: u64 = 1032;
 
 /// Whether so many bytes of a stream can become so many bytes of values. A reader asks before it makes room for them:
 /// the header of a short file may promise anything.

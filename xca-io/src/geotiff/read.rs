@@ -2,6 +2,7 @@
 
 use super::place::{Georeference, Pixels};
 use super::{GeoKeys, ReadGeoTiffError};
+use crate::deflate;
 use crate::map::Placement;
 use crate::raster::{Raster, are_huge, from_the_south};
 use crate::regular_file;
@@ -12,7 +13,7 @@ use std::sync::Arc;
 use tiff::TiffError;
 use tiff::decoder::ifd::Value;
 use tiff::decoder::{ChunkType, Decoder, DecodingResult, Limits};
-use tiff::tags::{PhotometricInterpretation, PlanarConfiguration, Tag};
+use tiff::tags::{CompressionMethod, PhotometricInterpretation, PlanarConfiguration, Tag};
 
 /// The largest strip or tile that is decoded, in bytes.
 const LARGEST_CHUNK: usize = 1 << 30;
@@ -20,16 +21,41 @@ const LARGEST_CHUNK: usize = 1 << 30;
 /// The longest list of strips or tiles, in bytes.
 const LONGEST_LIST: usize = 1 << 26;
 
+/// The bytes that a tag or two may take in memory, also of a short file.
+const SHORT: usize = 1 << 20;
+
+/// The cells that any file may leave out.
+const FEW: usize = 1 << 20;
+
 type Image = Decoder<BufReader<File>>;
+
+/// By what factor a strip or tile grows at most when it is expanded, by the number of its compression.
+fn most_growth(compression: u16) -> u64 {
+    match compression {
+        NOT_COMPRESSED => 1,
+        // A code of 12 bits is a string of at most 4096 bytes.
+        LZW => 2731,
+        // Two bytes become 128.
+        PACK_BITS => 64,
+        _ => deflate::MOST_GROWTH,
+    }
+}
+
+const NOT_COMPRESSED: u16 = CompressionMethod::None.to_u16();
+const LZW: u16 = CompressionMethod::LZW.to_u16();
+const PACK_BITS: u16 = CompressionMethod::PackBits.to_u16();
 
 pub(super) fn read(path: &Path, on: Option<Placement>) -> Result<Raster, ReadGeoTiffError> {
     let file = regular_file::open(path)
         .map_err(|source| ReadGeoTiffError::Open { path: path.to_owned(), source })?;
     let undecoded = |source| ReadGeoTiffError::Decode { path: path.to_owned(), source };
+    let bytes = file.metadata().map_or(0, |metadata| metadata.len());
+    let most = usize::try_from(bytes).unwrap_or(usize::MAX);
+    // The header of a damaged file can tell any size: nothing is longer than the file, but for what is compressed.
     let mut limits = Limits::default();
-    limits.decoding_buffer_size = LARGEST_CHUNK;
-    limits.intermediate_buffer_size = LARGEST_CHUNK;
-    limits.ifd_value_size = LONGEST_LIST;
+    limits.decoding_buffer_size = most.saturating_mul(size_of::<Value>()).saturating_add(SHORT);
+    limits.intermediate_buffer_size = most.min(LARGEST_CHUNK);
+    limits.ifd_value_size = most.saturating_add(SHORT).min(LONGEST_LIST);
     let mut image =
         Decoder::new(BufReader::with_capacity(1 << 16, file)).map_err(undecoded)?.with_limits(limits);
     let (columns, rows) = image.dimensions().map_err(undecoded)?;
@@ -42,7 +68,11 @@ pub(super) fn read(path: &Path, on: Option<Placement>) -> Result<Raster, ReadGeo
             None => Pixels { placement: placed_on(path, extents, on)?, from_the_south: false },
         };
     let nothing = nodata(path, &mut image)?;
-    let band = Band::new(path, &mut image, extents)?;
+    let band = Band::new(path, &mut image, extents, bytes)?;
+    let mut limits = Limits::default();
+    limits.decoding_buffer_size = LARGEST_CHUNK;
+    limits.intermediate_buffer_size = most.min(LARGEST_CHUNK);
+    let mut image = image.with_limits(limits);
     let mut values = band.values(path, &mut image, nothing)?;
     if let Some(cell) = values.iter().position(|value| value.is_infinite()) {
         // Rows are still in the order of the file.
@@ -118,12 +148,23 @@ struct Band {
     chunk: [usize; 2],
     /// From one sample of the band to the next one.
     stride: usize,
+    /// The bytes of a pixel in a strip or tile.
+    pixel: u64,
     /// The bytes of each strip or tile in the file: 0 for one that was never written.
     lengths: Vec<u64>,
+    /// The bytes of the file.
+    bytes: u64,
+    /// By what factor they grow at most.
+    growth: u64,
 }
 
 impl Band {
-    fn new(path: &Path, image: &mut Image, extents: [usize; 2]) -> Result<Self, ReadGeoTiffError> {
+    fn new(
+        path: &Path,
+        image: &mut Image,
+        extents: [usize; 2],
+        bytes: u64,
+    ) -> Result<Self, ReadGeoTiffError> {
         let undecoded = |source| ReadGeoTiffError::Decode { path: path.to_owned(), source };
         let other = |found: String| ReadGeoTiffError::Samples { path: path.to_owned(), found };
         let colours = image.colortype().map_err(undecoded)?;
@@ -145,7 +186,20 @@ impl Band {
         let lengths = image.find_tag_unsigned_vec(lengths).map_err(undecoded)?.unwrap_or_default();
         let (width, height) = image.chunk_dimensions();
         let chunk = [(width as usize).max(1), (height as usize).max(1)];
-        Ok(Self { extents, chunk, stride, lengths })
+        let compression = unsigned(image, Tag::Compression)?.unwrap_or(NOT_COMPRESSED);
+        let (pixel, growth) = (stride as u64 * u64::from(colours.bit_depth() / 8), most_growth(compression));
+        Ok(Self { extents, chunk, stride, pixel, lengths, bytes, growth })
+    }
+
+    /// Whether a strip or tile with so many pixels can be what the file holds of it.
+    fn can_hold(&self, index: u32, pixels: usize) -> bool {
+        let stored = self.lengths.get(index as usize).map_or(0, |length| (*length).min(self.bytes));
+        stored.saturating_mul(self.growth) >= (pixels as u64).saturating_mul(self.pixel)
+    }
+
+    /// Whether so many cells may be left out: a short file is not worth a large raster.
+    fn may_leave_out(&self, cells: usize) -> bool {
+        cells <= FEW || cells as u64 <= self.bytes.saturating_mul(deflate::MOST_GROWTH)
     }
 
     /// All values in the order of the file; NaN where there is none.
@@ -158,7 +212,12 @@ impl Band {
         let [columns, rows] = self.extents;
         let too_large = || ReadGeoTiffError::Size { path: path.to_owned(), extents: self.extents };
         let mut values = Vec::new();
-        let mut index = 0;
+        let (mut index, mut left_out) = (0, 0_usize);
+        let too_short = || ReadGeoTiffError::Tag {
+            path: path.to_owned(),
+            tag: "StripByteCounts or TileByteCounts",
+            problem: "tells fewer bytes than the samples take".to_owned(),
+        };
         // Memory grows with what is decoded: the header of a damaged file can tell any size.
         for first_row in (0..rows).step_by(self.chunk[1]) {
             let height = self.chunk[1].min(rows - first_row);
@@ -168,8 +227,18 @@ impl Band {
                 let width = self.chunk[0].min(columns - first_column);
                 let samples =
                     match self.lengths.get(index as usize) {
-                        Some(0) => None,
+                        Some(0) => {
+                            left_out = left_out.saturating_add(width.saturating_mul(height));
+                            if !self.may_leave_out(left_out) {
+                                return Err(too_large());
+                            }
+                            None
+                        }
                         _ => {
+                            let (across, down) = image.chunk_data_dimensions(index);
+                            if !self.can_hold(index, (across as usize).saturating_mul(down as usize)) {
+                                return Err(too_short());
+                            }
                             let samples = image.read_chunk(index);
                             Some(samples.map_err(|source| ReadGeoTiffError::Decode {
                                 path: path.to_owned(),

@@ -3,9 +3,11 @@
 use crate::measured::{Subject, TestResult, alone, container};
 use crate::model::{Grain, read};
 use std::path::Path;
-use xca_io::ascii_grid::AsciiGrid;
+use xca_io::extended_xyz;
+use xca_io::geotiff::{self, SampleType};
 use xca_io::map::Placement;
 use xca_io::particle_csv::{self, ColumnType};
+use xca_io::raster::Raster;
 use xca_record::read_items;
 
 const TYPES: [(&str, ColumnType<'static>); 4] = [
@@ -52,10 +54,38 @@ fn grids() -> TestResult {
     let words =
         &["ncols", "nrows", "xllcorner", "yllcenter", "cellsize", "dx", "dy", "NODATA_value", "\n", "1 "];
     check_text("grid", &[whole, other, bare], words, |path| {
-        AsciiGrid::read_heights(path).ok();
+        Raster::read_heights(path).ok();
         let placement = Placement { extents: [3, 2], corner: [0.0; 2], side: 1.0 };
-        Ok(AsciiGrid::read_on(path, placement).map(drop)?)
+        Ok(Raster::read_on(path, placement).map(drop)?)
     })
+}
+
+/// As they are written, and as they are packed by others: in tiles, compressed, as integers.
+#[test]
+fn geotiffs() -> TestResult {
+    let _alone = alone();
+    let folder = tempfile::tempdir()?;
+    let path = &folder.path().join("file.tif");
+    let mut valid = Vec::new();
+    for (extents, samples) in [([3, 2], SampleType::F64), ([40, 30], SampleType::F32)] {
+        let values =
+            (0..extents[0] * extents[1]).map(|cell| if cell % 5 == 0 { f64::NAN } else { cell as f64 });
+        let raster =
+            Raster::new(extents, 10.0, values.collect()).ok_or("no raster")?.with_corner([100.5, -7.0]);
+        geotiff::write(path, &raster, samples)?;
+        valid.push(container(Some(std::fs::read(path)?))?);
+    }
+    Subject { name: "geotiff", path, valid, words: &["-9999", "nan", "II*\0", "MM\0*"] }
+        .check(|path, _| Ok(geotiff::read(path).map(drop)?))
+}
+
+#[test]
+fn extended_xyz_files() -> TestResult {
+    let plain = "2\nLattice=\"1 0 0 0 2 0 0 0 3\" Origin=\"0 0 0\" Properties=id:I:1:pos:R:3:v:R:2:on:L:1:phase:S:1 Time=0.5 pbc=\"F F F\"\n7 0.5 1e-3 -2 1 2 T Solid\n2 1 2 3 0 0 F Liquid\n";
+    let two = "1\nProperties=species:S:1:pos:R:3\nH 0 0 0\n1\nProperties=species:S:1:pos:R:3\nH 0 0 1\n";
+    let words =
+        &["Lattice=", "Properties=", "pos:R:3", "id:I:1", ":S:", "Time=", "\"", "{", "}", "T", "nan", "\n"];
+    check_text("xyz", &[plain, two], words, |path| Ok(extended_xyz::read(path).map(drop)?))
 }
 
 #[test]
