@@ -31,8 +31,10 @@ const KEY: usize = 4;
 
 impl GeoKeys {
     /// The keys with these three tags; none if the directory is shorter than its header says.
-    pub(super) fn new(directory: Vec<u16>, doubles: Vec<f64>, text: String) -> Option<Self> {
+    pub(super) fn new(directory: Vec<u16>, doubles: Vec<f64>, text: &str) -> Option<Self> {
         let count = usize::from(*directory.get(KEY - 1)?);
+        // Keys count the bytes of the text, and a file may hold ASCII alone.
+        let text = text.bytes().map(|byte| if byte.is_ascii() { char::from(byte) } else { '?' }).collect();
         (directory.len() >= KEY * (count + 1)).then_some(Self { directory, doubles, text })
     }
 

@@ -117,21 +117,38 @@ fn keys(path: &Path, image: &mut Image) -> Result<Option<GeoKeys>, ReadGeoTiffEr
     };
     let directory = directory.into_u16_vec().map_err(undecoded)?;
     let doubles = numbers(image, Tag::GeoDoubleParamsTag).map_err(undecoded)?;
-    let text = image.find_tag(Tag::GeoAsciiParamsTag).map_err(undecoded)?;
-    let text = text.map_or_else(|| Ok(String::new()), Value::into_string).map_err(undecoded)?;
+    let text = text(path, image, Tag::GeoAsciiParamsTag, "GeoAsciiParams")?.unwrap_or_default();
     let broken = || ReadGeoTiffError::Tag {
         path: path.to_owned(),
         tag: "GeoKeyDirectory",
         problem: "is shorter than its header says".to_owned(),
     };
-    GeoKeys::new(directory, doubles, text).ok_or_else(broken).map(Some)
+    GeoKeys::new(directory, doubles, &text).ok_or_else(broken).map(Some)
+}
+
+/// No text has more bytes.
+const LONGEST_TEXT: u64 = 1 << 16;
+
+/// The text of a tag.
+fn text(
+    path: &Path,
+    image: &mut Image,
+    tag: Tag,
+    name: &'static str,
+) -> Result<Option<String>, ReadGeoTiffError> {
+    let undecoded = |source| ReadGeoTiffError::Decode { path: path.to_owned(), source };
+    // The decoder would take the memory that a damaged file asks for, and complain on stderr.
+    if image.image_ifd().find_entry(tag).is_some_and(|entry| entry.count() > LONGEST_TEXT) {
+        let problem = format!("is longer than {LONGEST_TEXT} bytes");
+        return Err(ReadGeoTiffError::Tag { path: path.to_owned(), tag: name, problem });
+    }
+    let found = image.find_tag(tag).map_err(undecoded)?;
+    found.map(Value::into_string).transpose().map_err(undecoded)
 }
 
 /// The value that stands for NODATA.
 fn nodata(path: &Path, image: &mut Image) -> Result<Option<f64>, ReadGeoTiffError> {
-    let undecoded = |source| ReadGeoTiffError::Decode { path: path.to_owned(), source };
-    let Some(text) = image.find_tag(Tag::GdalNodata).map_err(undecoded)? else { return Ok(None) };
-    let text = text.into_string().map_err(undecoded)?;
+    let Some(text) = text(path, image, Tag::GdalNodata, "GDAL_NODATA")? else { return Ok(None) };
     let text = text.trim_matches(|letter: char| letter == '\0' || letter.is_whitespace());
     let wrong = || ReadGeoTiffError::Tag {
         path: path.to_owned(),

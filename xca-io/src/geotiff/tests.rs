@@ -10,7 +10,7 @@ use tiff::tags::Tag;
 /// UTM zone 33N, with pixels that are points or areas.
 fn utm(raster_type: u16) -> GeoKeys {
     let directory = vec![1, 1, 0, 3, 1024, 0, 1, 1, 1025, 0, 1, raster_type, 3072, 0, 1, 32633];
-    GeoKeys::new(directory, vec![0.5], "UTM|".to_owned()).unwrap()
+    GeoKeys::new(directory, vec![0.5], "UTM|").unwrap()
 }
 
 fn slope() -> Raster {
@@ -64,6 +64,17 @@ fn every_bit_and_the_coordinate_system_come_back() {
     write(&path, &plain, SampleType::F32).unwrap();
     let back = read(&path).unwrap();
     assert_eq!((back.values(), back.coordinate_system()), (&[f64::from(0.1_f32), -1.5][..], None));
+}
+
+/// Names of coordinate systems should be ASCII, and are not in every file; what is read can be written.
+#[test]
+fn names_that_are_not_ascii_are_written_with_as_many_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("slope.tif");
+    let keys = GeoKeys::new(utm(1).directory, Vec::new(), "Österreich|").unwrap();
+    write(&path, &slope().with_coordinate_system(Some(Arc::new(keys))), SampleType::F64).unwrap();
+    let back = read(&path).unwrap();
+    assert_eq!(back.coordinate_system().unwrap().text, "??sterreich|");
 }
 
 #[test]
@@ -121,6 +132,10 @@ fn nodata_is_what_the_tag_says() {
     assert_eq!(
         holes("none").map_err(message),
         Err("made.tif: the tag GDAL_NODATA of the GeoTIFF is not a number but `none`".to_owned())
+    );
+    let long = "1".repeat(70_000);
+    assert!(
+        message(holes(&long).unwrap_err()).ends_with("GDAL_NODATA of the GeoTIFF is longer than 65536 bytes")
     );
 }
 
