@@ -18,6 +18,7 @@
 //! # }
 //! ```
 
+mod directory;
 mod error;
 mod keys;
 mod place;

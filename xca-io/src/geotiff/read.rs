@@ -1,7 +1,7 @@
 //! Reading a GeoTIFF, one strip or tile at a time.
 
 use super::place::{Georeference, Pixels};
-use super::{GeoKeys, ReadGeoTiffError};
+use super::{GeoKeys, ReadGeoTiffError, directory};
 use crate::deflate;
 use crate::map::Placement;
 use crate::raster::{Raster, are_huge, from_the_south};
@@ -46,18 +46,24 @@ const LZW: u16 = CompressionMethod::LZW.to_u16();
 const PACK_BITS: u16 = CompressionMethod::PackBits.to_u16();
 
 pub(super) fn read(path: &Path, on: Option<Placement>) -> Result<Raster, ReadGeoTiffError> {
-    let file = regular_file::open(path)
-        .map_err(|source| ReadGeoTiffError::Open { path: path.to_owned(), source })?;
+    let unread = |source| ReadGeoTiffError::Open { path: path.to_owned(), source };
+    let mut file = BufReader::with_capacity(1 << 16, regular_file::open(path).map_err(unread)?);
+    let bytes = file.get_ref().metadata().map_err(unread)?.len();
+    if !directory::fits(&mut file, bytes).map_err(unread)? {
+        return Err(ReadGeoTiffError::Tag {
+            path: path.to_owned(),
+            tag: "of a list",
+            problem: "tells more values than the file has bytes".to_owned(),
+        });
+    }
     let undecoded = |source| ReadGeoTiffError::Decode { path: path.to_owned(), source };
-    let bytes = file.metadata().map_or(0, |metadata| metadata.len());
     let most = usize::try_from(bytes).unwrap_or(usize::MAX);
     // The header of a damaged file can tell any size: nothing is longer than the file, but for what is compressed.
     let mut limits = Limits::default();
     limits.decoding_buffer_size = most.saturating_mul(size_of::<Value>()).saturating_add(SHORT);
     limits.intermediate_buffer_size = most.min(LARGEST_CHUNK);
     limits.ifd_value_size = most.saturating_add(SHORT).min(LONGEST_LIST);
-    let mut image =
-        Decoder::new(BufReader::with_capacity(1 << 16, file)).map_err(undecoded)?.with_limits(limits);
+    let mut image = Decoder::new(file).map_err(undecoded)?.with_limits(limits);
     let (columns, rows) = image.dimensions().map_err(undecoded)?;
     let extents = [columns as usize, rows as usize];
     let keys = keys(path, &mut image)?;
