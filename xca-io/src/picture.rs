@@ -3,7 +3,8 @@
 //! | type | shows |
 //! |---|---|
 //! | [`ParticlePicture`] | particles as shaded spheres in their box, z up, coloured by a scalar |
-//! | [`SlicePicture`] | one layer of a dense substate, a colour a cell |
+//! | [`SlicePicture`] | one layer of a dense substate, a colour a cell: squares or hexagons |
+//! | [`LandscapePicture`] | one layer of a dense substate over the relief of the ground, in three dimensions |
 //! | [`BlockPicture`] | all layers of a dense substate, as cubes |
 //! | [`PanelPicture`] | several of these side by side |
 //!
