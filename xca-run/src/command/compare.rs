@@ -3,6 +3,7 @@
 use super::arguments::{interval, steps};
 use super::engine::with_shared_options;
 use super::parse::{Choice as ModelChoice, with_help, with_model};
+use super::prepare::warn;
 use super::voice::Voice;
 use super::{Definition, Ended, Unable};
 use crate::compare::Choice;
@@ -86,6 +87,7 @@ pub(super) fn compare(
     let contenders = contenders(model.definition, &arguments.engines, options, precision)?;
     let given = model.arguments.given(arguments.steps);
     let set_up = model.set_up(&given)?;
+    warn(&set_up);
     let definition = model.definition;
     let subject = Subject {
         commit: option_env!("XCA_COMMIT"),

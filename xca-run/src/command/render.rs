@@ -11,7 +11,7 @@ pub(super) use saved::draw;
 
 use super::engine::with_engine;
 use super::parse::{RunInvocation, with_help, with_model};
-use super::prepare::Prepared;
+use super::prepare::{Prepared, warn};
 use super::{Definition, Ended, Unable};
 use crate::interrupt::Interrupt;
 use clap::parser::ValueSource;
@@ -145,6 +145,7 @@ pub(super) fn render(invocation: &RunInvocation<'_>, arguments: &RenderArguments
     report.files = film.files();
     let path = arguments.out.clone().unwrap_or_else(|| default_folder(invocation.model.definition));
     let folder = pictures_folder(&path, &report.files, &recorder.set_up().inputs)?;
+    warn(recorder.set_up());
     report.write(&folder.report()).map_err(Unable::failed)?;
     let result = film.make(&folder);
     report.progress.wall_seconds = begin.elapsed().as_secs_f64();

@@ -6,6 +6,7 @@ mod values;
 use super::arguments::steps;
 use super::engine::{EngineChoice, with_engine};
 use super::parse::{Choice, with_help, with_model};
+use super::prepare::warn;
 use super::voice::Voice;
 use super::{Definition, Ended, Unable};
 use crate::interrupt::Interrupt;
@@ -150,6 +151,7 @@ pub(super) fn sweep(
         .unwrap_or_else(|| (cores().unwrap_or(1) / engine.threads().max(1)).max(1));
     let memory = engine.least_memory(&set_up.model, given.precision).saturating_mul(jobs as u128);
     check_memory(memory, &format!("{jobs} runs side by side")).map_err(Unable::refused)?;
+    warn(&set_up);
     drop((engine, set_up));
     let definition = model.definition;
     let mut ensemble = Ensemble::new()
