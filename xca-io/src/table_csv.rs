@@ -216,6 +216,18 @@ mod tests {
     }
 
     #[test]
+    fn only_a_regular_file_goes_on() {
+        if cfg!(unix) {
+            let folder = tempfile::tempdir().unwrap();
+            let pipe = folder.path().join("o.csv");
+            assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+            let error = SeriesWriter::resume(&pipe, 1, Written::default()).unwrap_err();
+            let SeriesError::Write { source, .. } = error else { panic!("{error}") };
+            assert_eq!(source.kind(), io::ErrorKind::InvalidInput);
+        }
+    }
+
+    #[test]
     fn numbers_read_back_exactly() {
         let mut bits = 1_u64;
         for _ in 0..2000 {

@@ -13,9 +13,10 @@ use xca_tests_fuzz::{Container, Mutator};
 const INPUTS: usize = 1000;
 /// All mutations follow from this.
 const SEED: u64 = 20_261_129;
-/// The memory that a reader may take, in bytes: so much for each byte of the file, and so much besides.
+/// The memory that a reader may take for each byte of the file, in bytes.
 const TIMES: usize = 10;
-const BESIDES: usize = 16 << 20;
+/// The memory that it may take besides, in bytes.
+pub(crate) const BESIDES: usize = 16 << 20;
 /// No file may take longer.
 const LONGEST: Duration = Duration::from_secs(10);
 /// How many bad files are kept at most, to be looked at.
@@ -35,6 +36,10 @@ pub(crate) struct Subject<'a> {
     /// Where the reader looks for the file.
     pub(crate) path: &'a Path,
     pub(crate) valid: Vec<Box<dyn Container>>,
+    /// The memory that it may take for any file, in bytes.
+    pub(crate) besides: usize,
+    /// A slow reader is given so many times fewer files.
+    pub(crate) cost: usize,
     /// Words of the format.
     pub(crate) words: &'static [&'static str],
 }
@@ -50,7 +55,7 @@ impl Subject<'_> {
     /// mutations do not reach its checks.
     pub(crate) fn check(&self, read: impl Fn(&Path, &mut Mutator) -> TestResult) -> TestResult {
         let inputs = std::env::var("XCA_FUZZ_INPUTS").ok().and_then(|text| text.parse().ok());
-        let inputs = inputs.unwrap_or(INPUTS);
+        let inputs = inputs.unwrap_or(INPUTS).div_ceil(self.cost);
         let kept = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(self.name);
         let mut mutator = Mutator::new(SEED, self.words);
         let mut problems = Vec::new();
@@ -65,7 +70,7 @@ impl Subject<'_> {
             let (memory, time) = (ALLOCATED.peak_usage().saturating_sub(before), begin.elapsed());
             let problem = match &result {
                 Err(_) => Some("a panic".to_owned()),
-                _ if memory > TIMES * bytes.len() + BESIDES => {
+                _ if memory > TIMES * bytes.len() + self.besides => {
                     Some(format!("{memory} bytes of memory for {} bytes", bytes.len()))
                 }
                 _ if time > LONGEST => Some(format!("{time:?}")),

@@ -4,6 +4,7 @@ use crate::measured::TestResult;
 use std::ffi::OsString;
 use std::path::Path;
 use xca_core::prelude::*;
+use xca_record::record::{Look, Recorder, ViewKind};
 use xca_record::{Failure, Interval, Run, SetUp};
 use xca_run::CommandLine;
 
@@ -83,6 +84,22 @@ pub(crate) fn read(arguments: &[&str], path: &Path) -> Result<String, Failure> {
     let words = ["plate"].iter().chain(arguments).map(OsString::from);
     let words: Vec<OsString> = words.chain([path.as_os_str().to_owned()]).collect();
     program().read(&words)
+}
+
+/// Draws what a frame shows, in each way that its view has.
+pub(crate) fn draw(frame: &Path, views: &[ViewKind]) -> Result<(), Failure> {
+    let number = frame.file_stem().and_then(|stem| stem.to_str()).and_then(|stem| stem.rsplit_once('_'));
+    let step = number.map_or(Ok(0), |(_, number)| number.parse())?;
+    let recorder = Recorder::new(set_up()?)?;
+    for view in views {
+        let look = Look { view: Some(*view), ..Look::default() };
+        let drawing = recorder.drawing(&[look], Some([400, 300]))?;
+        let seen = drawing.seen_in(frame.parent().unwrap_or(frame), step)?;
+        let mut scales = drawing.fixed_scales();
+        drawing.widen(&mut scales, &seen);
+        drawing.picture(step, &seen, &scales)?;
+    }
+    Ok(())
 }
 
 /// Leaves the files of a run in a folder.

@@ -1,7 +1,7 @@
 //! What a run leaves behind.
 
-use crate::measured::{Subject, TestResult, alone, container};
-use crate::model::{read, run, set_up};
+use crate::measured::{BESIDES, Subject, TestResult, alone, container};
+use crate::model::{draw, read, run, set_up};
 use std::fs;
 use std::path::{Path, PathBuf};
 use xca_core::{Engine, Reference};
@@ -9,6 +9,7 @@ use xca_io::animation::write_gif;
 use xca_io::table_csv::{SeriesWriter, Written};
 use xca_io::vtk::{read_dense, read_particles};
 use xca_record::checkpoint::Checkpoint;
+use xca_record::record::ViewKind;
 use xca_record::report::Earlier;
 use xca_record::{Ensemble, Failure, MEMBERS};
 use xca_tests_fuzz as fuzz;
@@ -122,7 +123,7 @@ fn frames_of_cells() -> TestResult {
     let [path, ..] = &folder.files("frames", "vti")[..] else { return Err("no frame".into()) };
     let bytes = fs::read(path)?;
     let valid = vec![container(fuzz::Vtk::new(&bytes))?];
-    Subject { name: "vti", path, valid, words: VTK }.check(|path, _| {
+    Subject { name: "vti", path, valid, besides: BESIDES, cost: 1, words: VTK }.check(|path, _| {
         read_dense(path, u64::MAX)?;
         inspected(&folder.path())
     })
@@ -136,10 +137,32 @@ fn frames_of_items() -> TestResult {
     let [path, ..] = &folder.files("frames", "vtp")[..] else { return Err("no frame".into()) };
     let bytes = fs::read(path)?;
     let valid = vec![container(fuzz::Vtk::new(&bytes))?];
-    Subject { name: "vtp", path, valid, words: VTK }.check(|path, _| {
+    Subject { name: "vtp", path, valid, besides: BESIDES, cost: 1, words: VTK }.check(|path, _| {
         read_particles(path, u64::MAX)?;
         inspected(&folder.path())
     })
+}
+
+/// The memory of a picture while it is drawn, in bytes.
+const DRAWING: usize = 64 << 20;
+
+fn check_drawing(name: &str, ending: &str, views: &[ViewKind]) -> TestResult {
+    let _alone = alone();
+    let folder = Folder::new()?;
+    let [path, ..] = &folder.files("frames", ending)[..] else { return Err("no frame".into()) };
+    draw(path, views)?;
+    let valid = vec![container(fuzz::Vtk::new(&fs::read(path)?))?];
+    Subject { name, path, valid, besides: DRAWING, cost: 20, words: VTK }.check(|path, _| draw(path, views))
+}
+
+#[test]
+fn drawings_of_cells() -> TestResult {
+    check_drawing("drawn-cells", "vti", &[ViewKind::Slice, ViewKind::Isometric])
+}
+
+#[test]
+fn drawings_of_items() -> TestResult {
+    check_drawing("drawn-items", "vtp", &[ViewKind::Spheres])
 }
 
 #[test]
@@ -151,7 +174,7 @@ fn checkpoints() -> TestResult {
     };
     let bytes = fs::read(path)?;
     let valid = vec![container(fuzz::Checkpoint::new(&bytes))?];
-    Subject { name: "checkpoint", path, valid, words: JSON }.check(|path, _| {
+    Subject { name: "checkpoint", path, valid, besides: BESIDES, cost: 1, words: JSON }.check(|path, _| {
         Checkpoint::read(path)?.description.mask();
         inspected(path)
     })
@@ -163,7 +186,7 @@ fn reports() -> TestResult {
     let folder = Folder::new()?;
     let path = &folder.path().join("run.json");
     let valid = vec![container(Some(fs::read(path)?))?];
-    Subject { name: "report", path, valid, words: JSON }.check(|path, _| {
+    Subject { name: "report", path, valid, besides: BESIDES, cost: 1, words: JSON }.check(|path, _| {
         Earlier::read(path)?;
         inspected(&folder.path())
     })
@@ -177,14 +200,16 @@ fn time_series() -> TestResult {
     let whole = fs::read(path)?;
     let written = Written { bytes: whole.len() as u64, crc32: crc32fast::hash(&whole) };
     let valid = vec![container(Some(whole))?];
-    Subject { name: "series", path, valid, words: &["step", "time", ","] }.check(|path, mutator| {
-        let bytes = if mutator.below(2) == 0 { mutator.edge() } else { written.bytes };
-        // What a checkpoint may say of any file.
-        let found = fs::read(path)?;
-        let crc32 = found.get(..bytes as usize).map_or(written.crc32, crc32fast::hash);
-        SeriesWriter::resume(path, 7, Written { bytes, crc32 })?.append(5, 0.5, &[1.0; 7])?;
-        Ok(())
-    })
+    Subject { name: "series", path, valid, besides: BESIDES, cost: 1, words: &["step", "time", ","] }.check(
+        |path, mutator| {
+            let bytes = if mutator.below(2) == 0 { mutator.edge() } else { written.bytes };
+            // What a checkpoint may say of any file.
+            let found = fs::read(path)?;
+            let crc32 = found.get(..bytes as usize).map_or(written.crc32, crc32fast::hash);
+            SeriesWriter::resume(path, 7, Written { bytes, crc32 })?.append(5, 0.5, &[1.0; 7])?;
+            Ok(())
+        },
+    )
 }
 
 /// A picture of 8 x 6 pixels.
@@ -206,7 +231,14 @@ fn pictures() -> TestResult {
     let path = &folder.path().join("picture.png");
     let valid = vec![container(fuzz::Png::new(&picture()?))?];
     let out = folder.path().join("film.gif");
-    let subject = Subject { name: "png", path, valid, words: &["IHDR", "IDAT", "IEND", "tEXt", "sRGB"] };
+    let subject = Subject {
+        name: "png",
+        path,
+        valid,
+        besides: BESIDES,
+        cost: 1,
+        words: &["IHDR", "IDAT", "IEND", "tEXt", "sRGB"],
+    };
     subject.check(|path, _| Ok(write_gif(&out, &[path.to_owned(), path.to_owned()], 10)?))
 }
 
@@ -229,7 +261,7 @@ fn tables_of_sweeps() -> TestResult {
     let path = &out.join(MEMBERS);
     let valid = vec![container(Some(fs::read(path)?))?];
     let words = &["member", "seed", "end", "reason", "steps", "done", "stopped", "failed", ",", "\"", "nan"];
-    Subject { name: "members", path, valid, words }.check(|_, _| sweep(&out))
+    Subject { name: "members", path, valid, besides: BESIDES, cost: 1, words }.check(|_, _| sweep(&out))
 }
 
 #[test]
@@ -240,5 +272,5 @@ fn reports_of_sweeps() -> TestResult {
     sweep(&out)?;
     let path = &out.join("sweep.json");
     let valid = vec![container(Some(fs::read(path)?))?];
-    Subject { name: "sweep", path, valid, words: JSON }.check(|_, _| sweep(&out))
+    Subject { name: "sweep", path, valid, besides: BESIDES, cost: 1, words: JSON }.check(|_, _| sweep(&out))
 }

@@ -1,6 +1,6 @@
 //! What a run begins with.
 
-use crate::measured::{Subject, TestResult, alone, container};
+use crate::measured::{BESIDES, Subject, TestResult, alone, container};
 use crate::model::{Grain, read};
 use std::path::Path;
 use xca_io::extended_xyz;
@@ -29,7 +29,7 @@ fn check_text(
     let path = &folder.path().join("file");
     let valid =
         texts.iter().map(|text| container(Some(text.as_bytes().to_vec()))).collect::<Result<_, _>>()?;
-    Subject { name, path, valid, words }.check(|path, _| read(path))
+    Subject { name, path, valid, besides: BESIDES, cost: 1, words }.check(|path, _| read(path))
 }
 
 #[test]
