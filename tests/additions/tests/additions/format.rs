@@ -51,6 +51,9 @@ fn its_states_are_drawn_like_those_of_any_other() -> TestResult {
     assert!(list.contains("json     yes       all states of cells as JSON"), "{list}");
     let output = plate(folder, "run --formats jsn --quiet")?;
     let said = String::from_utf8(output.stderr)?;
-    assert!(said.contains("there is no format `jsn`; there are vtk, csv, png, asc, json"), "{said}");
+    assert!(
+        said.contains("there is no format `jsn`; there are vtk, csv, png, asc, tif, xyz, json"),
+        "{said}"
+    );
     Ok(())
 }
