@@ -75,8 +75,15 @@ fn geotiffs() -> TestResult {
         geotiff::write(path, &raster, samples)?;
         valid.push(container(Some(std::fs::read(path)?))?);
     }
-    Subject { name: "geotiff", path, valid, words: &["-9999", "nan", "II*\0", "MM\0*"] }
-        .check(|path, _| Ok(geotiff::read(path).map(drop)?))
+    Subject {
+        name: "geotiff",
+        path,
+        valid,
+        besides: BESIDES,
+        cost: 1,
+        words: &["-9999", "nan", "II*\0", "MM\0*"],
+    }
+    .check(|path, _| Ok(geotiff::read(path).map(drop)?))
 }
 
 #[test]
