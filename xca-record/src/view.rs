@@ -1,16 +1,19 @@
 //! What of a model's substates is saved and drawn, and how.
 
+mod colours;
 mod complete;
 mod quantity;
 
 pub use complete::ViewError;
+pub(crate) use colours::ValueColour;
 pub(crate) use complete::complete;
 pub(crate) use quantity::{Computation, Drawn, Quantity, StoredBytes};
 
 use crate::components::{DrawnPart, Part};
+use colours::{categories, coloured};
 use std::any::TypeId;
 use std::marker::PhantomData;
-use xca_core::{Field, Geometry, HostScalar, HostValue, Schema, Substate, Substates};
+use xca_core::{Field, Geometry, HostValue, Schema, Substate, Substates};
 use xca_io::atomic::plain_name;
 use xca_io::picture::{Category, ColourMap};
 
@@ -82,52 +85,6 @@ impl TableColumn {
         };
         schema.fields.iter().enumerate().flat_map(of_field).collect()
     }
-}
-
-/// The colour of a value of a substate.
-#[derive(Debug, Clone)]
-pub(crate) struct ValueColour {
-    /// The number of the substate.
-    field: usize,
-    value: f64,
-    colour: [u8; 3],
-}
-
-impl ValueColour {
-    fn all<S: Substates, V: HostValue>(
-        substate: Substate<S, V>,
-        colours: &[(V::Scalar, [u8; 3])],
-    ) -> impl Iterator<Item = Self> {
-        let field = substate.index();
-        colours.iter().map(move |(value, colour)| Self { field, value: value.to_number(), colour: *colour })
-    }
-}
-
-/// The states of what is drawn with their colours, from the colour with this number in the palette on; none
-/// where it is a number.
-fn categories(schema: &Schema, quantity: &Quantity, colours: &[ValueColour], first: usize) -> Vec<Category> {
-    let Some(Part { field, component }) = quantity.part() else { return Vec::new() };
-    let states = schema.fields.get(field).map(|field| {
-        let drawn = DrawnPart::of(field.value_type, component);
-        drawn.states(field.value_type)
-    });
-    let names = states.unwrap_or_default().into_iter().enumerate();
-    coloured(names.map(|(number, name)| (number as f64, name)), Some(field), colours, first)
-}
-
-/// Values with their names, in the colours that the author gives them, else in those of the palette.
-fn coloured(
-    names: impl Iterator<Item = (f64, String)>,
-    field: Option<usize>,
-    colours: &[ValueColour],
-    first: usize,
-) -> Vec<Category> {
-    let category = |(number, (value, name)): (usize, (f64, String))| {
-        let given = colours.iter().find(|given| Some(given.field) == field && given.value == value);
-        let plain = Category::new(first + number, value, name);
-        given.map_or(plain.clone(), |given| Category { colour: given.colour, ..plain })
-    };
-    names.enumerate().map(category).collect()
 }
 
 /// [`CellView`] with its substates by number.

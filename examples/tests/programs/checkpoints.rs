@@ -11,7 +11,7 @@ struct Killed {
     latest: PathBuf,
 }
 
-const OFFER: &str = "another checkpoint is whole; go on from it with\n  heat resume here --checkpoint here/checkpoints/step_00000010.checkpoint\n";
+const OFFER: &str = "another checkpoint is whole; go on from it with\n  heat resume here --checkpoint here/checkpoints/step_00000020.checkpoint\n";
 
 impl Killed {
     fn new() -> Self {
@@ -20,7 +20,7 @@ impl Killed {
         let report = place.read("here/run.json").replace("\"outcome\": \"done\"", "\"outcome\": \"running\"");
         place.write("here/run.json", &report);
         let path = |step: u64| place.path(&format!("here/checkpoints/step_{step:08}.checkpoint"));
-        Self { older: path(10), latest: path(20), place }
+        Self { older: path(20), latest: path(22), place }
     }
 
     /// What a command says that must refuse and change nothing.
@@ -52,7 +52,7 @@ fn truncated_or_altered_ones() {
     for length in [0, 5, line, line + 1, line + 300, whole.len() / 2, whole.len() - 4, whole.len() - 1] {
         fs::write(&run.latest, &whole[..length]).unwrap();
         let said = run.refuse(HEAT, "resume here");
-        let file = "error: here/checkpoints/step_00000020.checkpoint is truncated: ";
+        let file = "error: here/checkpoints/step_00000022.checkpoint is truncated: ";
         assert!(said.starts_with(&format!("{file}{length} bytes of ")) && said.ends_with(OFFER), "{said}");
     }
     for place in [line + 30, whole.len() - 2000, whole.len() - 1] {
@@ -74,13 +74,13 @@ fn truncated_or_altered_ones() {
     fs::write(&run.latest, newer).unwrap();
     assert!(run.refuse(HEAT, "resume here").contains("has format 2; this program reads format 1\n"));
     // The one that is offered does.
-    run.resume("--checkpoint here/checkpoints/step_00000010.checkpoint");
+    run.resume("--checkpoint here/checkpoints/step_00000020.checkpoint");
     assert!(results(&run.place.path("here")) == wanted);
     assert!(fs::read(&run.latest).unwrap() == whole);
     // Where there is no other one, none is offered.
     fs::write(&run.latest, "").unwrap();
     fs::remove_file(&run.older).unwrap();
-    let said = run.refuse(HEAT, "resume here --checkpoint here/checkpoints/step_00000020.checkpoint");
+    let said = run.refuse(HEAT, "resume here --checkpoint here/checkpoints/step_00000022.checkpoint");
     assert_eq!(said.lines().count(), 1, "{said}");
 }
 
@@ -92,13 +92,13 @@ fn those_of_others() {
     // Of the same program, with other parameters.
     run.place
         .succeed(HEAT, "--size 10 --steps 22 --until 0 --set alpha=0.1 --checkpoint-every 10 --out there");
-    let theirs = "there/checkpoints/step_00000010.checkpoint";
+    let theirs = "there/checkpoints/step_00000020.checkpoint";
     let said = run.refuse(HEAT, &format!("resume here --checkpoint {theirs}"));
     assert!(
         said.contains("belongs to another run: its command line is ") && said.contains("alpha=0.1"),
         "{said}"
     );
-    assert!(said.ends_with(&OFFER.replace("00000010", "00000020")), "{said}");
+    assert!(said.ends_with(&OFFER.replace("00000020", "00000022")), "{said}");
     // Also where nothing else tells that the run was another one.
     fs::copy(run.place.path("there/run.json"), run.place.path("here/run.json")).unwrap();
     let report = run.place.read("here/run.json").replace("\"done\"", "\"running\"");
@@ -129,7 +129,7 @@ fn a_lost_report_is_no_obstacle() {
         fs::remove_file(run.place.path("here/final.png")).unwrap();
         run.resume("");
         assert!(results(&run.place.path("here")) == wanted, "{text:?}");
-        assert_eq!(report(&run.place.path("here"))["resumed"][0]["step"], 20);
+        assert_eq!(report(&run.place.path("here"))["resumed"][0]["step"], 22);
     }
 }
 
@@ -139,7 +139,8 @@ fn none_at_all() {
     for (words, wanted) in [
         ("resume", "the following required arguments were not provided:\n  <DIR>"),
         ("resume away", "error: there is no folder away\n"),
-        ("resume here --steps 5", "unexpected argument '--steps'"),
+        ("resume here --steps 5", "error: 22 steps of the run are done; --steps must be more"),
+        ("resume here --slots 0", "it must be a whole number of slots, at least 1"),
         ("resume here --seed 5", "unexpected argument '--seed'"),
         ("resume here --threads 0", "0 threads do nothing"),
         (

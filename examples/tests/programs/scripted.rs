@@ -22,14 +22,14 @@ fn every_command_tells_its_result_as_json() {
     let written: Value = serde_json::from_str(&place.read("out/heat/run.json")).unwrap();
     assert_eq!(run, written);
     assert_eq!(told(&place, HEAT, "resume out/heat"), written);
-    let checkpoint = "out/heat/checkpoints/step_00000005.checkpoint";
+    let checkpoint = "out/heat/checkpoints/step_00000010.checkpoint";
     let resumed = told(&place, HEAT, &format!("resume out/heat --checkpoint {checkpoint}"));
     assert_eq!(
         (&resumed["progress"]["outcome"], &resumed["resumed"][0]["step"]),
-        (&"done".into(), &5.into())
+        (&"done".into(), &10.into())
     );
     let inspected = told(&place, HEAT, "inspect out/heat");
-    assert_eq!((&inspected["run"]["seed"], &inspected["state"]["step"]), (&1.into(), &10.into()));
+    assert_eq!((&inspected["run"]["seed"], &inspected["state"]["step"]), (&1.into(), &12.into()));
     assert_eq!(told(&place, HEAT, "list")["parameters"]["alpha"]["value"], 0.125);
     for words in
         ["render --size 10 --steps 4 --every 2", "render out/heat --every 3", &format!("render {checkpoint}")]

@@ -63,7 +63,7 @@ impl Writer for SpaceTime {
     }
 
     fn about(&self) -> &'static str {
-        "a model of one row, as a picture of space and time: final_spacetime.png"
+        "one row of cells in space and time: final_spacetime.png"
     }
 
     fn check(&self, subject: Subject<'_>) -> Result<(), Failure> {
