@@ -8,7 +8,7 @@ use toml::{Table, Value};
 type TestResult = Result<(), Box<dyn Error>>;
 
 /// For each member, the members that it may depend on. A new member finds its place here first.
-const DIRECTIONS: [(&str, &[&str]); 18] = [
+const DIRECTIONS: [(&str, &[&str]); 19] = [
     ("xca-methods", &[]),
     ("xca-macros", &["xca-methods"]),
     ("xca-core", &["xca-macros", "xca-methods"]),
@@ -24,6 +24,7 @@ const DIRECTIONS: [(&str, &[&str]); 18] = [
     ("new-model", &["xca"]),
     ("xca-tests-additions", &["xca"]),
     ("xca-tests-library", &["xca"]),
+    ("xca-tests-fuzz", &["xca-core", "xca-io", "xca-record", "xca-run"]),
     ("xca-benchmarks", &["xca-core", "xca-cpu", "xca-gpu", "cadem", "xca-examples"]),
     (
         "xca-tests",

@@ -4,8 +4,8 @@ mod colours;
 mod complete;
 mod quantity;
 
-pub use complete::ViewError;
 pub(crate) use colours::ValueColour;
+pub use complete::ViewError;
 pub(crate) use complete::complete;
 pub(crate) use quantity::{Computation, Drawn, Quantity, StoredBytes};
 

@@ -26,7 +26,12 @@ impl ValueColour {
 
 /// The states of what is drawn with their colours, from the colour with this number in the palette on; none
 /// where it is a number.
-pub(super) fn categories(schema: &Schema, quantity: &Quantity, colours: &[ValueColour], first: usize) -> Vec<Category> {
+pub(super) fn categories(
+    schema: &Schema,
+    quantity: &Quantity,
+    colours: &[ValueColour],
+    first: usize,
+) -> Vec<Category> {
     let Some(Part { field, component }) = quantity.part() else { return Vec::new() };
     let states = schema.fields.get(field).map(|field| {
         let drawn = DrawnPart::of(field.value_type, component);

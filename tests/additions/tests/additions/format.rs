@@ -48,11 +48,11 @@ fn its_states_are_drawn_like_those_of_any_other() -> TestResult {
     let picture = |run: &str| fs::read(folder.join(run).join("frames/frame_00000030.png"));
     assert_eq!(picture("json_pictures")?, picture("vtk_pictures")?);
     let list = succeed(folder, "list")?;
-    assert!(list.contains("json     yes       all states of cells as JSON"), "{list}");
+    assert!(list.contains("json        yes       all states of cells as JSON"), "{list}");
     let output = plate(folder, "run --formats jsn --quiet")?;
     let said = String::from_utf8(output.stderr)?;
     assert!(
-        said.contains("there is no format `jsn`; there are vtk, csv, png, asc, tif, xyz, json"),
+        said.contains("there is no format `jsn`; there are vtk, csv, png, asc, tif, xyz, spacetime, json"),
         "{said}"
     );
     Ok(())
