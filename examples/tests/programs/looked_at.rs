@@ -156,7 +156,7 @@ fn the_last_frames_are_looked_into_where_there_is_no_checkpoint() {
     assert_eq!((&of_substate["name"], &of_substate["type"]), (&"heat.temperature".into(), &"f64".into()));
     let fade = 1.0 - 12.0 * 0.125 * (std::f64::consts::PI / 20.0).sin().powi(2);
     let largest = of_substate["largest"].as_f64().unwrap();
-    assert!((largest / (100.0 * fade.powi(22)) - 1.0).abs() < 1e-12, "{of_substate}");
+    assert!((largest / (100.0 * fade.powi(20)) - 1.0).abs() < 1e-12, "{of_substate}");
     assert_eq!(found["state"]["places"][0]["values"][0]["components"][0].as_f64(), Some(largest));
     refused(
         &place,

@@ -48,7 +48,7 @@ impl Writer for Pictures {
     }
 
     fn about(&self) -> &'static str {
-        "first and final state as pictures: initial.png, final.png"
+        "first and final state, drawn: initial.png, final.png"
     }
 
     fn files(&self, subject: Subject<'_>) -> Vec<OutputFile> {
