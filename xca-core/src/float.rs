@@ -11,7 +11,7 @@ mod sealed {
     impl Sealed for f64 {}
 }
 
-/// The two types that [`Real`] can stand for in a kernel.
+/// The two types that [`crate::Real`] can stand for in a kernel.
 pub trait Float:
     sealed::Sealed
     + HostScalar

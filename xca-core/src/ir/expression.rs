@@ -37,7 +37,7 @@ pub enum Expression {
         /// The substate.
         field: &'static str,
     },
-    /// `name.field` where `name` was bound by [`Statement::LetNeighbour`].
+    /// `name.field` where `name` was bound by [`super::Statement::LetNeighbour`].
     NamedNeighbour {
         /// The number of the struct.
         argument: usize,
@@ -46,7 +46,7 @@ pub enum Expression {
         /// The substate.
         field: &'static str,
     },
-    /// `name.field` where `name` is the variable of [`LoopKind::Others`] or [`LoopKind::Items`].
+    /// `name.field` where `name` is the variable of [`super::LoopKind::Others`] or [`super::LoopKind::Items`].
     Other {
         /// The number of the struct.
         argument: usize,
