@@ -1,7 +1,8 @@
 //! The GPU engine against the CPU engine: set-up, transfer and steps apart.
 
+use crate::dense;
+use crate::particles::State;
 use crate::timing::{Times, interleaved};
-use crate::{dense, particles};
 use std::error::Error;
 use std::time::Instant;
 use xca_core::prelude::*;
@@ -71,9 +72,9 @@ pub(crate) fn compare(threads: usize, rounds: usize, steps: u64) -> Result<Vec<C
         (format!("cpu, {threads} threads"), &cpu),
         (format!("gpu, {}, {arithmetic}", gpu.adapter().name), &gpu),
     ];
-    let table1 = particles::model(100)?;
+    let table1 = State::start(100)?;
     let models = [
-        ("cadem table1, particles", table1.1, table1.0),
+        ("cadem table1, particles", table1.particles.len(), table1.model()?),
         ("mod2 256^3, cells", 256 * 256 * 256, mod2_model(256)?),
         ("life 4096^2, cells", 4096 * 4096, dense::life_model(4096)?),
         ("heat 256^3 f64, cells", 256 * 256 * 256, dense::heat_model(256)?),

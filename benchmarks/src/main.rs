@@ -4,13 +4,16 @@ mod boltzmann;
 mod comparison;
 mod dense;
 mod engines;
+mod lammps;
 mod mathematics;
 mod particles;
 mod timing;
 
 use clap::{Parser, Subcommand};
+use particles::{Rounds, Stage, State};
 use std::error::Error;
 use std::io::{self, Write};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use xca_core::Precision;
 
@@ -53,17 +56,23 @@ enum Benchmark {
         #[arg(long, default_value_t = 5)]
         steps: u64,
     },
-    /// CADEM at the start: a step's time, and the cost of a particle for systems of different size.
+    /// CADEM: a step's time in three states of the paper's benchmark, and the cost of a particle for systems of different size.
     Particles {
-        /// The cells along each side of the cubes: 50, 100 and 200 hold some 40,000, 316,000 and 2,500,000 particles.
-        #[arg(long, value_delimiter = ',', default_values_t = [50, 100, 200])]
+        /// States of the 315,979 particles. Those after the start are computed once, which takes minutes, and kept.
+        #[arg(long, value_delimiter = ',', default_values = ["start", "bouncing", "settled"])]
+        states: Vec<Stage>,
+        /// Cells along each side of other cubes, at the start: 50 and 200 hold some 40,000 and 2,500,000 particles.
+        #[arg(long, value_delimiter = ',', default_values_t = [50, 200])]
         cells: Vec<usize>,
-        /// How many steps to do before the steps that are timed.
-        #[arg(long, default_value_t = 0)]
-        after: u64,
-        /// How many steps are timed.
+        /// How many steps make a round.
         #[arg(long, default_value_t = 40)]
         steps: usize,
+        /// Run LAMMPS (`lmp`) in turns with the states, if it is installed.
+        #[arg(long)]
+        lammps: bool,
+        /// Where states are kept.
+        #[arg(long, default_value = "target/benchmarks")]
+        folder: PathBuf,
     },
     /// A call of each function of `xca_core::math`, on one thread.
     Mathematics,
@@ -121,22 +130,20 @@ fn run(arguments: Arguments) -> Result<(), Box<dyn Error>> {
                 }
             }
         }
-        Benchmark::Particles { cells, after, steps } => {
+        Benchmark::Particles { states, cells, steps, lammps, folder } => {
+            let rounds = Rounds { rounds: arguments.rounds, steps, threads: arguments.threads };
+            let beside = lammps && lammps::is_installed();
+            if lammps && !beside {
+                say!("LAMMPS is not installed: there is no program `lmp`")?;
+            }
+            for stage in states {
+                let state = State::at(stage, arguments.threads, &folder)?;
+                let name = format!("{stage:?}").to_lowercase();
+                say!("{}", particles::cost(&name, &state, rounds, beside.then_some(&*folder))?)?;
+            }
             for cells in cells {
-                let mut simulation = particles::simulation(cells, arguments.threads)?;
-                simulation.run(after)?;
-                let cost = particles::cost(&mut simulation, steps)?;
-                let [median, low, high] = cost.seconds;
-                say!(
-                    "cadem, {} particles in {cells}^3 cells, after {} steps: {:.2} ms a step ({:.2} to {:.2}), {:.1} ns a particle; state {:.1} MB",
-                    cost.particles,
-                    cost.step,
-                    median * 1e3,
-                    low * 1e3,
-                    high * 1e3,
-                    median * 1e9 / cost.particles as f64,
-                    cost.memory as f64 / 1e6,
-                )?;
+                let state = State::start(cells)?;
+                say!("{}", particles::cost(&format!("start, {cells}^3 cells"), &state, rounds, None)?)?;
             }
         }
         Benchmark::Mathematics => {

@@ -137,6 +137,15 @@ pub struct Population {
     pub fields: Vec<Vec<u8>>,
 }
 
+/// A figure of how an engine works, such as how often it has made lists anew.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figure {
+    /// What it is, in words that can be a key: `grain_lists_made`.
+    pub name: String,
+    /// How much.
+    pub value: f64,
+}
+
 /// The state of a model on an engine. Values pass as stored bytes: of cells in the order of linear indices, of items cell after cell
 /// and by label.
 ///
@@ -217,6 +226,11 @@ pub trait Execution: Send {
 
     /// The bytes that the state takes.
     fn memory(&self) -> usize;
+
+    /// What there is to tell of how the state is computed, for reports. None of it is a result: engines, threads and machines differ in it.
+    fn figures(&self) -> Vec<Figure> {
+        Vec::new()
+    }
 
     /// The engine's own threads, if it has any.
     fn workers(&self) -> Option<Arc<dyn Workers>> {

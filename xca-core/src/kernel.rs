@@ -21,6 +21,7 @@ use std::sync::Arc;
 mod cells;
 mod constants;
 mod entries;
+mod near;
 mod neighbours;
 mod search;
 mod space;
@@ -33,6 +34,7 @@ pub use crate::neighbourhood::shapes::{ANY as ANY_SHAPE, ShapeNumber};
 pub use cells::{AroundRead, Blocks, CentreRead, Column, Columns, Offset};
 pub use constants::{KernelConstant, constant};
 pub use entries::{Entry, Memory, MemoryOf};
+pub use near::{NO_PLACE, NearLists};
 pub use neighbours::{Directions, Offsets};
 pub use search::{CellFilter, Found, Scratch, reach};
 pub use space::NativeSpace;
@@ -105,6 +107,10 @@ pub struct RowItems<'a> {
     pub labels: &'a [u32],
     /// The row's own items: no other row shares them.
     pub own: (usize, usize),
+    /// For each of the row's own items the linear index of its cell.
+    pub cells: &'a [u32],
+    /// Lists of what is near, where the engine has them.
+    pub near: Option<&'a NearLists<'a>>,
 }
 
 /// A fault that a process reported.
@@ -133,7 +139,7 @@ pub struct StoppedAt {
 /// [`Self::leave`]. So it lives in registers, and costs nothing where nothing can panic.
 #[derive(Debug)]
 pub struct Place<'r, 'a> {
-    /// The number of the cell in the row.
+    /// The number of the cell in the row, in a process over cells.
     pub x: usize,
     /// The number of the item, in a process over items.
     pub item: Option<usize>,
@@ -166,6 +172,10 @@ pub struct Row<'a> {
     length: usize,
     /// The entries that the kernel has asked to write.
     taken: Cell<u128>,
+    /// The largest radius of a search.
+    widest: Cell<f64>,
+    /// The radius, in bits, within which what is near all items has been found by lists.
+    walked: Cell<Option<u64>>,
     fault: Cell<Option<RowFault>>,
     stopped: Cell<Option<StoppedAt>>,
 }
@@ -211,6 +221,8 @@ impl<'a> Row<'a> {
             origin,
             length,
             taken: Cell::new(0),
+            widest: Cell::new(0.0),
+            walked: Cell::new(None),
             fault: Cell::new(None),
             stopped: Cell::new(None),
         }
@@ -234,6 +246,7 @@ impl<'a> Row<'a> {
 
     #[cold]
     fn stop(&self, x: usize, item: Option<usize>) {
+        let x = item.map_or(x, |item| self.column_of(item - self.first_item()).number());
         let label = self.items.zip(item).and_then(|(items, item)| items.labels.get(item).copied());
         self.stopped.set(Some(StoppedAt { cell: self.cell(x), label }));
     }
@@ -272,6 +285,20 @@ impl<'a> Row<'a> {
     #[inline(always)]
     pub fn first_item(&self) -> usize {
         self.items.map_or(0, |items| items.own.0)
+    }
+
+    /// How many items the row has of its own.
+    #[inline(always)]
+    pub fn own_items(&self) -> usize {
+        self.items.map_or(0, |items| items.own.1 - items.own.0)
+    }
+
+    /// The cell of an own item, which is given by its number among them. It cannot panic, so a kernel that has no use for it does not pay for
+    /// it.
+    #[inline(always)]
+    pub fn column_of(&self, number: usize) -> Column<'_> {
+        let cell = self.items.and_then(|items| items.cells.get(number).copied()).unwrap_or_default();
+        self.column(cell.wrapping_sub(self.cell(0)) as usize)
     }
 
     /// The answers of a migration, one for each own item of the row.

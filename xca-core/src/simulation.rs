@@ -5,7 +5,7 @@ mod snapshot;
 
 pub use snapshot::{GroupSnapshot, Snapshot, SnapshotError};
 
-use crate::engine::{Engine, EngineFailure, Execution, Fault, Interruption, StartError, StepContext};
+use crate::engine::{Engine, EngineFailure, Execution, Fault, Figure, Interruption, StartError, StepContext};
 use crate::geometry::Geometry;
 use crate::model::Model;
 use crate::parameter_set::ParameterSet;
@@ -155,6 +155,11 @@ impl Simulation {
     /// The bytes that the state takes.
     pub fn memory(&self) -> usize {
         self.execution.memory()
+    }
+
+    /// What the engine tells of how it computes the state. None of it is a result: engines, threads and machines differ in it.
+    pub fn figures(&self) -> Vec<Figure> {
+        self.execution.figures()
     }
 
     /// The state, to look at or to change.

@@ -58,9 +58,19 @@ mod tests {
         value: u32,
     }
 
+    #[derive(Substates, Clone, Copy)]
+    struct Grain {
+        #[position]
+        position: Vector3<Real>,
+    }
+
+    fn model(extents: [usize; 3]) -> Model {
+        let builder = Model::builder("rows").extents(extents).substates::<Site>();
+        builder.population::<Grain>(8).build().unwrap()
+    }
+
     fn layout(extents: [usize; 3]) -> Layout {
-        let model = Model::builder("rows").extents(extents).substates::<Site>().build().unwrap();
-        Layout::new(model.geometry())
+        Layout::new(model(extents).geometry())
     }
 
     fn work(layout: &Layout, population: &Population, rows: std::ops::Range<usize>) -> usize {
@@ -71,13 +81,17 @@ mod tests {
     #[test]
     fn items_in_a_few_rows_are_shared_evenly() {
         let layout = layout([10, 40, 50]);
-        let mut population = Population::new(Vec::new(), 8, false, &layout);
+        let model = model([10, 40, 50]);
+        let mut population = Population::new(&model.groups()[1], Precision::F64, &layout, None);
         // All items are in the last tenth of the rows, more and more from row to row.
         let counts: Vec<u32> = (0..20_000_u32)
             .map(|cell| if cell < 18_000 { 0 } else { (cell / 10 - 1800) % 8 + (cell % 3) })
             .collect();
         let items: u32 = counts.iter().sum();
-        population.set(&layout, &Items { counts, labels: (0..items).collect(), fields: Vec::new() });
+        population.set(
+            &layout,
+            &Items { counts, labels: (0..items).collect(), fields: vec![vec![0; 24 * items as usize]] },
+        );
         let heaviest_row = (0..2000).map(|row| work(&layout, &population, row..row + 1)).max().unwrap();
         for threads in [1, 2, 3, 16] {
             let blocks = blocks(&layout, &[&population], threads);

@@ -12,8 +12,8 @@ use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Arc;
 use xca_core::engine::{
-    EngineFailure, Execution, Fault, Interruption, Population as Items, StartError, StepContext, SubstateId,
-    Workers, check_cells, check_population, check_substate, check_values, check_values_of_cells,
+    EngineFailure, Execution, Fault, Figure, Interruption, Population as Items, StartError, StepContext,
+    SubstateId, Workers, check_cells, check_population, check_substate, check_values, check_values_of_cells,
     step_by_step,
 };
 use xca_core::model::{Group as Definition, GroupKind};
@@ -32,18 +32,25 @@ pub(crate) struct CpuExecution {
 }
 
 impl CpuExecution {
-    pub(crate) fn new(model: &Model, precision: Precision, threads: Threads) -> Result<Self, StartError> {
+    pub(crate) fn new(
+        model: &Model,
+        precision: Precision,
+        threads: Threads,
+        skin: Option<f64>,
+    ) -> Result<Self, StartError> {
         let layout = Layout::new(model.geometry());
         check_size(model, &layout, precision)?;
         let groups = model.groups().iter().enumerate();
-        let groups = threads
-            .run(|| groups.map(|(number, group)| state(model, number, group, &layout, precision)).collect());
+        let groups = threads.run(|| {
+            groups.map(|(number, group)| state(model, number, group, (&layout, precision, skin))).collect()
+        });
         let stages = stages(model, 0..model.processes().len());
         Ok(Self { model: model.clone(), precision, threads, layout, groups, stages })
     }
 
     fn run_stage(&mut self, stage: &[usize], context: &StepContext<'_>) -> Result<(), Fault> {
-        let movers = rows::run(&self.model, &self.layout, self.precision, &mut self.groups, stage, context)?;
+        let mut movers =
+            rows::run(&self.model, &self.layout, self.precision, &mut self.groups, stage, context)?;
         // A migration is the last of its stage.
         let Some(&last) = stage.last() else { return Ok(()) };
         let process = &self.model.processes()[last];
@@ -51,7 +58,7 @@ impl CpuExecution {
             && let Some(number) = self.model.plan().process(last).population
             && let Group::Population(population) = &mut self.groups[number]
         {
-            migration::migrate(population, &self.layout, self.model.geometry(), process, &movers)?;
+            migration::migrate(population, &self.layout, self.model.geometry(), process, &mut movers)?;
         }
         Ok(())
     }
@@ -69,7 +76,7 @@ fn check_size(model: &Model, layout: &Layout, precision: Precision) -> Result<()
     if bytes > 1 << 45 { Err(too_large("the bytes of the state", bytes, 1 << 45)) } else { Ok(()) }
 }
 
-/// The bytes of a model without items: planes, some of them twice, and the ranges of the cells' items.
+/// The bytes of a model without items: planes, some of them twice, and the ranges of the cells' and rows' items.
 pub(crate) fn least_memory(model: &Model, layout: &Layout, precision: Precision) -> u128 {
     let of_field = |group: usize, (field, stored): (usize, StoredType)| {
         let planes = if model.plan().is_doubled(SubstateId { group, field }) { 2 } else { 1 };
@@ -82,10 +89,17 @@ pub(crate) fn least_memory(model: &Model, layout: &Layout, precision: Precision)
         GroupKind::Population { .. } => 2 * size_of::<u32>(),
     };
     let size: usize = model.groups().iter().enumerate().map(of_group).sum();
-    layout.checked_cells().unwrap_or(usize::MAX) as u128 * size as u128
+    let is_population = |group: &&Definition| matches!(group.kind(), GroupKind::Population { .. });
+    let rows = model.groups().iter().filter(is_population).count() * layout.rows() * 2 * size_of::<u32>();
+    layout.checked_cells().unwrap_or(usize::MAX) as u128 * size as u128 + rows as u128
 }
 
-fn state(model: &Model, number: usize, group: &Definition, layout: &Layout, precision: Precision) -> Group {
+fn state(
+    model: &Model,
+    number: usize,
+    group: &Definition,
+    (layout, precision, skin): (&Layout, Precision, Option<f64>),
+) -> Group {
     let types = group.stored(precision);
     match group.kind() {
         GroupKind::Cells { .. } => Group::Cells(
@@ -101,9 +115,7 @@ fn state(model: &Model, number: usize, group: &Definition, layout: &Layout, prec
                 })
                 .collect(),
         ),
-        GroupKind::Population { slots, may_leave } => {
-            Group::Population(Population::new(types, *slots, *may_leave, layout))
-        }
+        GroupKind::Population { .. } => Group::Population(Population::new(group, precision, layout, skin)),
     }
 }
 
@@ -126,7 +138,7 @@ impl Execution for CpuExecution {
         check_substate(&self.model, substate)?;
         Ok(match &self.groups[substate.group] {
             Group::Cells(planes) => planes[substate.field].read(&self.layout),
-            Group::Population(population) => population.items.fields[substate.field].bytes().to_vec(),
+            Group::Population(population) => population.read(substate.field),
         })
     }
 
@@ -134,9 +146,7 @@ impl Execution for CpuExecution {
         check_values(&self.model, self.precision, substate, self.items(substate.group), values)?;
         match &mut self.groups[substate.group] {
             Group::Cells(planes) => planes[substate.field].write(&self.layout, values),
-            Group::Population(population) => {
-                population.items.fields[substate.field].bytes_mut().copy_from_slice(values);
-            }
+            Group::Population(population) => population.write(substate.field, values),
         }
         Ok(())
     }
@@ -169,8 +179,8 @@ impl Execution for CpuExecution {
                 counts: (0..self.layout.rows())
                     .flat_map(|row| population.counts(&self.layout, row))
                     .collect(),
-                labels: population.items.labels.clone(),
-                fields: population.items.fields.iter().map(|field| field.bytes().to_vec()).collect(),
+                labels: population.labels(),
+                fields: (0..population.types.len()).map(|field| population.read(field)).collect(),
             },
         })
     }
@@ -243,6 +253,17 @@ impl Execution for CpuExecution {
         });
         let components = stored.components();
         Ok(combine_rows(reduction, components, parts.iter().flat_map(|part| part.chunks_exact(components))))
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        let groups = self.model.groups().iter().zip(&self.groups);
+        let figures = groups.filter_map(|(definition, group)| match group {
+            Group::Population(population) => {
+                Some(population.upkeep.figures().named(definition.schema().name))
+            }
+            Group::Cells(_) => None,
+        });
+        figures.flatten().collect()
     }
 
     fn workers(&self) -> Option<Arc<dyn Workers>> {

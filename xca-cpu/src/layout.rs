@@ -60,6 +60,16 @@ impl Layout {
         [row % self.extents[1], row / self.extents[1]]
     }
 
+    /// The rows from which an item comes into a row when it goes from a cell to the next: those beside it along y and z, also round a torus.
+    pub(crate) fn rows_beside(&self, row: usize) -> impl Iterator<Item = usize> {
+        let [_, height, depth] = self.extents;
+        let [y, z] = self.row(row);
+        let beside =
+            |index: usize, extent: usize| [(index + extent - 1) % extent, index, (index + 1) % extent];
+        let layers = beside(z, depth);
+        layers.into_iter().flat_map(move |z| beside(y, height).map(|y| z * height + y))
+    }
+
     /// The padded number of a row's first cell.
     pub(crate) fn first(&self, row: usize) -> usize {
         let [y, z] = self.row(row);

@@ -10,12 +10,14 @@ mod blocks;
 mod dense;
 mod execution;
 mod layout;
+mod lists;
 mod migration;
+mod motion;
 mod population;
 mod rows;
-mod slack;
 mod stages;
 mod threads;
+mod upkeep;
 
 use execution::CpuExecution;
 use layout::Layout;
@@ -28,6 +30,8 @@ use xca_core::{Model, Precision};
 #[derive(Clone)]
 pub struct Cpu {
     own: Threads,
+    /// The skin of lists of what is near, in radii of a search.
+    skin: Option<f64>,
 }
 
 impl Cpu {
@@ -66,7 +70,15 @@ impl Cpu {
             .thread_name(|number| format!("xca-cpu-{number}"))
             .build()
             .map_err(|source| CpuError::Threads { threads, source })?;
-        Ok(Self { own: Threads::new(pool) })
+        Ok(Self { own: Threads::new(pool), skin: None })
+    }
+
+    /// With lists of what is near that reach further than a search by so many of its radii, instead of by what the engine finds best. For
+    /// tests: it changes the time that a search takes, and no result.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn with_skin(self, radii: f64) -> Self {
+        Self { skin: Some(radii), ..self }
     }
 }
 
@@ -112,7 +124,7 @@ impl Engine for Cpu {
     }
 
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {
-        Ok(Box::new(CpuExecution::new(model, precision, self.own.clone())?))
+        Ok(Box::new(CpuExecution::new(model, precision, self.own.clone(), self.skin)?))
     }
 }
 

@@ -1,25 +1,28 @@
 //! Migration: moves the items that change their cell, and keeps all others in order.
 //!
-//! Few items move in a step. The rest keeps its order, so a row that none enters or leaves is copied as it is, and the items of any
-//! other row are merged by label. Rows are independent once it is known how many items each of them will have.
+//! Few items move in a step. A row that none enters or leaves stays as it is; the items of any other row are merged by label, in their own
+//! room. Such rows are independent once what comes into them has been taken out of where it was.
 
-use crate::blocks::blocks;
 use crate::layout::Layout;
-use crate::population::{Arrays, Population};
+use crate::motion::{largest, outside};
+use crate::population::{Arrays, Population, Values};
 use crate::rows::Mover;
 use rayon::prelude::*;
-use std::ops::Range;
 use xca_core::engine::Fault;
 use xca_core::kernel::{NOWHERE, OUTSIDE};
-use xca_core::storage::Buffer;
-use xca_core::{Geometry, Process, StoredType};
+use xca_core::{Geometry, Process};
+
+/// Rows that are worth a thread's start.
+const ROWS_WORTH_A_START: usize = 16;
 
 /// An item on its way into a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Arrival {
     cell: u32,
     label: u32,
+    /// Its place before, in the row of the cell that it leaves.
     item: u32,
+    from: u32,
 }
 
 /// Moves items; `movers` are in the order of items.
@@ -28,7 +31,7 @@ pub(crate) fn migrate(
     layout: &Layout,
     geometry: &Geometry,
     process: &Process,
-    movers: &[Mover],
+    movers: &mut [Mover],
 ) -> Result<(), Fault> {
     if movers.is_empty() {
         return Ok(());
@@ -36,12 +39,25 @@ pub(crate) fn migrate(
     let (mut arrivals, left) = arrivals(population, geometry, process, movers)?;
     arrivals.par_sort_unstable();
     check_slots(population, layout, geometry, process, movers, &arrivals)?;
-    let rows = new_rows(population, layout, movers, &arrivals);
-    let mut next = std::mem::take(&mut population.next);
-    next.resize(rows[layout.rows()] as usize, &population.types);
-    rearrange(population, &mut next, layout, &rows, movers, &arrivals);
-    population.next = std::mem::replace(&mut population.items, next);
-    population.rows = rows;
+    if let Some(counts) = counts_without_room(population, layout, movers, &arrivals) {
+        let shifts = population.make_room(layout, &counts);
+        let shift = |from: u32| shifts[from as usize / layout.width()];
+        movers.iter_mut().for_each(|mover| mover.item = mover.item.wrapping_add(shift(mover.from)));
+        arrivals.iter_mut().for_each(|one| one.item = one.item.wrapping_add(shift(one.from)));
+    }
+    let slack = slack(population, geometry, &arrivals);
+    let changes = changes(layout, movers, &arrivals);
+    let carried = carried(population, &arrivals);
+    if let Some(lists) = &mut population.lists {
+        let left = movers.iter().filter(|mover| mover.answer == OUTSIDE);
+        left.for_each(|mover| lists.left(population.items.numbers[mover.item as usize]));
+    }
+    // What stays has been measured where it is.
+    if let Some(motion) = &mut population.motion {
+        motion.slack = slack;
+    }
+    change(population, layout, &changes, &carried);
+    changes.iter().for_each(|change| population.follow(change.row));
     population.left += left;
     population.fill_halo(layout);
     Ok(())
@@ -69,7 +85,7 @@ fn arrivals(
                 if !displacements.iter().any(|displacement| geometry.at(cell, *displacement) == Some(to)) {
                     return Err(Fault::TooFar { process: process.name, label, from: cell, to });
                 }
-                arrivals.push(Arrival { cell: answer, label, item: mover.item });
+                arrivals.push(Arrival { cell: answer, label, item: mover.item, from: mover.from });
             }
         }
     }
@@ -99,66 +115,128 @@ fn check_slots(
     Ok(())
 }
 
-/// For each row its first item after the migration, and at the end the number of items.
-fn new_rows(population: &Population, layout: &Layout, movers: &[Mover], arrivals: &[Arrival]) -> Vec<u32> {
-    let width = layout.width() as u32;
-    let mut rows = vec![0_u32; layout.rows() + 1];
-    for row in 0..layout.rows() {
-        let (first, end) = population.row(row);
-        rows[row + 1] = (end - first) as u32;
-    }
-    for mover in movers {
-        rows[(mover.from / width) as usize + 1] -= 1;
-    }
-    for arrival in arrivals {
-        rows[(arrival.cell / width) as usize + 1] += 1;
-    }
-    for row in 0..layout.rows() {
-        rows[row + 1] += rows[row];
-    }
-    rows
+/// The slack of all items, those that move being in their new cells.
+fn slack(population: &Population, geometry: &Geometry, arrivals: &[Arrival]) -> f64 {
+    let stay = population.motion.map_or(0.0, |motion| motion.slack);
+    arrivals.iter().fold(stay, |slack, arrival| {
+        let cell = geometry.indices(arrival.cell as usize);
+        let position = population.position_of(arrival.item as usize);
+        position.map_or(slack, |position| largest(slack, outside(position, cell, geometry.side())))
+    })
 }
 
-/// Copies all items to their new places and sets the cells' ranges, in parallel over blocks of rows.
-fn rearrange(
-    population: &mut Population,
-    next: &mut Arrays,
+/// How many items each row has, or will have if these are more, where one of them has no room for so many.
+fn counts_without_room(
+    population: &Population,
     layout: &Layout,
-    rows: &[u32],
     movers: &[Mover],
     arrivals: &[Arrival],
-) {
-    let blocks = blocks(layout, &[population], rayon::current_num_threads());
-    let Population { types, items, starts, ends, rows: old_rows, .. } = population;
-    let old = Old { types, items, rows: old_rows };
+) -> Option<Vec<u32>> {
+    let width = layout.width() as u32;
+    let (mut leaving, mut coming) = (movers, arrivals);
+    let mut fits = true;
+    while let Some(arrival) = coming.first() {
+        let row = arrival.cell / width;
+        let come = take_first(&mut coming, |arrival| arrival.cell / width == row).len();
+        take_first(&mut leaving, |mover| mover.from / width < row);
+        let leave = take_first(&mut leaving, |mover| mover.from / width == row).len();
+        let (first, end) = population.row(row as usize);
+        fits &= end - first + come - leave <= population.room(row as usize);
+    }
+    if fits {
+        return None;
+    }
+    let before: Vec<u32> = population.places().map(|places| places.len() as u32).collect();
+    let mut counts = before.clone();
+    for arrival in arrivals {
+        counts[(arrival.cell / width) as usize] += 1;
+    }
+    for mover in movers {
+        counts[(mover.from / width) as usize] -= 1;
+    }
+    counts.iter_mut().zip(before).for_each(|(count, before)| *count = before.max(*count));
+    Some(counts)
+}
+
+/// What changes in a row.
+struct Change<'a> {
+    row: usize,
+    leaving: &'a [Mover],
+    coming: &'a [Arrival],
+    /// How many come into rows before.
+    carried: usize,
+}
+
+/// The rows that change, in order.
+fn changes<'a>(layout: &Layout, movers: &'a [Mover], arrivals: &'a [Arrival]) -> Vec<Change<'a>> {
+    let width = layout.width() as u32;
+    let (mut leaving, mut coming) = (movers, arrivals);
+    let mut changes = Vec::new();
+    let mut carried = 0;
+    loop {
+        let firsts = [leaving.first().map(|mover| mover.from), coming.first().map(|arrival| arrival.cell)];
+        let Some(cell) = firsts.into_iter().flatten().min() else { return changes };
+        let row = cell / width;
+        let leaving = take_first(&mut leaving, |mover| mover.from / width == row);
+        let coming = take_first(&mut coming, |arrival| arrival.cell / width == row);
+        changes.push(Change { row: row as usize, leaving, coming, carried });
+        carried += coming.len();
+    }
+}
+
+/// The values of those that come, array by array.
+fn carried(population: &mut Population, arrivals: &[Arrival]) -> Vec<Vec<u8>> {
+    let take = |values: Values<'_>| {
+        let mut taken = Vec::with_capacity(arrivals.len() * values.size);
+        for arrival in arrivals {
+            let place = arrival.item as usize * values.size;
+            taken.extend_from_slice(&values.bytes[place..place + values.size]);
+        }
+        taken
+    };
+    let mut carried: Vec<Vec<u8>> =
+        population.items.values(&population.types).into_iter().map(take).collect();
+    let cells: Vec<u32> = arrivals.iter().map(|arrival| arrival.cell).collect();
+    carried[Arrays::CELLS].copy_from_slice(bytemuck::cast_slice(&cells));
+    carried
+}
+
+/// Makes the changes, in parallel over blocks of rows.
+fn change(population: &mut Population, layout: &Layout, changes: &[Change<'_>], carried: &[Vec<u8>]) {
+    let Population { types, items, starts, ends, rows, row_ends, .. } = population;
     // What a block writes is cut off from what the blocks after it write.
-    let Arrays { labels, fields } = next;
-    let mut labels = labels.as_mut_slice();
-    let mut fields: Vec<&mut [u8]> = fields.iter_mut().map(Buffer::bytes_mut).collect();
+    let mut values = items.values(types);
     let (mut starts, mut ends) = (starts.as_mut_slice(), ends.as_mut_slice());
-    let mut cut = 0;
-    let parts: Vec<Part<'_>> = blocks
-        .into_iter()
-        .map(|block| {
-            let items = (rows[block.end] - rows[block.start]) as usize;
-            let cells = layout.first(block.end - 1) + layout.width() - cut;
-            let part = Part {
-                labels: split_off(&mut labels, items),
-                fields: fields
-                    .iter_mut()
-                    .zip(old.types)
-                    .map(|(field, stored)| split_off(field, items * stored.size()))
-                    .collect(),
-                starts: split_off(&mut starts, cells),
-                ends: split_off(&mut ends, cells),
-                first_cell: cut,
-                rows: block,
-            };
-            cut += cells;
-            part
-        })
-        .collect();
-    parts.into_par_iter().with_max_len(1).for_each(|part| part.fill(&old, layout, rows, movers, arrivals));
+    let mut row_ends = row_ends.as_mut_slice();
+    let (mut first_cell, mut first_place, mut first_row) = (0, 0, 0);
+    let size = changes.len().div_ceil(4 * rayon::current_num_threads()).max(ROWS_WORTH_A_START);
+    let mut parts = Vec::new();
+    for block in changes.chunks(size) {
+        let Some(last) = block.last() else { continue };
+        let end_cell = layout.first(last.row) + layout.width();
+        let end_place = rows[last.row + 1] as usize;
+        parts.push(Part {
+            changes: block,
+            carried,
+            layout,
+            rows,
+            values: values
+                .iter_mut()
+                .map(|Values { size, bytes }| Values {
+                    size: *size,
+                    bytes: split_off(bytes, (end_place - first_place) * *size),
+                })
+                .collect(),
+            starts: split_off(&mut starts, end_cell - first_cell),
+            ends: split_off(&mut ends, end_cell - first_cell),
+            row_ends: split_off(&mut row_ends, last.row + 1 - first_row),
+            first_cell,
+            first_place,
+            first_row,
+        });
+        (first_cell, first_place, first_row) = (end_cell, end_place, last.row + 1);
+    }
+    parts.into_par_iter().with_max_len(1).for_each(Part::change);
 }
 
 fn split_off<'a, T>(rest: &mut &'a mut [T], length: usize) -> &'a mut [T] {
@@ -167,71 +245,91 @@ fn split_off<'a, T>(rest: &mut &'a mut [T], length: usize) -> &'a mut [T] {
     part
 }
 
-/// The items before the migration.
-struct Old<'a> {
-    types: &'a [StoredType],
-    items: &'a Arrays,
-    rows: &'a [u32],
+/// Where a value of a changed row comes from.
+#[derive(Clone, Copy)]
+enum Source {
+    /// From a place of the row.
+    Here(u32),
+    /// From what is carried.
+    Carried(u32),
 }
 
-/// A block of rows, with what it writes.
+/// Rows, with what is written for them.
 struct Part<'a> {
-    rows: Range<usize>,
-    /// The labels and fields of the rows' new items.
-    labels: &'a mut [u32],
-    fields: Vec<&'a mut [u8]>,
-    /// The ranges of padded cells, those of the rows among them.
+    changes: &'a [Change<'a>],
+    /// Of each array.
+    carried: &'a [Vec<u8>],
+    layout: &'a Layout,
+    rows: &'a [u32],
+    values: Vec<Values<'a>>,
     starts: &'a mut [u32],
     ends: &'a mut [u32],
-    /// The padded number of the first of these cells.
+    row_ends: &'a mut [u32],
+    /// The padded number of the first cell of `starts` and `ends`.
     first_cell: usize,
+    /// The first place of the values.
+    first_place: usize,
+    /// The first row of `row_ends`.
+    first_row: usize,
 }
 
 impl Part<'_> {
-    fn fill(mut self, old: &Old<'_>, layout: &Layout, rows: &[u32], movers: &[Mover], arrivals: &[Arrival]) {
-        let width = layout.width() as u32;
-        let first_cell = self.rows.start as u32 * width;
-        let mut movers = &movers[movers.partition_point(|mover| mover.from < first_cell)..];
-        let mut arrivals = &arrivals[arrivals.partition_point(|arrival| arrival.cell < first_cell)..];
-        let first_item = rows[self.rows.start];
-        let mut sources = Vec::new();
-        for row in self.rows.clone() {
-            let end = (row as u32 + 1) * width;
-            let leaving = take_first(&mut movers, |mover| mover.from < end);
-            let coming = take_first(&mut arrivals, |arrival| arrival.cell < end);
-            let before = old.rows[row] as usize..old.rows[row + 1] as usize;
-            let after = (rows[row] - first_item) as usize..(rows[row + 1] - first_item) as usize;
-            let cells = layout.first(row) - self.first_cell;
-            let cells = cells..cells + layout.width();
-            if leaving.is_empty() && coming.is_empty() {
-                self.labels[after.clone()].copy_from_slice(&old.items.labels[before.clone()]);
-                for (number, stored) in old.types.iter().enumerate() {
-                    let size = stored.size();
-                    self.fields[number][after.start * size..after.end * size].copy_from_slice(
-                        &old.items.fields[number].bytes()[before.start * size..before.end * size],
-                    );
-                }
-                let shift = rows[row].wrapping_sub(old.rows[row]);
-                if shift != 0 && !before.is_empty() {
-                    for range in self.starts[cells.clone()].iter_mut().chain(&mut self.ends[cells]) {
-                        *range = range.wrapping_add(shift);
-                    }
-                }
-                continue;
-            }
+    fn change(mut self) {
+        let (mut sources, mut kept) = (Vec::new(), Vec::new());
+        for change in self.changes {
             sources.clear();
-            let ranges = self.starts[cells.clone()].iter_mut().zip(&mut self.ends[cells]);
-            let changes = Changes { first_cell: row as u32 * width, leaving, coming };
-            changes.merge(&old.items.labels, ranges, rows[row], &mut sources);
-            for (label, &item) in self.labels[after.clone()].iter_mut().zip(&sources) {
-                *label = old.items.labels[item as usize];
-            }
-            for (number, stored) in old.types.iter().enumerate() {
-                let size = stored.size();
-                let new = &mut self.fields[number][after.start * size..after.end * size];
-                gather_values(size, old.items.fields[number].bytes(), new, &sources);
+            let first = self.merge(change, &mut sources);
+            let place = first as usize - self.first_place;
+            for (Values { size, bytes }, carried) in self.values.iter_mut().zip(self.carried) {
+                let row = &mut bytes[place * *size..];
+                gather_values(*size, row, first, carried, &sources, &mut kept);
             }
         }
+    }
+
+    /// Merges those that stay and those that come, cell by cell and by label, and sets the cells' ranges. The result is the first place
+    /// that can change; from there on are the `sources`.
+    fn merge(&mut self, change: &Change<'_>, sources: &mut Vec<Source>) -> u32 {
+        let (mut leaving, mut coming) = (change.leaving, change.coming);
+        let width = self.layout.width();
+        let first_of_row = (change.row * width) as u32;
+        let firsts = [leaving.first().map(|mover| mover.from), coming.first().map(|arrival| arrival.cell)];
+        let first = firsts.into_iter().flatten().min().map_or(0, |cell| (cell - first_of_row) as usize);
+        let padded = self.layout.first(change.row) - self.first_cell;
+        let first_place = self.starts[padded + first];
+        let mut carried = change.carried as u32;
+        let labels: &[u32] = bytemuck::cast_slice(&*self.values[Arrays::LABELS].bytes);
+        for x in first..width {
+            let cell = first_of_row + x as u32;
+            let before = self.starts[padded + x]..self.ends[padded + x];
+            self.starts[padded + x] = first_place + sources.len() as u32;
+            for item in before {
+                if let [mover, rest @ ..] = leaving
+                    && mover.item == item
+                {
+                    leaving = rest;
+                    continue;
+                }
+                let label = labels[item as usize - self.first_place];
+                let before = take_first(&mut coming, |one| one.cell == cell && one.label <= label).len();
+                carry(before, &mut carried, sources);
+                sources.push(Source::Here(item));
+            }
+            carry(take_first(&mut coming, |one| one.cell == cell).len(), &mut carried, sources);
+            self.ends[padded + x] = first_place + sources.len() as u32;
+        }
+        let end = first_place + sources.len() as u32;
+        debug_assert!(end <= self.rows[change.row + 1], "more items than room");
+        self.row_ends[change.row - self.first_row] = end;
+        first_place
+    }
+}
+
+/// Adds the next so many of what is carried.
+fn carry(count: usize, carried: &mut u32, sources: &mut Vec<Source>) {
+    for _ in 0..count {
+        sources.push(Source::Carried(*carried));
+        *carried += 1;
     }
 }
 
@@ -243,74 +341,57 @@ fn take_first<'a, T>(rest: &mut &'a [T], condition: impl Fn(&T) -> bool) -> &'a 
     first
 }
 
-/// What changes in a row.
-struct Changes<'a> {
-    /// The row's first cell.
-    first_cell: u32,
-    leaving: &'a [Mover],
-    coming: &'a [Arrival],
-}
-
-impl Changes<'_> {
-    /// Merges those that stay and those that come, cell by cell and by label, and sets the cells' ranges, from the row's new first item on.
-    fn merge<'a>(
-        mut self,
-        labels: &[u32],
-        ranges: impl Iterator<Item = (&'a mut u32, &'a mut u32)>,
-        first_item: u32,
-        sources: &mut Vec<u32>,
-    ) {
-        for (cell, (start, end)) in (self.first_cell..).zip(ranges) {
-            let before = *start..*end;
-            *start = first_item + sources.len() as u32;
-            for item in before {
-                if let [mover, rest @ ..] = self.leaving
-                    && mover.item == item
-                {
-                    self.leaving = rest;
-                    continue;
-                }
-                self.arrive(cell, labels[item as usize], sources);
-                sources.push(item);
-            }
-            self.arrive(cell, u32::MAX, sources);
-            *end = first_item + sources.len() as u32;
-        }
-    }
-
-    /// Adds those that come to the cell with labels up to this one.
-    fn arrive(&mut self, cell: u32, label: u32, sources: &mut Vec<u32>) {
-        while let [arrival, rest @ ..] = self.coming
-            && arrival.cell == cell
-            && arrival.label <= label
-        {
-            sources.push(arrival.item);
-            self.coming = rest;
-        }
-    }
-}
-
-/// Gathers values of one field. Sizes known to the compiler make the copy a move of a register or two.
-fn gather_values(size: usize, old: &[u8], new: &mut [u8], sources: &[u32]) {
+/// Gathers the values of one array, the first of which has the place `first`. Sizes known to the compiler make the copy a move of a register
+/// or two.
+fn gather_values(
+    size: usize,
+    row: &mut [u8],
+    first: u32,
+    carried: &[u8],
+    sources: &[Source],
+    kept: &mut Vec<u8>,
+) {
     match size {
-        1 => gather::<1>(old, new, sources),
-        4 => gather::<4>(old, new, sources),
-        8 => gather::<8>(old, new, sources),
-        12 => gather::<12>(old, new, sources),
-        16 => gather::<16>(old, new, sources),
-        24 => gather::<24>(old, new, sources),
+        1 => gather::<1>(row, first, carried, sources, kept),
+        4 => gather::<4>(row, first, carried, sources, kept),
+        8 => gather::<8>(row, first, carried, sources, kept),
+        12 => gather::<12>(row, first, carried, sources, kept),
+        16 => gather::<16>(row, first, carried, sources, kept),
+        24 => gather::<24>(row, first, carried, sources, kept),
         _ => {
-            for (value, &item) in new.chunks_exact_mut(size).zip(sources) {
-                value.copy_from_slice(&old[item as usize * size..(item as usize + 1) * size]);
+            kept.clear();
+            for source in sources {
+                let (values, place) = source.within(&*row, carried, first);
+                kept.extend_from_slice(&values[place * size..(place + 1) * size]);
             }
+            row[..kept.len()].copy_from_slice(kept);
         }
     }
 }
 
-fn gather<const SIZE: usize>(old: &[u8], new: &mut [u8], sources: &[u32]) {
-    let (old, _) = old.as_chunks::<SIZE>();
-    let (new, _) = new.as_chunks_mut::<SIZE>();
-    for (value, &item) in new.iter_mut().zip(sources) {
-        *value = old[item as usize];
+fn gather<const SIZE: usize>(
+    row: &mut [u8],
+    first: u32,
+    carried: &[u8],
+    sources: &[Source],
+    kept: &mut Vec<u8>,
+) {
+    kept.resize(sources.len() * SIZE, 0);
+    let (new, _) = kept.as_chunks_mut::<SIZE>();
+    let (old, coming) = (row.as_chunks::<SIZE>().0, carried.as_chunks::<SIZE>().0);
+    for (value, source) in new.iter_mut().zip(sources) {
+        let (values, place) = source.within(old, coming, first);
+        *value = values[place];
+    }
+    row[..kept.len()].copy_from_slice(kept);
+}
+
+impl Source {
+    /// The values that it is among, and its number there.
+    fn within<'a, T>(self, row: &'a [T], carried: &'a [T], first: u32) -> (&'a [T], usize) {
+        match self {
+            Self::Here(place) => (row, (place - first) as usize),
+            Self::Carried(number) => (carried, number as usize),
+        }
     }
 }

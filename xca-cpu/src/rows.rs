@@ -6,16 +6,20 @@
 
 mod now;
 mod prepare;
+mod search;
 
 use crate::blocks::blocks;
 use crate::dense::Dense;
 use crate::layout::Layout;
+use crate::motion::Motion;
 use crate::population::Population;
 use now::{Now, Report};
-use prepare::{filter, prepare_buffers};
+use prepare::prepare_buffers;
 use rayon::prelude::*;
+use search::{Measured, Searches};
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::time::Instant;
 use xca_core::engine::{Fault, StepContext, SubstateId};
 use xca_core::kernel::{
     Access, Entry, Frame, Memory, MemoryOf, Row, RowItems, RowKernel, STAY, Scratch, StoppedAt,
@@ -88,6 +92,10 @@ struct Prepared<'a> {
 pub(crate) struct Found {
     /// Items that a migration sends elsewhere: item, linear index of its cell, answer.
     pub(crate) movers: Vec<Mover>,
+    /// Of the populations that are measured, in their order.
+    motions: Vec<Motion>,
+    /// For each process the largest radius of its searches.
+    widest: Vec<f64>,
     fault: Option<(usize, u32, Fault)>,
 }
 
@@ -118,13 +126,14 @@ pub(crate) fn run(
 ) -> Result<Vec<Mover>, Fault> {
     let geometry = model.geometry();
     let written = prepare_buffers(model, layout, groups, processes);
+    let searches = search::prepare(model, layout, precision, groups, processes);
     let prepared: Vec<Prepared<'_>> = processes
         .iter()
         .enumerate()
         .map(|(number, &index)| prepare(model, layout, groups, (number, index), precision, &written))
         .collect();
     let offsets = layout.offsets(geometry);
-    let filter = filter(model, layout, precision, groups, &prepared);
+    let measured = Measured::all(model, groups, processes, &written);
     let frame = |index: usize, odd: usize| Frame {
         geometry,
         extents: geometry.extents().map(|extent| extent as u32),
@@ -135,19 +144,34 @@ pub(crate) fn run(
         stream: Stream::process(index),
         parameters: context.parameters,
         offsets: &offsets[odd],
-        filter: filter.as_ref(),
+        filter: searches.filter.as_ref(),
     };
     let frames = prepared.iter().map(|prepared| [0, 1].map(|odd| frame(prepared.index, odd))).collect();
     let continuation = layout.continuation();
     let parity = geometry.neighbourhood().parity();
-    let pass = Pass { layout, parity, frames, prepared, continuation, groups };
+    let pass = Pass {
+        layout,
+        parity,
+        frames,
+        prepared,
+        continuation,
+        groups,
+        searches: &searches,
+        measured: &measured,
+    };
     // Each block can go to another thread.
     let blocks = pass.blocks().into_par_iter().with_max_len(1);
+    let start = Instant::now();
     let found: Vec<Found> = blocks.map(|rows| pass.block(model, rows)).collect();
+    let time = start.elapsed();
     let mut movers = Vec::new();
     let mut first = Found::default();
+    let mut motions = vec![Motion::NONE; measured.len()];
+    let mut widest = vec![0.0_f64; processes.len()];
     for block in found {
         movers.extend(block.movers);
+        motions.iter_mut().zip(block.motions).for_each(|(all, one)| *all = all.and(one));
+        widest.iter_mut().zip(block.widest).for_each(|(all, one)| *all = all.max(one));
         if let Some((process, cell, fault)) = block.fault {
             first.keep(process, cell, fault);
         }
@@ -155,13 +179,28 @@ pub(crate) fn run(
     if let Some((.., fault)) = first.fault {
         return Err(fault);
     }
+    for &number in &searches.populations {
+        let of_population = processes
+            .iter()
+            .zip(&widest)
+            .filter(|(process, _)| model.plan().process(**process).population == Some(number));
+        let widest = of_population.fold(0.0_f64, |widest, (_, one)| widest.max(*one));
+        if let Group::Population(population) = &mut groups[number] {
+            population.upkeep.searched(widest, searches.listed[number].is_some(), time);
+        }
+    }
+    for (measured, motion) in measured.iter().zip(motions) {
+        if let Group::Population(population) = &mut groups[measured.population] {
+            population.measured(motion);
+        }
+    }
     for (substate, second) in written {
         match &mut groups[substate.group] {
             Group::Cells(planes) => planes[substate.field].written(second),
             Group::Population(population) if second => {
                 std::mem::swap(
                     &mut population.items.fields[substate.field],
-                    &mut population.next.fields[substate.field],
+                    &mut population.next[substate.field],
                 );
             }
             Group::Population(_) => {}
@@ -204,7 +243,7 @@ fn shared(
         }
         Group::Population(population) => {
             let stored = population.types[substate.field];
-            let next = &mut population.next.fields[substate.field];
+            let next = &mut population.next[substate.field];
             let of = MemoryOf::Items { all: access.others, count: population.items.labels.len() };
             (&mut population.items.fields[substate.field], Some(next), stored, of, false)
         }
@@ -228,6 +267,8 @@ struct Pass<'a> {
     /// The cells of the halo that continue a row, with their sources.
     continuation: Vec<(isize, isize)>,
     groups: &'a [Group],
+    searches: &'a Searches,
+    measured: &'a [Measured],
 }
 
 impl Pass<'_> {
@@ -244,7 +285,11 @@ impl Pass<'_> {
 
     /// Runs all processes over a block of rows, one row after the other.
     fn block(&self, model: &Model, rows: Range<usize>) -> Found {
-        let mut found = Found::default();
+        let mut found = Found {
+            motions: vec![Motion::NONE; self.measured.len()],
+            widest: vec![0.0; self.prepared.len()],
+            ..Found::default()
+        };
         let now = Now::default();
         let (mut rows, mut processes) = (rows, self.prepared.len());
         while let Err(panic) = catch_unwind(AssertUnwindSafe(|| {
@@ -290,7 +335,8 @@ impl Pass<'_> {
                 }
                 let cells =
                     Cells { first, origin: [0, y as u32, z as u32], length: self.layout.width(), own };
-                self.run_row(prepared, &cells, *population, &mut work);
+                let widest = self.run_row(prepared, &cells, *population, &mut work);
+                found.widest[number] = found.widest[number].max(widest);
                 self.continue_row(prepared, first);
                 if let Some(fault) = now.reported.get() {
                     found.keep(
@@ -302,6 +348,10 @@ impl Pass<'_> {
                 if let (ProcessKind::Migration, Some(population)) = (prepared.process.kind, population) {
                     self.collect_movers(population, row, &work.answers, &mut found.movers);
                 }
+            }
+            for (measured, motion) in self.measured.iter().zip(&mut found.motions) {
+                let now = measured.measure_row(model, self.layout, self.groups, row, &work.answers);
+                *motion = motion.and(now);
             }
         }
     }
@@ -337,13 +387,14 @@ impl Pass<'_> {
         cells: &Cells,
         population: Option<&Population>,
         work: &mut Work<'_>,
-    ) {
+    ) -> f64 {
         let frames = &self.frames[prepared.number];
         if self.parity != Parity::Column || !prepared.process.local_interaction {
             let frame = &frames[if self.parity == Parity::Row { cells.origin[1] as usize % 2 } else { 0 }];
             return self.run_cells(prepared, frame, cells, population, 0, work);
         }
         // The neighbourhood changes from cell to cell: each is a row of its own.
+        let mut widest: f64 = 0.0;
         for x in 0..cells.length {
             let first = cells.first + x;
             let own = population.map_or((0, 0), |population| {
@@ -352,10 +403,13 @@ impl Pass<'_> {
             let cell = Cells { first, origin: [x as u32, cells.origin[1], cells.origin[2]], length: 1, own };
             // In a row without items the ranges of cells are empty, but may start anywhere.
             let first_answer = own.0.saturating_sub(cells.own.0);
-            self.run_cells(prepared, &frames[x % 2], &cell, population, first_answer, work);
+            widest =
+                widest.max(self.run_cells(prepared, &frames[x % 2], &cell, population, first_answer, work));
         }
+        widest
     }
 
+    /// The result is the largest radius of a search.
     fn run_cells(
         &self,
         prepared: &Prepared<'_>,
@@ -364,15 +418,21 @@ impl Pass<'_> {
         population: Option<&Population>,
         first_answer: usize,
         work: &mut Work<'_>,
-    ) {
+    ) -> f64 {
         work.entries.clear();
         work.entries.extend(prepared.substates.iter().map(|shared| shared.entry(cells.first, cells.own.0)));
+        let near = population.and_then(|population| {
+            let radius = self.searches.listed[prepared.population?]?;
+            Some(population.lists.as_ref()?.view(population, radius))
+        });
         let items = population.map(|population| RowItems {
             // Not of a part of the list: neighbours lie before the row too.
             starts: population.starts.as_ptr().wrapping_add(cells.first),
             ends: population.ends.as_ptr().wrapping_add(cells.first),
             labels: &population.items.labels,
             own: cells.own,
+            cells: &population.items.cells[cells.own.0..cells.own.1],
+            near: near.as_ref(),
         });
         let migrates = prepared.process.kind == ProcessKind::Migration;
         let destinations =
@@ -390,19 +450,15 @@ impl Pass<'_> {
         };
         let report = Report { row: &row, now: work.now };
         (prepared.kernel)(report.row);
+        report.row.widest_search()
     }
 
     fn collect_movers(&self, population: &Population, row: usize, answers: &[u32], movers: &mut Vec<Mover>) {
-        let (first_item, _) = population.row(row);
-        let first_cell = (row * self.layout.width()) as u32;
-        let padded = self.layout.first(row);
-        for x in 0..self.layout.width() {
-            let from = first_cell + x as u32;
-            for item in population.starts[padded + x]..population.ends[padded + x] {
-                let answer = answers[item as usize - first_item];
-                if answer != STAY && answer != from {
-                    movers.push(Mover { item, from, answer });
-                }
+        let (first, end) = population.row(row);
+        let cells = &population.items.cells[first..end];
+        for ((item, from), answer) in (first as u32..).zip(cells).zip(answers) {
+            if *answer != STAY && answer != from {
+                movers.push(Mover { item, from: *from, answer: *answer });
             }
         }
     }

@@ -132,7 +132,6 @@ fn memory_is_announced() -> TestResult {
                     Simulation::new(model, &*engine, RunOptions { precision, seed: 0 })?.memory() as u128;
                 let place = format!("{} on {engine:?} in {precision}", model.name());
                 assert!(announced > 1000 && announced <= taken, "{place}: {announced}, not {taken}");
-                // Of items, also the list of rows, which the announcement leaves out.
                 assert!(taken < announced + 200, "{place}: {announced}, not {taken}");
             }
         }

@@ -194,5 +194,7 @@ impl Recording {
         progress.steps_per_second = (steps > 0).then(|| steps as f64 / progress.step_seconds.max(1e-9));
         progress.state_bytes = Some(self.simulation.memory());
         progress.peak_memory_bytes = peak_memory();
+        let figures = self.simulation.figures().into_iter();
+        progress.engine_figures = figures.map(|figure| (figure.name, figure.value)).collect();
     }
 }

@@ -14,6 +14,7 @@ use crate::outputs::Outputs;
 use crate::set_up::SetUp;
 use serde::Serialize;
 use serde_json::{Map, Value};
+use std::collections::BTreeMap;
 use std::io::{self, Write as _};
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -100,6 +101,8 @@ pub struct Progress {
     pub steps_per_second: Option<f64>,
     pub state_bytes: Option<usize>,
     pub peak_memory_bytes: Option<u64>,
+    /// What the engine tells of its own work.
+    pub engine_figures: BTreeMap<String, f64>,
 }
 
 impl Report {
@@ -145,6 +148,7 @@ impl Report {
                 steps_per_second: None,
                 state_bytes: None,
                 peak_memory_bytes: None,
+                engine_figures: BTreeMap::new(),
             },
             observables: Vec::new(),
             files: Vec::new(),

@@ -3,6 +3,7 @@
 //! What a kernel reads is had from a [`super::Row`] only. It is asked for by the tokens [`Column`] and [`Offset`], which come from the row too:
 //! so a kernel needs no unsafe code, and cannot reach memory that is not its own.
 
+use super::Row;
 use super::values::{KernelElement, KernelValue};
 use std::fmt;
 use std::marker::PhantomData;
@@ -27,6 +28,14 @@ impl Column<'_> {
     #[inline(always)]
     pub fn lane(self) -> usize {
         self.lane
+    }
+}
+
+impl Row<'_> {
+    /// The cell with this number, or the last one where there is none with it.
+    #[inline(always)]
+    pub(super) fn column(&self, number: usize) -> Column<'_> {
+        Column { first: 0, lane: number.min(self.length.saturating_sub(1)), row: PhantomData }
     }
 }
 

@@ -3,6 +3,7 @@
 //! The result is defined by the present positions alone: the items of the reached cells that are nearer than the radius, in the order
 //! neighbour index, then label. An engine may therefore leave out cells that are too far away ([`CellFilter`]).
 
+use super::near::{Search, Walk};
 use super::wide::{self, Wide};
 use super::{Column, Row, WRONG_RADIUS};
 use crate::float::Float;
@@ -27,6 +28,7 @@ pub mod reach {
 #[derive(Debug, Default)]
 pub struct Scratch {
     free: RefCell<Vec<Vec<u32>>>,
+    pub(super) walk: RefCell<Walk>,
 }
 
 /// A list borrowed from a [`Scratch`].
@@ -53,6 +55,8 @@ pub struct CellFilter {
     reach: [i32; 3],
     /// For a neighbourhood that is a whole box: the offsets of a step along y and along z.
     steps: Option<[isize; 2]>,
+    /// Whether an axis is toroidal.
+    torus: bool,
     /// What is added to every radius, in metres: the slack, and the margin for rounding.
     beyond: f64,
     /// The processor's way to look at several items at a time, where it has one.
@@ -89,9 +93,27 @@ impl CellFilter {
             displacements,
             reach: reach.map(|reach| reach as i32),
             steps,
+            torus: geometry.toroidal().contains(&true),
             beyond: slack + margin(geometry, precision),
             wide: Wide::detect(),
         })
+    }
+
+    /// How far items that lie as near to each other as a search can find may be apart, in metres, so that each is in a cell of the
+    /// other's neighbourhood, whatever the cells; nothing where the cells have to be looked at.
+    pub fn room(&self, covered: f64) -> Option<f64> {
+        self.steps.map(|_| covered - 2.0 * self.beyond)
+    }
+
+    /// Whether items within this radius are surely in cells of the neighbourhood, and the order of their places that of a search.
+    #[inline(always)]
+    pub(super) fn holds(&self, covered: f64, radius: f64) -> bool {
+        !self.torus && radius <= covered - 2.0 * self.beyond
+    }
+
+    /// The neighbour index of a displacement.
+    pub(super) fn number(&self, displacement: [i32; 3]) -> Option<usize> {
+        self.displacements.iter().position(|one| *one == displacement)
     }
 
     /// What a sphere around a position in the cell with these indices can touch.
@@ -174,9 +196,36 @@ impl<'a> Row<'a> {
         found: &mut Vec<u32>,
     ) {
         found.clear();
+        let bits = radius.to_f64().to_bits();
+        if self.is_walked(bits) {
+            return self.walked::<REACH>(cell, item, found);
+        }
         if !self.allows::<R, REACH>(cell.number(), item, radius) {
             return;
         }
+        self.widest.set(self.widest.get().max(radius.to_f64()));
+        if self.walk(radius, positions) {
+            return self.walked::<REACH>(cell, item, found);
+        }
+        let search = Search { item, position, square: radius * radius, positions };
+        self.unlisted_within::<R, REACH>(cell, &search, radius, found);
+    }
+
+    /// The largest radius that was searched.
+    pub fn widest_search(&self) -> f64 {
+        self.widest.get()
+    }
+
+    /// The same by the cells.
+    #[inline(always)]
+    pub(super) fn unlisted_within<R: Float, const REACH: u8>(
+        &self,
+        cell: Column<'_>,
+        search: &Search<'_, R>,
+        radius: R,
+        found: &mut Vec<u32>,
+    ) {
+        let Search { item, position, square: reach, positions } = *search;
         let touched = match self.frame.filter {
             Some(filter) if REACH != reach::CELL => {
                 let [first, y, z] = self.origin;
@@ -187,7 +236,6 @@ impl<'a> Row<'a> {
             }
             _ => None,
         };
-        let reach = radius * radius;
         if self.frame.toroidal.contains(&true) {
             self.ranges::<REACH>(cell, touched, |range| {
                 keep(range, item, positions, found, |other| {
@@ -272,6 +320,19 @@ impl<'a> Row<'a> {
                 }
             }
         }
+    }
+
+    /// Brings what the row's searches are the first to read into the cache: the positions in the last row of the neighbourhood. They are
+    /// read in order here, so that the processor sees what comes next; searches jump.
+    pub(super) fn fetch<R: Float>(&self, positions: &[Vector3<R>]) {
+        let Some(&last) = self.frame.offsets.last() else { return };
+        let end = self.length.saturating_sub(1 + self.frame.geometry.neighbourhood().reach()[0]);
+        // SAFETY: an offset of the neighbourhood.
+        let [first, end] = [0, end].map(|number| unsafe { self.items_at(self.column(number), last) });
+        let line = 64 / size_of::<Vector3<R>>();
+        let places = first.start.min(end.end)..end.end;
+        let sum = positions.get(places).unwrap_or_default().iter().step_by(line.max(1));
+        std::hint::black_box(sum.fold(R::from_f64(0.0), |sum, position| sum + position.x));
     }
 
     /// The neighbours one by one, those that are wanted.

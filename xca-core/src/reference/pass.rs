@@ -60,11 +60,14 @@ impl ReferenceExecution {
             let ranges: Option<(Vec<u32>, Vec<u32>)> =
                 population.map(|group| self.groups[group].ranges(&around));
             let own = population.map_or((0, 0), |group| self.groups[group].range(cell));
+            let cells = vec![cell as u32; own.1 - own.0];
             let items = population.zip(ranges.as_ref()).map(|(group, (starts, ends))| RowItems {
                 starts: starts.as_ptr(),
                 ends: ends.as_ptr(),
                 labels: &self.groups[group].labels,
                 own,
+                cells: &cells,
+                near: None,
             });
             let destinations =
                 if process.kind == ProcessKind::Migration { Some(&mut answers[own.0..own.1]) } else { None };

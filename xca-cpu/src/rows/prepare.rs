@@ -1,40 +1,9 @@
-//! What a pass needs before its rows: halos, second buffers, and the cells that searches leave out.
+//! What a pass needs before its rows: halos and second buffers.
 
-use super::{Group, Prepared};
+use super::Group;
 use crate::layout::Layout;
-use crate::slack::{largest, slack as slack_of};
+use xca_core::Model;
 use xca_core::engine::SubstateId;
-use xca_core::kernel::CellFilter;
-use xca_core::{Model, Precision, Process, ProcessKind};
-
-/// Which cells searches can leave out, where a process of the pass searches.
-pub(super) fn filter(
-    model: &Model,
-    layout: &Layout,
-    precision: Precision,
-    groups: &[Group],
-    prepared: &[Prepared<'_>],
-) -> Option<CellFilter> {
-    let position = |process: &Process| {
-        let field = process.subject().schema.position?;
-        let reads = process
-            .access
-            .iter()
-            .any(|access| access.argument == 0 && access.others && access.field == field);
-        reads.then_some(field)
-    };
-    let mut slack: f64 = 0.0;
-    let mut searched = false;
-    for prepared in prepared.iter().filter(|prepared| prepared.process.kind == ProcessKind::Items) {
-        if let (Some(field), Some(number)) = (position(prepared.process), prepared.population)
-            && let Group::Population(population) = &groups[number]
-        {
-            slack = largest(slack, slack_of(population, field, layout, model.geometry()));
-            searched = true;
-        }
-    }
-    if searched { CellFilter::new(model.geometry(), precision, layout.steps(), slack) } else { None }
-}
 
 /// Fills halos that will be read and makes second buffers; gives the substates that the pass writes, and whether to a second buffer.
 pub(super) fn prepare_buffers(
@@ -51,7 +20,7 @@ pub(super) fn prepare_buffers(
             Group::Cells(_) => {}
             Group::Population(population) if found.is_doubled() => {
                 let bytes = population.items.fields[substate.field].len();
-                population.next.fields[substate.field].resize(bytes);
+                population.next[substate.field].resize(bytes);
             }
             Group::Population(_) => {}
         }

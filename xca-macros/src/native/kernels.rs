@@ -161,24 +161,40 @@ fn cells(function: &Function, uses: &Uses, real: &TokenStream, shape: &Ident) ->
 
 fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
     let span = function.name.span();
-    let [row, x, column, columns, item, place, first, offsets, destinations, answer] =
-        ["row", "x", "column", "columns", "item", "place", "first", "offsets", "destinations", "answer"]
-            .map(|name| hidden(name, span));
+    let [row, x, column, item, number, count, place, first, offsets, destinations, answer] = [
+        "row",
+        "x",
+        "column",
+        "item",
+        "number",
+        "count",
+        "place",
+        "first",
+        "offsets",
+        "destinations",
+        "answer",
+    ]
+    .map(|name| hidden(name, span));
     let space = space(real, span);
+    let mut shorten = TokenStream::new();
     let mut load = TokenStream::new();
     let mut store = TokenStream::new();
     for access in uses.accesses.iter().filter(|access| access.group == GroupOf::SUBJECT) {
         let own = own_name(&access.field);
         let type_ = native_type(access.group, &access.field, function, real);
         let read = read_name(access.group, &access.field);
-        let number = if access.others { quote!(#item) } else { quote!(#item - #first) };
+        let index = if access.others { quote!(#item) } else { quote!(#number) };
+        if !access.others && !access.write {
+            shorten.extend(quote!(let #read = &#read[..#count];));
+        }
         if access.write {
             let write = write_name(&access.field);
+            shorten.extend(quote!(let #write = &mut #write[..#count];));
             let from = if access.others { &read } else { &write };
-            load.extend(quote!(let mut #own = ::xca_core::kernel::load::<#type_>(#from[#number]);));
-            store.extend(quote!(#write[#item - #first] = ::xca_core::kernel::store::<#type_>(#own);));
+            load.extend(quote!(let mut #own = ::xca_core::kernel::load::<#type_>(#from[#index]);));
+            store.extend(quote!(#write[#number] = ::xca_core::kernel::store::<#type_>(#own);));
         } else if access.centre {
-            load.extend(quote!(let #own = ::xca_core::kernel::load::<#type_>(#read[#number]);));
+            load.extend(quote!(let #own = ::xca_core::kernel::load::<#type_>(#read[#index]);));
         }
     }
     let mut writer = Writer::new(function, Some(uses), real.clone());
@@ -189,28 +205,29 @@ fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
         uses.neighbours.then(|| quote!(let #offsets = #row.offsets::<{ ::xca_core::kernel::ANY_SHAPE }>();));
     let (take, run) = if function.kind == FunctionKind::Migration {
         (
-            quote!(let #destinations = #row.destinations();),
-            quote!(let #answer: u32 = 'body: #body; #destinations[#item - #first] = #answer;),
+            quote!(let #destinations = &mut #row.destinations()[..#count];),
+            quote!(let #answer: u32 = 'body: #body; #destinations[#number] = #answer;),
         )
     } else {
         (TokenStream::new(), quote!('body: #body))
     };
+    // Item after item, and not cell after cell: a loop over the few items of a cell is mostly its end.
     quote! {
         #space
         #neighbourhood
         #lists
+        let (#first, #count) = (#row.first_item(), #row.own_items());
         #take
-        let #first = #row.first_item();
+        #shorten
         let mut #place = #row.place();
-        for #column in #columns {
+        for #number in 0..#count {
+            let #item = #first + #number;
+            #place.item = ::core::option::Option::Some(#item);
+            let #column = #row.column_of(#number);
             let #x = #column.number();
-            #place.x = #x;
-            for #item in #row.items(#column) {
-                #place.item = ::core::option::Option::Some(#item);
-                #load
-                #run
-                #store
-            }
+            #load
+            #run
+            #store
         }
         #place.leave();
     }

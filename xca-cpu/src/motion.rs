@@ -1,0 +1,228 @@
+//! How far items are outside their cells, and how far they have moved against each other since lists of them were made.
+
+use crate::blocks::blocks;
+use crate::layout::Layout;
+use crate::population::Population;
+use rayon::prelude::*;
+use xca_core::kernel::{self, STAY, Work};
+use xca_core::{Geometry, StoredScalar};
+
+/// Of some items. A measure is NaN where a position is no number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Motion {
+    /// The largest distance along an axis, in metres, by which an item is outside its cell.
+    pub(crate) slack: f64,
+    /// The square of the largest distance, in metres, of an item from where it would be if all had moved alike.
+    pub(crate) square: f64,
+    /// The least and the greatest displacement along each axis, less the common one.
+    pub(crate) low: [f64; 3],
+    pub(crate) high: [f64; 3],
+}
+
+impl Motion {
+    pub(crate) const NONE: Self =
+        Self { slack: 0.0, square: 0.0, low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
+
+    /// That of the items of both.
+    pub(crate) fn and(self, other: Self) -> Self {
+        Self {
+            slack: largest(self.slack, other.slack),
+            square: largest(self.square, other.square),
+            low: std::array::from_fn(|axis| self.low[axis].min(other.low[axis])),
+            high: std::array::from_fn(|axis| self.high[axis].max(other.high[axis])),
+        }
+    }
+}
+
+/// The larger one, or NaN where one of them is.
+pub(crate) fn largest(a: f64, b: f64) -> f64 {
+    if b <= a || a.is_nan() { a } else { b }
+}
+
+/// Of all items of a population.
+pub(crate) fn measure(population: &Population, layout: &Layout, geometry: &Geometry) -> Motion {
+    let blocks = blocks(layout, &[population], rayon::current_num_threads()).into_par_iter().with_max_len(1);
+    let of_block = |rows: std::ops::Range<usize>| {
+        rows.map(|row| {
+            let (first, end) = population.row(row);
+            let positions = population.position.map_or(&[][..], |field| {
+                let size = population.types[field].size();
+                &population.items.fields[field].bytes()[first * size..end * size]
+            });
+            measure_row(population, layout, geometry, row, positions, None)
+        })
+        .fold(Motion::NONE, Motion::and)
+    };
+    blocks.map(of_block).reduce(|| Motion::NONE, Motion::and)
+}
+
+/// Of the items of a row, with their positions. With `answers` of a migration, the slack is that of those that stay.
+pub(crate) fn measure_row(
+    population: &Population,
+    layout: &Layout,
+    geometry: &Geometry,
+    row: usize,
+    positions: &[u8],
+    answers: Option<&[u32]>,
+) -> Motion {
+    let Some(field) = population.position else { return Motion::NONE };
+    let frame = &Frame::new(population, layout, geometry, row, answers);
+    let mut motion = Motion::NONE;
+    match population.types[field].scalar {
+        StoredScalar::F32 => {
+            let positions: &[[f32; 3]] = bytemuck::cast_slice(positions);
+            let position = |position: [f32; 3]| position.map(f64::from);
+            kernel::run(Measurement { frame, positions, position, motion: &mut motion });
+        }
+        _ => {
+            let positions: &[[f64; 3]] = bytemuck::cast_slice(positions);
+            let position = |position: [f64; 3]| position;
+            kernel::run(Measurement { frame, positions, position, motion: &mut motion });
+        }
+    }
+    motion
+}
+
+/// How far a position is outside a cell.
+pub(crate) fn outside(position: [f64; 3], cell: [usize; 3], side: f64) -> f64 {
+    (0..3).fold(0.0, |most, axis| {
+        let low = cell[axis] as f64 * side;
+        largest(largest(most, low - position[axis]), position[axis] - (low + side))
+    })
+}
+
+/// A row, and what its items are measured against.
+struct Frame<'a> {
+    cells: &'a [u32],
+    answers: Option<&'a [u32]>,
+    references: &'a [[f32; 3]],
+    first_cell: u32,
+    side: f64,
+    /// Along y and z.
+    low: [f64; 2],
+    drift: [f64; 3],
+    /// The length of each toroidal axis, and of others infinity.
+    periods: [f64; 3],
+}
+
+impl<'a> Frame<'a> {
+    fn new(
+        population: &'a Population,
+        layout: &Layout,
+        geometry: &Geometry,
+        row: usize,
+        answers: Option<&'a [u32]>,
+    ) -> Self {
+        let (first, end) = population.row(row);
+        let side = geometry.side();
+        let (toroidal, extents) = (geometry.toroidal(), geometry.extents());
+        let listed = population.lists.is_some();
+        Self {
+            cells: &population.items.cells[first..end],
+            answers,
+            references: if listed { &population.items.references[first..end] } else { &[] },
+            first_cell: (row * layout.width()) as u32,
+            side,
+            low: layout.row(row).map(|index| index as f64 * side),
+            drift: population.lists.as_ref().map_or([0.0; 3], |lists| lists.drift),
+            periods: std::array::from_fn(|axis| {
+                if toroidal[axis] { extents[axis] as f64 * side } else { f64::INFINITY }
+            }),
+        }
+    }
+
+    /// The slack of those that stay, by axes: only that along x depends on the item's cell.
+    #[inline(always)]
+    fn slack<T: Copy>(&self, positions: &[T], position: impl Fn(T) -> [f64; 3]) -> f64 {
+        let mut slack: f64 = 0.0;
+        let [south, bottom] = self.low;
+        let [north, top] = [south + self.side, bottom + self.side];
+        for (number, (&place, &cell)) in positions.iter().zip(self.cells).enumerate() {
+            let [x, y, z] = position(place);
+            let west = f64::from(cell - self.first_cell) * self.side;
+            let across = above(west - x, x - (west + self.side));
+            let out = above(across, above(above(south - y, y - north), above(bottom - z, z - top)));
+            let stays = self.answers.is_none_or(|answers| answers[number] == STAY || answers[number] == cell);
+            slack = above(slack, if stays { out } else { 0.0 });
+        }
+        slack
+    }
+
+    #[inline(always)]
+    fn moved<T: Copy>(&self, positions: &[T], position: impl Fn(T) -> [f64; 3], motion: &mut Motion) {
+        let wraps = self.periods.iter().any(|period| period.is_finite());
+        for (&place, reference) in positions.iter().zip(self.references) {
+            let now = position(place);
+            let mut moved = [0.0; 3];
+            for axis in 0..3 {
+                moved[axis] = now[axis] - f64::from(reference[axis]) - self.drift[axis];
+            }
+            if wraps {
+                for (moved, period) in
+                    moved.iter_mut().zip(self.periods).filter(|(_, period)| period.is_finite())
+                {
+                    *moved -= period * (*moved / period).round();
+                }
+            }
+            for axis in 0..3 {
+                motion.low[axis] = -above(-motion.low[axis], -moved[axis]);
+                motion.high[axis] = above(motion.high[axis], moved[axis]);
+            }
+            let [x, y, z] = moved;
+            motion.square = above(motion.square, x * x + y * y + z * z);
+        }
+    }
+
+    #[inline(always)]
+    fn measure<T: Copy>(&self, positions: &[T], position: impl Fn(T) -> [f64; 3] + Copy) -> Motion {
+        let mut motion = Motion { slack: self.slack(positions, position), ..Motion::NONE };
+        self.moved(positions, position, &mut motion);
+        // Products with 0 are 0, but for what is no number and infinities.
+        let mut nothing = [0.0; 3];
+        for &place in positions {
+            let now = position(place);
+            for axis in 0..3 {
+                nothing[axis] += now[axis] * 0.0;
+            }
+        }
+        if nothing != [0.0; 3] {
+            motion.slack = f64::NAN;
+            motion.square = f64::NAN;
+        }
+        motion
+    }
+}
+
+/// The larger one; of what is no number, either.
+#[inline(always)]
+fn above(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// The measurement of a row, compiled for the processor.
+struct Measurement<'a, T, F> {
+    frame: &'a Frame<'a>,
+    positions: &'a [T],
+    position: F,
+    motion: &'a mut Motion,
+}
+
+impl<T: Copy, F: Fn(T) -> [f64; 3] + Copy> Work for Measurement<'_, T, F> {
+    #[inline(always)]
+    fn run(self) {
+        *self.motion = self.frame.measure(self.positions, self.position);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::largest;
+
+    #[test]
+    fn nan_stays() {
+        assert_eq!(largest(1.0, 2.0), 2.0);
+        assert_eq!(largest(2.0, 1.0), 2.0);
+        assert!(largest(1.0, f64::NAN).is_nan());
+        assert!(largest(f64::NAN, 1.0).is_nan());
+    }
+}

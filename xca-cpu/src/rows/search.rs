@@ -1,0 +1,216 @@
+//! What searches of a pass need: which cells they leave out, and lists of what is near.
+#![allow(unsafe_code)]
+
+use super::{Group, population};
+use crate::blocks::blocks;
+use crate::layout::Layout;
+use crate::lists::{Listed, Room};
+use crate::motion::{largest, measure};
+use crate::population::Population;
+use crate::upkeep::keep_lists;
+use rayon::prelude::*;
+use xca_core::kernel::{CellFilter, Frame, Row, RowItems, Scratch};
+use xca_core::{Float, Model, Precision, Process, ProcessKind, Stream, Vector3};
+
+/// What the searches of a pass go by.
+pub(super) struct Searches {
+    /// The populations that are searched.
+    pub(super) populations: Vec<usize>,
+    pub(super) filter: Option<CellFilter>,
+    /// For each group within which radius, in metres, searches can use lists.
+    pub(super) listed: Vec<Option<f64>>,
+}
+
+/// The populations in which processes search.
+fn searched(model: &Model, processes: &[usize]) -> Vec<usize> {
+    let searches = |process: &Process| {
+        let position = process.subject().schema.position;
+        let access = &process.access;
+        let reads =
+            || access.iter().any(|one| one.argument == 0 && one.others && Some(one.field) == position);
+        process.kind == ProcessKind::Items && position.is_some() && reads()
+    };
+    let searching = processes.iter().filter(|number| searches(&model.processes()[**number]));
+    let mut numbers: Vec<usize> =
+        searching.filter_map(|number| model.plan().process(*number).population).collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    numbers
+}
+
+/// Measures what has to be known, and keeps the lists.
+pub(super) fn prepare(
+    model: &Model,
+    layout: &Layout,
+    precision: Precision,
+    groups: &mut [Group],
+    processes: &[usize],
+) -> Searches {
+    let populations = searched(model, processes);
+    let mut searches = Searches { populations, filter: None, listed: vec![None; groups.len()] };
+    if searches.populations.is_empty() {
+        return searches;
+    }
+    let geometry = model.geometry();
+    let mut slack = 0.0;
+    for &number in &searches.populations {
+        if let Group::Population(population) = &mut groups[number] {
+            population.searched = true;
+            let motion = population.motion.unwrap_or_else(|| measure(population, layout, geometry));
+            population.motion = Some(motion);
+            slack = largest(slack, motion.slack);
+        }
+    }
+    searches.filter = CellFilter::new(geometry, precision, layout.steps(), slack);
+    let Some(filter) = &searches.filter else { return searches };
+    let Some(widest) = filter.room(geometry.covered_radius(precision)) else { return searches };
+    for &number in &searches.populations {
+        if let Group::Population(population) = &mut groups[number]
+            && let Some(mut motion) = population.motion
+        {
+            let room = Room::new(widest, geometry, &motion);
+            searches.listed[number] = keep_lists(population, &room, &mut motion, |population, within| {
+                list(model, layout, precision, population, filter, within)
+            });
+            population.motion = Some(motion);
+        }
+    }
+    searches
+}
+
+/// Lists what is near each item, for blocks of rows in order.
+fn list(
+    model: &Model,
+    layout: &Layout,
+    precision: Precision,
+    population: &Population,
+    filter: &CellFilter,
+    within: f64,
+) -> Vec<Listed> {
+    let geometry = model.geometry();
+    let [offsets, _] = layout.offsets(geometry);
+    let frame = Frame {
+        geometry,
+        extents: geometry.extents().map(|extent| extent as u32),
+        side: geometry.side(),
+        toroidal: geometry.toroidal(),
+        step: 0,
+        seed: 0,
+        stream: Stream::process(0),
+        parameters: &[],
+        offsets: &offsets,
+        filter: Some(filter),
+    };
+    let blocks = blocks(layout, &[population], rayon::current_num_threads());
+    let blocks = blocks.into_par_iter().with_max_len(1);
+    let list = |rows: std::ops::Range<usize>| {
+        let mut listed = Listed::default();
+        for row in rows {
+            match precision {
+                Precision::F32 => list_row::<f32>(layout, population, &frame, row, within, &mut listed),
+                Precision::F64 => list_row::<f64>(layout, population, &frame, row, within, &mut listed),
+            }
+        }
+        listed
+    };
+    blocks.map(list).collect()
+}
+
+fn list_row<R: Float + bytemuck::Pod>(
+    layout: &Layout,
+    population: &Population,
+    frame: &Frame<'_>,
+    row: usize,
+    within: f64,
+    listed: &mut Listed,
+) {
+    let own = population.row(row);
+    let Some(field) = population.position.filter(|_| own.0 < own.1) else { return };
+    let positions: &[Vector3<R>] = bytemuck::cast_slice(population.items.fields[field].bytes());
+    let [y, z] = layout.row(row);
+    let first = layout.first_at(y, z);
+    let items = RowItems {
+        starts: population.starts.as_ptr().wrapping_add(first),
+        ends: population.ends.as_ptr().wrapping_add(first),
+        labels: &population.items.labels,
+        own,
+        cells: &population.items.cells[own.0..own.1],
+        near: None,
+    };
+    let scratch = Scratch::default();
+    let origin = [0, y as u32, z as u32];
+    // SAFETY: there are no entries. `starts` and `ends` are padded by as much as the neighbourhood reaches and hold ranges of items; those of
+    // the row's cells are its own items.
+    let row = unsafe { Row::new(frame, &[], Some(items), None, &scratch, origin, layout.width()) };
+    row.list(positions, R::from_f64(within), &mut listed.list, &mut listed.ends);
+}
+
+/// What a pass measures of a population while its rows are in the cache.
+#[derive(Clone, Copy)]
+pub(super) struct Measured {
+    pub(super) population: usize,
+    /// The positions of its items, and the bytes of one.
+    positions: *const u8,
+    size: usize,
+    /// Whether the pass migrates it.
+    migrates: bool,
+}
+
+// SAFETY: the pointer leads to positions that are read row by row, each by the thread that has the row.
+unsafe impl Send for Measured {}
+// SAFETY: as above.
+unsafe impl Sync for Measured {}
+
+impl Measured {
+    /// The populations that are searched and whose positions or cells a pass changes; not those whose positions go to a second buffer.
+    pub(super) fn all(
+        model: &Model,
+        groups: &mut [Group],
+        processes: &[usize],
+        written: &[(xca_core::engine::SubstateId, bool)],
+    ) -> Vec<Self> {
+        let mut all = Vec::new();
+        for (number, group) in groups.iter_mut().enumerate() {
+            let Group::Population(population) = group else { continue };
+            let Some(field) = population.position.filter(|_| population.searched) else { continue };
+            let migrates = processes.iter().any(|process| {
+                model.processes()[*process].kind == ProcessKind::Migration
+                    && model.plan().process(*process).population == Some(number)
+            });
+            let of_position = |(substate, _): &&(xca_core::engine::SubstateId, bool)| {
+                substate.group == number && substate.field == field
+            };
+            let second = written.iter().find(of_position).map(|(_, second)| *second);
+            if second.is_some() || migrates {
+                population.motion = None;
+            }
+            if second == Some(false) || (migrates && second.is_none()) {
+                let size = population.types[field].size();
+                let positions = population.items.fields[field].as_mut_ptr().cast_const();
+                all.push(Self { population: number, positions, size, migrates });
+            }
+        }
+        all
+    }
+
+    /// Measures the items of a row, after all processes of the pass.
+    pub(super) fn measure_row(
+        &self,
+        model: &Model,
+        layout: &Layout,
+        groups: &[Group],
+        row: usize,
+        answers: &[u32],
+    ) -> crate::motion::Motion {
+        let Some(population) = population(&groups[self.population]) else {
+            return crate::motion::Motion::NONE;
+        };
+        let (first, end) = population.row(row);
+        // SAFETY: the row's own items, which this thread alone has; the kernels of the row have ended.
+        let positions = unsafe {
+            std::slice::from_raw_parts(self.positions.add(first * self.size), (end - first) * self.size)
+        };
+        let answers = self.migrates.then_some(answers);
+        crate::motion::measure_row(population, layout, model.geometry(), row, positions, answers)
+    }
+}

@@ -1,0 +1,190 @@
+//! Whether and when lists of what is near are made: decided by the times that passes take, which change no result.
+
+use crate::lists::{Listed, Room};
+use crate::motion::Motion;
+use crate::population::Population;
+use std::time::{Duration, Instant};
+use xca_core::engine::Figure;
+
+/// Items for which lists are worth their upkeep.
+const FEWEST_ITEMS: usize = 64;
+
+/// Passes that lists have to last to be worth making.
+const SHORTEST_LIFE: u64 = 2;
+
+/// The passes without lists after they were not worth it: the first time, and at most.
+const PAUSES: [u64; 2] = [8, 512];
+
+/// The skin to begin with, in radii.
+const FIRST_SKIN: f64 = 0.2;
+
+/// The least and the largest skin, in radii.
+const SKINS: [f64; 2] = [0.01, 1.0];
+
+/// By how much the skin changes from lists to lists.
+const CHANGE: f64 = 1.25;
+
+/// What decides whether and when lists are made.
+pub(crate) struct Upkeep {
+    /// The largest radius of a search since lists were last made, in metres.
+    widest: f64,
+    /// In radii.
+    skin: f64,
+    /// Whether that is not to change.
+    fixed: bool,
+    /// Whether the skin became larger when it last changed.
+    grew: bool,
+    /// What a pass with the lists before took, in all.
+    before: Option<Duration>,
+    /// What a pass without lists took.
+    without: Option<Duration>,
+    /// Passes to go without lists, and how many the next time.
+    pause: u64,
+    next_pause: u64,
+    life: Life,
+    figures: Figures,
+}
+
+/// The passes with the same lists.
+#[derive(Default)]
+struct Life {
+    passes: u64,
+    /// What making the lists and the passes took.
+    spent: Duration,
+}
+
+/// What has been done, for reports.
+#[derive(Debug, Default, Clone, Copy, PartialEq)]
+pub(crate) struct Figures {
+    /// Passes in which a process searched.
+    pub(crate) passes: u64,
+    /// Those with lists.
+    pub(crate) listed: u64,
+    /// How often lists were made.
+    pub(crate) made: u64,
+    /// What lists held when they were made, in all, and for how many items.
+    pub(crate) candidates: u64,
+    pub(crate) items: u64,
+    /// The skin of the last lists, in metres.
+    pub(crate) skin: f64,
+}
+
+impl Upkeep {
+    /// With a skin of so many radii, or one that it finds by itself.
+    pub(crate) fn new(skin: Option<f64>) -> Self {
+        Self {
+            widest: 0.0,
+            skin: skin.unwrap_or(FIRST_SKIN),
+            fixed: skin.is_some(),
+            grew: false,
+            before: None,
+            without: None,
+            pause: 0,
+            next_pause: PAUSES[0],
+            life: Life::default(),
+            figures: Figures::default(),
+        }
+    }
+
+    pub(crate) fn figures(&self) -> Figures {
+        self.figures
+    }
+
+    /// A pass has searched within this radius at most, and taken so long.
+    pub(crate) fn searched(&mut self, widest: f64, listed: bool, time: Duration) {
+        self.widest = self.widest.max(widest);
+        self.figures.passes += 1;
+        if listed {
+            self.figures.listed += 1;
+            self.life.passes += 1;
+            self.life.spent += time;
+        } else {
+            self.without = Some(self.without.map_or(time, |before| before.min(time)));
+        }
+    }
+
+    /// The lists have come to their end: learns from what they have cost.
+    fn learn(&mut self) {
+        let Life { passes, spent } = std::mem::take(&mut self.life);
+        if self.fixed {
+            return;
+        }
+        let cost = spent.checked_div(u32::try_from(passes).unwrap_or(u32::MAX));
+        if passes < SHORTEST_LIFE || self.without.zip(cost).is_none_or(|(without, cost)| cost > without) {
+            self.pause = self.next_pause;
+            self.next_pause = (2 * self.next_pause).min(PAUSES[1]);
+            self.before = None;
+            return;
+        }
+        self.next_pause = PAUSES[0];
+        // Downhill: on as before while a pass costs less and less, back where it costs more.
+        if self.before.zip(cost).is_some_and(|(before, cost)| cost > before) {
+            self.grew = !self.grew;
+        }
+        self.before = cost;
+        let skin = if self.grew { self.skin * CHANGE } else { self.skin / CHANGE };
+        self.skin = skin.clamp(SKINS[0], SKINS[1]);
+    }
+}
+
+impl Figures {
+    /// For a report, with the name of the population; none where nothing has been searched.
+    pub(crate) fn named(&self, population: &str) -> Vec<Figure> {
+        if self.passes == 0 {
+            return Vec::new();
+        }
+        let all = [
+            ("searching_passes", self.passes as f64),
+            ("passes_with_lists", self.listed as f64),
+            ("lists_made", self.made as f64),
+            ("candidates_per_item", self.candidates as f64 / self.items.max(1) as f64),
+            ("skin_metres", self.skin),
+        ];
+        let name = population.to_lowercase();
+        all.into_iter().map(|(figure, value)| Figure { name: format!("{name}_{figure}"), value }).collect()
+    }
+}
+
+/// Keeps the lists of a population fit for the pass to come, or does without; gives the radius within which searches can use them.
+/// `make` lists what is within a radius, block after block of rows.
+pub(crate) fn keep_lists(
+    population: &mut Population,
+    room: &Room,
+    motion: &mut Motion,
+    make: impl FnOnce(&Population, f64) -> Vec<Listed>,
+) -> Option<f64> {
+    let widest = population.upkeep.widest;
+    if widest <= 0.0 {
+        return None;
+    }
+    if let Some(lists) = &population.lists {
+        let radius = lists.radius(motion, room);
+        if radius >= widest {
+            return Some(radius);
+        }
+        population.upkeep.learn();
+    }
+    let within = (widest * (1.0 + population.upkeep.skin)).min(room.widest);
+    let useful = within - room.rounding > widest;
+    let few = population.count() < FEWEST_ITEMS && !population.upkeep.fixed;
+    if population.upkeep.pause > 0 || !useful || few {
+        population.upkeep.pause = population.upkeep.pause.saturating_sub(1);
+        population.forget_lists();
+        return None;
+    }
+    let start = Instant::now();
+    population.lists = None;
+    let listed = make(population, within);
+    let kept = population.keep_lists(&listed, within);
+    *motion = Motion { square: 0.0, ..*motion };
+    let items = population.count() as u64;
+    let candidates = population.lists.as_ref().map_or(0, |lists| lists.candidates.len());
+    let upkeep = &mut population.upkeep;
+    upkeep.life = Life { passes: 0, spent: start.elapsed() };
+    upkeep.widest = 0.0;
+    upkeep.figures.made += 1;
+    upkeep.figures.items += items;
+    upkeep.figures.candidates += candidates as u64;
+    upkeep.figures.skin = within - widest;
+    kept.then(|| within - room.rounding)
+}
