@@ -45,6 +45,18 @@ impl Layout {
         [self.padded[0] as isize, (self.padded[0] * self.padded[1]) as isize]
     }
 
+    /// How far the neighbourhood reaches along x, y, z.
+    pub(crate) fn reach(&self) -> [usize; 3] {
+        self.reach
+    }
+
+    /// The distances in padded cells from a row to those that the box of the neighbourhood holds, in order.
+    pub(crate) fn rows_in_reach(&self) -> impl Iterator<Item = isize> {
+        let [line, layer] = self.steps();
+        let [_, along, up] = self.reach.map(|reach| reach as isize);
+        (-up..=up).flat_map(move |z| (-along..=along).map(move |y| z * layer + y * line))
+    }
+
     /// The number of rows of the space.
     pub(crate) fn rows(&self) -> usize {
         self.extents[1] * self.extents[2]

@@ -10,6 +10,7 @@ mod blocks;
 mod dense;
 mod execution;
 mod layout;
+mod listing;
 mod lists;
 mod migration;
 mod motion;

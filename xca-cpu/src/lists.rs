@@ -3,6 +3,7 @@
 //! They hold what was within a search's radius and a skin when they were made. While no two items have come closer by more than the skin, a
 //! search in them finds what a search in the cells finds, to the last item ([`Lists::radius`]). So they change time, and no result.
 
+use crate::listing::Listed;
 use crate::motion::Motion;
 use crate::population::Population;
 use xca_core::Geometry;
@@ -75,14 +76,6 @@ impl Lists {
     pub(crate) fn left(&mut self, number: u32) {
         self.places[number as usize] = NO_PLACE;
     }
-}
-
-/// Lists of a row, or of several.
-#[derive(Default)]
-pub(crate) struct Listed {
-    pub(crate) list: Vec<u32>,
-    /// The length of `list` after each item.
-    pub(crate) ends: Vec<u32>,
 }
 
 impl Population {

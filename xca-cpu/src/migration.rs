@@ -245,13 +245,20 @@ fn split_off<'a, T>(rest: &mut &'a mut [T], length: usize) -> &'a mut [T] {
     part
 }
 
-/// Where a value of a changed row comes from.
+/// Where values of a changed row come from, so many one after the other.
 #[derive(Clone, Copy)]
-enum Source {
-    /// From a place of the row.
-    Here(u32),
-    /// From what is carried.
-    Carried(u32),
+struct Span {
+    origin: Origin,
+    first: u32,
+    count: u32,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Origin {
+    /// Places of the row.
+    Here,
+    /// What is carried.
+    Carried,
 }
 
 /// Rows, with what is written for them.
@@ -275,35 +282,71 @@ struct Part<'a> {
 
 impl Part<'_> {
     fn change(mut self) {
-        let (mut sources, mut kept) = (Vec::new(), Vec::new());
+        let (mut spans, mut kept) = (Vec::new(), Vec::new());
         for change in self.changes {
-            sources.clear();
-            let first = self.merge(change, &mut sources);
-            let place = first as usize - self.first_place;
+            spans.clear();
+            let first = self.merge(change, &mut spans);
             for (Values { size, bytes }, carried) in self.values.iter_mut().zip(self.carried) {
-                let row = &mut bytes[place * *size..];
-                gather_values(*size, row, first, carried, &sources, &mut kept);
+                kept.clear();
+                for Span { origin, first, count } in &spans {
+                    let (values, first) = match origin {
+                        Origin::Here => (&**bytes, *first as usize - self.first_place),
+                        Origin::Carried => (carried.as_slice(), *first as usize),
+                    };
+                    kept.extend_from_slice(&values[first * *size..(first + *count as usize) * *size]);
+                }
+                let place = (first as usize - self.first_place) * *size;
+                bytes[place..place + kept.len()].copy_from_slice(&kept);
             }
         }
     }
 
-    /// Merges those that stay and those that come, cell by cell and by label, and sets the cells' ranges. The result is the first place
-    /// that can change; from there on are the `sources`.
-    fn merge(&mut self, change: &Change<'_>, sources: &mut Vec<Source>) -> u32 {
+    /// Merges those that stay and those that come, by cell and label, and sets the cells' ranges. The result is the first place that
+    /// can change; from there on are the `spans`.
+    fn merge(&mut self, change: &Change<'_>, spans: &mut Vec<Span>) -> u32 {
         let (mut leaving, mut coming) = (change.leaving, change.coming);
         let width = self.layout.width();
         let first_of_row = (change.row * width) as u32;
-        let firsts = [leaving.first().map(|mover| mover.from), coming.first().map(|arrival| arrival.cell)];
-        let first = firsts.into_iter().flatten().min().map_or(0, |cell| (cell - first_of_row) as usize);
         let padded = self.layout.first(change.row) - self.first_cell;
-        let first_place = self.starts[padded + first];
-        let mut carried = change.carried as u32;
         let labels: &[u32] = bytemuck::cast_slice(&*self.values[Arrays::LABELS].bytes);
-        for x in first..width {
-            let cell = first_of_row + x as u32;
-            let before = self.starts[padded + x]..self.ends[padded + x];
-            self.starts[padded + x] = first_place + sources.len() as u32;
-            for item in before {
+        let mut carried = change.carried as u32;
+        let (mut x, mut end, mut first_place) = (0, 0, None);
+        loop {
+            let cells = [leaving.first().map(|mover| mover.from), coming.first().map(|arrival| arrival.cell)];
+            let next = cells.into_iter().flatten().min().map_or(width, |cell| (cell - first_of_row) as usize);
+            if first_place.is_none() {
+                (x, end) = (next, self.starts[padded + next]);
+                first_place = Some(end);
+            }
+            if x < next {
+                // Cells whose items only move along.
+                let old = self.starts[padded + x]..self.ends[padded + next - 1];
+                let shift = end.wrapping_sub(old.start);
+                let count = old.end - old.start;
+                if shift != 0 {
+                    let cells = padded + x..padded + next;
+                    for range in self.starts[cells.clone()].iter_mut().chain(&mut self.ends[cells]) {
+                        *range = range.wrapping_add(shift);
+                    }
+                }
+                // At the end of a row nothing has to be copied to where it is.
+                if shift != 0 || next < width {
+                    push(spans, Origin::Here, old.start, count);
+                }
+                end += count;
+            }
+            if next == width {
+                break;
+            }
+            let cell = first_of_row + next as u32;
+            let old = self.starts[padded + next]..self.ends[padded + next];
+            self.starts[padded + next] = end;
+            let mut carry = |come: &[Arrival], end: &mut u32, spans: &mut Vec<Span>| {
+                push(spans, Origin::Carried, carried, come.len() as u32);
+                carried += come.len() as u32;
+                *end += come.len() as u32;
+            };
+            for item in old {
                 if let [mover, rest @ ..] = leaving
                     && mover.item == item
                 {
@@ -311,25 +354,27 @@ impl Part<'_> {
                     continue;
                 }
                 let label = labels[item as usize - self.first_place];
-                let before = take_first(&mut coming, |one| one.cell == cell && one.label <= label).len();
-                carry(before, &mut carried, sources);
-                sources.push(Source::Here(item));
+                let come = take_first(&mut coming, |one| one.cell == cell && one.label <= label);
+                carry(come, &mut end, spans);
+                push(spans, Origin::Here, item, 1);
+                end += 1;
             }
-            carry(take_first(&mut coming, |one| one.cell == cell).len(), &mut carried, sources);
-            self.ends[padded + x] = first_place + sources.len() as u32;
+            carry(take_first(&mut coming, |one| one.cell == cell), &mut end, spans);
+            self.ends[padded + next] = end;
+            x = next + 1;
         }
-        let end = first_place + sources.len() as u32;
         debug_assert!(end <= self.rows[change.row + 1], "more items than room");
         self.row_ends[change.row - self.first_row] = end;
-        first_place
+        first_place.unwrap_or(end)
     }
 }
 
-/// Adds the next so many of what is carried.
-fn carry(count: usize, carried: &mut u32, sources: &mut Vec<Source>) {
-    for _ in 0..count {
-        sources.push(Source::Carried(*carried));
-        *carried += 1;
+/// Adds values, as a part of the span before if they follow it.
+fn push(spans: &mut Vec<Span>, origin: Origin, first: u32, count: u32) {
+    match spans.last_mut() {
+        _ if count == 0 => {}
+        Some(last) if last.origin == origin && last.first + last.count == first => last.count += count,
+        _ => spans.push(Span { origin, first, count }),
     }
 }
 
@@ -339,59 +384,4 @@ fn take_first<'a, T>(rest: &mut &'a [T], condition: impl Fn(&T) -> bool) -> &'a 
     let (first, after) = rest.split_at(count);
     *rest = after;
     first
-}
-
-/// Gathers the values of one array, the first of which has the place `first`. Sizes known to the compiler make the copy a move of a register
-/// or two.
-fn gather_values(
-    size: usize,
-    row: &mut [u8],
-    first: u32,
-    carried: &[u8],
-    sources: &[Source],
-    kept: &mut Vec<u8>,
-) {
-    match size {
-        1 => gather::<1>(row, first, carried, sources, kept),
-        4 => gather::<4>(row, first, carried, sources, kept),
-        8 => gather::<8>(row, first, carried, sources, kept),
-        12 => gather::<12>(row, first, carried, sources, kept),
-        16 => gather::<16>(row, first, carried, sources, kept),
-        24 => gather::<24>(row, first, carried, sources, kept),
-        _ => {
-            kept.clear();
-            for source in sources {
-                let (values, place) = source.within(&*row, carried, first);
-                kept.extend_from_slice(&values[place * size..(place + 1) * size]);
-            }
-            row[..kept.len()].copy_from_slice(kept);
-        }
-    }
-}
-
-fn gather<const SIZE: usize>(
-    row: &mut [u8],
-    first: u32,
-    carried: &[u8],
-    sources: &[Source],
-    kept: &mut Vec<u8>,
-) {
-    kept.resize(sources.len() * SIZE, 0);
-    let (new, _) = kept.as_chunks_mut::<SIZE>();
-    let (old, coming) = (row.as_chunks::<SIZE>().0, carried.as_chunks::<SIZE>().0);
-    for (value, source) in new.iter_mut().zip(sources) {
-        let (values, place) = source.within(old, coming, first);
-        *value = values[place];
-    }
-    row[..kept.len()].copy_from_slice(kept);
-}
-
-impl Source {
-    /// The values that it is among, and its number there.
-    fn within<'a, T>(self, row: &'a [T], carried: &'a [T], first: u32) -> (&'a [T], usize) {
-        match self {
-            Self::Here(place) => (row, (place - first) as usize),
-            Self::Carried(number) => (carried, number as usize),
-        }
-    }
 }

@@ -1,9 +1,12 @@
 //! Whether and when lists of what is near are made: decided by the times that passes take, which change no result.
 
-use crate::lists::{Listed, Room};
+use crate::layout::Layout;
+use crate::listing::make;
+use crate::lists::Room;
 use crate::motion::Motion;
 use crate::population::Population;
 use std::time::{Duration, Instant};
+use xca_core::Geometry;
 use xca_core::engine::Figure;
 
 /// Items for which lists are worth their upkeep.
@@ -16,7 +19,7 @@ const SHORTEST_LIFE: u64 = 2;
 const PAUSES: [u64; 2] = [8, 512];
 
 /// The skin to begin with, in radii.
-const FIRST_SKIN: f64 = 0.2;
+const FIRST_SKIN: f64 = 0.4;
 
 /// The least and the largest skin, in radii.
 const SKINS: [f64; 2] = [0.01, 1.0];
@@ -146,12 +149,12 @@ impl Figures {
 }
 
 /// Keeps the lists of a population fit for the pass to come, or does without; gives the radius within which searches can use them.
-/// `make` lists what is within a radius, block after block of rows.
 pub(crate) fn keep_lists(
     population: &mut Population,
+    layout: &Layout,
+    geometry: &Geometry,
     room: &Room,
     motion: &mut Motion,
-    make: impl FnOnce(&Population, f64) -> Vec<Listed>,
 ) -> Option<f64> {
     let widest = population.upkeep.widest;
     if widest <= 0.0 {
@@ -174,7 +177,7 @@ pub(crate) fn keep_lists(
     }
     let start = Instant::now();
     population.lists = None;
-    let listed = make(population, within);
+    let listed = make(population, layout, geometry, within + room.rounding);
     let kept = population.keep_lists(&listed, within);
     *motion = Motion { square: 0.0, ..*motion };
     let items = population.count() as u64;

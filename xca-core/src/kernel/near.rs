@@ -51,15 +51,6 @@ struct Key {
     radius: u64,
 }
 
-/// A search of one item.
-pub(super) struct Search<'a, R> {
-    pub(super) item: usize,
-    pub(super) position: Vector3<R>,
-    /// The square of the radius.
-    pub(super) square: R,
-    pub(super) positions: &'a [Vector3<R>],
-}
-
 impl Row<'_> {
     /// Whether searches within this radius, whose number of bits is given, are looked up in what has been found by the lists.
     #[inline(always)]
@@ -101,6 +92,7 @@ impl Row<'_> {
             self.order(near, filter, walk);
         }
         walk.count(items.own.1 - items.own.0);
+        self.announce(&walk.near);
         true
     }
 
@@ -153,26 +145,6 @@ impl Row<'_> {
             walk.near.push(place);
         }
     }
-
-    /// Lists for each of the row's own items those nearer than `radius`, by their places; `ends` gets the length of `list` after each.
-    pub fn list<R: Float>(
-        &self,
-        positions: &[Vector3<R>],
-        radius: R,
-        list: &mut Vec<u32>,
-        ends: &mut Vec<u32>,
-    ) {
-        let mut found = Vec::new();
-        for number in 0..self.own_items() {
-            let item = self.first_item() + number;
-            found.clear();
-            let search = Search { item, position: positions[item], square: radius * radius, positions };
-            self.unlisted_within::<R, { reach::ALL }>(self.column_of(number), &search, radius, &mut found);
-            found.sort_unstable();
-            list.extend_from_slice(&found);
-            ends.push(list.len() as u32);
-        }
-    }
 }
 
 impl Walk {
@@ -196,18 +168,18 @@ impl Walk {
                 numbers[start..].iter().zip(base..).take_while(|(number, next)| *number == next).count();
             let (from, to) =
                 (lists.starts[base as usize] as usize, lists.starts[base as usize + run] as usize);
-            let pairs = lists.candidates[from..to].iter().zip(&lists.owners[from..to]);
             self.near.resize(length + to - from, 0);
             self.owners.resize(length + to - from, 0);
-            for (candidate, owner) in pairs {
-                let owner = (owner - base) as usize + start;
-                let place = lists.places[*candidate as usize];
-                // One that has left the space has no place.
-                let Some(other) = positions.get(place as usize) else { continue };
-                self.near[length] = place;
-                self.owners[length] = owner as u32;
-                length += usize::from(is_near(own[owner], *other));
-            }
+            let pairs = Pairs {
+                candidates: &lists.candidates[from..to],
+                owners: &lists.owners[from..to],
+                base,
+                own: &own[start..start + run],
+                places: lists.places,
+                positions,
+            };
+            let (near, owners) = (&mut self.near[length..], &mut self.owners[length..]);
+            length += keep(pairs, start as u32, near, owners, &is_near);
             start += run;
         }
         self.near.truncate(length);
@@ -241,4 +213,38 @@ impl Walk {
             *start = sum;
         }
     }
+}
+
+/// The lists of some of a row's items that follow each other.
+struct Pairs<'a, R> {
+    candidates: &'a [u32],
+    owners: &'a [u32],
+    /// The number of the first item.
+    base: u32,
+    /// The items' positions.
+    own: &'a [Vector3<R>],
+    places: &'a [u32],
+    positions: &'a [Vector3<R>],
+}
+
+/// Keeps the pairs that are near, of which it gives the count. What is written is an argument of its own: it is apart from what is read.
+#[inline(never)]
+fn keep<R: Float>(
+    Pairs { candidates, owners, base, own, places, positions }: Pairs<'_, R>,
+    first: u32,
+    near: &mut [u32],
+    near_owners: &mut [u32],
+    is_near: &impl Fn(Vector3<R>, Vector3<R>) -> bool,
+) -> usize {
+    let mut count = 0;
+    for (candidate, owner) in candidates.iter().zip(owners) {
+        let owner = owner - base;
+        let place = places[*candidate as usize];
+        // One that has left the space has no place.
+        let Some(other) = positions.get(place as usize) else { continue };
+        near[count] = place;
+        near_owners[count] = first + owner;
+        count += usize::from(is_near(own[owner as usize], *other));
+    }
+    count
 }

@@ -3,9 +3,9 @@
 //! The result is defined by the present positions alone: the items of the reached cells that are nearer than the radius, in the order
 //! neighbour index, then label. An engine may therefore leave out cells that are too far away ([`CellFilter`]).
 
-use super::near::{Search, Walk};
+use super::near::Walk;
 use super::wide::{self, Wide};
-use super::{Column, Row, WRONG_RADIUS};
+use super::{Column, Memory, MemoryOf, Row, WRONG_RADIUS};
 use crate::float::Float;
 use crate::geometry::Geometry;
 use crate::neighbourhood::Parity;
@@ -207,8 +207,7 @@ impl<'a> Row<'a> {
         if self.walk(radius, positions) {
             return self.walked::<REACH>(cell, item, found);
         }
-        let search = Search { item, position, square: radius * radius, positions };
-        self.unlisted_within::<R, REACH>(cell, &search, radius, found);
+        self.unlisted_within::<R, REACH>(cell, item, position, radius, positions, found);
     }
 
     /// The largest radius that was searched.
@@ -218,14 +217,16 @@ impl<'a> Row<'a> {
 
     /// The same by the cells.
     #[inline(always)]
-    pub(super) fn unlisted_within<R: Float, const REACH: u8>(
+    fn unlisted_within<R: Float, const REACH: u8>(
         &self,
         cell: Column<'_>,
-        search: &Search<'_, R>,
+        item: usize,
+        position: Vector3<R>,
         radius: R,
+        positions: &[Vector3<R>],
         found: &mut Vec<u32>,
     ) {
-        let Search { item, position, square: reach, positions } = *search;
+        let reach = radius * radius;
         let touched = match self.frame.filter {
             Some(filter) if REACH != reach::CELL => {
                 let [first, y, z] = self.origin;
@@ -335,6 +336,18 @@ impl<'a> Row<'a> {
         std::hint::black_box(sum.fold(R::from_f64(0.0), |sum, position| sum + position.x));
     }
 
+    /// Tells the processor that what the process reads of these items is wanted soon: they are far apart.
+    pub(super) fn announce(&self, places: &[u32]) {
+        for entry in self.entries {
+            let Memory { element, length, of: MemoryOf::Items { all: true, count } } = entry.memory else {
+                continue;
+            };
+            for place in places.iter().map(|place| *place as usize).filter(|place| *place < count) {
+                announce(entry.read.wrapping_add(place * element * length));
+            }
+        }
+    }
+
     /// The neighbours one by one, those that are wanted.
     #[inline]
     fn joined(&self, cell: Column<'_>, wanted: impl Fn(usize) -> bool, mut each: impl FnMut(Range<usize>)) {
@@ -354,6 +367,19 @@ impl<'a> Row<'a> {
         }
         each(joined);
     }
+}
+
+/// Tells the processor that what lies there is wanted soon. It is no access: any address will do.
+#[inline(always)]
+fn announce(place: *const u8) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // SAFETY: a hint, for any address.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(place.cast()) }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = place;
 }
 
 #[inline(always)]

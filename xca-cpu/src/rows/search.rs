@@ -2,15 +2,12 @@
 #![allow(unsafe_code)]
 
 use super::{Group, population};
-use crate::blocks::blocks;
 use crate::layout::Layout;
-use crate::lists::{Listed, Room};
+use crate::lists::Room;
 use crate::motion::{largest, measure};
-use crate::population::Population;
 use crate::upkeep::keep_lists;
-use rayon::prelude::*;
-use xca_core::kernel::{CellFilter, Frame, Row, RowItems, Scratch};
-use xca_core::{Float, Model, Precision, Process, ProcessKind, Stream, Vector3};
+use xca_core::kernel::CellFilter;
+use xca_core::{Model, Precision, Process, ProcessKind};
 
 /// What the searches of a pass go by.
 pub(super) struct Searches {
@@ -69,80 +66,11 @@ pub(super) fn prepare(
             && let Some(mut motion) = population.motion
         {
             let room = Room::new(widest, geometry, &motion);
-            searches.listed[number] = keep_lists(population, &room, &mut motion, |population, within| {
-                list(model, layout, precision, population, filter, within)
-            });
+            searches.listed[number] = keep_lists(population, layout, geometry, &room, &mut motion);
             population.motion = Some(motion);
         }
     }
     searches
-}
-
-/// Lists what is near each item, for blocks of rows in order.
-fn list(
-    model: &Model,
-    layout: &Layout,
-    precision: Precision,
-    population: &Population,
-    filter: &CellFilter,
-    within: f64,
-) -> Vec<Listed> {
-    let geometry = model.geometry();
-    let [offsets, _] = layout.offsets(geometry);
-    let frame = Frame {
-        geometry,
-        extents: geometry.extents().map(|extent| extent as u32),
-        side: geometry.side(),
-        toroidal: geometry.toroidal(),
-        step: 0,
-        seed: 0,
-        stream: Stream::process(0),
-        parameters: &[],
-        offsets: &offsets,
-        filter: Some(filter),
-    };
-    let blocks = blocks(layout, &[population], rayon::current_num_threads());
-    let blocks = blocks.into_par_iter().with_max_len(1);
-    let list = |rows: std::ops::Range<usize>| {
-        let mut listed = Listed::default();
-        for row in rows {
-            match precision {
-                Precision::F32 => list_row::<f32>(layout, population, &frame, row, within, &mut listed),
-                Precision::F64 => list_row::<f64>(layout, population, &frame, row, within, &mut listed),
-            }
-        }
-        listed
-    };
-    blocks.map(list).collect()
-}
-
-fn list_row<R: Float + bytemuck::Pod>(
-    layout: &Layout,
-    population: &Population,
-    frame: &Frame<'_>,
-    row: usize,
-    within: f64,
-    listed: &mut Listed,
-) {
-    let own = population.row(row);
-    let Some(field) = population.position.filter(|_| own.0 < own.1) else { return };
-    let positions: &[Vector3<R>] = bytemuck::cast_slice(population.items.fields[field].bytes());
-    let [y, z] = layout.row(row);
-    let first = layout.first_at(y, z);
-    let items = RowItems {
-        starts: population.starts.as_ptr().wrapping_add(first),
-        ends: population.ends.as_ptr().wrapping_add(first),
-        labels: &population.items.labels,
-        own,
-        cells: &population.items.cells[own.0..own.1],
-        near: None,
-    };
-    let scratch = Scratch::default();
-    let origin = [0, y as u32, z as u32];
-    // SAFETY: there are no entries. `starts` and `ends` are padded by as much as the neighbourhood reaches and hold ranges of items; those of
-    // the row's cells are its own items.
-    let row = unsafe { Row::new(frame, &[], Some(items), None, &scratch, origin, layout.width()) };
-    row.list(positions, R::from_f64(within), &mut listed.list, &mut listed.ends);
 }
 
 /// What a pass measures of a population while its rows are in the cache.

@@ -1,0 +1,179 @@
+//! Making lists of what is near each item.
+
+use crate::blocks::blocks;
+use crate::layout::Layout;
+use crate::population::Population;
+use rayon::prelude::*;
+use std::ops::Range;
+use xca_core::Geometry;
+use xca_core::kernel::{Work, run};
+
+/// Items that are compared at a time.
+const LANES: usize = 8;
+
+/// Lists of some rows.
+#[derive(Default)]
+pub(crate) struct Listed {
+    pub(crate) list: Vec<u32>,
+    /// The length of `list` after each item.
+    pub(crate) ends: Vec<u32>,
+}
+
+/// Lists for each item the places of those nearer than `within` metres, and perhaps of some that are hardly further: for blocks of rows in
+/// order. No item may be so far outside of its cell, and nothing so near in a cell so far away, that the neighbourhood's box does not hold it.
+pub(crate) fn make(
+    population: &Population,
+    layout: &Layout,
+    geometry: &Geometry,
+    within: f64,
+) -> Vec<Listed> {
+    let planes = Planes::new(&population.references());
+    let toroidal = geometry.toroidal();
+    let periods = std::array::from_fn(|axis| {
+        let period = geometry.extents()[axis] as f64 * geometry.side();
+        toroidal[axis].then_some(period as f32)
+    });
+    let square = (within * within) as f32;
+    let square = square + square * f32::EPSILON;
+    let maker = Maker { population, layout, planes, periods, square };
+    let blocks = blocks(layout, &[population], rayon::current_num_threads());
+    let blocks = blocks.into_par_iter().with_max_len(1);
+    let list = |rows: Range<usize>| {
+        let mut listed = Listed::default();
+        rows.for_each(|row| run(OfRow { maker: &maker, row, listed: &mut listed }));
+        listed
+    };
+    blocks.map(list).collect()
+}
+
+/// The positions in `f32`, an array for each axis, with as many more at the end as are read at a time.
+struct Planes {
+    axes: [Vec<f32>; 3],
+}
+
+impl Planes {
+    fn new(positions: &[[f32; 3]]) -> Self {
+        let along = |axis: usize| {
+            let mut plane: Vec<f32> = positions.par_iter().map(|position| position[axis]).collect();
+            plane.resize(positions.len() + LANES, 0.0);
+            plane
+        };
+        Self { axes: [0, 1, 2].map(along) }
+    }
+
+    /// Those from a place on, along an axis.
+    #[inline(always)]
+    fn lanes(&self, axis: usize, first: usize) -> [f32; LANES] {
+        let plane = &self.axes[axis][first..];
+        plane.first_chunk().copied().unwrap_or([0.0; LANES])
+    }
+}
+
+struct Maker<'a> {
+    population: &'a Population,
+    layout: &'a Layout,
+    planes: Planes,
+    /// The length of each toroidal axis.
+    periods: [Option<f32>; 3],
+    square: f32,
+}
+
+/// The lists of a row, made by the widest instructions of the processor.
+struct OfRow<'a> {
+    maker: &'a Maker<'a>,
+    row: usize,
+    listed: &'a mut Listed,
+}
+
+impl Work for OfRow<'_> {
+    #[inline(always)]
+    fn run(self) {
+        self.maker.list_row(self.row, self.listed);
+    }
+}
+
+impl Maker<'_> {
+    #[inline(always)]
+    fn list_row(&self, row: usize, listed: &mut Listed) {
+        let (population, layout) = (self.population, self.layout);
+        let (first, end) = population.row(row);
+        if first == end {
+            return;
+        }
+        let padded = layout.first(row);
+        let mut strips = Vec::new();
+        for x in 0..layout.width() {
+            let own = population.starts[padded + x]..population.ends[padded + x];
+            if own.is_empty() {
+                continue;
+            }
+            self.strips(padded, x, &mut strips);
+            for item in own {
+                for strip in &strips {
+                    self.keep(item, strip.clone(), &mut listed.list);
+                }
+                listed.ends.push(listed.list.len() as u32);
+            }
+        }
+    }
+
+    /// The places of what is in the box around a cell: one range for each row, and in the halo one for each cell.
+    #[inline(always)]
+    fn strips(&self, padded: usize, x: usize, strips: &mut Vec<Range<u32>>) {
+        let Population { starts, ends, .. } = self.population;
+        let [reach, ..] = self.layout.reach();
+        let width = self.layout.width();
+        let (low, high) = (x.saturating_sub(reach), (x + reach).min(width - 1));
+        strips.clear();
+        for offset in self.layout.rows_in_reach() {
+            let row = padded.wrapping_add_signed(offset);
+            let mut add = |range: Range<u32>| {
+                if !range.is_empty() {
+                    strips.push(range);
+                }
+            };
+            add(starts[row + low]..ends[row + high]);
+            if self.periods[0].is_some() {
+                // The halo repeats cells of the row's other end.
+                let before = (x + 1..=reach).map(|step| row - (step - x));
+                let after = (width..=x + reach).map(|cell| row + cell);
+                before.chain(after).for_each(|cell| add(starts[cell]..ends[cell]));
+            }
+        }
+    }
+
+    /// Adds those of a strip that are near.
+    #[inline(always)]
+    fn keep(&self, item: u32, strip: Range<u32>, list: &mut Vec<u32>) {
+        let here = [0, 1, 2].map(|axis| self.planes.axes[axis][item as usize]);
+        let mut first = strip.start;
+        while first < strip.end {
+            let mut squares = [0.0_f32; LANES];
+            for axis in 0..3 {
+                let there = self.planes.lanes(axis, first as usize);
+                for lane in 0..LANES {
+                    let mut way = there[lane] - here[axis];
+                    if let Some(period) = self.periods[axis] {
+                        way -= period * (way / period).round_ties_even();
+                    }
+                    squares[lane] += way * way;
+                }
+            }
+            // A byte for each, so that most often one comparison tells that there is none.
+            let near: [u8; LANES] = std::array::from_fn(|lane| u8::from(squares[lane] < self.square));
+            let mut bits = u64::from_le_bytes(near);
+            let count = (strip.end - first) as usize;
+            if count < LANES {
+                bits &= (1 << (8 * count)) - 1;
+            }
+            while bits != 0 {
+                let place = first + bits.trailing_zeros() / 8;
+                bits &= bits - 1;
+                if place != item {
+                    list.push(place);
+                }
+            }
+            first += LANES as u32;
+        }
+    }
+}
