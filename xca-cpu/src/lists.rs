@@ -42,9 +42,9 @@ impl Room {
 }
 
 impl Lists {
-    /// Within which radius, in metres, a search can use the lists: two items have come closer by twice the largest motion at most.
+    /// Within which radius, in metres, a search can use the lists.
     pub(crate) fn radius(&self, motion: &Motion, room: &Room) -> f64 {
-        self.made_within - 2.0 * motion.square.sqrt() - room.rounding
+        self.made_within - motion.approach() - room.rounding
     }
 
     /// As kernels see them.

@@ -23,6 +23,16 @@ impl Motion {
     pub(crate) const NONE: Self =
         Self { slack: 0.0, square: 0.0, low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
 
+    /// By how much two items have come closer at most, in metres. Two bounds: each is within a sphere around the common motion, and within the
+    /// box of all displacements. The sphere is the smaller one for motion in all directions, the box while the common motion is not known.
+    pub(crate) fn approach(&self) -> f64 {
+        let widths = [0, 1, 2].map(|axis| self.high[axis] - self.low[axis]);
+        let box_ = widths.iter().map(|width| width * width).sum::<f64>().sqrt();
+        let sphere = 2.0 * self.square.sqrt();
+        // NaN stays.
+        if box_ < sphere { box_ } else { sphere }
+    }
+
     /// That of the items of both.
     pub(crate) fn and(self, other: Self) -> Self {
         Self {

@@ -51,6 +51,15 @@ struct Key {
     radius: u64,
 }
 
+/// What a search by lists needs.
+struct Lists<'a> {
+    items: &'a RowItems<'a>,
+    near: &'a NearLists<'a>,
+    filter: &'a CellFilter,
+    /// Whether what is near is surely in cells of the neighbourhood, in the order of places.
+    plain: bool,
+}
+
 impl Row<'_> {
     /// Whether searches within this radius, whose number of bits is given, are looked up in what has been found by the lists.
     #[inline(always)]
@@ -58,12 +67,52 @@ impl Row<'_> {
         self.walked.get() == Some(bits)
     }
 
+    /// Whether searches within some radius are looked up.
+    #[inline(always)]
+    pub(super) fn has_walked(&self) -> bool {
+        self.walked.get().is_some()
+    }
+
+    /// The lists, if there are any for this radius, and whether what is within it is surely in cells of the neighbourhood.
+    #[inline(always)]
+    fn lists_within<R: Float>(&self, radius: R) -> Option<Lists<'_>> {
+        let items = self.items.as_ref()?;
+        let near = items.near.filter(|near| radius.to_f64() <= near.radius)?;
+        let filter = self.frame.filter?;
+        let plain = filter.holds(self.frame.geometry.covered_radius(R::PRECISION), radius.to_f64());
+        Some(Lists { items, near, filter, plain })
+    }
+
+    /// Finds by the lists what is near one item; not where cells have to be compared.
+    pub(super) fn listed<R: Float, const REACH: u8>(
+        &self,
+        cell: Column<'_>,
+        item: usize,
+        radius: R,
+        positions: &[Vector3<R>],
+        found: &mut Vec<u32>,
+    ) -> bool {
+        let Some(Lists { near, plain: true, .. }) = self.lists_within(radius) else { return false };
+        let number = near.numbers[item] as usize;
+        let own = self.items(cell);
+        let square = radius * radius;
+        for candidate in &near.candidates[near.starts[number] as usize..near.starts[number + 1] as usize] {
+            let place = near.places[*candidate as usize];
+            let Some(other) = positions.get(place as usize) else { continue };
+            let here = own.contains(&(place as usize));
+            let wanted = REACH == reach::ALL || here == (REACH == reach::CELL);
+            if wanted && super::search::length_squared(positions[item] - *other) < square {
+                found.push(place);
+            }
+        }
+        found.sort_unstable_by_key(|place| (!own.contains(&(*place as usize)), *place));
+        true
+    }
+
     /// Finds by the lists, if there are any for this radius, what is near all items of the row.
     #[inline(never)]
     pub(super) fn walk<R: Float>(&self, radius: R, positions: &[Vector3<R>]) -> bool {
-        let Some(items) = &self.items else { return false };
-        let Some(near) = items.near.filter(|near| radius.to_f64() <= near.radius) else { return false };
-        let Some(filter) = self.frame.filter else { return false };
+        let Some(Lists { items, near, filter, plain }) = self.lists_within(radius) else { return false };
         let key =
             Key { positions: positions.as_ptr() as usize, own: items.own, radius: radius.to_f64().to_bits() };
         self.walked.set(Some(key.radius));
@@ -85,7 +134,6 @@ impl Row<'_> {
                 super::search::length_squared(one - other) < square
             });
         }
-        let plain = filter.holds(self.frame.geometry.covered_radius(R::PRECISION), radius.to_f64());
         if plain {
             walk.sort();
         } else {

@@ -204,7 +204,12 @@ impl<'a> Row<'a> {
             return;
         }
         self.widest.set(self.widest.get().max(radius.to_f64()));
-        if self.walk(radius, positions) {
+        if self.has_walked() {
+            // Another radius than that of the row: items may each have their own.
+            if self.listed::<R, REACH>(cell, item, radius, positions, found) {
+                return;
+            }
+        } else if self.walk(radius, positions) {
             return self.walked::<REACH>(cell, item, found);
         }
         self.unlisted_within::<R, REACH>(cell, item, position, radius, positions, found);
