@@ -149,10 +149,10 @@ impl Maker<'_> {
         let mut first = strip.start;
         while first < strip.end {
             let mut squares = [0.0_f32; LANES];
-            for axis in 0..3 {
+            for (axis, here) in here.iter().enumerate() {
                 let there = self.planes.lanes(axis, first as usize);
                 for lane in 0..LANES {
-                    let mut way = there[lane] - here[axis];
+                    let mut way = there[lane] - here;
                     if let Some(period) = self.periods[axis] {
                         way -= period * (way / period).round_ties_even();
                     }

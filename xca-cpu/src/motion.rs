@@ -163,10 +163,8 @@ impl<'a> Frame<'a> {
         let wraps = self.periods.iter().any(|period| period.is_finite());
         for (&place, reference) in positions.iter().zip(self.references) {
             let now = position(place);
-            let mut moved = [0.0; 3];
-            for axis in 0..3 {
-                moved[axis] = now[axis] - f64::from(reference[axis]) - self.drift[axis];
-            }
+            let mut moved: [f64; 3] =
+                std::array::from_fn(|axis| now[axis] - f64::from(reference[axis]) - self.drift[axis]);
             if wraps {
                 for (moved, period) in
                     moved.iter_mut().zip(self.periods).filter(|(_, period)| period.is_finite())
@@ -174,9 +172,9 @@ impl<'a> Frame<'a> {
                     *moved -= period * (*moved / period).round();
                 }
             }
-            for axis in 0..3 {
-                motion.low[axis] = -above(-motion.low[axis], -moved[axis]);
-                motion.high[axis] = above(motion.high[axis], moved[axis]);
+            for (moved, (low, high)) in moved.iter().zip(motion.low.iter_mut().zip(&mut motion.high)) {
+                *low = -above(-*low, -moved);
+                *high = above(*high, *moved);
             }
             let [x, y, z] = moved;
             motion.square = above(motion.square, x * x + y * y + z * z);

@@ -27,6 +27,7 @@ use xca_core::kernel::{
 use xca_core::{Model, Parity, Precision, Process, ProcessKind, Stream};
 
 /// The substates of one struct.
+#[allow(clippy::large_enum_variant, reason = "a model has a few of them")]
 pub(crate) enum Group {
     Cells(Vec<Dense>),
     Population(Population),

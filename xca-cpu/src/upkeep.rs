@@ -189,5 +189,5 @@ pub(crate) fn keep_lists(
     upkeep.figures.items += items;
     upkeep.figures.candidates += candidates as u64;
     upkeep.figures.skin = within - widest;
-    kept.then(|| within - room.rounding)
+    kept.then_some(within - room.rounding)
 }

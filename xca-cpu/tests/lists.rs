@@ -183,8 +183,9 @@ fn lists_last_while_nothing_moves_against_each_other() -> TestResult {
 fn lists_hold_what_is_near_and_no_more() -> TestResult {
     let model = grains(TORUS, &Motion { together: [0.0; 3], apart: 0.0, radius: |_| 0.45 })?;
     let told = figures(&model, &with_skin(1, Some(0.3))?, 3)?;
-    let places: Vec<[f64; 3]> =
-        (0..600).map(|label| [0, 1, 2].map(|axis| number(label, axis) * EXTENTS[axis as usize] as f64)).collect();
+    let places: Vec<[f64; 3]> = (0..600)
+        .map(|label| [0, 1, 2].map(|axis| number(label, axis) * EXTENTS[axis as usize] as f64))
+        .collect();
     let distance = |one: &[f64; 3], other: &[f64; 3]| {
         let ways = [0, 1, 2].map(|axis| {
             let (way, length) = ((one[axis] - other[axis]).abs(), EXTENTS[axis] as f64);

@@ -328,17 +328,17 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// Brings what the row's searches are the first to read into the cache: the positions in the last row of the neighbourhood. They are
-    /// read in order here, so that the processor sees what comes next; searches jump.
+    /// Tells the processor what the row's searches are the first to read: the positions in the last row of the neighbourhood. Searches
+    /// jump, so the processor does not see it coming.
     pub(super) fn fetch<R: Float>(&self, positions: &[Vector3<R>]) {
+        const LINE: usize = 64;
         let Some(&last) = self.frame.offsets.last() else { return };
         let end = self.length.saturating_sub(1 + self.frame.geometry.neighbourhood().reach()[0]);
         // SAFETY: an offset of the neighbourhood.
         let [first, end] = [0, end].map(|number| unsafe { self.items_at(self.column(number), last) });
-        let line = 64 / size_of::<Vector3<R>>();
-        let places = first.start.min(end.end)..end.end;
-        let sum = positions.get(places).unwrap_or_default().iter().step_by(line.max(1));
-        std::hint::black_box(sum.fold(R::from_f64(0.0), |sum, position| sum + position.x));
+        let Some(row) = positions.get(first.start..end.end) else { return };
+        let start = row.as_ptr().cast::<u8>();
+        (0..size_of_val(row)).step_by(LINE).for_each(|at| announce(start.wrapping_add(at)));
     }
 
     /// Tells the processor that what the process reads of these items is wanted soon: they are far apart.
