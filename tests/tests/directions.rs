@@ -54,7 +54,7 @@ const DRIVERS: [(&str, &[&str]); 2] = [("rayon", &["xca-cpu", "xca-benchmarks"])
 const ENGINES: [&str; 2] = ["xca-cpu", "xca-gpu"];
 
 /// The files that argue for unsafe code.
-const UNSAFE: [&str; 12] = [
+const UNSAFE: [&str; 13] = [
     "xca-core/src/kernel.rs",
     "xca-core/src/kernel/cells.rs",
     "xca-core/src/kernel/entries.rs",
@@ -65,6 +65,7 @@ const UNSAFE: [&str; 12] = [
     "xca-core/src/reference/pass.rs",
     "xca-core/src/vector.rs",
     "xca-cpu/src/rows.rs",
+    "xca-cpu/src/rows/prepared.rs",
     "xca-cpu/src/rows/search.rs",
     "xca-gpu/src/device/code.rs",
 ];

@@ -72,7 +72,7 @@ impl Layout {
         [row % self.extents[1], row / self.extents[1]]
     }
 
-    /// The rows from which an item comes into a row when it goes from a cell to the next: those beside it along y and z, also round a torus.
+    /// The rows from which an item that goes to the next cell comes into a row: itself, and those beside it along y and z, also round a torus.
     pub(crate) fn rows_beside(&self, row: usize) -> impl Iterator<Item = usize> {
         let [_, height, depth] = self.extents;
         let [y, z] = self.row(row);

@@ -14,6 +14,12 @@ use xca_core::model::{Group as Definition, GroupKind};
 use xca_core::storage::Buffer;
 use xca_core::{Precision, StoredScalar, StoredType};
 
+/// How many more items than it has a row has room for at least: few items come and go at once, but some row among many is always unlucky.
+const LEAST_ROOM: u32 = 4;
+
+/// A row has one more place for so many items that it has.
+const ITEMS_WORTH_A_PLACE: u32 = 8;
+
 /// The items of one population.
 pub(crate) struct Population {
     pub(crate) types: Vec<StoredType>,
@@ -316,7 +322,7 @@ fn rows_with_room(layout: &Layout, counts: &[u32]) -> Vec<u32> {
     for row in 0..counts.len() {
         rows.push(place);
         let near = layout.rows_beside(row).any(|row| counts[row] > 0);
-        place += counts[row] + if counts[row] > 0 || near { 2 + counts[row] / 8 } else { 0 };
+        place += counts[row] + if near { LEAST_ROOM + counts[row] / ITEMS_WORTH_A_PLACE } else { 0 };
     }
     rows.push(place);
     rows

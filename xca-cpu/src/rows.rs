@@ -6,6 +6,7 @@
 
 mod now;
 mod prepare;
+mod prepared;
 mod search;
 
 use crate::blocks::blocks;
@@ -15,16 +16,15 @@ use crate::motion::Motion;
 use crate::population::Population;
 use now::{Now, Report};
 use prepare::prepare_buffers;
+use prepared::{Prepared, prepare};
 use rayon::prelude::*;
 use search::{Measured, Searches};
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
-use xca_core::engine::{Fault, StepContext, SubstateId};
-use xca_core::kernel::{
-    Access, Entry, Frame, Memory, MemoryOf, Row, RowItems, RowKernel, STAY, Scratch, StoppedAt,
-};
-use xca_core::{Model, Parity, Precision, Process, ProcessKind, Stream};
+use xca_core::engine::{Fault, StepContext};
+use xca_core::kernel::{Entry, Frame, Row, RowItems, STAY, Scratch, StoppedAt};
+use xca_core::{Model, Parity, Precision, ProcessKind, Stream};
 
 /// The substates of one struct.
 #[allow(clippy::large_enum_variant, reason = "a model has a few of them")]
@@ -38,54 +38,6 @@ fn population(group: &Group) -> Option<&Population> {
         Group::Population(population) => Some(population),
         Group::Cells(_) => None,
     }
-}
-
-/// Where a substate's memory starts, shared by the threads.
-#[derive(Clone, Copy)]
-struct Shared {
-    /// Null where the process reads what it writes, in place.
-    read: *const u8,
-    /// Null where the process does not write.
-    write: *mut u8,
-    memory: Memory,
-    /// Whether what is written has to go on into the halo along x.
-    continued: bool,
-}
-
-// SAFETY: the pointers lead to memory that is written through rows alone, and rows are disjoint, see `run_row`.
-unsafe impl Send for Shared {}
-// SAFETY: as above.
-unsafe impl Sync for Shared {}
-
-impl Shared {
-    /// What a kernel gets for the row whose first cell has this padded number, and whose first item this one.
-    fn entry(&self, first_cell: usize, first_item: usize) -> Entry {
-        let (element, length) = (self.memory.element, self.memory.length);
-        let (read, write) = match self.memory.of {
-            MemoryOf::Cells { .. } => (first_cell * element, first_cell * element),
-            MemoryOf::Items { .. } => (0, first_item * element * length),
-        };
-        let moved = |pointer: *mut u8, by: usize| {
-            if pointer.is_null() { pointer } else { pointer.wrapping_add(by) }
-        };
-        Entry {
-            read: moved(self.read.cast_mut(), read).cast_const(),
-            write: moved(self.write, write),
-            memory: self.memory,
-        }
-    }
-}
-
-/// A process made ready for a pass.
-struct Prepared<'a> {
-    process: &'a Process,
-    /// Its place in the step.
-    index: usize,
-    /// Its place in the pass.
-    number: usize,
-    kernel: RowKernel,
-    substates: Vec<Shared>,
-    population: Option<usize>,
 }
 
 /// What a pass over a block of rows found.
@@ -208,54 +160,6 @@ pub(crate) fn run(
         }
     }
     Ok(movers)
-}
-
-fn prepare<'a>(
-    model: &'a Model,
-    layout: &Layout,
-    groups: &mut [Group],
-    (number, index): (usize, usize),
-    precision: Precision,
-    written: &[(SubstateId, bool)],
-) -> Prepared<'a> {
-    let process = &model.processes()[index];
-    let plan = model.plan().process(index);
-    let accesses = process.access.iter().zip(&plan.accesses);
-    let substates =
-        accesses.map(|(access, &substate)| shared(layout, groups, access, substate, written)).collect();
-    let population = plan.population;
-    Prepared { process, index, number, kernel: process.kernel(precision), substates, population }
-}
-
-fn shared(
-    layout: &Layout,
-    groups: &mut [Group],
-    access: &Access,
-    substate: SubstateId,
-    written: &[(SubstateId, bool)],
-) -> Shared {
-    let (current, next, stored, of, continued) = match &mut groups[substate.group] {
-        Group::Cells(planes) => {
-            let plane = &mut planes[substate.field];
-            let continued = access.write && plane.read_elsewhere;
-            let stride = layout.cells();
-            let of = MemoryOf::Cells { read_stride: stride, write_stride: stride, around: access.others };
-            (&mut plane.current, plane.next.as_mut(), plane.stored, of, continued)
-        }
-        Group::Population(population) => {
-            let stored = population.types[substate.field];
-            let next = &mut population.next[substate.field];
-            let of = MemoryOf::Items { all: access.others, count: population.items.labels.len() };
-            (&mut population.items.fields[substate.field], Some(next), stored, of, false)
-        }
-    };
-    let (read, write) = match next {
-        _ if !access.write => (current.as_ptr(), std::ptr::null_mut()),
-        Some(next) if written.contains(&(substate, true)) => (current.as_ptr(), next.as_mut_ptr()),
-        _ => (std::ptr::null(), current.as_mut_ptr()),
-    };
-    let memory = Memory { element: stored.element_size(), length: stored.length as usize, of };
-    Shared { read, write, memory, continued }
 }
 
 /// Everything that the rows of a pass share.

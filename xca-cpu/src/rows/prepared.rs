@@ -1,0 +1,105 @@
+//! Processes made ready for a pass: where the memory of their substates starts.
+#![allow(unsafe_code)]
+
+use super::Group;
+use crate::layout::Layout;
+use xca_core::engine::SubstateId;
+use xca_core::kernel::{Access, Entry, Memory, MemoryOf, RowKernel};
+use xca_core::{Model, Precision, Process};
+
+/// Where a substate's memory starts, shared by the threads.
+#[derive(Clone, Copy)]
+pub(super) struct Shared {
+    /// Null where the process reads what it writes, in place.
+    read: *const u8,
+    /// Null where the process does not write.
+    pub(super) write: *mut u8,
+    pub(super) memory: Memory,
+    /// Whether what is written has to go on into the halo along x.
+    pub(super) continued: bool,
+}
+
+// SAFETY: the pointers lead to memory that is written through rows alone, and rows are disjoint, see `rows.rs`.
+unsafe impl Send for Shared {}
+// SAFETY: as above.
+unsafe impl Sync for Shared {}
+
+impl Shared {
+    /// What a kernel gets for the row whose first cell has this padded number, and whose first item this one.
+    pub(super) fn entry(&self, first_cell: usize, first_item: usize) -> Entry {
+        let (element, length) = (self.memory.element, self.memory.length);
+        let (read, write) = match self.memory.of {
+            MemoryOf::Cells { .. } => (first_cell * element, first_cell * element),
+            MemoryOf::Items { .. } => (0, first_item * element * length),
+        };
+        let moved = |pointer: *mut u8, by: usize| {
+            if pointer.is_null() { pointer } else { pointer.wrapping_add(by) }
+        };
+        Entry {
+            read: moved(self.read.cast_mut(), read).cast_const(),
+            write: moved(self.write, write),
+            memory: self.memory,
+        }
+    }
+}
+
+/// A process made ready for a pass.
+pub(super) struct Prepared<'a> {
+    pub(super) process: &'a Process,
+    /// Its place in the step.
+    pub(super) index: usize,
+    /// Its place in the pass.
+    pub(super) number: usize,
+    pub(super) kernel: RowKernel,
+    pub(super) substates: Vec<Shared>,
+    pub(super) population: Option<usize>,
+}
+
+/// Makes a process ready that has this number in the pass and this index in the model.
+pub(super) fn prepare<'a>(
+    model: &'a Model,
+    layout: &Layout,
+    groups: &mut [Group],
+    (number, index): (usize, usize),
+    precision: Precision,
+    written: &[(SubstateId, bool)],
+) -> Prepared<'a> {
+    let process = &model.processes()[index];
+    let plan = model.plan().process(index);
+    let accesses = process.access.iter().zip(&plan.accesses);
+    let substates =
+        accesses.map(|(access, &substate)| shared(layout, groups, access, substate, written)).collect();
+    let population = plan.population;
+    Prepared { process, index, number, kernel: process.kernel(precision), substates, population }
+}
+
+fn shared(
+    layout: &Layout,
+    groups: &mut [Group],
+    access: &Access,
+    substate: SubstateId,
+    written: &[(SubstateId, bool)],
+) -> Shared {
+    let (current, next, stored, of, continued) = match &mut groups[substate.group] {
+        Group::Cells(planes) => {
+            let plane = &mut planes[substate.field];
+            let continued = access.write && plane.read_elsewhere;
+            let stride = layout.cells();
+            let of = MemoryOf::Cells { read_stride: stride, write_stride: stride, around: access.others };
+            (&mut plane.current, plane.next.as_mut(), plane.stored, of, continued)
+        }
+        Group::Population(population) => {
+            let stored = population.types[substate.field];
+            let next = &mut population.next[substate.field];
+            let of = MemoryOf::Items { all: access.others, count: population.items.labels.len() };
+            (&mut population.items.fields[substate.field], Some(next), stored, of, false)
+        }
+    };
+    let (read, write) = match next {
+        _ if !access.write => (current.as_ptr(), std::ptr::null_mut()),
+        Some(next) if written.contains(&(substate, true)) => (current.as_ptr(), next.as_mut_ptr()),
+        _ => (std::ptr::null(), current.as_mut_ptr()),
+    };
+    let memory = Memory { element: stored.element_size(), length: stored.length as usize, of };
+    Shared { read, write, memory, continued }
+}
