@@ -17,6 +17,7 @@ mod substate_values;
 mod values;
 
 pub use cells::CellState;
+pub(crate) use cells::lattice;
 pub use drawing::{Drawing, Scales};
 pub use folder::{
     COMPARISON, Claim, ENSEMBLE, FRAMES, FolderError, Kind, LockedFolder, REPORT, RunFolder, numbered_files,

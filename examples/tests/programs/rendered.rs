@@ -1,6 +1,6 @@
 //! Pictures of runs, and the animation of them.
 
-use crate::running::{CADEM, HEAT, LANDSLIDE, LIFE, MOD2, Workplace};
+use crate::running::{CADEM, DEBRIS, HEAT, LANDSLIDE, LIFE, MOD2, Workplace};
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::BufReader;
@@ -158,6 +158,7 @@ fn what_a_run_has_left_is_drawn_as_the_run_itself() {
         (LIFE, "life", "--steps 12 --every 4", ""),
         (LANDSLIDE, "landslide", "--steps 60 --every 30", "--pixels 480x500"),
         (LANDSLIDE, "landslide", "--steps 60 --every 30", "--substate altitude,thickness"),
+        (DEBRIS, "debris", "--steps 60 --every 30", ""),
         (CADEM, "cadem", "--steps 10 --every 5", "--range 0,0.5 --pixels 420x380"),
     ] {
         said(&place, program, &format!("run {run} --quiet"));
@@ -173,6 +174,19 @@ fn what_a_run_has_left_is_drawn_as_the_run_itself() {
         let animation = |folder: &Path| fs::read(folder.join("animation.png")).unwrap();
         assert!(animation(&saved) == animation(&again), "{name} {look}");
         assert!(before == [all(&run_folder), all(&run_folder.join("frames"))], "{name} has been changed");
+    }
+}
+
+/// Hexagons too: the picture of the run itself is that of its frame.
+#[test]
+fn a_picture_of_a_run_is_that_of_its_frame() {
+    let place = Workplace::new();
+    for (program, name) in [(DEBRIS, "debris"), (LANDSLIDE, "landslide")] {
+        said(&place, program, "run --steps 0 --quiet");
+        said(&place, program, &format!("render out/{name} --animation none"));
+        let [of_run, of_frame] = ["out/@/final.png", "out/@_pictures/frames/frame_00000000.png"]
+            .map(|path| fs::read(place.path(&path.replace('@', name))).unwrap());
+        assert!(of_run == of_frame, "{name}");
     }
 }
 

@@ -1,11 +1,12 @@
 //! From what a view sees of a state to its picture.
 
+use super::cells;
 use super::seen::{Seen, wider};
 use super::shown::Shown;
 use crate::format::Subject;
 use crate::view::{AnyCellView, AnyItemView, AnyView, Drawn};
 use xca_core::model::Group;
-use xca_core::{Geometry, Model, Parity, Schema};
+use xca_core::{Geometry, Model, Schema};
 use xca_io::picture::{
     BlockPicture, Category, ColourMap, Domain, LandscapePicture, Lattice, ParticlePicture, Picture,
     PictureError, Relief, Scalar, SlicePicture,
@@ -196,11 +197,7 @@ impl Field<'_> {
 
     /// How the cells of the layer lie.
     fn lattice(&self) -> Lattice {
-        match self.geometry.neighbourhood().parity() {
-            Parity::Row if self.view.axis == 2 => Lattice::HexagonRows,
-            Parity::Column if self.view.axis == 2 => Lattice::HexagonColumns,
-            _ => Lattice::Squares,
-        }
+        if self.view.axis == 2 { cells::lattice(self.geometry) } else { Lattice::Squares }
     }
 
     /// The cells of a layer across and down, and the number of layers.
