@@ -7,7 +7,8 @@
 //! | [`write_hexagons`] | `.vtp`, PolyData | dense substates on hexagons: a polygon a cell |
 //! | [`Collection`] | `.pvd` | the files of a run with their times: what to open to see the run as a film |
 //!
-//! [`read_particles`], [`read_dense`] and [`read_hexagons`] read them back, and no other VTK files.
+//! [`read_particles`], [`read_dense`], [`read_hexagons`] and [`read_collection`] read them back, and no other VTK
+//! files.
 //! [`read_poly_data`] takes either kind of `.vtp`.
 //!
 //! Values are stored as they are (binary, little-endian, `AppendedData` in raw encoding) and compressed with zlib, so nothing is lost. Units are
@@ -31,8 +32,8 @@ pub use dense::{GHOST_TYPE, Grid, ghost_types, write_dense};
 pub use hexagons::{HexagonGrid, write_hexagons};
 pub use particles::write_particles;
 pub use read::{
-    DenseFile, HexagonFile, NumberType, ParticleFile, PolyDataFile, ReadArray, ReadVtkError, read_dense,
-    read_hexagons, read_particles, read_poly_data,
+    DenseFile, HexagonFile, ListedFile, NumberType, ParticleFile, PolyDataFile, ReadArray, ReadVtkError,
+    read_collection, read_dense, read_hexagons, read_particles, read_poly_data,
 };
 pub use values::{DataArray, Values};
 

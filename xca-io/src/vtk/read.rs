@@ -1,5 +1,6 @@
 //! Reading back the files that this crate writes: these, and no other forms that VTK knows.
 
+mod collection;
 mod element;
 mod found;
 
@@ -17,6 +18,7 @@ use crate::deflate::can_hold;
 use crate::regular_file;
 use element::{Element, attribute};
 
+pub use collection::{ListedFile, read_collection};
 pub use found::{DenseFile, HexagonFile, NumberType, ParticleFile, PolyDataFile, ReadArray};
 
 /// The array that tells the time.
