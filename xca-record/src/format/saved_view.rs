@@ -44,7 +44,7 @@ impl<'a> SavedView<'a> {
     /// Where a file is.
     pub fn path(&self, file: &OutputFile) -> PathBuf {
         match file.moment() {
-            Moment::Each => file.frame(&OutputFolder::to_read(&self.run.folder.join(FRAMES)), self.step),
+            Moment::Each => file.frame(&OutputFolder::to_read(self.run.folder.join(FRAMES)), self.step),
             _ => self.run.folder.join(file.own_name()),
         }
     }
