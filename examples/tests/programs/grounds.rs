@@ -205,15 +205,19 @@ fn colours(path: &Path, [columns, rows]: [usize; 2]) -> Vec<[u8; 3]> {
 fn pictures_on_a_map_have_its_coordinates() {
     let place = Workplace::new();
     island(&place);
+    for file in ["g.asc", "d.asc"] {
+        let text = place.read(file).replace("xllcorner 2600", "xllcorner 2602");
+        place.write(file, &text.replace("yllcorner 5100", "yllcorner 5101"));
+    }
     place.succeed(LANDSLIDE, "--dem g.asc --debris d.asc --steps 0");
     let (width, pixels) = pixels(&place.path("out/landslide/final.png"));
     let is_dark = |x: usize, y: usize| pixels[y * width + x][0] < 100;
     let below: Vec<usize> = (0..96 + 765).filter(|x| is_dark(*x, 120 + 765 + 4)).collect();
     let beside: Vec<usize> = (120..120 + 765).filter(|y| is_dark(96 - 5, *y)).collect();
-    // From 2600 and from 5100 on, every 5 m.
-    let wanted: Vec<usize> = (0..=10).map(|i| (153 * i / 2).min(764)).collect();
-    assert_eq!(below, wanted.iter().map(|at| 96 + at).collect::<Vec<_>>());
-    assert_eq!(beside, wanted.iter().rev().map(|at| 120 + 764 - at).collect::<Vec<_>>());
+    // Every 5 m: the first ticks are 2605 and 5105, 3 and 4 m from the corner.
+    let wanted = |first: usize| (0..10).map(move |i| 153 * (first + 5 * i) / 10);
+    assert_eq!(below, wanted(3).map(|at| 96 + at).collect::<Vec<_>>());
+    assert_eq!(beside, wanted(4).rev().map(|at| 120 + 764 - at).collect::<Vec<_>>());
 }
 
 #[test]
