@@ -55,8 +55,7 @@ pub struct SlicePicture<'a> {
     pub cell_side: f64,
     /// The unit of length.
     pub length_unit: &'a str,
-    /// The coordinates along the left and the lower edge, in place of the scale. Pictures whose `size` has no room for them
-    /// have the scale.
+    /// The coordinates along the left and the lower edge, in place of the scale; none where `size` has no room for them.
     pub axes: Option<Axes<'a>>,
     /// The longer side of the drawing in pixels, at most; the texts around it come on top. From 200 to 7900.
     pub pixels: usize,
@@ -323,8 +322,7 @@ mod tests {
         // The drawing itself is where it was.
         assert!(near(picture.pixel(LEFT_OF_AXES, TOP_OF_AXES + 399), colour(0.0)));
         let below = ticks(&picture, |x| [x, TOP_OF_AXES + 404], LEFT_OF_AXES + 600);
-        // 4,251,200 is 10 m from the corner, which are 40 pixels, and the next one 20 m or 80 pixels from there. The
-        // last one is the end of the last pixel.
+        // 4,251,200 is 10 m or 40 pixels from the corner, the next one 20 m from there, the last the end of all.
         let mut wanted: Vec<usize> = (0..8).map(|i| LEFT_OF_AXES + 40 + 80 * i).collect();
         wanted[7] -= 1;
         assert_eq!(below, wanted);
