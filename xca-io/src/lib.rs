@@ -27,7 +27,7 @@ pub mod atomic;
 mod deflate;
 pub mod extended_xyz;
 pub mod geotiff;
-mod lines;
+pub mod lines;
 pub mod map;
 pub mod numbers;
 pub mod particle_csv;

@@ -1,4 +1,4 @@
-//! Lines of text files, which may not be endless.
+//! Lines of text files and rows of tables, which may not be endless.
 
 use std::io::{self, BufRead, Read};
 
@@ -19,10 +19,77 @@ pub(crate) fn read_line(source: &mut impl BufRead, line: &mut Vec<u8>) -> io::Re
     Ok(())
 }
 
+/// The source of a reader of CSV, for which a row can have many lines: a quotation mark that is never closed would make
+/// one row of the whole rest.
+///
+/// [`Self::begin_row`] must be called before each row, which then has 16 MiB; what the reader has read ahead counts too.
+#[derive(Debug)]
+pub struct LimitedRows<R> {
+    source: R,
+    /// The bytes that the row can still have.
+    left: usize,
+}
+
+impl<R> LimitedRows<R> {
+    /// The rows of a source.
+    pub fn new(source: R) -> Self {
+        Self { source, left: LONGEST }
+    }
+
+    /// Begins with a row.
+    pub fn begin_row(&mut self) {
+        self.left = LONGEST;
+    }
+
+    /// The source.
+    pub fn source(&self) -> &R {
+        &self.source
+    }
+}
+
+impl<R: Read> Read for LimitedRows<R> {
+    /// As the source does, but an error ([`io::ErrorKind::InvalidData`]) beyond the end of what a row can have.
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        if self.left == 0 && !buffer.is_empty() {
+            let message = "a row is longer than 16 MiB; is there a quotation mark that is not closed?";
+            return Err(io::Error::new(io::ErrorKind::InvalidData, message));
+        }
+        let most = buffer.len().min(self.left);
+        let read = self.source.read(&mut buffer[..most])?;
+        self.left -= read;
+        Ok(read)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use std::io::BufReader;
+
+    #[test]
+    fn rows_have_an_end() {
+        let mut rows = csv::ReaderBuilder::new()
+            .has_headers(false)
+            .from_reader(LimitedRows::new(b"1,\"2\n3\"\n4,5\n".chain(&b"\""[..]).chain(io::repeat(b'6'))));
+        let mut record = csv::ByteRecord::new();
+        for wanted in [["1", "2\n3"], ["4", "5"]] {
+            rows.get_mut().begin_row();
+            assert!(rows.read_byte_record(&mut record).unwrap());
+            assert!(record.iter().eq(wanted.map(str::as_bytes)));
+        }
+        rows.get_mut().begin_row();
+        let error = rows.read_byte_record(&mut record).unwrap_err().to_string();
+        assert!(error.contains("a row is longer than 16 MiB"), "{error}");
+        // Many rows are longer together.
+        let text = format!("{}\n", "7".repeat(LONGEST / 4)).repeat(6);
+        let mut rows =
+            csv::ReaderBuilder::new().has_headers(false).from_reader(LimitedRows::new(text.as_bytes()));
+        for _ in 0..6 {
+            rows.get_mut().begin_row();
+            assert!(rows.read_byte_record(&mut record).unwrap());
+        }
+        assert!(!rows.read_byte_record(&mut record).unwrap());
+    }
 
     #[test]
     fn lines_have_an_end() {

@@ -51,25 +51,69 @@ pub(crate) fn ticks(low: f64, high: f64, wanted: usize) -> Ticks {
     let largest = low.abs().max(high.abs());
     let magnitude = largest.log10().floor() as i32;
     let exponent = if (-3..5).contains(&magnitude) { 0 } else { magnitude };
-    let rough = span / wanted.max(1) as f64;
-    let power = rough.log10().floor() as i32;
-    let factor = match rough / ten_to(power) {
-        ..1.5 => 1.0,
-        ..3.5 => 2.0,
-        ..7.5 => 5.0,
-        _ => 10.0,
-    };
-    let step = factor * ten_to(power);
-    let decimals = usize::try_from(exponent - power - i32::from(factor == 10.0)).unwrap_or(0);
-    let first = (low / step - 1e-9).ceil() as i64;
-    let last = (high / step + 1e-9).floor() as i64;
-    let marks = (first..=last)
-        .map(|i| {
-            let value = i as f64 * step;
-            (value.clamp(low, high), format!("{:.decimals$}", value / ten_to(exponent) + 0.0))
-        })
-        .collect();
-    Ticks { marks, exponent }
+    let step = Step::about(span / wanted.max(1) as f64);
+    let decimals = usize::try_from(exponent - step.power).unwrap_or(0);
+    let marks = step
+        .multiples(low, high)
+        .map(|value| (value.clamp(low, high), format!("{:.decimals$}", value / ten_to(exponent) + 0.0)));
+    Ticks { marks: marks.collect(), exponent }
+}
+
+/// About `wanted` round numbers between `low` and `high`, written out with commas: `4,251,000`. None where the span is
+/// too small for the numbers.
+pub(crate) fn coordinates(low: f64, high: f64, wanted: usize) -> Vec<(f64, String)> {
+    let (span, largest) = (high - low, low.abs().max(high.abs()));
+    if !(span.is_finite() && span > 1e-12 * largest && (1e-300..1e15).contains(&largest)) {
+        return Vec::new();
+    }
+    let step = Step::about(span / wanted.max(1) as f64);
+    let decimals = usize::try_from(-step.power).unwrap_or(0);
+    let multiples = step.multiples(low, high);
+    multiples.map(|value| (value.clamp(low, high), with_commas(&format!("{value:.decimals$}")))).collect()
+}
+
+/// A decimal with a comma before each three digits of its whole part.
+fn with_commas(decimal: &str) -> String {
+    let (sign, digits) = decimal.strip_prefix('-').map_or(("", decimal), |digits| ("-", digits));
+    let (whole, rest) = digits.split_at(digits.find('.').unwrap_or(digits.len()));
+    let mut text = sign.to_owned();
+    for (at, digit) in whole.chars().enumerate() {
+        if at > 0 && (whole.len() - at).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text + rest
+}
+
+/// A round distance: 1, 2 or 5 times a power of ten.
+struct Step {
+    length: f64,
+    /// The power of ten that its last digit stands for.
+    power: i32,
+}
+
+impl Step {
+    /// The step nearest to a positive number.
+    fn about(rough: f64) -> Self {
+        let power = rough.log10().floor() as i32;
+        let (factor, power) = match rough / ten_to(power) {
+            ..1.5 => (1.0, power),
+            ..3.5 => (2.0, power),
+            ..7.5 => (5.0, power),
+            _ => (1.0, power + 1),
+        };
+        Self { length: factor * ten_to(power), power }
+    }
+
+    /// Its multiples within a range.
+    fn multiples(&self, low: f64, high: f64) -> impl Iterator<Item = f64> {
+        let length = self.length;
+        let first = (low / length - 1e-9).ceil() as i64;
+        let last = (high / length + 1e-9).floor() as i64;
+        // The sum has no zero with a sign.
+        (first..=last).map(move |number| number as f64 * length + 0.0)
+    }
 }
 
 fn ten_to(power: i32) -> f64 {
@@ -121,6 +165,22 @@ mod tests {
         let ticks = ticks(0.1, 0.3, 4);
         assert!(ticks.marks.iter().all(|(value, _)| (0.1..=0.3).contains(value)), "{ticks:?}");
         assert_eq!(ticks.marks.len(), 5);
+    }
+
+    #[test]
+    fn coordinates_are_written_out() {
+        let texts = |low: f64, high: f64, wanted: usize| -> Vec<String> {
+            coordinates(low, high, wanted).into_iter().map(|(_, text)| text).collect()
+        };
+        assert_eq!(texts(4_250_400.0, 4_252_100.0, 4), ["4,250,500", "4,251,000", "4,251,500", "4,252,000"]);
+        assert_eq!(texts(-1200.0, 900.0, 2), ["-1,000", "0"]);
+        assert_eq!(texts(0.0, 1.0, 2), ["0.0", "0.5", "1.0"]);
+        assert_eq!(texts(-0.1, 0.1, 2), ["-0.1", "0.0", "0.1"]);
+        assert_eq!(texts(999.0, 1001.0, 4), ["999.0", "999.5", "1,000.0", "1,000.5", "1,001.0"]);
+        assert_eq!(texts(0.0, 95_000.0, 1), ["0"]);
+        for [low, high] in [[1.0, 1.0], [f64::NAN, 1.0], [1e15, 2e15], [0.0, 0.0], [f64::MIN, f64::MAX]] {
+            assert!(texts(low, high, 4).is_empty(), "{low} {high}");
+        }
     }
 
     #[test]

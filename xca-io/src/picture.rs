@@ -28,6 +28,7 @@
 //! ```
 
 mod averaging;
+mod axes;
 mod block;
 mod canvas;
 mod category;
@@ -54,6 +55,7 @@ use super::atomic::{WriteError, write_atomically};
 use super::regular_file;
 
 pub use averaging::fitted;
+pub use axes::Axes;
 pub use block::BlockPicture;
 pub use category::Category;
 pub use colour::ColourMap;

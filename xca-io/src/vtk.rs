@@ -4,9 +4,12 @@
 //! |---|---|---|
 //! | [`write_particles`] | `.vtp`, PolyData | particles: one vertex each, with arrays of values |
 //! | [`write_dense`] | `.vti`, ImageData | dense substates: one value, or vector, a cell |
+//! | [`write_hexagons`] | `.vtp`, PolyData | dense substates on hexagons: a polygon a cell |
 //! | [`Collection`] | `.pvd` | the files of a run with their times: what to open to see the run as a film |
 //!
-//! [`read_particles`] and [`read_dense`] read them back, and no other VTK files.
+//! [`read_particles`], [`read_dense`], [`read_hexagons`] and [`read_collection`] read them back, and no other VTK
+//! files.
+//! [`read_poly_data`] takes either kind of `.vtp`.
 //!
 //! Values are stored as they are (binary, little-endian, `AppendedData` in raw encoding) and compressed with zlib, so nothing is lost. Units are
 //! those of the model. Every file carries its time as the field `TimeValue`.
@@ -15,6 +18,7 @@ mod appended;
 mod blocks;
 mod collection;
 mod dense;
+mod hexagons;
 mod particles;
 mod read;
 mod values;
@@ -25,8 +29,12 @@ use super::atomic::WriteError;
 
 pub use collection::Collection;
 pub use dense::{GHOST_TYPE, Grid, ghost_types, write_dense};
+pub use hexagons::{HexagonGrid, write_hexagons};
 pub use particles::write_particles;
-pub use read::{DenseFile, NumberType, ParticleFile, ReadArray, ReadVtkError, read_dense, read_particles};
+pub use read::{
+    DenseFile, HexagonFile, ListedFile, NumberType, ParticleFile, PolyDataFile, ReadArray, ReadVtkError,
+    read_collection, read_dense, read_hexagons, read_particles, read_poly_data,
+};
 pub use values::{DataArray, Values};
 
 /// Data that cannot be written as a VTK file.

@@ -7,6 +7,7 @@ mod formats;
 mod geotiff;
 mod pictures;
 mod saved_state;
+mod saved_view;
 mod space_time;
 mod subject;
 mod table;
@@ -16,6 +17,7 @@ pub use file::{Moment, OutputFile};
 pub(crate) use file::{Shape, shape};
 pub use formats::{FormatError, Formats};
 pub use saved_state::SavedState;
+pub use saved_view::SavedView;
 pub(crate) use space_time::is_row;
 pub use subject::{RecordedState, Subject, View};
 
@@ -126,6 +128,22 @@ pub trait Writer: fmt::Debug + Send + Sync {
     /// Reads back a file of one state; nothing where it is no such file of this format.
     fn read(&self, _path: &Path) -> Option<Result<SavedState, Failure>> {
         None
+    }
+
+    /// The files that hold a state of a view together, and that [`Self::read_state`] reads; none where the format does not
+    /// give it back. Default: the file of each state of the view.
+    fn state_files(&self, subject: Subject<'_>, view: View<'_>) -> Vec<OutputFile> {
+        let mut files = self.files(subject);
+        files.retain(|file| file.moment() == Moment::Each && file.is_of(&view.stem()));
+        files.truncate(1);
+        files
+    }
+
+    /// Reads back a state of a view, all of whose files are there; nothing where the format does not give it back. Default:
+    /// what [`Self::read`] reads.
+    fn read_state(&self, saved: SavedView<'_>) -> Option<Result<SavedState, Failure>> {
+        let files = self.state_files(saved.subject(), saved.view());
+        self.read(&saved.path(files.first()?))
     }
 }
 

@@ -14,9 +14,11 @@ mod seen;
 mod shown;
 mod sight;
 mod substate_values;
+mod typed;
 mod values;
 
 pub use cells::CellState;
+pub(crate) use cells::lattice;
 pub use drawing::{Drawing, Scales};
 pub use folder::{
     COMPARISON, Claim, ENSEMBLE, FRAMES, FolderError, Kind, LockedFolder, REPORT, RunFolder, numbered_files,
@@ -25,11 +27,12 @@ pub use items::{ItemColumn, ItemState, column_type};
 pub use look::{Look, ViewKind};
 pub(crate) use painting::Frame;
 pub use recorded::Recorded;
-pub use saved::SavedError;
+pub use saved::{SavedError, SavedRun};
 pub use seen::Seen;
 pub(crate) use shown::Shown;
 pub use sight::{Sight, Subject};
 pub use substate_values::SubstateValues;
+pub(crate) use typed::{NoValue, retyped};
 pub use values::Plane;
 
 use crate::format::{self, Formats, RecordedState};

@@ -104,6 +104,8 @@ pub(crate) struct AnyCellView {
     pub(crate) relief: Option<(usize, f64)>,
     /// Whether all cells are drawn, as cubes: only by `render`.
     pub(crate) block: bool,
+    /// Whether slices have axes; on a map unless it is said.
+    pub(crate) axes: Option<bool>,
 }
 
 impl<S: Substates> ItemView<S> {
@@ -306,6 +308,14 @@ impl<S: Substates> CellView<S> {
         self
     }
 
+    /// Whether pictures of layers have axes in metres, in place of a scale. Default: where the cells lie on a map. The
+    /// axes then tell its eastings and northings.
+    #[must_use]
+    pub fn axes(mut self, are_drawn: bool) -> Self {
+        self.view.axes = Some(are_drawn);
+        self
+    }
+
     /// The colours of the scale.
     #[must_use]
     pub fn map(mut self, map: ColourMap) -> Self {
@@ -368,6 +378,7 @@ impl AnyCellView {
             colours: Vec::new(),
             relief: None,
             block: false,
+            axes: None,
         }
     }
 

@@ -218,7 +218,7 @@ impl<'a> CommandLine<'a> {
     #[doc(hidden)]
     pub fn read(&self, arguments: &[OsString]) -> Result<String, Failure> {
         let text = match parse::invocation(&self.definition(), arguments) {
-            Ok(Invocation::Inspect(arguments)) => inspect::text(&arguments),
+            Ok(Invocation::Inspect(definition, arguments)) => inspect::text(definition, &arguments),
             other => other.map(|_| String::new()),
         };
         text.map_err(Unable::into_failure)
@@ -290,7 +290,7 @@ fn execute(invocation: Invocation<'_>) -> Result<Ended, Unable> {
             compare::compare(&choice, *arguments, &options, command_line)
         }
         Invocation::Sweep(choice, on, arguments) => sweep::sweep(&choice, on, arguments),
-        Invocation::Inspect(arguments) => inspect::inspect(&arguments),
+        Invocation::Inspect(definition, arguments) => inspect::inspect(definition, &arguments),
         Invocation::Resume(definition, arguments, on) => resume::resume(definition, &arguments, &on),
     }
 }

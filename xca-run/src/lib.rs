@@ -40,7 +40,7 @@
 //! |---|---|
 //! | `observables.csv` | a row of numbers every so many steps; statistics of each substate unless [`SetUp::observables`] says others |
 //! | `life.pvd` | what ParaView opens: all frames with their times |
-//! | `frames/life_00000050.vti`, … | all substates (`.vtp` for the items of a population) |
+//! | `frames/life_00000050.vti`, … | all substates (`.vtp` for items and hexagons) |
 //! | `frames/fish_00000050.xyz`, … | with `--formats +xyz`, the items of a population for OVITO and ASE |
 //! | `initial.png`, `final.png` | pictures of the first state and the last |
 //! | `final.csv` | of a population, all items by label, exact; [`read_items`] reads them back |

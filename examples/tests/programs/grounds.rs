@@ -178,22 +178,46 @@ fn cells_without_ground_are_seen_in_no_statistic() {
     assert_eq!(series.last("cover_Burning"), 1.0);
 }
 
-/// The colours of the pixel in the middle of each cell of a slice.
-fn colours(path: &Path, [columns, rows]: [usize; 2]) -> Vec<[u8; 3]> {
+/// Width and pixels of a picture.
+fn pixels(path: &Path) -> (usize, Vec<[u8; 3]>) {
     let mut reader =
         png::Decoder::new(std::io::BufReader::new(fs::File::open(path).unwrap())).read_info().unwrap();
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
     let info = reader.next_frame(&mut pixels).unwrap();
-    let samples = info.color_type.samples();
-    // The drawing begins 36 pixels from the left and 96 from the top; a cell has the same whole number of pixels each way.
+    (info.width as usize, pixels.as_chunks::<3>().0.to_vec())
+}
+
+/// The colours of the pixel in the middle of each cell of a slice of a map.
+fn colours(path: &Path, [columns, rows]: [usize; 2]) -> Vec<[u8; 3]> {
+    let (width, pixels) = pixels(path);
+    // The drawing begins 96 pixels from the left and 120 from the top; a cell has the same whole number of pixels each way.
     let side = 768 / columns.max(rows);
     let colour = |cell: usize| {
         let (x, y) =
-            (36 + (cell % columns) * side + side / 2, 96 + (rows - 1 - cell / columns) * side + side / 2);
-        let at = (y * info.width as usize + x) * samples;
-        [pixels[at], pixels[at + 1], pixels[at + 2]]
+            (96 + (cell % columns) * side + side / 2, 120 + (rows - 1 - cell / columns) * side + side / 2);
+        pixels[y * width + x]
     };
     (0..columns * rows).map(colour).collect()
+}
+
+/// The ticks are at the pixels of eastings and northings: 153 pixels are 10 m.
+#[test]
+fn pictures_on_a_map_have_its_coordinates() {
+    let place = Workplace::new();
+    island(&place);
+    for file in ["g.asc", "d.asc"] {
+        let text = place.read(file).replace("xllcorner 2600", "xllcorner 2602");
+        place.write(file, &text.replace("yllcorner 5100", "yllcorner 5101"));
+    }
+    place.succeed(LANDSLIDE, "--dem g.asc --debris d.asc --steps 0");
+    let (width, pixels) = pixels(&place.path("out/landslide/final.png"));
+    let is_dark = |x: usize, y: usize| pixels[y * width + x][0] < 100;
+    let below: Vec<usize> = (0..96 + 765).filter(|x| is_dark(*x, 120 + 765 + 4)).collect();
+    let beside: Vec<usize> = (120..120 + 765).filter(|y| is_dark(96 - 5, *y)).collect();
+    // Every 5 m: the first ticks are 2605 and 5105, 3 and 4 m from the corner.
+    let wanted = |first: usize| (0..10).map(move |i| 153 * (first + 5 * i) / 10);
+    assert_eq!(below, wanted(3).map(|at| 96 + at).collect::<Vec<_>>());
+    assert_eq!(beside, wanted(4).rev().map(|at| 120 + 764 - at).collect::<Vec<_>>());
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Pictures of runs, and the animation of them.
 
-use crate::running::{CADEM, HEAT, LANDSLIDE, LIFE, MOD2, Workplace};
+use crate::running::{CADEM, DEBRIS, HEAT, LANDSLIDE, LIFE, MOD2, POND, Workplace};
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::BufReader;
@@ -158,6 +158,7 @@ fn what_a_run_has_left_is_drawn_as_the_run_itself() {
         (LIFE, "life", "--steps 12 --every 4", ""),
         (LANDSLIDE, "landslide", "--steps 60 --every 30", "--pixels 480x500"),
         (LANDSLIDE, "landslide", "--steps 60 --every 30", "--substate altitude,thickness"),
+        (DEBRIS, "debris", "--steps 60 --every 30", ""),
         (CADEM, "cadem", "--steps 10 --every 5", "--range 0,0.5 --pixels 420x380"),
     ] {
         said(&place, program, &format!("run {run} --quiet"));
@@ -174,6 +175,97 @@ fn what_a_run_has_left_is_drawn_as_the_run_itself() {
         assert!(animation(&saved) == animation(&again), "{name} {look}");
         assert!(before == [all(&run_folder), all(&run_folder.join("frames"))], "{name} has been changed");
     }
+}
+
+/// Hexagons too: the picture of the run itself is that of its frame.
+#[test]
+fn a_picture_of_a_run_is_that_of_its_frame() {
+    let place = Workplace::new();
+    for (program, name) in [(DEBRIS, "debris"), (LANDSLIDE, "landslide")] {
+        said(&place, program, "run --steps 0 --quiet");
+        said(&place, program, &format!("render out/{name} --animation none"));
+        let [of_run, of_frame] = ["out/@/final.png", "out/@_pictures/frames/frame_00000000.png"]
+            .map(|path| fs::read(place.path(&path.replace('@', name))).unwrap());
+        assert!(of_run == of_frame, "{name}");
+    }
+}
+
+/// The final state is drawn of its grids as of the checkpoint, which has every bit.
+#[test]
+fn grids_are_drawn_as_the_state_that_they_are_of() {
+    let place = Workplace::new();
+    place.write("g.asc", ISLAND);
+    place.write("d.asc", &ISLAND.replace("501", "5").replace("50", "0"));
+    let slide = "--dem g.asc --debris d.asc --steps 7";
+    let substates = "--substate altitude --substate thickness --pixels 1000x420";
+    let pond =
+        ["--substate ground", "--substate wet --pixels 500x400", "--substate outflow", "--substate depth"];
+    let cases = [substates, "", "--view isometric"].map(|look| (LANDSLIDE, slide, look));
+    let pond = pond.map(|look| (POND, "--steps 8", look));
+    for precision in ["f64", "f32"] {
+        for (format, extension) in [("tif", "tif"), ("asc", "asc")] {
+            for (program, options) in [(LANDSLIDE, slide), (POND, "--steps 8")] {
+                let options = format!("{options} --precision {precision} --checkpoint-every 4");
+                said(&place, program, &format!("run {options} --formats {format},png --quiet --out run"));
+                assert!(all(&place.path("run")).iter().any(|(name, _)| name.ends_with(extension)));
+                for (_, _, look) in cases.iter().chain(&pond).filter(|(other, ..)| *other == program) {
+                    let step = if program == POND { "00000008" } else { "00000007" };
+                    let checkpoint = format!("run/checkpoints/step_{step}.checkpoint");
+                    said(&place, program, &format!("render run {look} --out of_grids"));
+                    said(&place, program, &format!("render {checkpoint} {look} --out of_checkpoint"));
+                    let of_grids = all(&place.path("of_grids/frames"));
+                    let wanted = fs::read(place.path(&format!("of_checkpoint/step_{step}.png"))).unwrap();
+                    assert_eq!(of_grids.len(), 1);
+                    assert!(of_grids[0].1 == wanted, "{format} {precision} {look}");
+                }
+            }
+        }
+    }
+    // The run's own picture, of a state that has the scale of the first one.
+    said(&place, LANDSLIDE, "run --dem g.asc --debris d.asc --steps 0 --formats tif,png --quiet --out first");
+    said(&place, LANDSLIDE, "render first --out of_first");
+    let picture = fs::read(place.path("of_first/frames/frame_00000000.png")).unwrap();
+    assert!(picture == fs::read(place.path("first/final.png")).unwrap());
+}
+
+/// A map of 4 by 3 cells, one of them without ground.
+const ISLAND: &str = "ncols 4\nnrows 3\nxllcorner 100\nyllcorner 0\ncellsize 10\nNODATA_value -9999\n\
+     50 50 50 50\n50 501 501 -9999\n50 50 50 50\n";
+
+#[test]
+fn grids_of_something_else_are_refused() {
+    let place = Workplace::new();
+    said(&place, POND, "run --steps 2 --formats asc --quiet --out run");
+    let refused = |words: &str| {
+        let output = place.invocation(POND, words).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{words}");
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let leaves = refused("render run --view spheres --out pictures");
+    let wanted = "error: the formats of the run in run (asc) do not give `leaves` back; run it with --formats +vtk, or \
+         draw a checkpoint\n";
+    assert_eq!(leaves, wanted);
+    let ground = place.read("run/final_ground.asc");
+    let lines: Vec<&str> = ground.lines().collect();
+    let (header, rows) = lines.split_at(6);
+    let first = rows[0].split_once(' ').unwrap().1;
+    place.write(
+        "run/final_ground.asc",
+        &format!("{}\n7 {first}\n{}\n", header.join("\n"), rows[1..].join("\n")),
+    );
+    let said = refused("render run --out pictures");
+    let wanted =
+        "run/final_ground.asc: 7 is no value of `ground` (column 1 from the west, row 1 from the north)\n";
+    assert!(said.ends_with(wanted), "{said}");
+    place.write("run/final_ground.asc", &ground.replacen("cellsize 1", "cellsize 2", 1));
+    let said = refused("render run --out pictures");
+    assert!(
+        said.contains("run/final_ground.asc is not of this run: its cells have a side of 2, not 1"),
+        "{said}"
+    );
+    fs::remove_file(place.path("run/final_ground.asc")).unwrap();
+    assert!(refused("render run --out pictures").contains("no state is saved in "));
+    assert!(!place.path("pictures").exists());
 }
 
 #[test]

@@ -9,6 +9,7 @@ use std::process::{Command, Output};
 use tempfile::TempDir;
 
 pub(crate) const CADEM: &str = env!("CARGO_BIN_EXE_cadem");
+pub(crate) const DEBRIS: &str = env!("CARGO_BIN_EXE_debris");
 pub(crate) const HEAT: &str = env!("CARGO_BIN_EXE_heat");
 pub(crate) const LANDSLIDE: &str = env!("CARGO_BIN_EXE_landslide");
 pub(crate) const LIFE: &str = env!("CARGO_BIN_EXE_life");

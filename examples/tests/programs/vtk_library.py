@@ -11,6 +11,7 @@ import sys
 
 from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
+from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
 from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLPolyDataReader
 from vtkmodules.vtkIOXMLParser import vtkXMLUtilities
 
@@ -74,8 +75,28 @@ def image(path):
     }
 
 
-def particles(path):
+def polygons(data, found):
+    """The number of corners, area, middle and cell type of each polygon, as the library computes them."""
+    sizes = vtkCellSizeFilter()
+    sizes.SetInputData(data)
+    sizes.Update()
+    areas = sizes.GetOutput().GetCellData().GetArray("Area")
+    told = {"corners": [], "areas": [], "middles": [], "cell_types": []}
+    for index in range(data.GetNumberOfCells()):
+        cell = data.GetCell(index)
+        bounds = cell.GetBounds()
+        told["corners"].append(cell.GetNumberOfPoints())
+        told["areas"].append(areas.GetComponent(index, 0))
+        told["middles"].append([(bounds[0] + bounds[1]) / 2, (bounds[2] + bounds[3]) / 2, bounds[4], bounds[5]])
+        told["cell_types"].append(data.GetCellType(index))
+    colouring = data.GetCellData().GetScalars()
+    return found | told | {"bounds": data.GetBounds(), "scalars": colouring and colouring.GetName()}
+
+
+def poly_data(path):
     data, found = read(vtkXMLPolyDataReader(), path)
+    if data.GetNumberOfPolys():
+        return polygons(data, found)
     colouring = data.GetPointData().GetScalars()
     vertices = data.GetVerts()
     return found | {
@@ -99,5 +120,5 @@ def collection(path):
     }
 
 
-KINDS = {"vti": image, "vtp": particles, "pvd": collection}
+KINDS = {"vti": image, "vtp": poly_data, "pvd": collection}
 print(json.dumps([KINDS[path.rsplit(".", 1)[-1]](path) for path in sys.argv[1:]]))

@@ -1,9 +1,11 @@
 //! Frames and collections, read back by the VTK library itself.
 
-use crate::running::{CADEM, HEAT, LIFE, MOD2, POND, Table, Workplace, report};
+use crate::running::{CADEM, DEBRIS, HEAT, LIFE, MOD2, POND, Table, Workplace, report};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use xca_io::picture::Lattice;
+use xca_io::vtk::{DataArray, GHOST_TYPE, HexagonGrid, ghost_types, write_hexagons};
 
 /// Runs the script that reads files with the library.
 fn read_by_the_library(files: &[PathBuf]) -> Output {
@@ -43,7 +45,7 @@ impl Run {
         let frames = self::found(&paths);
         let time_step = report["progress"]["time_step"].as_f64();
         // Automata without a time of their own count steps.
-        assert_eq!(time_step.is_none(), [LIFE, MOD2, POND].contains(&program));
+        assert_eq!(time_step.is_none(), [DEBRIS, LIFE, MOD2, POND].contains(&program));
         for ((step, frame), of_collection) in
             steps.iter().zip(&frames).zip(found["times"].as_array().unwrap())
         {
@@ -52,8 +54,8 @@ impl Run {
             // What the library takes for the time of the file, and where it takes it from.
             assert_eq!(frame["times"], json!([time]), "step {step}");
             assert_eq!(frame["field_data"][0], array("TimeValue", "double", 1, 1, time), "step {step}");
-            let names = frame["field_data"].as_array().unwrap().len() - 1;
-            assert_eq!(names > 0, program == POND, "step {step}");
+            let fields = frame["field_data"].as_array().unwrap().len() - 1;
+            assert_eq!(fields > 0, [DEBRIS, POND].contains(&program), "step {step}");
         }
         Self { folder, frames, steps }
     }
@@ -294,6 +296,107 @@ fn the_frames_of_arrays_and_states_have_their_names() {
         let of_frame: Vec<f64> = outflow.iter().skip(element).step_by(4).copied().collect();
         assert!(values == of_frame && values.iter().any(|value| *value > 0.0), "{element}");
     }
+}
+
+/// What the library finds of hexagons, where the cells are to be: `middle` of a cell by column and row.
+fn check_hexagons(
+    found: &Value,
+    [columns, rows]: [usize; 2],
+    side: f64,
+    middle: impl Fn(f64, f64) -> [f64; 2],
+) {
+    let cells = columns * rows;
+    let numbers = |name: &str| found[name].as_array().unwrap().iter().map(|number| number.as_f64().unwrap());
+    assert_eq!((&found["cells"], &found["points"]), (&json!(cells), &json!(6 * cells)));
+    assert_eq!(found["corners"], json!(vec![6; cells]));
+    // VTK_POLYGON
+    assert_eq!(found["cell_types"], json!(vec![7; cells]));
+    let area = 0.75_f64.sqrt() * side * side;
+    assert!(numbers("areas").all(|found| (found / area - 1.0).abs() < 1e-9));
+    let mut box_of_middles = [f64::MAX, f64::MIN, f64::MAX, f64::MIN];
+    for (cell, found) in found["middles"].as_array().unwrap().iter().enumerate() {
+        let [x, y] = middle((cell % columns) as f64, (cell / columns) as f64);
+        for (found, wanted) in found.as_array().unwrap().iter().zip([x, y, 0.0, 0.0]) {
+            assert!((found.as_f64().unwrap() - wanted).abs() < 1e-6 * side, "cell {cell}: {found}, {wanted}");
+        }
+        let [left, right, low, high] = box_of_middles;
+        box_of_middles = [left.min(x), right.max(x), low.min(y), high.max(y)];
+    }
+    // Half a cell beyond the outermost middles: half a side across flat sides, side / √3 to a corner.
+    let around: Vec<f64> =
+        numbers("bounds").zip(box_of_middles).map(|(end, middle)| (end - middle).abs()).collect();
+    let across = [0.5 * side, side / 3.0_f64.sqrt()];
+    for (axis, reach) in [0, 0, 1, 1].into_iter().zip(&around) {
+        assert!(across.iter().any(|across| (reach / across - 1.0).abs() < 1e-6), "axis {axis}: {around:?}");
+    }
+    assert!((around[0] - around[2]).abs() > 0.05 * side);
+}
+
+/// Both kinds of hexagons, on a map and with cells without ground.
+#[test]
+fn hexagons_are_polygons_at_their_place() {
+    let place = Workplace::new();
+    let (extents, side, corner) = ([5, 4], 3.0, [2600.0, 5100.0]);
+    let (half, root) = (side / 2.0, side / 3.0_f64.sqrt());
+    let depths: Vec<f64> = (0..20).map(f64::from).collect();
+    let hidden: Vec<bool> = (0..20).map(|cell| cell == 7).collect();
+    let ghosts = ghost_types(&hidden);
+    let arrays = [DataArray::new("depth", &depths[..]), DataArray::new(GHOST_TYPE, &ghosts[..])];
+    for (lattice, name) in [(Lattice::HexagonRows, "rows.vtp"), (Lattice::HexagonColumns, "columns.vtp")] {
+        let grid = HexagonGrid { cells: [5, 4, 1], lattice, corner, side };
+        let path = place.path(name);
+        write_hexagons(&path, 1.5, &grid, &arrays).unwrap();
+        let found = found(&[path]).remove(0);
+        let middle = |column: f64, row: f64| match lattice {
+            Lattice::HexagonRows => {
+                [corner[0] + half + column * side + row % 2.0 * half, corner[1] + root + row * 1.5 * root]
+            }
+            _ => {
+                [corner[0] + root + column * 1.5 * root, corner[1] + half + row * side + column % 2.0 * half]
+            }
+        };
+        check_hexagons(&found, extents, side, middle);
+        let bytes = hex(&depths.iter().flat_map(|depth| depth.to_le_bytes()).collect::<Vec<u8>>());
+        let mut marks = [0_u8; 20];
+        marks[7] = 32;
+        let wanted = json!([
+            array("depth", "double", 1, 20, bytes),
+            array("vtkGhostType", "unsigned char", 1, 20, hex(&marks)),
+        ]);
+        assert_eq!((&found["cell_data"], &found["scalars"]), (&wanted, &json!("depth")));
+        assert_eq!((&found["times"], &found["point_data"]), (&json!([bits(1.5)]), &json!([])));
+        let fields = found["field_data"].as_array().unwrap().iter();
+        let fields: Vec<(&str, Vec<f64>)> = fields
+            .map(|field| (field["name"].as_str().unwrap(), doubles(&unhex(field["bytes"].as_str().unwrap()))))
+            .collect();
+        let axis = if lattice == Lattice::HexagonRows { 1.0 } else { 0.0 };
+        let wanted = [
+            ("TimeValue", vec![1.5]),
+            ("extents", vec![5.0, 4.0, 1.0]),
+            ("corner", corner.to_vec()),
+            ("side", vec![side]),
+            ("stagger axis", vec![axis]),
+        ];
+        assert_eq!(fields, wanted);
+    }
+}
+
+/// The values stand in the order of the cells: the altitudes of the last frame are those of the grid of the run.
+#[test]
+fn the_frames_of_hexagons_hold_the_cells_of_the_run() {
+    let place = Workplace::new();
+    let run = Run::of(&place, DEBRIS, "--steps 2 --every 2 --formats +asc");
+    let last = run.frames.last().unwrap();
+    let root = 5.0 / 3.0_f64.sqrt();
+    let middle = |column: f64, row: f64| [2.5 + 5.0 * column + row % 2.0 * 2.5, root * (1.0 + 1.5 * row)];
+    check_hexagons(last, [120, 200], 5.0, middle);
+    let altitude =
+        last["cell_data"].as_array().unwrap().iter().find(|array| array["name"] == "altitude").unwrap();
+    let grid = std::fs::read_to_string(run.folder.join("final_altitude.asc")).unwrap();
+    let rows: Vec<&str> = grid.lines().skip(6).collect();
+    let values = rows.into_iter().rev().flat_map(str::split_whitespace);
+    let values: Vec<f64> = values.map(|value| value.parse().unwrap()).collect();
+    assert!(values.len() == 24_000 && doubles(&unhex(altitude["bytes"].as_str().unwrap())) == values);
 }
 
 /// That the tests above could fail.

@@ -2,9 +2,10 @@
 
 use super::comment::pairs;
 use super::{POSITIONS, ReadXyzError, Space};
+use crate::lines::read_line;
 use crate::regular_file;
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, Read};
+use std::io::{self, BufReader};
 use std::path::Path;
 use std::str::FromStr;
 
@@ -174,9 +175,6 @@ fn particle(lines: &Lines<'_>, partial: &mut Partial) -> Result<(), ReadXyzError
     }
 }
 
-/// No line has more bytes: a file without any end of line would fill the memory.
-const LONGEST: u64 = 1 << 24;
-
 /// The lines of a file, one at a time.
 struct Lines<'a> {
     path: &'a Path,
@@ -188,15 +186,13 @@ struct Lines<'a> {
 impl Lines<'_> {
     /// Goes to the next line; there is none after the last.
     fn advance(&mut self) -> Result<bool, ReadXyzError> {
-        self.text.clear();
         self.line += 1;
         let failed = |source| ReadXyzError::Read { path: self.path.to_owned(), line: self.line, source };
-        let read = self.file.by_ref().take(LONGEST + 1).read_line(&mut self.text).map_err(failed)?;
-        if read as u64 > LONGEST {
-            let message = "a line is longer than 16 MiB";
-            return Err(failed(io::Error::new(io::ErrorKind::InvalidData, message)));
-        }
-        Ok(read > 0)
+        let mut bytes = std::mem::take(&mut self.text).into_bytes();
+        read_line(&mut self.file, &mut bytes).map_err(failed)?;
+        let is_no_text = |error| failed(io::Error::new(io::ErrorKind::InvalidData, error));
+        self.text = String::from_utf8(bytes).map_err(is_no_text)?;
+        Ok(!self.text.is_empty())
     }
 
     fn problem(&self, problem: String) -> ReadXyzError {

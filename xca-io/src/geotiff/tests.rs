@@ -139,6 +139,34 @@ fn nodata_is_what_the_tag_says() {
     );
 }
 
+/// The tag has decimals. Among samples of `f32` it means the nearest `f32`, among those of `f64` no other number.
+#[test]
+fn nodata_among_f32_is_the_nearest_of_them() {
+    const NODATA: f64 = -9999.9;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("made.tif");
+    let (nearest, next) = (NODATA as f32, f32::from_bits((NODATA as f32).to_bits() + 1));
+    assert!(f64::from(nearest) != NODATA);
+    let holes = |is_f32: bool| {
+        let mut encoder = TiffEncoder::new(File::create(&path).unwrap()).unwrap();
+        let tags = [SCALE, TIEPOINT];
+        if is_f32 {
+            let mut image = encoder.new_image::<colortype::Gray32Float>(3, 1).unwrap();
+            tags.iter().for_each(|(tag, numbers)| image.encoder().write_tag(*tag, *numbers).unwrap());
+            image.encoder().write_tag(Tag::GdalNodata, "-9999.9").unwrap();
+            image.write_data(&[nearest, next, 1.0]).unwrap();
+        } else {
+            let mut image = encoder.new_image::<colortype::Gray64Float>(3, 1).unwrap();
+            tags.iter().for_each(|(tag, numbers)| image.encoder().write_tag(*tag, *numbers).unwrap());
+            image.encoder().write_tag(Tag::GdalNodata, "-9999.9").unwrap();
+            image.write_data(&[f64::from(nearest), NODATA, 1.0]).unwrap();
+        }
+        read(&path).unwrap().values().iter().map(|value| value.is_nan()).collect::<Vec<_>>()
+    };
+    assert_eq!(holes(true), [true, false, false]);
+    assert_eq!(holes(false), [false, true, false]);
+}
+
 #[test]
 fn layers_of_different_coordinate_systems_are_refused() {
     let folder = tempfile::tempdir().unwrap();

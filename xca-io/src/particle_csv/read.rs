@@ -9,6 +9,7 @@ use super::LABEL;
 use super::column_type::ColumnType;
 use super::error::ReadError;
 use super::lines::MeaningfulLines;
+use crate::lines::LimitedRows;
 use crate::regular_file;
 
 /// Particles as they stand in a file, in its order.
@@ -40,9 +41,9 @@ pub fn read(path: &Path, columns: &[(&str, ColumnType<'_>)]) -> Result<ParticleT
         .has_headers(false)
         .flexible(true)
         .trim(csv::Trim::All)
-        .from_reader(MeaningfulLines::new(BufReader::with_capacity(1 << 18, file)));
-    let line_of = |csv: &csv::Reader<MeaningfulLines<_>>, record: &csv::ByteRecord| {
-        csv.get_ref().number(record.position().map_or(1, csv::Position::line))
+        .from_reader(LimitedRows::new(MeaningfulLines::new(BufReader::with_capacity(1 << 18, file))));
+    let line_of = |csv: &csv::Reader<LimitedRows<MeaningfulLines<_>>>, record: &csv::ByteRecord| {
+        csv.get_ref().source().number(record.position().map_or(1, csv::Position::line))
     };
     let mut record = csv::ByteRecord::new();
     csv.read_byte_record(&mut record).map_err(broken)?;
@@ -51,7 +52,11 @@ pub fn read(path: &Path, columns: &[(&str, ColumnType<'_>)]) -> Result<ParticleT
     let mut table =
         ParticleTable { labels: Vec::new(), columns: vec![Vec::new(); columns.len()], lines: Vec::new() };
     let mut seen = HashMap::new();
-    while csv.read_byte_record(&mut record).map_err(broken)? {
+    loop {
+        csv.get_mut().begin_row();
+        if !csv.read_byte_record(&mut record).map_err(broken)? {
+            break;
+        }
         let line = line_of(&csv, &record);
         let row = Row { path, line, record: &record, width: places.len() };
         let label = row.label(places[0])?;

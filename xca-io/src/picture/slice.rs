@@ -1,6 +1,7 @@
 //! Pictures of dense substates, one layer at a time.
 
 use super::averaging::fitted_layer;
+use super::axes::{Axes, Drawn};
 use super::canvas::{Canvas, Strokes};
 use super::category::Category;
 use super::colour::encode;
@@ -13,10 +14,18 @@ use super::{Picture, PictureError, check_size};
 use crate::numbers::significant;
 
 const LEFT: usize = 36;
+/// The room for the labels of an axis.
+const LEFT_OF_AXES: usize = 96;
 const TOP: usize = 96;
+/// With the name of an axis.
+const TOP_OF_AXES: usize = 120;
 const BOTTOM: usize = 64;
 /// The room for the bar, or the list of the categories.
 const RIGHT: usize = 176;
+/// The bar, or the list, is so far to the right of the drawing.
+const BAR: usize = 34;
+/// A narrower drawing has no axes, unless it may be wider.
+const LEAST_WITH_AXES: usize = 200;
 
 /// One layer of a dense substate, a colour a cell, x to the right and y upwards.
 ///
@@ -46,6 +55,8 @@ pub struct SlicePicture<'a> {
     pub cell_side: f64,
     /// The unit of length.
     pub length_unit: &'a str,
+    /// The coordinates along the left and the lower edge, in place of the scale; none where `size` has no room for them.
+    pub axes: Option<Axes<'a>>,
     /// The longer side of the drawing in pixels, at most; the texts around it come on top. From 200 to 7900.
     pub pixels: usize,
     /// Width and height of the whole picture in pixels, if it must have these; `pixels` is then left aside.
@@ -68,6 +79,7 @@ impl<'a> SlicePicture<'a> {
             caption: "",
             cell_side: 1.0,
             length_unit: "cells",
+            axes: None,
             pixels: 768,
             size: None,
         }
@@ -88,27 +100,46 @@ impl<'a> SlicePicture<'a> {
             Scalar::new("heights", heights).check(cells, "cells")?;
         }
         let [plate, drawing] = self.plate_and_drawing()?;
-        let size = [LEFT + plate[0] + RIGHT, TOP + plate[1] + BOTTOM];
+        let [left, top] = self.margins();
+        let size = [left + plate[0] + RIGHT, top + plate[1] + BOTTOM];
         check_size(size)?;
         let mut canvas = Canvas::new(size[0], size[1], [1.0; 3]);
-        let corner = [LEFT + (plate[0] - drawing[0]) / 2, TOP + (plate[1] - drawing[1]) / 2];
+        let corner = [left + (plate[0] - drawing[0]) / 2, top + (plate[1] - drawing[1]) / 2];
         self.draw_cells(&mut canvas, corner, drawing);
         canvas.frame(corner, drawing, INK);
         draw_title(&mut canvas, LEFT as f32, self.title, self.caption);
-        self.draw_scale(&mut canvas, [corner[0], corner[1] + drawing[1]], drawing[0]);
-        let x = LEFT + plate[0] + 34;
+        let lengths = self.lattice.size([self.columns, self.rows]).map(|length| length * self.cell_side);
+        if let Some(axes) = self.axes() {
+            let columns = [14.0, (left + plate[0] + BAR - 4) as f32];
+            axes.draw(&mut canvas, &Drawn { corner, size: drawing, lengths, columns });
+        } else {
+            self.draw_scale(&mut canvas, [corner[0], corner[1] + drawing[1]], drawing[0], lengths[0]);
+        }
+        let x = left + plate[0] + BAR;
         if self.categories.is_empty() {
             // The label stands above the bar.
             let room = plate[1] - 40;
             let height = room.min(420);
-            let y = TOP + 40 + (room - height) / 2;
+            let y = top + 40 + (room - height) / 2;
             let (label, map) = (self.scalar.label, self.scalar.map);
             draw_bar(&mut canvas, [x, y], [18, height], label, map, self.scalar.scale());
         } else {
             let bottom = size[1] - 8;
-            draw_categories(&mut canvas, [x, TOP + 24], bottom, self.scalar.label, self.categories);
+            draw_categories(&mut canvas, [x, top + 24], bottom, self.scalar.label, self.categories);
         }
         Ok(canvas.into_picture())
+    }
+
+    /// The axes, if there is room for them.
+    fn axes(&self) -> Option<Axes<'a>> {
+        let least = [LEFT_OF_AXES + LEAST_WITH_AXES + RIGHT, TOP_OF_AXES + 100 + BOTTOM];
+        let has_room = |size: [usize; 2]| size[0] >= least[0] && size[1] >= least[1];
+        self.axes.filter(|_| self.size.is_none_or(has_room))
+    }
+
+    /// The pixels to the left of the drawing and above it.
+    fn margins(&self) -> [usize; 2] {
+        if self.axes().is_some() { [LEFT_OF_AXES, TOP_OF_AXES] } else { [LEFT, TOP] }
     }
 
     /// The room for the drawing and what of it the drawing takes, in pixels across and down.
@@ -119,7 +150,8 @@ impl<'a> SlicePicture<'a> {
             // A narrow drawing leaves room for the title, a flat one for the bar.
             return Ok([[drawing[0].max(320), drawing[1].max(240)], drawing]);
         };
-        let plate = [size[0].saturating_sub(LEFT + RIGHT), size[1].saturating_sub(TOP + BOTTOM)];
+        let [left, top] = self.margins();
+        let plate = [size[0].saturating_sub(left + RIGHT), size[1].saturating_sub(top + BOTTOM)];
         if plate.iter().any(|room| *room < 100) {
             return Err(PictureError::Size { size });
         }
@@ -139,9 +171,8 @@ impl<'a> SlicePicture<'a> {
             .draw(size, |x, y, colour| canvas.set(x0 + x, y0 + y, encode(colour)));
     }
 
-    /// A bar of a round length below the drawing, whose lower left corner is at `[x, y]`.
-    fn draw_scale(&self, canvas: &mut Canvas, [x, y]: [usize; 2], width: usize) {
-        let length = self.lattice.size([self.columns, self.rows])[0] * self.cell_side;
+    /// A bar of a round length below the drawing, whose lower left corner is at `[x, y]`, and which is so long.
+    fn draw_scale(&self, canvas: &mut Canvas, [x, y]: [usize; 2], width: usize, length: f64) {
         if !(length.is_finite() && length > 0.0) {
             return;
         }
@@ -265,6 +296,85 @@ mod tests {
         }
         let slice = SlicePicture::new(1, 1, Scalar::new("t", &[0.0]));
         assert!(SlicePicture { size: Some([300, 300]), ..slice }.render().is_err());
+    }
+
+    /// The columns, or rows, of ticks: dark pixels at the middle of their length outside of the frame.
+    fn ticks(picture: &Picture, along: impl Fn(usize) -> [usize; 2], count: usize) -> Vec<usize> {
+        let is_dark = |at: &usize| {
+            let [x, y] = along(*at);
+            picture.pixel(x, y)[0] < 100
+        };
+        (0..count).filter(is_dark).collect()
+    }
+
+    /// Cells of 10 m with 40 pixels each from 4,251,190 to the east and -25 to the north.
+    #[test]
+    fn a_tick_is_at_the_pixel_of_its_coordinate() {
+        let values: Vec<f64> = (0..15 * 10).map(f64::from).collect();
+        let mut slice = SlicePicture::new(15, 10, Scalar::new("t", &values));
+        (slice.pixels, slice.cell_side) = (600, 10.0);
+        slice.axes = Some(Axes { names: ["easting (m)", "northing (m)"], corner: [4_251_190.0, -25.0] });
+        let picture = slice.render().unwrap();
+        assert_eq!(
+            (picture.width(), picture.height()),
+            (LEFT_OF_AXES + 600 + RIGHT, TOP_OF_AXES + 400 + BOTTOM)
+        );
+        // The drawing itself is where it was.
+        assert!(near(picture.pixel(LEFT_OF_AXES, TOP_OF_AXES + 399), colour(0.0)));
+        let below = ticks(&picture, |x| [x, TOP_OF_AXES + 404], LEFT_OF_AXES + 600);
+        // 4,251,200 is 10 m or 40 pixels from the corner, the next one 20 m from there, the last the end of all.
+        let mut wanted: Vec<usize> = (0..8).map(|i| LEFT_OF_AXES + 40 + 80 * i).collect();
+        wanted[7] -= 1;
+        assert_eq!(below, wanted);
+        // -20 is 5 m above the corner: 20 pixels, counted from below; the next one is 0.
+        let beside = ticks(&picture, |y| [LEFT_OF_AXES - 5, y], picture.height());
+        let mut wanted: Vec<usize> = (0..5).map(|i| TOP_OF_AXES + 399 - 20 - 80 * i).collect();
+        wanted.reverse();
+        assert_eq!(beside, wanted);
+    }
+
+    /// No two labels touch, and none is cut, whatever the numbers are; there are enough of them.
+    #[test]
+    fn labels_do_not_overlap() {
+        for (corner, side) in [([4_251_003.0, 651_234.0], 2.0), ([-9.5e6, 0.25], 0.125), ([0.0, 0.0], 3e4)] {
+            for columns in [40, 96, 384] {
+                let values = vec![0.0; columns * 96];
+                let mut slice = SlicePicture::new(columns, 96, Scalar::new("t", &values));
+                slice.cell_side = side;
+                slice.axes = Some(Axes { names: ["", ""], corner });
+                let picture = slice.render().unwrap();
+                let drawing = fitted_layer(Lattice::Squares, [columns, 96], [768; 2]);
+                let plate = [drawing[0].max(320), drawing[1].max(240)];
+                let bottom = TOP_OF_AXES + (plate[1] - drawing[1]) / 2 + drawing[1];
+                let count = ticks(&picture, |x| [x, bottom + 4], picture.width()).len();
+                // The rows of the labels: where no ink is for some pixels, one ends.
+                let has_ink = |x: usize| (bottom + 9..bottom + 22).any(|y| picture.pixel(x, y)[0] < 200);
+                let inked: Vec<usize> = (0..picture.width()).filter(|x| has_ink(*x)).collect();
+                let labels = 1 + inked.windows(2).filter(|pair| pair[1] - pair[0] > 8).count();
+                let what = format!("{corner:?} {columns}: {labels} labels of {count} ticks");
+                assert!(count >= 2 && labels <= count && labels + 1 >= count, "{what}");
+                assert!(inked[0] > 3 && inked[inked.len() - 1] < picture.width() - RIGHT + BAR, "{what}");
+                // Those beside the frame begin within the picture.
+                let is_white = |y: usize| (0..6).all(|x| picture.pixel(x, y) == [255; 3]);
+                assert!((TOP_OF_AXES..bottom).all(is_white), "{what}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_picture_without_room_for_axes_has_the_scale() {
+        let values = vec![0.5; 6];
+        let slice = SlicePicture::new(3, 2, Scalar::new("t", &values));
+        let axes = Some(Axes { names: ["x (m)", "y (m)"], corner: [0.0; 2] });
+        let drawn = |size: [usize; 2], axes| {
+            SlicePicture { size: Some(size), axes, ..slice.clone() }.render().unwrap()
+        };
+        assert_eq!(drawn([400, 300], axes), drawn([400, 300], None));
+        let (with, without) = (drawn([500, 300], axes), drawn([500, 300], None));
+        assert!(with != without && (with.width(), with.height()) == (500, 300));
+        // Coordinates that are no numbers have no ticks.
+        let nowhere = Some(Axes { names: ["", ""], corner: [f64::NAN, 0.0] });
+        drawn([500, 300], nowhere);
     }
 
     #[test]

@@ -14,6 +14,7 @@ const RAISED: f32 = 0.55;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Anchor {
     Left,
+    Middle,
     Right,
 }
 
@@ -39,6 +40,7 @@ pub(super) fn draw(canvas: &mut Canvas, text: &str, at: [f32; 2], anchor: Anchor
     let line = Line::new(font, text, style);
     let shift = match anchor {
         Anchor::Left => 0.0,
+        Anchor::Middle => -line.width / 2.0,
         Anchor::Right => -line.width,
     };
     let [x, y] = at;
@@ -57,8 +59,13 @@ pub(super) fn draw(canvas: &mut Canvas, text: &str, at: [f32; 2], anchor: Anchor
 
 /// `style`, or as much smaller as it takes for `text` to fit into `width` pixels.
 pub(super) fn fitted(text: &str, style: Style, width: f32) -> Style {
-    let found = font().map_or(0.0, |font| Line::new(font, text, &style).width);
+    let found = self::width(text, &style);
     if found > width { Style { height: style.height * (width / found).max(0.1), ..style } } else { style }
+}
+
+/// The width of a text, in pixels.
+pub(super) fn width(text: &str, style: &Style) -> f32 {
+    font().map_or(0.0, |font| Line::new(font, text, style).width)
 }
 
 /// A line of text that begins at (0, 0), y downwards.
@@ -101,10 +108,6 @@ mod tests {
     use super::*;
 
     const STYLE: Style = Style { height: 14.0, colour: [0.0; 3] };
-
-    fn width(text: &str, style: &Style) -> f32 {
-        Line::new(font().unwrap(), text, style).width
-    }
 
     fn ink(text: &str) -> Vec<(usize, usize)> {
         let mut canvas = Canvas::new(200, 60, [1.0; 3]);
@@ -178,5 +181,7 @@ mod tests {
             (dark[0], dark[dark.len() - 1])
         };
         assert!(columns(Anchor::Left).0 >= 99 && columns(Anchor::Right).1 <= 100);
+        let (first, last) = columns(Anchor::Middle);
+        assert!((198..=200).contains(&(first + last)), "{first} to {last}");
     }
 }

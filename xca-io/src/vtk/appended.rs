@@ -45,9 +45,9 @@ impl Appended {
         self.append(&attributes, |out| array.values.write_to(out))
     }
 
-    /// The element of an array `from`, `from + 1`, ... of `len` numbers.
-    pub(super) fn count(&mut self, name: &str, from: i32, len: i32) -> io::Result<String> {
-        let numbers = |out: &mut Blocks| (0..len).try_for_each(|i| out.write_all(&(from + i).to_le_bytes()));
+    /// The element of an array of numbers.
+    pub(super) fn count(&mut self, name: &str, mut numbers: impl Iterator<Item = i32>) -> io::Result<String> {
+        let numbers = |out: &mut Blocks| numbers.try_for_each(|number| out.write_all(&number.to_le_bytes()));
         self.append(&format!(r#"type="Int32" Name="{name}""#), numbers)
     }
 
@@ -60,12 +60,17 @@ impl Appended {
         Ok(format!("<{kind}{scalars}>\n{elements}</{kind}>\n"))
     }
 
-    /// The element that holds the time of the file, and the names of the states of its arrays.
-    pub(super) fn field_data(&mut self, time: f64, arrays: &[DataArray<'_>]) -> io::Result<String> {
+    /// The element that holds the time of the file, the names of the states of its arrays, and `others`.
+    pub(super) fn field_data(
+        &mut self,
+        time: f64,
+        arrays: &[DataArray<'_>],
+        others: &str,
+    ) -> io::Result<String> {
         let attributes = r#"type="Float64" Name="TimeValue" NumberOfTuples="1""#;
         let array = self.append(attributes, |out| out.write_all(&time.to_le_bytes()))?;
         let states = arrays.iter().filter(|array| !array.states.is_empty()).map(names_of_states);
-        Ok(format!("<FieldData>\n{array}{}</FieldData>\n", states.collect::<String>()))
+        Ok(format!("<FieldData>\n{array}{}{others}</FieldData>\n", states.collect::<String>()))
     }
 
     fn append(
@@ -134,6 +139,30 @@ pub(super) fn escaped(text: &str) -> String {
 pub(super) fn unescaped(text: &str) -> String {
     let plain = text.replace("&quot;", "\"").replace("&gt;", ">").replace("&lt;", "<");
     plain.replace("&amp;", "&")
+}
+
+/// How the element begins of an array of numbers that stand in the head itself.
+const NUMBERS: &str = "<DataArray type=\"Float64\" Name=\"";
+/// What follows the name of such an array and the number of its values.
+const AS_TEXT: &str = " format=\"ascii\">";
+
+/// The element of a field of few numbers, as text.
+pub(super) fn numbers_as_text(name: &str, numbers: &[f64]) -> String {
+    let count = numbers.len();
+    format!("{NUMBERS}{name}\" NumberOfTuples=\"{count}\"{AS_TEXT}{}</DataArray>\n", joined(numbers))
+}
+
+/// Whether the values of an array stand in its element.
+pub(super) fn is_as_text(element: &str) -> bool {
+    element.contains(AS_TEXT)
+}
+
+/// The numbers of a field that [`numbers_as_text`] wrote.
+pub(super) fn read_numbers<const N: usize>(head: &str, name: &str) -> Option<[f64; N]> {
+    let begin = format!("{NUMBERS}{name}\" NumberOfTuples=\"{N}\"{AS_TEXT}");
+    let text = head.lines().find_map(|line| line.strip_prefix(&begin))?.strip_suffix("</DataArray>")?;
+    let numbers = text.split(' ').map(|number| number.parse().ok()).collect::<Option<Vec<f64>>>()?;
+    numbers.try_into().ok()
 }
 
 /// Numbers with blanks between them, each the shortest decimal that reads back exactly.

@@ -40,12 +40,12 @@ pub struct Collection {
 }
 
 /// What a collection begins with.
-const BEGIN: &str = "<?xml version=\"1.0\"?>\n\
+pub(super) const BEGIN: &str = "<?xml version=\"1.0\"?>\n\
                      <VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n\
                      <Collection>\n";
 
 /// The closing tags.
-const END: &str = "</Collection>\n</VTKFile>\n";
+pub(super) const END: &str = "</Collection>\n</VTKFile>\n";
 
 impl Collection {
     /// Makes an empty collection, in place of an earlier one.

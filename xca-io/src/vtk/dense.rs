@@ -9,7 +9,7 @@ use super::values::{DataArray, check_arrays};
 
 /// The cellular space as VTK's ImageData sees it: boxes of equal size, x running fastest.
 ///
-/// Hexagonal cells have no place in it and are shown as boxes.
+/// [`super::HexagonGrid`] is that of hexagons.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grid {
     /// The number of cells along x, y and z; 1 along z for a model of one layer.
@@ -76,7 +76,7 @@ pub fn write_dense(path: &Path, time: f64, grid: &Grid, arrays: &[DataArray<'_>]
          <Piece Extent=\"{extent}\">\n{data}</Piece>\n</ImageData>\n",
             origin = joined(&grid.origin),
             spacing = joined(&grid.spacing),
-            time = appended.field_data(time, arrays)?,
+            time = appended.field_data(time, arrays, "")?,
             data = appended.data("CellData", arrays)?,
         ))
     };

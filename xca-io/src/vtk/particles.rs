@@ -55,10 +55,10 @@ pub fn write_particles(
          <Points>\n{points}</Points>\n\
          <Verts>\n{connectivity}{offsets}</Verts>\n\
          {data}</Piece>\n</PolyData>\n",
-            time = appended.field_data(time, arrays)?,
+            time = appended.field_data(time, arrays, "")?,
             points = appended.array(&points)?,
-            connectivity = appended.count("connectivity", 0, n)?,
-            offsets = appended.count("offsets", 1, n)?,
+            connectivity = appended.count("connectivity", 0..n)?,
+            offsets = appended.count("offsets", 1..=n)?,
             data = appended.data("PointData", arrays)?,
         ))
     };

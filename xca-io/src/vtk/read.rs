@@ -1,19 +1,25 @@
 //! Reading back the files that this crate writes: these, and no other forms that VTK knows.
 
+mod collection;
 mod element;
+mod found;
 
 use std::collections::HashMap;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
-use super::Grid;
-use super::appended::{DATA, END, STATES_OF, head, read_names, unescaped};
+use super::appended::{DATA, END, STATES_OF, head, is_as_text, read_names, read_numbers, unescaped};
 use super::blocks::{Broken, Source};
 use super::dense::{GHOST_TYPE, hidden_cells};
+use super::hexagons::{self, CORNER, CORNERS, EXTENTS, SIDE, STAGGER_AXIS};
+use super::{Grid, HexagonGrid};
 use crate::deflate::can_hold;
 use crate::regular_file;
-use element::{Element, attribute, default_name};
+use element::{Element, attribute};
+
+pub use collection::{ListedFile, read_collection};
+pub use found::{DenseFile, HexagonFile, NumberType, ParticleFile, PolyDataFile, ReadArray};
 
 /// The array that tells the time.
 const TIME: &str = "TimeValue";
@@ -61,68 +67,6 @@ pub enum ReadVtkError {
     },
 }
 
-/// What the numbers of an array are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names say it")]
-pub enum NumberType {
-    U8,
-    I32,
-    U32,
-    F32,
-    F64,
-}
-
-/// An array with its values.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ReadArray {
-    /// Its name.
-    pub name: String,
-    /// What its numbers are.
-    pub numbers: NumberType,
-    /// How many of them a value has.
-    pub components: usize,
-    /// What follows the name of the array in the names of its components, where the file tells it.
-    /// [`Self::component_name`] knows it of all.
-    pub component_names: Vec<String>,
-    /// What its values are called, by number, if they are states.
-    pub states: Vec<String>,
-    /// The numbers, in the byte order of this machine.
-    pub bytes: Vec<u8>,
-}
-
-impl ReadArray {
-    /// What follows the name of the array in the name of a component: nothing for a scalar, else `.x`, `[3]`,
-    /// `[3].x`.
-    pub fn component_name(&self, component: usize) -> String {
-        let given = self.component_names.get(component).cloned();
-        given.unwrap_or_else(|| default_name(component, self.components))
-    }
-}
-
-/// What [`super::write_dense`] has written.
-#[derive(Debug, Clone, PartialEq)]
-pub struct DenseFile {
-    /// The simulated time.
-    pub time: f64,
-    /// The cells.
-    pub grid: Grid,
-    /// Which cells are hidden, if the file has an array [`super::GHOST_TYPE`].
-    pub hidden: Option<Vec<bool>>,
-    /// One value for each cell, x fastest, then y.
-    pub arrays: Vec<ReadArray>,
-}
-
-/// What [`super::write_particles`] has written.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ParticleFile {
-    /// The simulated time.
-    pub time: f64,
-    /// Where the particles are.
-    pub positions: ReadArray,
-    /// One value for each particle.
-    pub arrays: Vec<ReadArray>,
-}
-
 /// Reads dense substates from `path` (`.vti`), whose values may take at most `most` bytes of memory.
 ///
 /// # Errors
@@ -132,14 +76,8 @@ pub fn read_dense(path: &Path, most: u64) -> Result<DenseFile, ReadVtkError> {
     let grid = parts.grid().ok_or_else(|| parts.foreign("its grid makes no sense"))?;
     let cells = grid.cells.iter().try_fold(1_usize, |product, n| product.checked_mul(*n));
     let cells = cells.ok_or_else(|| parts.foreign("its grid makes no sense"))?;
-    let (time, mut arrays) = parts.arrays(cells)?;
-    let is_ghosts = |array: &ReadArray| array.name == GHOST_TYPE;
-    let hidden = arrays.iter().position(is_ghosts).map(|at| arrays.remove(at));
-    let is_whole = |ghosts: &ReadArray| ghosts.numbers == NumberType::U8 && ghosts.components == 1;
-    if !hidden.as_ref().is_none_or(is_whole) {
-        return Err(foreign(path, "its ghost types make no sense"));
-    }
-    let hidden = hidden.map(|ghosts| hidden_cells(&ghosts.bytes));
+    let (time, mut arrays) = parts.arrays(&[], cells)?;
+    let hidden = hidden(path, &mut arrays)?;
     Ok(DenseFile { time, grid, hidden, arrays })
 }
 
@@ -148,18 +86,76 @@ pub fn read_dense(path: &Path, most: u64) -> Result<DenseFile, ReadVtkError> {
 /// # Errors
 /// [`ReadVtkError`] where the file is not one that [`super::write_particles`] has written, or is too large.
 pub fn read_particles(path: &Path, most: u64) -> Result<ParticleFile, ReadVtkError> {
+    particles(Parts::read(path, "PolyData", most)?)
+}
+
+/// Reads dense substates on hexagons from `path` (`.vtp`), whose values may take at most `most` bytes of memory.
+///
+/// # Errors
+/// [`ReadVtkError`] where the file is not one that [`super::write_hexagons`] has written, or is too large.
+pub fn read_hexagons(path: &Path, most: u64) -> Result<HexagonFile, ReadVtkError> {
+    hexagons(Parts::read(path, "PolyData", most)?)
+}
+
+/// Reads particles or hexagons from `path` (`.vtp`), whose values may take at most `most` bytes of memory.
+///
+/// # Errors
+/// As [`read_particles`] and [`read_hexagons`].
+pub fn read_poly_data(path: &Path, most: u64) -> Result<PolyDataFile, ReadVtkError> {
     let parts = Parts::read(path, "PolyData", most)?;
-    let count = parts.attribute("<Piece ", "NumberOfPoints").and_then(|count| count.parse().ok());
+    if parts.count("NumberOfPolys") == Some(0) {
+        particles(parts).map(PolyDataFile::Particles)
+    } else {
+        hexagons(parts).map(PolyDataFile::Hexagons)
+    }
+}
+
+fn particles(parts: Parts<'_>) -> Result<ParticleFile, ReadVtkError> {
+    let path = parts.path;
+    let count = parts.count("NumberOfPoints");
     let count = count.ok_or_else(|| parts.foreign("it does not say how many points it has"))?;
-    let (time, mut arrays) = parts.arrays(count)?;
-    // The points, and which of them belong to which vertex, come before what the points have.
+    let (time, mut arrays) = parts.arrays(&[], count)?;
+    let positions = points(path, &mut arrays)?;
+    Ok(ParticleFile { time, positions, arrays })
+}
+
+fn hexagons(parts: Parts<'_>) -> Result<HexagonFile, ReadVtkError> {
+    let path = parts.path;
+    let grid = parts.hexagon_grid().ok_or_else(|| parts.foreign("its grid makes no sense"))?;
+    let cells = grid.count();
+    let corners = cells.and_then(|cells| cells.checked_mul(CORNERS));
+    let (Some(cells), Some(corners)) = (cells, corners) else {
+        return Err(parts.foreign("its grid makes no sense"));
+    };
+    if [parts.count("NumberOfPolys"), parts.count("NumberOfPoints")] != [Some(cells), Some(corners)] {
+        return Err(parts.foreign("its cells are not those of its grid"));
+    }
+    let (time, mut arrays) = parts.arrays(&[1, corners, corners], cells)?;
+    points(path, &mut arrays)?;
+    let hidden = hidden(path, &mut arrays)?;
+    Ok(HexagonFile { time, grid, hidden, arrays })
+}
+
+/// Takes the array of points out. It comes before all others but those that say which points belong together.
+fn points(path: &Path, arrays: &mut Vec<ReadArray>) -> Result<ReadArray, ReadVtkError> {
     let names: Vec<&str> = arrays.iter().take(3).map(|array| array.name.as_str()).collect();
     if names != ["Points", "connectivity", "offsets"] || arrays[0].components != 3 {
         return Err(foreign(path, "it has no points"));
     }
-    let positions = arrays.remove(0);
+    let points = arrays.remove(0);
     arrays.drain(..2);
-    Ok(ParticleFile { time, positions, arrays })
+    Ok(points)
+}
+
+/// Takes the array out that hides cells.
+fn hidden(path: &Path, arrays: &mut Vec<ReadArray>) -> Result<Option<Vec<bool>>, ReadVtkError> {
+    let is_ghosts = |array: &ReadArray| array.name == GHOST_TYPE;
+    let hidden = arrays.iter().position(is_ghosts).map(|at| arrays.remove(at));
+    let is_whole = |ghosts: &ReadArray| ghosts.numbers == NumberType::U8 && ghosts.components == 1;
+    if !hidden.as_ref().is_none_or(is_whole) {
+        return Err(foreign(path, "its ghost types make no sense"));
+    }
+    Ok(hidden.map(|ghosts| hidden_cells(&ghosts.bytes)))
 }
 
 fn foreign(path: &Path, what: &'static str) -> ReadVtkError {
@@ -232,10 +228,23 @@ impl<'a> Parts<'a> {
         Some(Grid { cells: [nx, ny, nz], origin: origin.try_into().ok()?, spacing: spacing.try_into().ok()? })
     }
 
-    /// What the head says of the arrays, which have so many values each.
-    fn elements(&self, count: usize) -> Result<Vec<Element>, ReadVtkError> {
-        let lines = self.head.lines().filter(|line| line.starts_with("<DataArray "));
-        let elements = lines.map(|line| Element::new(line, count)).collect::<Option<Vec<_>>>();
+    fn hexagon_grid(&self) -> Option<HexagonGrid> {
+        let head = &self.head;
+        let (extents, corner) = (read_numbers(head, EXTENTS)?, read_numbers(head, CORNER)?);
+        hexagons::grid(extents, corner, read_numbers(head, SIDE)?, read_numbers(head, STAGGER_AXIS)?)
+    }
+
+    /// A number of the piece.
+    fn count(&self, name: &str) -> Option<usize> {
+        self.attribute("<Piece ", name)?.parse().ok()
+    }
+
+    /// What the head says of the arrays: the first have so many values as `first` says, the others `count`.
+    fn elements(&self, first: &[usize], count: usize) -> Result<Vec<Element>, ReadVtkError> {
+        let lines = self.head.lines().filter(|line| line.starts_with("<DataArray ") && !is_as_text(line));
+        let counts = first.iter().copied().chain(std::iter::repeat(count));
+        let elements =
+            lines.zip(counts).map(|(line, count)| Element::new(line, count)).collect::<Option<Vec<_>>>();
         let elements = elements.ok_or_else(|| self.foreign("one of its arrays makes no sense"))?;
         let needed = elements.iter().fold(0_u64, |sum, element| sum.saturating_add(element.length as u64));
         // Before anything is expanded.
@@ -248,9 +257,9 @@ impl<'a> Parts<'a> {
         Ok(elements)
     }
 
-    /// The time, and all arrays, which have so many values each.
-    fn arrays(mut self, count: usize) -> Result<(f64, Vec<ReadArray>), ReadVtkError> {
-        let elements = self.elements(count)?;
+    /// The time, and all arrays; the time is the first of them in the file. How many values they have: see [`Self::elements`].
+    fn arrays(mut self, first: &[usize], count: usize) -> Result<(f64, Vec<ReadArray>), ReadVtkError> {
+        let elements = self.elements(first, count)?;
         let states = self.states();
         let begin = self.data.left();
         let mut arrays = Vec::new();
@@ -301,21 +310,6 @@ impl<'a> Parts<'a> {
 
     fn truncated(&self) -> ReadVtkError {
         ReadVtkError::Truncated { path: self.path.to_owned(), found: self.found }
-    }
-}
-
-impl NumberType {
-    /// Numbers of a file, which are little-endian, as this machine has them.
-    fn of_this_machine(self, mut bytes: Vec<u8>) -> Vec<u8> {
-        let size = match self {
-            Self::U8 => 1,
-            Self::I32 | Self::U32 | Self::F32 => 4,
-            Self::F64 => 8,
-        };
-        if cfg!(target_endian = "big") {
-            bytes.chunks_exact_mut(size).for_each(<[u8]>::reverse);
-        }
-        bytes
     }
 }
 

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 use xca_io::atomic::{WriteError, write_atomically};
+use xca_io::lines::LimitedRows;
 use xca_io::regular_file;
 
 /// A table that cannot be read or written.
@@ -51,14 +52,18 @@ impl Table {
         let path = self.path.clone();
         let broken = |source| TableError::Read { path: path.clone(), source };
         let file = regular_file::open(&path).map_err(|error| broken(error.into()))?;
-        let mut reader = csv::Reader::from_reader(file);
+        let mut reader = csv::Reader::from_reader(LimitedRows::new(file));
         let header = reader.headers().map_err(broken)?.clone();
         let wanted = BEFORE.iter().copied().chain(self.parameters.iter().map(String::as_str)).chain(BETWEEN);
         if !wanted.eq(header.iter().take(self.width())) {
             return Err(TableError::Row { path, line: 1 });
         }
-        for record in reader.records() {
-            let record = record.map_err(broken)?;
+        let mut record = csv::StringRecord::new();
+        loop {
+            reader.get_mut().begin_row();
+            if !reader.read_record(&mut record).map_err(broken)? {
+                break;
+            }
             let line = record.position().map_or(0, csv::Position::line);
             let row = self.row(&header, &record, members);
             let row = row.ok_or_else(|| TableError::Row { path: path.clone(), line })?;

@@ -188,3 +188,23 @@ fn no_more_members_are_alive_at_once_than_there_are_jobs() {
     many.run(folder.path(), &engine, &mut { make }, &mut ()).unwrap();
     assert!(MOST.load(Ordering::SeqCst) <= 3, "{MOST:?}");
 }
+
+/// An open quotation mark makes one row of all that follows.
+#[test]
+fn a_row_of_the_table_has_an_end() {
+    let folder = tempfile::tempdir().unwrap();
+    ensemble().run(folder.path(), &engine, &mut |_| set_up(), &mut ()).unwrap();
+    let path = folder.path().join("members.csv");
+    let mut table = fs::read(&path).unwrap();
+    table.push(b'"');
+    table.resize(table.len() + (17 << 20), b'\n');
+    fs::write(&path, table).unwrap();
+    let error = ensemble().run(folder.path(), &engine, &mut |_| set_up(), &mut ()).unwrap_err();
+    let mut error: Option<&dyn std::error::Error> = Some(&error);
+    let mut said = String::new();
+    while let Some(cause) = error {
+        said += &cause.to_string();
+        error = cause.source();
+    }
+    assert!(said.contains("members.csv") && said.contains("a row is longer than 16 MiB"), "{said}");
+}

@@ -1,10 +1,14 @@
 //! All states of the items as extended XYZ.
 
-use super::{Moment, OutputFile, RecordedState, Subject, View, Writer};
+use super::{Moment, OutputFile, RecordedState, SavedState, SavedView, Subject, View, Writer};
 use crate::observable::Failure;
-use crate::record::{ItemState, Plane, SubstateValues};
+use crate::record::{ItemState, NoValue, Plane, SubstateValues, retyped};
+use std::collections::BTreeSet;
+use std::path::Path;
 use xca_core::{Precision, ScalarType, StoredScalar};
-use xca_io::extended_xyz::{self, Column, Space, Values};
+use xca_io::extended_xyz::{self, Column, ReadColumn, ReadValues, Space, Values};
+use xca_io::particle_csv::LABEL;
+use xca_io::vtk::{NumberType, ReadArray};
 
 /// `frames/NAME_00000050.xyz` for each view of items.
 #[derive(Debug)]
@@ -48,6 +52,115 @@ impl Writer for ExtendedXyz {
         }
         Ok(())
     }
+
+    fn read(&self, path: &Path) -> Option<Result<SavedState, Failure>> {
+        (path.extension()? == "xyz").then(|| read(path))
+    }
+
+    fn read_state(&self, saved: SavedView<'_>) -> Option<Result<SavedState, Failure>> {
+        Some(read_typed(saved))
+    }
+}
+
+/// A file that is not one of a run.
+#[derive(Debug, thiserror::Error)]
+enum OtherFile {
+    #[error("{path} has {frames} frames, not 1")]
+    Frames { path: String, frames: usize },
+    #[error("{path}: `{column}` has more than {} names of states", NAMES)]
+    Names { path: String, column: String },
+    #[error("{path}: {number} of particle {particle} is no value of `{substate}`")]
+    Value { path: String, substate: &'static str, number: f64, particle: usize },
+}
+
+/// No substate has more states.
+const NAMES: usize = 256;
+
+/// What a file holds. The format has one type of whole numbers, and floating ones as decimals.
+fn read(path: &Path) -> Result<SavedState, Failure> {
+    let file = || path.display().to_string();
+    let mut frames = extended_xyz::read(path)?;
+    let (Some(frame), true) = (frames.pop(), frames.is_empty()) else {
+        return Err(OtherFile::Frames { path: file(), frames: frames.len() + 1 }.into());
+    };
+    let mut arrays = Vec::new();
+    for column in frame.columns {
+        let name = column.name.clone();
+        let array = array(column).ok_or_else(|| OtherFile::Names { path: file(), column: name })?;
+        arrays.push(array);
+    }
+    let positions = frame.positions.as_flattened().iter().flat_map(|number| number.to_ne_bytes()).collect();
+    let positions = ReadArray {
+        name: "position".to_owned(),
+        numbers: NumberType::F64,
+        components: 3,
+        component_names: Vec::new(),
+        states: Vec::new(),
+        bytes: positions,
+    };
+    Ok(SavedState::of_items(frame.time.unwrap_or_default(), positions, arrays))
+}
+
+/// A column as an array; none of one with more names than states can have.
+fn array(column: ReadColumn) -> Option<ReadArray> {
+    let own = column.name.strip_suffix('_').filter(|name| RESERVED.contains(name));
+    let name = if column.name == IDENTIFIER { LABEL } else { own.unwrap_or(&column.name) };
+    let mut states = Vec::new();
+    let (numbers, bytes) = match column.values {
+        ReadValues::Real(values) => {
+            (NumberType::F64, values.iter().flat_map(|value| value.to_ne_bytes()).collect())
+        }
+        ReadValues::Whole(values) => of_whole(&values),
+        ReadValues::Bool(values) => {
+            states = ["false", "true"].map(str::to_owned).to_vec();
+            (NumberType::U8, values.into_iter().map(u8::from).collect())
+        }
+        ReadValues::Text(values) => {
+            let names: BTreeSet<&String> = values.iter().collect();
+            states = names.into_iter().take(NAMES + 1).cloned().collect();
+            let number = |value| u8::try_from(states.binary_search(value).ok()?).ok();
+            (NumberType::U8, values.iter().map(number).collect::<Option<_>>()?)
+        }
+    };
+    let (name, component_names) = (name.to_owned(), Vec::new());
+    Some(ReadArray { name, numbers, components: column.components, component_names, states, bytes })
+}
+
+/// The narrowest type that holds all of these numbers.
+fn of_whole(values: &[i64]) -> (NumberType, Vec<u8>) {
+    let as_u32 = values.iter().map(|value| u32::try_from(*value).ok()).collect::<Option<Vec<u32>>>();
+    let as_i32 = values.iter().map(|value| i32::try_from(*value).ok()).collect::<Option<Vec<i32>>>();
+    match (as_u32, as_i32) {
+        (Some(values), _) => (NumberType::U32, values.iter().flat_map(|value| value.to_ne_bytes()).collect()),
+        (None, Some(values)) => {
+            (NumberType::I32, values.iter().flat_map(|value| value.to_ne_bytes()).collect())
+        }
+        (None, None) => {
+            (NumberType::F64, values.iter().flat_map(|value| (*value as f64).to_ne_bytes()).collect())
+        }
+    }
+}
+
+/// A state of a view, whose substates have the types of the model.
+fn read_typed(saved: SavedView<'_>) -> Result<SavedState, Failure> {
+    let path = saved.path(&file(saved.view()));
+    let fields = saved.subject().model().groups()[saved.view().shown.group].schema().fields;
+    let state = read(&path)?;
+    let mut arrays = Vec::new();
+    for array in state.arrays {
+        let Some(field) = fields.iter().find(|field| field.name == array.name) else {
+            arrays.push(array);
+            continue;
+        };
+        let of_model = retyped(field, saved.precision(), array);
+        arrays.push(of_model.map_err(|NoValue { index, number }| OtherFile::Value {
+            path: path.display().to_string(),
+            substate: field.name,
+            number,
+            particle: index + 1,
+        })?);
+    }
+    Ok(SavedState { arrays, ..state })
 }
 
 /// Columns that the format gives a meaning.

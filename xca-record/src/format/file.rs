@@ -1,7 +1,7 @@
 //! The names of files: one place that makes them, and knows them again.
 
 use super::View;
-use crate::record::{FRAMES, RunFolder, numbered_files};
+use crate::record::{FRAMES, RunFolder, SavedRun, numbered_files};
 use std::path::{Path, PathBuf};
 use xca_io::atomic::{OutputFolder, plain_name};
 
@@ -64,7 +64,7 @@ impl OutputFile {
     }
 
     /// Its name in the folder of the run.
-    fn own_name(&self) -> String {
+    pub(crate) fn own_name(&self) -> String {
         let word = match self.moment {
             Moment::First => Some("initial"),
             Moment::Last => Some("final"),
@@ -85,6 +85,26 @@ impl OutputFile {
     /// Where the file of a state is in a folder of frames.
     pub(crate) fn frame(&self, frames: &OutputFolder, step: u64) -> PathBuf {
         frames.numbered(self.stem.as_deref().unwrap_or("state"), step, self.extension)
+    }
+
+    /// Whether it can hold the state after a step: the file of the final state holds that of the last alone.
+    pub(crate) fn can_be_of(&self, run: &SavedRun, step: u64) -> bool {
+        match self.moment {
+            Moment::Each => true,
+            Moment::Last => step == run.last_step,
+            Moment::Run | Moment::First => false,
+        }
+    }
+
+    /// The steps of the states that are there.
+    pub(crate) fn steps(&self, run: &SavedRun) -> Vec<u64> {
+        if self.moment == Moment::Each {
+            let saved = self.saved(&run.folder.join(FRAMES)).into_iter();
+            return saved.map(|(step, _)| step).collect();
+        }
+        let is_there = run.folder.join(self.own_name()).is_file();
+        let last = Some(run.last_step).filter(|step| is_there && self.can_be_of(run, *step));
+        last.into_iter().collect()
     }
 
     /// The files of states that are there, with the numbers of their steps.

@@ -1,6 +1,6 @@
 //! The final state of a layer of cells as GeoTIFF.
 
-use super::{Moment, OutputFile, RecordedState, Subject, Writer};
+use super::{Moment, OutputFile, RecordedState, SavedState, SavedView, Subject, View, Writer};
 use crate::observable::Failure;
 use crate::record::layer;
 use xca_io::geotiff::{self, SampleType};
@@ -36,5 +36,13 @@ impl Writer for GeoTiffs {
             }
         }
         Ok(())
+    }
+
+    fn state_files(&self, subject: Subject<'_>, view: View<'_>) -> Vec<OutputFile> {
+        layer::state_files(subject, view, "tif")
+    }
+
+    fn read_state(&self, saved: SavedView<'_>) -> Option<Result<SavedState, Failure>> {
+        Some(layer::read_state(saved, "tif"))
     }
 }

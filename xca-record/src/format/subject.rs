@@ -53,6 +53,12 @@ impl<'a> Subject<'a> {
         self.shown.iter().enumerate().map(|(number, shown)| View { shown, number })
     }
 
+    /// The view that another way to draw it was made from.
+    pub(crate) fn original(self, shown: &Shown) -> Option<View<'a>> {
+        let stem = shown.view.stem();
+        self.views().find(|view| view.stem() == stem)
+    }
+
     /// The simulated time after so many steps: in seconds, or in steps where the model does not know better.
     pub fn time(self, step: u64) -> f64 {
         step as f64 * self.set_up.time_step.unwrap_or(1.0)

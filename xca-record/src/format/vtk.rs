@@ -3,15 +3,16 @@
 use super::{Moment, OutputFile, RecordedState, ResumedRun, SavedState, Subject, View, Writer};
 use crate::machine::free_memory;
 use crate::observable::Failure;
-use crate::record::{CellState, ItemState, SubstateValues};
+use crate::record::{CellState, ItemState, SubstateValues, lattice};
 use serde_json::Value;
 use std::path::Path;
+use xca_io::picture::Lattice;
 use xca_io::vtk::{
-    Collection, DataArray, GHOST_TYPE, Grid, ghost_types, read_dense, read_particles, write_dense,
-    write_particles,
+    Collection, DataArray, GHOST_TYPE, Grid, HexagonGrid, PolyDataFile, ghost_types, read_dense,
+    read_poly_data, write_dense, write_hexagons, write_particles,
 };
 
-/// `.vti` of cells, `.vtp` of items, and a `.pvd` for each view.
+/// `.vti` of cells, `.vtp` of items and hexagons, and a `.pvd` for each view.
 #[derive(Debug, Default)]
 pub(super) struct Vtk {
     /// For each view, the list of its frames.
@@ -19,8 +20,9 @@ pub(super) struct Vtk {
 }
 
 /// The frames of a view, and the list of them.
-fn files(view: View<'_>) -> [OutputFile; 2] {
-    let extension = if view.shows_items() { "vtp" } else { "vti" };
+fn files(subject: Subject<'_>, view: View<'_>) -> [OutputFile; 2] {
+    let is_image = !view.shows_items() && lattice(subject.model().geometry()) == Lattice::Squares;
+    let extension = if is_image { "vti" } else { "vtp" };
     [OutputFile::of_view(Moment::Each, view, extension), OutputFile::of_view(Moment::Run, view, "pvd")]
 }
 
@@ -34,12 +36,12 @@ impl Writer for Vtk {
     }
 
     fn files(&self, subject: Subject<'_>) -> Vec<OutputFile> {
-        subject.views().flat_map(files).collect()
+        subject.views().flat_map(|view| files(subject, view)).collect()
     }
 
     fn record(&mut self, state: RecordedState<'_>) -> Result<(), Failure> {
         for view in state.subject().views() {
-            let [frame, list] = files(view).map(|file| state.path(&file));
+            let [frame, list] = files(state.subject(), view).map(|file| state.path(&file));
             if let Some(items) = state.items(view) {
                 write_items(&frame, state.time(), &items)?;
             } else if let Some(cells) = state.cells(view) {
@@ -56,7 +58,7 @@ impl Writer for Vtk {
     fn resume(&mut self, run: ResumedRun<'_>, _memory: &Value) -> Result<(), Failure> {
         self.collections.clear();
         for view in run.subject().views() {
-            let [frame, list] = files(view);
+            let [frame, list] = files(run.subject(), view);
             let entry = |step: &u64| (run.subject().time(*step), run.path(&frame, *step));
             let entries: Vec<_> = run.steps().iter().map(entry).collect();
             self.collections.push(Collection::of(&run.path(&list, 0), &entries)?);
@@ -67,7 +69,7 @@ impl Writer for Vtk {
     fn read(&self, path: &Path) -> Option<Result<SavedState, Failure>> {
         match path.extension()?.to_str()? {
             "vti" => Some(saved_cells(path)),
-            "vtp" => Some(saved_items(path)),
+            "vtp" => Some(saved_poly_data(path)),
             _ => None,
         }
     }
@@ -78,9 +80,19 @@ fn write_cells(path: &Path, time: f64, cells: &CellState<'_>) -> Result<(), Fail
     let ghosts = cells.missing().map(ghost_types);
     let ghosts = ghosts.as_deref().map(|ghosts| DataArray::new(GHOST_TYPE, ghosts));
     let arrays: Vec<DataArray<'_>> = substates.iter().map(SubstateValues::array).chain(ghosts).collect();
-    let [x, y] = cells.corner();
-    let grid = Grid { origin: [x, y, 0.0], ..Grid::cubic(cells.extents(), cells.side()) };
-    Ok(write_dense(path, time, &grid, &arrays)?)
+    let (extents, side, corner) = (cells.extents(), cells.side(), cells.corner());
+    let [x, y] = corner;
+    match cells.lattice() {
+        Lattice::Squares => {
+            let grid = Grid { origin: [x, y, 0.0], ..Grid::cubic(extents, side) };
+            write_dense(path, time, &grid, &arrays)?;
+        }
+        lattice => {
+            let grid = HexagonGrid { cells: extents, lattice, corner, side };
+            write_hexagons(path, time, &grid, &arrays)?;
+        }
+    }
+    Ok(())
 }
 
 /// The substates that have columns, at their place on the map.
@@ -101,7 +113,12 @@ fn saved_cells(path: &Path) -> Result<SavedState, Failure> {
     Ok(SavedState { hidden: file.hidden, ..SavedState::of_cells(file.time, file.grid.cells, file.arrays) })
 }
 
-fn saved_items(path: &Path) -> Result<SavedState, Failure> {
-    let file = read_particles(path, most())?;
-    Ok(SavedState::of_items(file.time, file.positions, file.arrays))
+fn saved_poly_data(path: &Path) -> Result<SavedState, Failure> {
+    Ok(match read_poly_data(path, most())? {
+        PolyDataFile::Particles(file) => SavedState::of_items(file.time, file.positions, file.arrays),
+        PolyDataFile::Hexagons(file) => {
+            let state = SavedState::of_cells(file.time, file.grid.cells, file.arrays);
+            SavedState { hidden: file.hidden, ..state }
+        }
+    })
 }

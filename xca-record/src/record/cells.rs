@@ -6,7 +6,8 @@ use super::values::Plane;
 use crate::components::{DrawnPart, Part};
 use crate::view::{AnyCellView, Quantity, StoredBytes};
 use xca_core::model::Group;
-use xca_core::{Geometry, Precision, StoredScalar, StoredType};
+use xca_core::{Geometry, Parity, Precision, StoredScalar, StoredType};
+use xca_io::picture::Lattice;
 
 /// What a view shows of cells in one state: their substates.
 #[derive(Debug)]
@@ -45,7 +46,12 @@ impl<'a> CellState<'a> {
         self.geometry.extents()
     }
 
-    /// The side of a cell, in metres.
+    /// How the cells of a layer lie.
+    pub fn lattice(&self) -> Lattice {
+        lattice(self.geometry)
+    }
+
+    /// The side of a cell, of a hexagon the distance to its neighbours, in metres.
     pub fn side(&self) -> f64 {
         self.geometry.side()
     }
@@ -99,6 +105,15 @@ impl<'a> CellState<'a> {
         let heights = self.view.relief.and_then(|(field, _)| plane(field));
         let hidden = self.ground.missing.map(|missing| drawn_mask(self.view, self.geometry, missing));
         seen(drawn.unwrap_or_default(), heights, hidden)
+    }
+}
+
+/// How the cells of a layer lie.
+pub(crate) fn lattice(geometry: &Geometry) -> Lattice {
+    match geometry.neighbourhood().parity() {
+        Parity::None => Lattice::Squares,
+        Parity::Row => Lattice::HexagonRows,
+        Parity::Column => Lattice::HexagonColumns,
     }
 }
 

@@ -2,12 +2,11 @@
 
 use super::look::{Look, LookError};
 use super::painting::Frame;
-use super::saved::SavedError;
+use super::saved::{SavedError, SavedRun};
 use super::seen::{Seen, wider};
 use super::shown::Shown;
 use super::{RecordError, Recorder};
 use crate::view::AnyView;
-use std::path::Path;
 use xca_core::{Model, Precision, Snapshot};
 use xca_io::picture::{PanelPicture, Picture};
 
@@ -93,9 +92,15 @@ impl Drawing<'_> {
         panels.filter_map(|panel| panel.shown.seen(self.model(), precision, snapshot)).collect()
     }
 
-    /// The steps after which a run has saved all that is drawn, in this folder of frames.
-    pub fn saved_steps(&self, frames: &Path) -> Vec<u64> {
-        let mut of_panels = self.panels.iter().map(|panel| self.recorder.saved_steps(&panel.shown, frames));
+    /// The name of a view that is drawn and that no format of the run gives back, if there is one.
+    pub fn unreadable(&self) -> Option<&str> {
+        let mut views = self.panels.iter().map(|panel| &panel.shown);
+        views.find(|shown| !self.recorder.has_reader(shown)).map(|shown| shown.view.name())
+    }
+
+    /// The steps after which a run has saved all that is drawn.
+    pub fn saved_steps(&self, run: &SavedRun) -> Vec<u64> {
+        let mut of_panels = self.panels.iter().map(|panel| self.recorder.saved_steps(&panel.shown, run));
         let mut steps = of_panels.next().unwrap_or_default();
         for others in of_panels {
             steps.retain(|step| others.contains(step));
@@ -104,8 +109,8 @@ impl Drawing<'_> {
     }
 
     /// As [`Drawing::seen`], of a saved state.
-    pub fn seen_in(&self, frames: &Path, step: u64) -> Result<Vec<Seen>, SavedError> {
-        self.panels.iter().map(|panel| self.recorder.seen_in(&panel.shown, frames, step)).collect()
+    pub fn seen_in(&self, run: &SavedRun, step: u64) -> Result<Vec<Seen>, SavedError> {
+        self.panels.iter().map(|panel| self.recorder.seen_in(&panel.shown, run, step)).collect()
     }
 
     /// The scales, as far as they do not depend on the states that are drawn.

@@ -1,11 +1,13 @@
 //! The substates of a layer of cells, component by component, as a geographic information system takes them.
 
-use crate::format::{RecordedState, Subject};
+use super::typed::{NoValue, typed};
+use crate::format::{Moment, OutputFile, RecordedState, SavedState, SavedView, Subject, View};
 use crate::observable::Failure;
+use std::path::PathBuf;
 use xca_core::engine::SubstateId;
 use xca_core::model::GroupKind;
 use xca_core::{Model, StoredScalar};
-use xca_io::map::Map;
+use xca_io::map::{Map, PlacementDifference};
 use xca_io::raster::Raster;
 
 /// One component of a substate of cells.
@@ -23,6 +25,27 @@ struct Layers {
     format: &'static str,
     model: String,
     layers: usize,
+}
+
+/// A layer that the run cannot have left.
+#[derive(Debug, thiserror::Error)]
+#[error("{} is not of this run: {difference}", path.display())]
+struct OtherPlace {
+    path: PathBuf,
+    difference: PlacementDifference,
+}
+
+/// A number that no substate of the run was.
+#[derive(Debug, thiserror::Error)]
+#[error(
+    "{}: {number} is no value of `{substate}` (column {} from the west, row {} from the north)",
+    path.display(), place[0], place[1]
+)]
+struct OtherValue {
+    path: PathBuf,
+    substate: &'static str,
+    number: f64,
+    place: [usize; 2],
 }
 
 /// Refuses a model of several layers.
@@ -80,6 +103,53 @@ impl Band {
         mask(&mut values, state.subject().missing());
         Some(values)
     }
+}
+
+/// The files of the final state of a view, one for each band.
+pub(crate) fn state_files(subject: Subject<'_>, view: View<'_>, extension: &'static str) -> Vec<OutputFile> {
+    let mut bands = bands(subject.model());
+    bands.retain(|band| band.substate.group == view.shown.group);
+    bands.into_iter().map(|band| OutputFile::named(Moment::Last, &band.name, extension)).collect()
+}
+
+/// The final state of a view, from the files of all its bands.
+pub(crate) fn read_state(saved: SavedView<'_>, extension: &'static str) -> Result<SavedState, Failure> {
+    let (subject, group) = (saved.subject(), saved.view().shown.group);
+    let model = subject.model();
+    let mut paths = state_files(subject, saved.view(), extension).into_iter().map(|file| saved.path(&file));
+    let mut arrays = Vec::new();
+    for field in model.groups()[group].schema().fields {
+        let paths: Vec<PathBuf> = paths.by_ref().take(field.value_type.components()).collect();
+        let mut components = Vec::new();
+        for path in &paths {
+            let raster = Raster::read(path)?;
+            if let Some(difference) = raster.placement().difference(&subject.placement()) {
+                return Err(OtherPlace { path: path.clone(), difference }.into());
+            }
+            components.push(raster);
+        }
+        let stored = field.value_type.stored(saved.precision()).scalar;
+        let is_float = matches!(stored, StoredScalar::F32 | StoredScalar::F64);
+        let is_missing = |cell: usize| subject.missing().is_some_and(|missing| missing[cell]);
+        let cells = components.first().map_or(0, |raster| raster.values().len());
+        let mut numbers = Vec::with_capacity(cells * components.len());
+        for cell in 0..cells {
+            // Where there is no ground, whole numbers are 0.
+            let number = |raster: &Raster| match raster.values()[cell] {
+                _ if is_missing(cell) && !is_float => 0.0,
+                number => number,
+            };
+            numbers.extend(components.iter().map(number));
+        }
+        let array = typed(field, saved.precision(), &numbers);
+        arrays.push(array.map_err(|NoValue { index, number }| OtherValue {
+            path: paths.first().cloned().unwrap_or_default(),
+            substate: field.name,
+            number,
+            place: subject.placement().place(index),
+        })?);
+    }
+    Ok(SavedState::of_cells(saved.time(), model.geometry().extents(), arrays))
 }
 
 /// Takes the values from the cells without ground.

@@ -1,13 +1,14 @@
 //! From what a view sees of a state to its picture.
 
+use super::cells;
 use super::seen::{Seen, wider};
 use super::shown::Shown;
 use crate::format::Subject;
 use crate::view::{AnyCellView, AnyItemView, AnyView, Drawn};
 use xca_core::model::Group;
-use xca_core::{Geometry, Model, Parity, Schema};
+use xca_core::{Geometry, Model, Schema};
 use xca_io::picture::{
-    BlockPicture, Category, ColourMap, Domain, LandscapePicture, Lattice, ParticlePicture, Picture,
+    Axes, BlockPicture, Category, ColourMap, Domain, LandscapePicture, Lattice, ParticlePicture, Picture,
     PictureError, Relief, Scalar, SlicePicture,
 };
 
@@ -34,6 +35,8 @@ pub(super) struct Field<'a> {
     pub(super) heights: Option<&'a [f64]>,
     /// The cells that are not drawn.
     pub(super) hidden: Option<&'a [bool]>,
+    /// The corner of the cells, if they lie on a map.
+    pub(super) corner: Option<[f64; 2]>,
 }
 
 impl Shown {
@@ -78,10 +81,15 @@ impl Shown {
                 let schema = group.schema();
                 let label = view.label(schema);
                 let (heights, hidden, is_float) = (heights.as_deref(), hidden.as_deref(), *is_float);
+                let (label, corner) = (label.as_str(), self.corner_on_map());
                 let field =
-                    Field { view, schema, geometry, label: &label, is_float, values, heights, hidden };
+                    Field { view, schema, geometry, label, is_float, values, heights, hidden, corner };
                 let range = seen.range();
-                let layer = Layer { cells: field.plane().0, lattice: field.lattice() };
+                let layer = Layer {
+                    cells: field.plane().0,
+                    lattice: field.lattice(),
+                    has_axes: view.axes.unwrap_or(corner.is_some()),
+                };
                 Some(if view.block {
                     field.block(frame, range)?
                 } else {
@@ -107,9 +115,10 @@ impl Shown {
         };
         let (schema, geometry) = (model.groups()[self.group].schema(), model.geometry());
         let (label, is_float) = (view.label(schema), *is_float);
-        let field =
-            Field { view, schema, geometry, label: &label, is_float, values, heights: None, hidden: None };
-        let layer = Layer { cells: [geometry.extents()[0], rows], lattice: Lattice::Squares };
+        let (label, heights, hidden, corner) = (label.as_str(), None, None, None);
+        let field = Field { view, schema, geometry, label, is_float, values, heights, hidden, corner };
+        let cells = [geometry.extents()[0], rows];
+        let layer = Layer { cells, lattice: Lattice::Squares, has_axes: false };
         field.slice(frame, seen.range(), layer).map(Some)
     }
 }
@@ -119,6 +128,14 @@ struct Layer {
     /// Cells across and down.
     cells: [usize; 2],
     lattice: Lattice,
+    has_axes: bool,
+}
+
+/// An axis of the space.
+struct SpaceAxis {
+    name: &'static str,
+    /// The coordinate of the first face of the space.
+    begin: f64,
 }
 
 /// Draws items as spheres.
@@ -163,11 +180,31 @@ impl Field<'_> {
         (picture.title, picture.caption) = (frame.title, frame.caption);
         picture.size = frame.size;
         // A side that no one gave is no length.
-        if self.geometry.side() != 1.0 {
+        let is_length = self.geometry.side() != 1.0 || self.corner.is_some();
+        if is_length {
             picture.cell_side = self.geometry.side();
             picture.length_unit = "m";
         }
+        let unit = picture.length_unit;
+        let names = self.axes().map(|axis| format!("{} ({unit})", axis.name));
+        if layer.has_axes {
+            let names = names.each_ref().map(String::as_str);
+            picture.axes = Some(Axes { names, corner: self.axes().map(|axis| axis.begin) });
+        }
         picture.render()
+    }
+
+    /// The axes of a layer, across and up.
+    fn axes(&self) -> [SpaceAxis; 2] {
+        let [x, y] = self.corner.unwrap_or_default();
+        let names = if self.corner.is_some() { ["easting", "northing", "z"] } else { ["x", "y", "z"] };
+        let begins = [x, y, 0.0];
+        let across = match self.view.axis {
+            0 => [1, 2],
+            1 => [0, 2],
+            _ => [0, 1],
+        };
+        across.map(|axis| SpaceAxis { name: names[axis], begin: begins[axis] })
     }
 
     /// Draws all cells, or those that are not 0 where the substate is a whole number; one layer over its relief.
@@ -196,11 +233,7 @@ impl Field<'_> {
 
     /// How the cells of the layer lie.
     fn lattice(&self) -> Lattice {
-        match self.geometry.neighbourhood().parity() {
-            Parity::Row if self.view.axis == 2 => Lattice::HexagonRows,
-            Parity::Column if self.view.axis == 2 => Lattice::HexagonColumns,
-            _ => Lattice::Squares,
-        }
+        if self.view.axis == 2 { cells::lattice(self.geometry) } else { Lattice::Squares }
     }
 
     /// The cells of a layer across and down, and the number of layers.

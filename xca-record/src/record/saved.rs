@@ -1,20 +1,30 @@
 //! What a view sees of the states that a run has saved: its frames.
 
-use super::Recorder;
 use super::cells::{self, DrawnValues};
 use super::seen::Seen;
 use super::shown::Shown;
 use super::values::{Plane, stored_of};
+use super::{FRAMES, Recorder};
 use crate::components::{DrawnPart, Part, state_names};
-use crate::format::{Moment, OutputFile, SavedState, Writer};
+use crate::format::{Formats, OutputFile, SavedState, SavedView, View, Writer};
 use crate::observable::Failure;
 use crate::view::{AnyCellView, AnyItemView, AnyView, Computation, Quantity, StoredBytes};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use xca_core::model::Group;
 use xca_core::{Geometry, GroupSnapshot, Model, Precision, ScalarType, Snapshot, StoredType};
-use xca_io::atomic::OutputFolder;
 use xca_io::vtk::{NumberType, ReadArray};
+
+/// What a run has left, whose states are drawn.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SavedRun {
+    /// Its folder.
+    pub folder: PathBuf,
+    /// What `Real` was.
+    pub precision: Precision,
+    /// The step of its last state.
+    pub last_step: u64,
+}
 
 /// A saved state that cannot be drawn.
 #[derive(Debug, thiserror::Error)]
@@ -58,38 +68,78 @@ impl Recorder {
 }
 
 impl Recorder {
-    /// The files of each state of a view that can be read back, of all formats.
-    fn frames(&self, shown: &Shown) -> Vec<(&dyn Writer, OutputFile)> {
-        let stem = shown.view.stem();
-        let mut all = Vec::new();
-        for writer in self.formats.chosen() {
-            let files = writer.files(self.subject()).into_iter();
-            let of_view = files.filter(|file| file.moment() == Moment::Each && file.is_of(&stem));
-            all.extend(of_view.map(|file| (writer, file)));
-        }
-        all
+    /// The formats that give states of a view back, and the files in which they do.
+    fn readers(&self, view: View<'_>) -> Vec<Reader<'_>> {
+        let subject = self.subject();
+        let reader = |writer: &'_ dyn Writer| writer.state_files(subject, view);
+        let all = self.formats.chosen().map(|writer| Reader { writer, files: reader(writer) });
+        all.filter(|reader| !reader.files.is_empty()).collect()
     }
 
-    /// The steps of the states of a view that are saved in a folder.
-    pub(super) fn saved_steps(&self, shown: &Shown, frames: &Path) -> Vec<u64> {
-        let files = self.frames(shown).into_iter();
-        let steps: BTreeSet<u64> =
-            files.flat_map(|(_, file)| file.saved(frames)).map(|(step, _)| step).collect();
+    /// Whether a format of the run gives states of a view back.
+    pub(super) fn has_reader(&self, shown: &Shown) -> bool {
+        self.subject().original(shown).is_some_and(|view| !self.readers(view).is_empty())
+    }
+
+    /// The names of the formats of the run.
+    pub fn format_names(&self) -> Vec<&'static str> {
+        self.formats.names()
+    }
+
+    /// The steps of the states of a view that a run has saved.
+    pub(super) fn saved_steps(&self, shown: &Shown, run: &SavedRun) -> Vec<u64> {
+        let Some(view) = self.subject().original(shown) else { return Vec::new() };
+        let readers = self.readers(view);
+        let steps: BTreeSet<u64> = readers.iter().flat_map(|reader| reader.steps(run)).collect();
         steps.into_iter().collect()
     }
 
+    /// The formats of the model.
+    pub fn into_formats(self) -> Formats {
+        self.formats
+    }
+
     /// What a view draws of a saved state.
-    pub(super) fn seen_in(&self, shown: &Shown, frames: &Path, step: u64) -> Result<Seen, SavedError> {
-        let folder = OutputFolder::to_read(frames);
-        for (writer, file) in self.frames(shown) {
-            let path = file.frame(&folder, step);
-            if path.is_file()
-                && let Some(state) = writer.read(&path)
+    pub(super) fn seen_in(&self, shown: &Shown, run: &SavedRun, step: u64) -> Result<Seen, SavedError> {
+        let subject = self.subject();
+        let missing = || SavedError::Missing { path: run.folder.join(FRAMES).join(shown.view.stem()) };
+        let view = subject.original(shown).ok_or_else(missing)?;
+        let saved = SavedView { subject, view, run, step };
+        for reader in self.readers(view) {
+            let path = saved.path(&reader.files[0]);
+            if reader.has(saved)
+                && let Some(state) = reader.writer.read_state(saved)
             {
                 return shown.seen_of(self.model(), &path, &state.map_err(SavedError::Read)?);
             }
         }
-        Err(SavedError::Missing { path: frames.join(shown.view.stem()) })
+        Err(missing())
+    }
+}
+
+/// A format that gives states of a view back.
+struct Reader<'a> {
+    writer: &'a dyn Writer,
+    /// The files that hold a state together; one at least.
+    files: Vec<OutputFile>,
+}
+
+impl Reader<'_> {
+    /// The steps of the states of which all files are there.
+    fn steps(&self, run: &SavedRun) -> Vec<u64> {
+        let mut of_files = self.files.iter().map(|file| file.steps(run));
+        let mut steps = of_files.next().unwrap_or_default();
+        for others in of_files {
+            steps.retain(|step| others.contains(step));
+        }
+        steps
+    }
+
+    /// Whether all files of a state are there.
+    fn has(&self, saved: SavedView<'_>) -> bool {
+        let is_there =
+            |file: &OutputFile| file.can_be_of(saved.run, saved.step) && saved.path(file).is_file();
+        self.files.iter().all(is_there)
     }
 }
 

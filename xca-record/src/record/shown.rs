@@ -69,6 +69,11 @@ impl Shown {
         Ground { corner, missing: self.map.as_ref().and_then(Map::missing) }
     }
 
+    /// The lower corner of the space, if it lies on a map.
+    pub(super) fn corner_on_map(&self) -> Option<[f64; 2]> {
+        self.map.as_ref().map(|map| map.placement().corner)
+    }
+
     /// What it draws of a state.
     pub(crate) fn seen(&self, model: &Model, precision: Precision, snapshot: &Snapshot) -> Option<Seen> {
         let items = self.items(model, precision, snapshot).map(|items| items.seen());

@@ -108,6 +108,7 @@ impl Panel {
                     values: &values,
                     heights: None,
                     hidden: hidden.as_deref(),
+                    corner: None,
                 };
                 let Scalar { map, range, .. } = field.scalar(range, None);
                 let kinds = field.kinds(earlier);

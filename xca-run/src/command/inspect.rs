@@ -99,14 +99,15 @@ struct Inside {
 }
 
 /// Looks into a folder or a checkpoint.
-pub(super) fn inspect(arguments: &InspectArguments) -> Result<Ended, Unable> {
-    terminal::say(&text(arguments)?).map_err(Unable::failed)?;
+pub(super) fn inspect(definition: &Definition<'_>, arguments: &InspectArguments) -> Result<Ended, Unable> {
+    terminal::say(&text(definition, arguments)?).map_err(Unable::failed)?;
     Ok(Ended::Done)
 }
 
 /// What there is to tell of a folder or a checkpoint.
-pub(super) fn text(arguments: &InspectArguments) -> Result<String, Unable> {
-    let findings = if arguments.path.is_dir() { in_folder(arguments)? } else { in_file(arguments)? };
+pub(super) fn text(definition: &Definition<'_>, arguments: &InspectArguments) -> Result<String, Unable> {
+    let findings =
+        if arguments.path.is_dir() { in_folder(definition, arguments)? } else { in_file(arguments)? };
     if arguments.json {
         serde_json::to_string_pretty(&findings).map_err(Unable::failed)
     } else {
@@ -120,7 +121,7 @@ fn in_file(arguments: &InspectArguments) -> Result<Findings, Unable> {
     Ok(Findings { run: None, checkpoints: Vec::new(), state })
 }
 
-fn in_folder(arguments: &InspectArguments) -> Result<Findings, Unable> {
+fn in_folder(definition: &Definition<'_>, arguments: &InspectArguments) -> Result<Findings, Unable> {
     let report = arguments.path.join(REPORT);
     let run = report::read(&report).map_err(Unable::refused)?.filter(|run| run.get("xca").is_some());
     if let Some(run) = &run {
@@ -141,7 +142,7 @@ fn in_folder(arguments: &InspectArguments) -> Result<Findings, Unable> {
         )));
     }
     if let (None, Some(run)) = (&state, &run) {
-        state = frames::inside(&arguments.path, run, arguments)?;
+        state = frames::inside(definition, run, arguments)?;
     }
     if state.is_none() && (arguments.cell.is_some() || arguments.label.is_some()) {
         let folder = arguments.path.display();

@@ -32,7 +32,7 @@ pub(super) enum Invocation<'a> {
     Draw(&'a Definition<'a>, PathBuf, RenderArguments, Vec<String>),
     Watch(Box<RunInvocation<'a>>, WatchArguments),
     List(Box<Choice<'a>>, ListArguments),
-    Inspect(InspectArguments),
+    Inspect(&'a Definition<'a>, InspectArguments),
     /// With what is chosen of the engines, and with the whole command line.
     Compare(Box<Choice<'a>>, Box<CompareArguments>, EngineOptions, Vec<String>),
     Sweep(Box<Choice<'a>>, EngineChoice, SweepArguments),
@@ -227,7 +227,7 @@ fn complete<'a>(
         Some((list::NAME, matches)) => {
             Ok(Invocation::List(Box::new(Choice::new(definition, matches)?), from(matches)?))
         }
-        Some((inspect::NAME, matches)) => Ok(Invocation::Inspect(from(matches)?)),
+        Some((inspect::NAME, matches)) => Ok(Invocation::Inspect(definition, from(matches)?)),
         Some((new::NAME, matches)) => Ok(Invocation::New(from(matches)?)),
         Some((resume::NAME, matches)) => {
             let on = EngineChoice::of(definition.engines, matches);

@@ -7,6 +7,7 @@ mod running;
 mod saved;
 
 pub(super) use arguments::RenderArguments;
+pub(super) use kept::formats_of;
 pub(super) use saved::draw;
 
 use super::engine::with_engine;

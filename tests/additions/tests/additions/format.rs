@@ -47,6 +47,14 @@ fn its_states_are_drawn_like_those_of_any_other() -> TestResult {
     }
     let picture = |run: &str| fs::read(folder.join(run).join("frames/frame_00000030.png"));
     assert_eq!(picture("json_pictures")?, picture("vtk_pictures")?);
+    // What a program has added, its `inspect` reads too.
+    let [of_json, of_vtk] = [succeed(folder, "inspect json")?, succeed(folder, "inspect vtk")?];
+    let statistics =
+        |text: &str| text.lines().find(|line| line.trim_start().starts_with("plate.")).map(str::to_owned);
+    assert!(
+        statistics(&of_json).is_some() && statistics(&of_json) == statistics(&of_vtk),
+        "{of_json}{of_vtk}"
+    );
     let list = succeed(folder, "list")?;
     assert!(list.contains("json        yes       all states of cells as JSON"), "{list}");
     let output = plate(folder, "run --formats jsn --quiet")?;

@@ -4,7 +4,7 @@ use crate::measured::TestResult;
 use std::ffi::OsString;
 use std::path::Path;
 use xca_core::prelude::*;
-use xca_record::record::{Look, Recorder, ViewKind};
+use xca_record::record::{Look, Recorder, SavedRun, ViewKind};
 use xca_record::{Failure, Interval, Run, SetUp};
 use xca_run::CommandLine;
 
@@ -94,7 +94,9 @@ pub(crate) fn draw(frame: &Path, views: &[ViewKind]) -> Result<(), Failure> {
     for view in views {
         let look = Look { view: Some(*view), ..Look::default() };
         let drawing = recorder.drawing(&[look], Some([400, 300]))?;
-        let seen = drawing.seen_in(frame.parent().unwrap_or(frame), step)?;
+        let folder = frame.parent().and_then(Path::parent).unwrap_or(frame).to_owned();
+        let run = SavedRun { folder, precision: Precision::F64, last_step: 4 };
+        let seen = drawing.seen_in(&run, step)?;
         let mut scales = drawing.fixed_scales();
         drawing.widen(&mut scales, &seen);
         drawing.picture(step, &seen, &scales)?;

@@ -1,5 +1,6 @@
-use super::super::{DataArray, Values, ghost_types, write_dense, write_particles};
+use super::super::{DataArray, Values, ghost_types, write_dense, write_hexagons, write_particles};
 use super::*;
+use crate::picture::Lattice;
 use std::fs;
 use tempfile::TempDir;
 
@@ -237,4 +238,80 @@ fn names_of_components_take_no_more_than_the_file_has() {
     write_dense(&path, 0.0, &GRID, &arrays).unwrap();
     let array = read_dense(&path, u64::MAX).unwrap().arrays.remove(0);
     assert_eq!((array.name.as_str(), array.component_name(0).as_str()), ("a ComponentName0=", ".x"));
+}
+
+fn hexagons(lattice: Lattice) -> (TempDir, PathBuf, HexagonGrid) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("h.vtp");
+    let grid = HexagonGrid { cells: [3, 1, 2], lattice, corner: [-0.1, 1e300], side: 1e-7 };
+    let ghosts = ghost_types(&[false, true, false, false, false, false]);
+    // A substate may be called as what says which points belong together.
+    let arrays = [
+        DataArray::new("Points", &[[1_i32, -2]; 6][..]),
+        DataArray::new("connectivity", &[0.5_f32, 1.0, 2.0, 3.0, 4.0, f32::NAN][..]),
+        DataArray::new("extents", &[7_u8; 6][..]),
+        DataArray::new(GHOST_TYPE, &ghosts[..]),
+    ];
+    write_hexagons(&path, 0.25, &grid, &arrays).unwrap();
+    (folder, path, grid)
+}
+
+#[test]
+fn what_is_written_of_hexagons_is_read_back_to_the_last_bit() {
+    for lattice in [Lattice::HexagonRows, Lattice::HexagonColumns] {
+        let (_folder, path, grid) = hexagons(lattice);
+        let file = read_hexagons(&path, u64::MAX).unwrap();
+        assert_eq!((file.time, file.grid), (0.25, grid));
+        assert_eq!(file.hidden.as_deref(), Some(&[false, true, false, false, false, false][..]));
+        let names: Vec<&str> = file.arrays.iter().map(|array| array.name.as_str()).collect();
+        assert_eq!(names, ["Points", "connectivity", "extents"]);
+        assert_eq!(file.arrays[0].bytes, bytes(&[[1_i32, -2]; 6].concat(), |x| x.to_ne_bytes()));
+        let numbers = [0.5_f32, 1.0, 2.0, 3.0, 4.0, f32::NAN];
+        assert_eq!(file.arrays[1].bytes, bytes(&numbers, |x| x.to_ne_bytes()));
+        let either = read_poly_data(&path, u64::MAX).unwrap();
+        assert!(matches!(either, PolyDataFile::Hexagons(HexagonFile { grid: found, .. }) if found == grid));
+    }
+    let (_folder, path) = particles(3);
+    assert!(matches!(read_poly_data(&path, u64::MAX).unwrap(), PolyDataFile::Particles(_)));
+    assert!(read_hexagons(&path, u64::MAX).is_err());
+}
+
+#[test]
+fn hexagons_that_make_no_sense_are_refused() {
+    let (_folder, path, grid) = hexagons(Lattice::HexagonRows);
+    let whole = fs::read(&path).unwrap();
+    let text = String::from_utf8_lossy(&whole).into_owned();
+    for (from, to, wanted) in [
+        (">3.0 1.0 2.0<", ">3.0 1.0 2.5<", "its grid"),
+        (">3.0 1.0 2.0<", ">3.0 1.0 -2.0<", "its grid"),
+        (">3.0 1.0 2.0<", ">2e9 2e9 2e9<", "its grid"),
+        (">3.0 1.0 2.0<", ">3.0 1.0 3.0<", "its cells"),
+        ("Name=\"side\"", "Name=\"edge\"", "its grid"),
+        (">1.0<", ">2.0<", "its grid"),
+        ("NumberOfPoints=\"36\"", "NumberOfPoints=\"35\"", "its cells"),
+        ("NumberOfPolys=\"6\"", "NumberOfPolys=\"7\"", "its cells"),
+        ("Name=\"offsets\"", "Name=\"offset\"", "it has no points"),
+    ] {
+        assert_eq!(text.matches(from).count(), 1, "{from}");
+        let at = text.find(from).unwrap();
+        fs::write(&path, [&whole[..at], to.as_bytes(), &whole[at + from.len()..]].concat()).unwrap();
+        let error = read_poly_data(&path, u64::MAX).unwrap_err().to_string();
+        assert!(error.contains(wanted), "{to}: {error}");
+    }
+    for length in 0..whole.len() {
+        fs::write(&path, &whole[..length]).unwrap();
+        let error = read_poly_data(&path, u64::MAX).unwrap_err();
+        assert!(matches!(error, ReadVtkError::Truncated { .. }), "{length}: {error}");
+    }
+    // What cannot be written.
+    let values = [0.0; 6];
+    let arrays = [DataArray::new("t", &values[..])];
+    let error = |grid: HexagonGrid| write_hexagons(&path, 0.0, &grid, &arrays).unwrap_err().to_string();
+    assert!(error(HexagonGrid { side: 0.0, ..grid }).contains("a side of the cells is 0"));
+    assert!(error(HexagonGrid { corner: [f64::NAN, 0.0], ..grid }).contains("a coordinate of the corner"));
+    assert!(error(HexagonGrid { cells: [3, 3, 1], ..grid }).contains("has 6 entries, not 9"));
+    assert!(
+        error(HexagonGrid { lattice: Lattice::Squares, ..grid })
+            .contains("the number of corners of a cell is 4")
+    );
 }

@@ -2,7 +2,8 @@
 
 use super::numbers::Numbers;
 use super::state::{Described, NamedValue, Place, Statistics, linear};
-use super::{Inside, InspectArguments, Unable};
+use super::{Definition, Inside, InspectArguments, Unable};
+use crate::command::render::formats_of;
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -27,8 +28,7 @@ fn named(path: &Path) -> Option<(String, u64)> {
 }
 
 /// The states of the last step that has any, each view once.
-fn last(folder: &Path) -> Result<Vec<Frame>, Failure> {
-    let formats = Formats::default();
+fn last(folder: &Path, formats: &Formats) -> Result<Vec<Frame>, Failure> {
     let entries = fs::read_dir(folder).into_iter().flatten().filter_map(Result::ok);
     let mut files: Vec<((String, u64), PathBuf)> =
         entries.filter_map(|entry| Some((named(&entry.path())?, entry.path()))).collect();
@@ -50,12 +50,18 @@ fn last(folder: &Path) -> Result<Vec<Frame>, Failure> {
 
 /// What is in the last frames of a run; nothing where it has none.
 pub(super) fn inside(
-    folder: &Path,
+    definition: &Definition<'_>,
     run: &Value,
     arguments: &InspectArguments,
 ) -> Result<Option<Inside>, Unable> {
-    let path = folder.join(FRAMES);
-    let frames = last(&path).map_err(Unable::refused)?;
+    let path = arguments.path.join(FRAMES);
+    let mut frames = last(&path, &Formats::default()).map_err(Unable::refused)?;
+    if frames.is_empty()
+        && path.is_dir()
+        && let Some(formats) = formats_of(definition, &arguments.path)
+    {
+        frames = last(&path, &formats).map_err(Unable::refused)?;
+    }
     let Some(step) = frames.first().map(|frame| frame.step) else { return Ok(None) };
     let text = |name: &str| run.get(name).and_then(Value::as_str).unwrap_or("?").to_owned();
     let (mut substates, mut places, mut time) = (Vec::new(), Vec::new(), 0.0);

@@ -6,8 +6,10 @@ use crate::command::{Definition, Unable, parse};
 use serde::Deserialize;
 use serde_json::{Map, Value};
 use std::path::Path;
+use xca_core::Precision;
 use xca_record::checkpoint::{Description, Difference, Parameter, other_model, other_program};
-use xca_record::record::{REPORT, Recorder};
+use xca_record::format::Formats;
+use xca_record::record::{REPORT, Recorder, SavedRun};
 use xca_record::report;
 
 /// What a run was: enough to make its model again.
@@ -33,9 +35,22 @@ struct Told {
     directory: String,
     model: Value,
     parameters: Map<String, Value>,
-    /// Its keys are written anew.
-    #[serde(rename = "progress")]
-    _progress: Map<String, Value>,
+    precision: Precision,
+    progress: Progress,
+}
+
+/// How far it came. The keys are written anew.
+#[derive(Deserialize)]
+struct Progress {
+    steps: u64,
+}
+
+/// A run, and what is left of it.
+pub(super) struct KeptRun<'a> {
+    pub(super) kept: Kept<'a>,
+    pub(super) saved: SavedRun,
+    /// The whole report.
+    pub(super) report: Value,
 }
 
 /// A run whose states are drawn must be one of this program.
@@ -47,8 +62,8 @@ struct Other {
 }
 
 impl<'a> Kept<'a> {
-    /// What the report in the folder of a run tells; with the whole report.
-    pub(super) fn of_folder(path: &'a Path) -> Result<(Self, Value), Unable> {
+    /// What the report in the folder of a run tells.
+    pub(super) fn of_folder(path: &'a Path) -> Result<KeptRun<'a>, Unable> {
         let folder = path.display();
         let report = path.join(REPORT);
         let whole = report::read(&report).map_err(Unable::refused)?;
@@ -59,6 +74,8 @@ impl<'a> Kept<'a> {
         if told.command_line.get(1).map(String::as_str) == Some(super::NAME) {
             return Err(Unable::refused(format!("{folder} holds pictures of a run, not the run")));
         }
+        let saved =
+            SavedRun { folder: path.to_owned(), precision: told.precision, last_step: told.progress.steps };
         let kept = Self {
             path,
             identity: [told.xca, told.program, told.version],
@@ -67,7 +84,7 @@ impl<'a> Kept<'a> {
             model: told.model,
             parameters: of_report(&told.parameters),
         };
-        Ok((kept, whole))
+        Ok(KeptRun { kept, saved, report: whole })
     }
 
     /// What a checkpoint tells.
@@ -110,6 +127,13 @@ impl<'a> Kept<'a> {
         let path = self.path.display().to_string();
         difference.map_or(Ok(()), |difference| Err(Unable::refused(Other { path, difference })))
     }
+}
+
+/// The formats of the program that has left a folder, if it is this one and its model can be made again. A program can have
+/// formats of its own.
+pub(in crate::command) fn formats_of(definition: &Definition<'_>, folder: &Path) -> Option<Formats> {
+    let KeptRun { kept, .. } = Kept::of_folder(folder).ok()?;
+    Some(kept.recorder(definition).ok()?.into_formats())
 }
 
 /// The parameters of a report.

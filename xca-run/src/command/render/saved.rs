@@ -1,7 +1,7 @@
 //! What a run has left, drawn without running it again.
 
 use super::film::{Film, Look, States};
-use super::kept::Kept;
+use super::kept::{Kept, KeptRun};
 use super::{RenderArguments, default_folder, pictures_folder};
 use crate::command::voice::Voice;
 use crate::command::{Definition, Ended, Unable};
@@ -14,7 +14,7 @@ use xca_io::numbers::counted;
 use xca_record::Failure;
 use xca_record::checkpoint::{Checkpoint, CheckpointFolder};
 use xca_record::record::LockedFolder;
-use xca_record::record::{Drawing, FRAMES, RunFolder, SavedError};
+use xca_record::record::{Drawing, FRAMES, RunFolder, SavedError, SavedRun};
 
 /// Draws the saved states of a run, or the state of a checkpoint.
 pub(in crate::command) fn draw(
@@ -41,14 +41,20 @@ fn folder(
     arguments: &RenderArguments,
     command_line: &[String],
 ) -> Result<Ended, Unable> {
-    let (kept, of_run) = Kept::of_folder(path)?;
+    let KeptRun { kept, saved, report: of_run } = Kept::of_folder(path)?;
     let recorder = kept.recorder(definition)?;
     let drawing = arguments.drawing(&recorder)?;
-    let frames = path.join(FRAMES);
+    if let Some(view) = drawing.unreadable() {
+        let (run, formats) = (path.display(), recorder.format_names().join(", "));
+        return Err(Unable::refused(format!(
+            "the formats of the run in {run} ({formats}) do not give `{view}` back; run it with --formats +vtk, or draw \
+             a checkpoint"
+        )));
+    }
     let states = Frames {
         drawing: &drawing,
-        steps: steps(path, &drawing, &frames, arguments.every)?,
-        frames,
+        steps: steps(&saved, &drawing, arguments.every)?,
+        run: saved,
         interrupt: Interrupt::install().map_err(Unable::failed)?,
         voice: arguments.voice,
     };
@@ -81,11 +87,12 @@ fn folder(
 }
 
 /// The steps of the states that are drawn; one at least.
-fn steps(path: &Path, drawing: &Drawing<'_>, frames: &Path, every: Option<u64>) -> Result<Vec<u64>, Unable> {
-    let saved = drawing.saved_steps(frames);
-    let folder = frames.display();
+fn steps(run: &SavedRun, drawing: &Drawing<'_>, every: Option<u64>) -> Result<Vec<u64>, Unable> {
+    let saved = drawing.saved_steps(run);
+    let folder = run.folder.join(FRAMES);
+    let folder = folder.display();
     if saved.is_empty() {
-        let checkpoint = CheckpointFolder::of_run(path).into_iter().next();
+        let checkpoint = CheckpointFolder::of_run(&run.folder).into_iter().next();
         let other = checkpoint.map(|path| format!("; there is a checkpoint to draw: {}", path.display()));
         return Err(Unable::refused(format!("no state is saved in {folder}{}", other.unwrap_or_default())));
     }
@@ -133,14 +140,14 @@ impl Report<'_> {
 struct Frames<'a> {
     drawing: &'a Drawing<'a>,
     steps: Vec<u64>,
-    frames: PathBuf,
+    run: SavedRun,
     interrupt: Interrupt,
     voice: Voice,
 }
 
 impl Frames<'_> {
     fn look_at_first(&self) -> Result<(), SavedError> {
-        self.steps.iter().take(1).try_for_each(|step| self.drawing.seen_in(&self.frames, *step).map(drop))
+        self.steps.iter().take(1).try_for_each(|step| self.drawing.seen_in(&self.run, *step).map(drop))
     }
 }
 
@@ -151,7 +158,7 @@ impl States for Frames<'_> {
         line.message(doing);
         let mut reached = 0;
         for step in self.steps.iter().copied() {
-            look(step, &self.drawing.seen_in(&self.frames, step)?)?;
+            look(step, &self.drawing.seen_in(&self.run, step)?)?;
             line.at(step);
             reached = step;
             if self.interrupt.is_raised() {

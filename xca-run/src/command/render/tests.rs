@@ -49,6 +49,42 @@ fn saved_states_look_as_they_did_when_they_were_run() {
     }
 }
 
+/// A format that keeps no types gives back what it was written of, for all that a view saves.
+#[test]
+fn items_look_the_same_drawn_of_extended_xyz() {
+    let place = Place::new(pond);
+    for precision in ["f64", "f32"] {
+        let run = format!("--width 4 --steps 6 --every 3 --precision {precision}");
+        place.succeed(&format!("run {run} --formats xyz,png --out @run"));
+        for look in ["--substate age", "--substate position --range 0.5,1", "--substate weight"] {
+            place.succeed(&format!("render {run} {look} {SMALL} --out @again"));
+            place.succeed(&format!("render @run {look} {SMALL} --out @saved"));
+            assert_eq!(place.files("saved/frames").len(), 3, "{look}");
+            assert!(place.files("again/frames") == place.files("saved/frames"), "{precision} {look}");
+        }
+    }
+    let said = place.refused("render @run --substate depth");
+    assert!(
+        said.ends_with(
+            "run (png, xyz) do not give `water` back; run it with --formats +vtk, or draw a checkpoint"
+        ),
+        "{said}"
+    );
+    let place = Place::new(|width| measured(width, true));
+    place.succeed("run --width 4 --steps 6 --every 3 --precision f32 --formats xyz --out @run");
+    for out in
+        ["render --width 4 --steps 6 --every 3 --precision f32 --out @again", "render @run --out @saved"]
+    {
+        place.succeed(&format!("{out} --view spheres {SMALL}"));
+    }
+    assert!(place.files("again/frames") == place.files("saved/frames"));
+    let frame = place.folder.path().join("run/frames/fish_00000000.xyz");
+    let text = fs::read_to_string(&frame).unwrap();
+    fs::write(&frame, text.replacen(":age:I:1", ":age:R:1", 1).replacen(" 7 1\n", " 7.5 1\n", 1)).unwrap();
+    let said = place.refused("render @run --substate age");
+    assert!(said.contains("7.5 of particle ") && said.contains(" is no value of `age`"), "{said}");
+}
+
 /// What is computed looks as the substate does that it is equal to, in a run and drawn of its files.
 #[test]
 fn what_is_computed_of_substates_is_drawn() {

@@ -1,0 +1,138 @@
+//! Dense substates on hexagons as PolyData.
+
+use std::path::Path;
+
+use super::super::atomic::write_atomically;
+use super::VtkError;
+use super::appended::{Appended, numbers_as_text};
+use super::values::{DataArray, Values, check_arrays};
+use crate::picture::Lattice;
+
+/// The corners of a hexagon.
+pub(super) const CORNERS: usize = 6;
+
+/// The fields of a file that tell its grid.
+pub(super) const EXTENTS: &str = "extents";
+pub(super) const CORNER: &str = "corner";
+pub(super) const SIDE: &str = "side";
+pub(super) const STAGGER_AXIS: &str = "stagger axis";
+
+/// The cellular space as a grid of hexagons, x running fastest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HexagonGrid {
+    /// The number of cells along x, y and z; 1 along z for a model of one layer.
+    pub cells: [usize; 3],
+    /// Whether odd rows or odd columns are shifted by half a cell.
+    pub lattice: Lattice,
+    /// The lower left corner of the box around all cells, as a length.
+    pub corner: [f64; 2],
+    /// The distance between the centres of neighbours, as a length; that between layers too.
+    pub side: f64,
+}
+
+impl HexagonGrid {
+    /// The number of cells; none where no machine can count them.
+    pub(super) fn count(&self) -> Option<usize> {
+        self.cells.iter().try_fold(1_usize, |product, n| product.checked_mul(*n))
+    }
+
+    /// The corners of all cells, those of a cell counterclockwise.
+    fn points(&self) -> Vec<[f64; 3]> {
+        let ([columns, rows, layers], [left, low]) = (self.cells, self.corner);
+        let around = self.lattice.corners();
+        let mut points = Vec::with_capacity(columns * rows * layers * around.len());
+        for layer in 0..layers {
+            for cell in 0..columns * rows {
+                let [x, y] = self.lattice.centre([cell % columns, cell / columns]);
+                points.extend(around.iter().map(|[u, v]| {
+                    [left + (x + u) * self.side, low + (y + v) * self.side, layer as f64 * self.side]
+                }));
+            }
+        }
+        points
+    }
+}
+
+/// The axis along which the shift of cells changes; none of squares.
+fn stagger_axis(lattice: Lattice) -> Option<f64> {
+    match lattice {
+        Lattice::Squares => None,
+        Lattice::HexagonRows => Some(1.0),
+        Lattice::HexagonColumns => Some(0.0),
+    }
+}
+
+/// The grid that fields of a file tell.
+pub(super) fn grid(
+    extents: [f64; 3],
+    corner: [f64; 2],
+    [side]: [f64; 1],
+    [stagger_axis]: [f64; 1],
+) -> Option<HexagonGrid> {
+    let is_count = |n: &f64| n.fract() == 0.0 && (0.0..=f64::from(i32::MAX)).contains(n);
+    let lattice = if stagger_axis == 1.0 { Lattice::HexagonRows } else { Lattice::HexagonColumns };
+    let is_whole = extents.iter().all(is_count) && [0.0, 1.0].contains(&stagger_axis);
+    is_whole.then(|| HexagonGrid { cells: extents.map(|n| n as usize), lattice, corner, side })
+}
+
+/// Writes dense substates on hexagons to `path` (`.vtp`) as cell data: every array has one entry a cell, x fastest, then
+/// y, then z. `time` is the simulated time.
+///
+/// Each cell is a polygon with six points of its own. The layers are planes, one side apart.
+///
+/// # Errors
+/// [`VtkError::ArrayLength`], [`VtkError::RepeatedArray`], [`VtkError::TooMany`], [`VtkError::Geometry`] (of squares too)
+/// and [`VtkError::Write`], each with the path.
+pub fn write_hexagons(
+    path: &Path,
+    time: f64,
+    grid: &HexagonGrid,
+    arrays: &[DataArray<'_>],
+) -> Result<(), VtkError> {
+    let bad = |what, value| VtkError::Geometry { path: path.to_owned(), what, value };
+    if !time.is_finite() {
+        return Err(bad("the time", time));
+    }
+    if let Some(&corner) = grid.corner.iter().find(|x| !x.is_finite()) {
+        return Err(bad("a coordinate of the corner", corner));
+    }
+    if !(grid.side.is_finite() && grid.side > 0.0) {
+        return Err(bad("a side of the cells", grid.side));
+    }
+    let Some(axis) = stagger_axis(grid.lattice) else {
+        return Err(bad("the number of corners of a cell", 4.0));
+    };
+    let cells = grid.count().unwrap_or(usize::MAX);
+    check_arrays(path, arrays, cells)?;
+    let too_many = || VtkError::TooMany { path: path.to_owned(), found: cells.saturating_mul(CORNERS) };
+    let (Ok(n), Some(corners)) =
+        (i32::try_from(cells), cells.checked_mul(CORNERS).and_then(|corners| i32::try_from(corners).ok()))
+    else {
+        return Err(too_many());
+    };
+    let points = grid.points();
+    let points = DataArray::new("Points", Values::from(points.as_slice()));
+    let fields = [
+        numbers_as_text(EXTENTS, &grid.cells.map(|n| n as f64)),
+        numbers_as_text(CORNER, &grid.corner),
+        numbers_as_text(SIDE, &[grid.side]),
+        numbers_as_text(STAGGER_AXIS, &[axis]),
+    ];
+    let content = |appended: &mut Appended| {
+        Ok(format!(
+            "<PolyData>\n{time}\
+         <Piece NumberOfPoints=\"{corners}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" \
+         NumberOfPolys=\"{n}\">\n\
+         <Points>\n{points}</Points>\n\
+         <Polys>\n{connectivity}{offsets}</Polys>\n\
+         {data}</Piece>\n</PolyData>\n",
+            time = appended.field_data(time, arrays, &fields.concat())?,
+            points = appended.array(&points)?,
+            connectivity = appended.count("connectivity", 0..corners)?,
+            offsets = appended.count("offsets", (1..=n).map(|cell| cell * CORNERS as i32))?,
+            data = appended.data("CellData", arrays)?,
+        ))
+    };
+    write_atomically(path, |file| Appended::write(file, "PolyData", content))?;
+    Ok(())
+}
