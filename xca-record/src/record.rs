@@ -38,8 +38,8 @@ use crate::set_up::{SetUp, SetUpError};
 use crate::view::complete;
 use xca_core::{Model, ModelError, RunError, Simulation, Snapshot};
 use xca_io::atomic::WriteError;
-use xca_io::picture::PictureError;
 use xca_io::table_csv::{SeriesError, SeriesWriter};
+use xca_picture::PictureError;
 
 /// A part of a run's record that cannot be made or written.
 #[derive(Debug, thiserror::Error)]

@@ -15,7 +15,7 @@ use std::any::TypeId;
 use std::marker::PhantomData;
 use xca_core::{Field, Geometry, HostValue, Schema, Substate, Substates};
 use xca_io::atomic::plain_name;
-use xca_io::picture::{Category, ColourMap};
+use xca_picture::{Category, ColourMap};
 
 /// How the items of a population are saved and drawn.
 ///

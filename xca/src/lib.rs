@@ -7,7 +7,7 @@
 //! | | [`prelude`], models, the serial reference engine | |
 //! | `cpu` | `xca::Cpu`, the engine for all cores | yes |
 //! | `gpu` | `xca::gpu`, the engine for graphics adapters; with `run` also `--engine gpu` | |
-//! | `record` | `xca::record` and `xca::io`: frames, pictures, checkpoints and files without a command line | |
+//! | `record` | `xca::record`, `xca::picture` and `xca::io`: frames, pictures, checkpoints and files without a command line | |
 //! | `run` | `xca::run`, the command line of a model's program, and its names in the prelude | |
 //! | `terminal` | the subcommand `watch` of a program | |
 //!
@@ -68,6 +68,9 @@ pub use xca_gpu as gpu;
 #[cfg(feature = "record")]
 #[doc(no_inline)]
 pub use xca_io as io;
+#[cfg(feature = "record")]
+#[doc(no_inline)]
+pub use xca_picture as picture;
 #[cfg(feature = "record")]
 #[doc(no_inline)]
 pub use xca_record as record;

@@ -9,7 +9,7 @@ use super::{RecordError, Recorder};
 use crate::view::AnyView;
 use std::path::Path;
 use xca_core::{Model, Precision, Snapshot};
-use xca_io::picture::{PanelPicture, Picture};
+use xca_picture::{PanelPicture, Picture};
 
 /// What is drawn of every state: one panel, or several side by side.
 #[derive(Debug)]

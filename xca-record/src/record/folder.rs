@@ -17,7 +17,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use xca_io::atomic::{OutputFolder, remove_leftovers};
-use xca_io::picture::is_picture_of_xca;
+use xca_picture::is_picture_of_xca;
 
 /// The folder, below the run's own, that holds the frames.
 pub const FRAMES: &str = "frames";

@@ -8,7 +8,7 @@ use super::{Recorder, Shown};
 use crate::components::{Part, name_of};
 use crate::view::{AnyView, Quantity};
 use xca_core::{Model, Precision, Snapshot};
-use xca_io::picture::{Category, ColourMap, Scalar};
+use xca_picture::{Category, ColourMap, Scalar};
 
 /// What is seen of one state.
 #[derive(Debug, Clone, PartialEq)]

@@ -6,7 +6,7 @@ use anstyle_lossy::rgb_to_xterm;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Color;
-use xca_io::picture::encode;
+use xca_picture::encode;
 
 const UPPER: &str = "▀";
 const LOWER: &str = "▄";

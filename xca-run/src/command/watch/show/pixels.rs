@@ -2,7 +2,7 @@
 
 use super::blocks::Colours;
 use super::window::Window;
-use xca_io::picture::{Category, DepthBuffer, Disc, Mosaic, Palette, Scalar, Scale};
+use xca_picture::{Category, DepthBuffer, Disc, Mosaic, Palette, Scalar, Scale};
 use xca_record::record::{Sight, Subject};
 
 /// What is behind items, in linear RGB.

@@ -9,7 +9,7 @@ use super::worker::{Advance, News, Order};
 use ratatui::buffer::Buffer;
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 use ratatui::layout::Rect;
-use xca_io::picture::Palette;
+use xca_picture::Palette;
 use xca_record::record::{Look, Subject};
 
 /// The lightness of items that have no colours: they must stand out from what is behind them.

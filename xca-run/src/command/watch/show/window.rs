@@ -1,6 +1,6 @@
 //! Which part of a plane of cells is on the screen, and how large.
 
-use xca_io::picture::fitted;
+use xca_picture::fitted;
 
 /// How many times larger things are when one comes closer to a space that is on the screen as a whole.
 const CLOSER: f64 = 4.0;

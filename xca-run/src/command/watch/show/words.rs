@@ -10,7 +10,7 @@ use ratatui::layout::Rect;
 use ratatui::style::{Style, Stylize};
 use ratatui::text::{Line, Span};
 use xca_io::numbers::{counted, significant};
-use xca_io::picture::Palette;
+use xca_picture::Palette;
 use xca_record::record::{Sight, Subject};
 
 /// The widest bar of colours.

@@ -1,7 +1,7 @@
 //! Cells, and the keys.
 
 use super::*;
-use xca_io::picture::ColourMap;
+use xca_picture::ColourMap;
 use xca_record::CellView;
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::*;
 use proptest::prelude::*;
-use xca_io::picture::{Category, ColourMap};
+use xca_picture::{Category, ColourMap};
 use xca_record::record::Sight;
 
 /// A state of any model: `kinds` and `is_layer` as they may be.

@@ -1,10 +1,10 @@
 //! Pictures that follow each other, and what changes between them.
 
-use crate::deflate::can_hold;
-use crate::picture::Picture;
-use crate::regular_file;
+use crate::Picture;
 use std::io::{self, BufReader};
 use std::path::{Path, PathBuf};
+use xca_io::deflate::can_hold;
+use xca_io::regular_file;
 
 /// Pictures in PNG files, read one by one.
 pub(super) struct Film<'a> {

@@ -1,6 +1,6 @@
 use super::film::read;
 use super::*;
-use crate::picture::Picture;
+use crate::Picture;
 use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
@@ -133,7 +133,7 @@ fn a_gif_of_many_colours_is_near_and_still_where_nothing_changes() {
 
 #[test]
 fn what_cannot_be_made_is_said() {
-    type Write = fn(&Path, &[PathBuf], u16) -> Result<(), crate::atomic::WriteError>;
+    type Write = fn(&Path, &[PathBuf], u16) -> Result<(), xca_io::atomic::WriteError>;
     for write in [write_apng as Write, write_gif] {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("animation");

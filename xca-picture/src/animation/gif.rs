@@ -2,11 +2,11 @@
 
 use super::film::{Film, Part};
 use super::palette::Histogram;
-use crate::atomic::{WriteError, write_atomically};
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use std::borrow::Cow;
 use std::io;
 use std::path::{Path, PathBuf};
+use xca_io::atomic::{WriteError, write_atomically};
 
 /// Makes one animated GIF, which is played for ever, of pictures in PNG files; all must have the size of the first, in RGB with 8 bits.
 ///

@@ -10,7 +10,7 @@ use super::mosaic::{Mosaic, Palette};
 use super::relief::{Ground, Relief};
 use super::text::{self, Anchor, Style};
 use super::{Picture, PictureError, check_size};
-use crate::numbers::significant;
+use xca_io::numbers::significant;
 
 const LEFT: usize = 36;
 const TOP: usize = 96;
@@ -163,8 +163,8 @@ impl<'a> SlicePicture<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::picture::ColourMap;
-    use crate::picture::mosaic::GREY;
+    use crate::ColourMap;
+    use crate::mosaic::GREY;
 
     fn colour(t: f64) -> [u8; 3] {
         encode(ColourMap::Sequential.linear(t)).map(|x| (x * 255.0).round() as u8)

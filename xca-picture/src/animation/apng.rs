@@ -1,9 +1,9 @@
 //! Animated PNG files (APNG), which browsers play and every other program shows the first picture of.
 
 use super::film::{Film, Part};
-use crate::atomic::{WriteError, write_atomically};
 use std::io;
 use std::path::{Path, PathBuf};
+use xca_io::atomic::{WriteError, write_atomically};
 
 /// Makes one animated PNG, which is played for ever, of pictures in PNG files; all must have the size of the first, in RGB with 8 bits.
 ///

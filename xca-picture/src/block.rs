@@ -247,7 +247,7 @@ struct Hit {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::picture::ColourMap;
+    use crate::ColourMap;
 
     fn eye(extents: [usize; 3]) -> Eye {
         Eye::new(extents.map(|n| n as f64), [40.0, 92.0], [800.0 - 176.0, 560.0])

@@ -7,6 +7,7 @@
 //! | [`LandscapePicture`] | one layer of a dense substate over the relief of the ground, in three dimensions |
 //! | [`BlockPicture`] | all layers of a dense substate, as cubes |
 //! | [`PanelPicture`] | several of these side by side |
+//! | [`animation`] | pictures in motion |
 //!
 //! All are filled in, rendered to a [`Picture`] and written:
 //!
@@ -14,7 +15,7 @@
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! # let temporary = tempfile::tempdir()?;
 //! # let out = temporary.path();
-//! use xca_io::picture::{Domain, ParticlePicture, Scalar};
+//! use xca_picture::{Domain, ParticlePicture, Scalar};
 //!
 //! let positions = [[0.01, 0.01, 0.001], [0.03, 0.02, 0.001]];
 //! let domain = Domain { lower: [0.0; 3], upper: [0.04; 3] };
@@ -27,6 +28,9 @@
 //! # }
 //! ```
 
+#![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
+
+pub mod animation;
 mod averaging;
 mod block;
 mod canvas;
@@ -45,13 +49,14 @@ mod relief;
 mod scene;
 mod slice;
 mod text;
+mod ticks;
 mod view;
 
 use std::io::BufReader;
 use std::path::Path;
 
-use super::atomic::{WriteError, write_atomically};
-use super::regular_file;
+use xca_io::atomic::{WriteError, write_atomically};
+use xca_io::regular_file;
 
 pub use averaging::fitted;
 pub use block::BlockPicture;
@@ -121,7 +126,7 @@ pub struct Picture {
 
 impl Picture {
     /// A picture of pixels in sRGB, row by row from the top left: three bytes for each.
-    pub(super) fn new(width: usize, height: usize, rgb: Vec<u8>) -> Self {
+    pub(crate) fn new(width: usize, height: usize, rgb: Vec<u8>) -> Self {
         Self { width, height, rgb }
     }
 

@@ -5,7 +5,8 @@ use super::canvas::{Canvas, Strokes};
 use super::category::Category;
 use super::colour::{ColourMap, encode};
 use super::text::{self, Anchor, Style};
-use crate::numbers::{significant, ticks};
+use crate::ticks::ticks;
+use xca_io::numbers::significant;
 
 /// The colour of text and frames, in encoded RGB.
 pub(super) const INK: [f32; 3] = [0.16, 0.18, 0.22];

@@ -7,7 +7,7 @@ use super::scene::Scene;
 use super::text::{self, Anchor, Style};
 use super::view::{Camera, Viewpoint};
 use super::{Picture, PictureError, check_size};
-use crate::numbers::significant;
+use xca_io::numbers::significant;
 
 /// The box that the particles live in: two opposite corners, as lengths.
 #[derive(Debug, Clone, Copy, PartialEq)]

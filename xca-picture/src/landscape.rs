@@ -9,7 +9,7 @@ use super::legend::{Scalar, draw_bar, draw_categories, draw_title};
 use super::mosaic::Palette;
 use super::relief::{Ground, Relief};
 use super::{Picture, PictureError, check_size};
-use crate::numbers::significant;
+use xca_io::numbers::significant;
 
 /// The ground below its lowest point, and how high it looks in all, as shares of the longer side.
 const BASE: f64 = 0.03;
