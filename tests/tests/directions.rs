@@ -8,7 +8,7 @@ use toml::{Table, Value};
 type TestResult = Result<(), Box<dyn Error>>;
 
 /// For each member, the members that it may depend on. A new member finds its place here first.
-const DIRECTIONS: [(&str, &[&str]); 20] = [
+const DIRECTIONS: [(&str, &[&str]); 22] = [
     ("xca-methods", &[]),
     ("xca-macros", &["xca-methods"]),
     ("xca-core", &["xca-macros", "xca-methods"]),
@@ -18,14 +18,41 @@ const DIRECTIONS: [(&str, &[&str]); 20] = [
     ("xca-io", &[]),
     ("xca-picture", &["xca-io"]),
     ("xca-record", &["xca-core", "xca-io", "xca-picture", "xca-wgsl"]),
-    ("xca-run", &["xca-core", "xca-cpu", "xca-gpu", "xca-io", "xca-picture", "xca-record"]),
-    ("xca", &["xca-core", "xca-cpu", "xca-gpu", "xca-io", "xca-picture", "xca-record", "xca-run"]),
+    ("xca-compare", &["xca-core", "xca-record"]),
+    ("xca-ensemble", &["xca-core", "xca-io", "xca-record"]),
+    (
+        "xca-run",
+        &[
+            "xca-core",
+            "xca-cpu",
+            "xca-gpu",
+            "xca-io",
+            "xca-picture",
+            "xca-record",
+            "xca-compare",
+            "xca-ensemble",
+        ],
+    ),
+    (
+        "xca",
+        &[
+            "xca-core",
+            "xca-cpu",
+            "xca-gpu",
+            "xca-io",
+            "xca-picture",
+            "xca-record",
+            "xca-compare",
+            "xca-ensemble",
+            "xca-run",
+        ],
+    ),
     ("cadem", &["xca-core"]),
     ("xca-examples", &["xca-core", "xca-run", "xca", "cadem"]),
     ("new-model", &["xca"]),
     ("xca-tests-additions", &["xca"]),
     ("xca-tests-library", &["xca"]),
-    ("xca-tests-fuzz", &["xca-core", "xca-io", "xca-picture", "xca-record", "xca-run"]),
+    ("xca-tests-fuzz", &["xca-core", "xca-ensemble", "xca-io", "xca-picture", "xca-record", "xca-run"]),
     ("xca-benchmarks", &["xca-core", "xca-cpu", "xca-gpu", "cadem", "xca-examples"]),
     (
         "xca-tests",

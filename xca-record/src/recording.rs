@@ -7,7 +7,7 @@ mod finite;
 #[doc(hidden)]
 pub use batch::Batch;
 pub(crate) use checkpoints::Checkpoints;
-pub(crate) use finite::check as check_finite;
+pub use finite::check as check_finite;
 
 use crate::checkpoint::{Checkpoint, Description, Origin};
 use crate::machine::peak_memory;

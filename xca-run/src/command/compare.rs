@@ -14,9 +14,10 @@ use crate::options::number_in;
 use crate::progress::Progress;
 use clap::{Args, Command};
 use std::path::PathBuf;
+use xca_compare::{CompareError, Comparison};
+use xca_compare::{Contender, Subject, Verdict};
 use xca_core::{Precision, RunError};
-use xca_record::comparison::{Contender, Subject, Verdict};
-use xca_record::{CompareError, Comparison, Monitor};
+use xca_record::Monitor;
 
 pub(super) const NAME: &str = "compare";
 

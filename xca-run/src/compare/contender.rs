@@ -2,8 +2,8 @@
 
 use crate::engines::{EngineError, EngineKind, EngineOptions, Engines};
 use std::time::Instant;
+use xca_compare::Contender;
 use xca_core::{Precision, UnknownPrecision};
-use xca_record::comparison::Contender;
 
 /// An engine with what it is given: `reference`, `cpu:2`, `gpu:NVIDIA`, `cpu@f32`.
 #[derive(Debug)]

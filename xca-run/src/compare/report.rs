@@ -13,9 +13,9 @@ use sheets::Sheet;
 use std::fmt::Write as _;
 use std::io::{self, Write as _};
 use std::path::Path;
+use xca_compare::ComparisonReport;
 use xca_io::atomic::{WriteError, write_atomically};
 use xca_record::InputFile;
-use xca_record::comparison::ComparisonReport;
 use xca_record::record::{COMPARISON as JSON, Claim, FolderError, Kind, LockedFolder};
 
 /// A report that cannot be made.

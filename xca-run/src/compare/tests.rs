@@ -3,14 +3,15 @@
 use super::report;
 use std::ops::Range;
 use std::time::Duration;
+use xca_compare::{CompareError, Comparison};
+use xca_compare::{ComparisonReport, Contender, EngineResult, Subject, Verdict};
+use xca_compare::{Kind, Place};
 use xca_core::engine::{Execution, Interruption, Population, StepContext, SubstateId};
 use xca_core::prelude::*;
 use xca_core::reduction::{Reduced, Reduction};
 use xca_core::{Engine, EngineFailure, Fault, Precision, StartError};
 use xca_cpu::Cpu;
-use xca_record::comparison::difference::{Kind, Place};
-use xca_record::comparison::{ComparisonReport, Contender, EngineResult, Subject, Verdict};
-use xca_record::{CompareError, Comparison, Monitor, Observable, SetUp};
+use xca_record::{Monitor, Observable, SetUp};
 
 #[derive(Substates, Clone, Copy)]
 struct Heat {

@@ -2,7 +2,6 @@
 
 use super::{FolderError, Kind};
 use crate::checkpoint::CheckpointFolder;
-use crate::ensemble::{MEMBERS, SUMMARY};
 use crate::format::{Moment, Shape, shape};
 use crate::record::SERIES;
 use crate::report::Earlier;
@@ -64,6 +63,9 @@ pub(super) fn is_folder(path: &Path) -> bool {
 const COMPARISON_FILES: [&str; 6] =
     ["compare.html", "compare.md", "engines.csv", "differences.csv", "divergence.csv", "observables.csv"];
 
+/// The files of an ensemble beside its report.
+const ENSEMBLE_FILES: [&str; 3] = ["members.csv", "summary.csv", "summary.html"];
+
 /// Whether a command makes files of that name.
 fn can_be_made(name: &str, kind: Kind, others: &[String]) -> bool {
     let is_plain = |part: &str| {
@@ -76,7 +78,7 @@ fn can_be_made(name: &str, kind: Kind, others: &[String]) -> bool {
     }
     match kind {
         Kind::Comparison => COMPARISON_FILES.contains(&name),
-        Kind::Ensemble => [MEMBERS, SUMMARY, "summary.html"].contains(&name),
+        Kind::Ensemble => ENSEMBLE_FILES.contains(&name),
         Kind::Pictures => {
             matches!(name, "animation.png" | "animation.gif")
                 || shape(name) == Some(Shape { moment: Moment::Each, extension: "png" })

@@ -3,8 +3,9 @@
 use maud::{DOCTYPE, PreEscaped, html};
 use plotters::coord::Shift;
 use plotters::prelude::*;
+use xca_ensemble::Finished;
 use xca_io::numbers::significant;
-use xca_record::{Failure, Finished};
+use xca_record::Failure;
 
 /// The page.
 pub(super) const PAGE: &str = "summary.html";
@@ -191,7 +192,8 @@ fn around(ranges: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use xca_record::{Assigned, End, Member, Observable};
+    use xca_ensemble::{Assigned, End, Member};
+    use xca_record::Observable;
 
     fn finished(number: usize, parameters: &[(&str, &str)], heat: Option<f64>) -> Finished {
         let parameters = parameters.iter().map(|(parameter, value)| Assigned {

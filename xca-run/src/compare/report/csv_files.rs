@@ -2,9 +2,9 @@
 
 use super::ReportError;
 use csv::Writer;
-use xca_record::comparison::ComparisonReport;
-use xca_record::comparison::difference::Difference;
-use xca_record::comparison::timing::Spread;
+use xca_compare::ComparisonReport;
+use xca_compare::Difference;
+use xca_compare::Spread;
 
 /// The files.
 pub(super) const NAMES: [&str; 4] = ["engines.csv", "differences.csv", "divergence.csv", "observables.csv"];

@@ -2,7 +2,7 @@
 
 use super::sheets::{self, Sheet};
 use std::fmt::Write;
-use xca_record::comparison::ComparisonReport;
+use xca_compare::ComparisonReport;
 
 pub(super) fn markdown(comparison: &ComparisonReport) -> String {
     let mut out = format!("# {}\n\n**{}**\n", sheets::headline(comparison), comparison.verdict);

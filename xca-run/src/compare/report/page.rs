@@ -4,8 +4,8 @@ use super::ReportError;
 use super::plots::{self, Plot};
 use super::sheets::{self, Sheet};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
-use xca_record::comparison::verdict::Verdict;
-use xca_record::comparison::{ComparisonReport, EngineResult};
+use xca_compare::Verdict;
+use xca_compare::{ComparisonReport, EngineResult};
 
 /// What the page may load: nothing, from anywhere.
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'";

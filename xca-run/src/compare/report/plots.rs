@@ -2,9 +2,9 @@
 
 use super::{ReportError, sheets};
 use plotters::prelude::*;
+use xca_compare::Check;
+use xca_compare::{ComparisonReport, EngineResult};
 use xca_io::numbers::significant;
-use xca_record::comparison::lane::Check;
-use xca_record::comparison::{ComparisonReport, EngineResult};
 
 const TEXT: RGBColor = RGBColor(0x2b, 0x2f, 0x36);
 const GRID: RGBColor = RGBColor(0xe3, 0xe6, 0xea);

@@ -1,10 +1,10 @@
 //! The tables and sentences that all forms of the report share.
 
+use xca_compare::FirstDifference;
+use xca_compare::Spread;
+use xca_compare::{ComparisonReport, EngineResult};
+use xca_compare::{Difference, Kind};
 use xca_io::numbers::{counted, significant};
-use xca_record::comparison::difference::{Difference, Kind};
-use xca_record::comparison::lane::FirstDifference;
-use xca_record::comparison::timing::Spread;
-use xca_record::comparison::{ComparisonReport, EngineResult};
 
 /// What has to be known where engines differ.
 pub(super) const CHAOS: &str = "Where engines differ, how far they are apart says little about their quality: a system \

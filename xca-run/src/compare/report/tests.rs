@@ -81,7 +81,7 @@ fn the_terminal_shows_tables_and_verdicts() {
     assert!(text.contains("cpu:2 is IDENTICAL: the same bits as reference in all of 21 states"), "{text}");
     assert!(text.contains("note: harmed: one <bit> & no more") && text.contains("chaotic"));
     let alike = with_harm(SubstateOrFailure::Kind(0), 21, 5);
-    assert_eq!(alike.verdict, xca_record::Verdict::Identical);
+    assert_eq!(alike.verdict, xca_compare::Verdict::Identical);
     assert!(!super::text(&alike).contains("chaotic"));
 }
 

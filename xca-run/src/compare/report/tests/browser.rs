@@ -11,9 +11,9 @@ use std::fs;
 use std::io;
 use std::path::Path;
 use std::process::{Command, Output};
-use xca_record::comparison::lane::Check;
-use xca_record::comparison::result::ComparisonReport;
-use xca_record::comparison::timing::Spread;
+use xca_compare::Check;
+use xca_compare::ComparisonReport;
+use xca_compare::Spread;
 
 /// The widths of a page on a desk, on half of it, and on a phone.
 const WIDTHS: [u32; 3] = [1280, 870, 400];

@@ -180,7 +180,7 @@ fn no_more_members_are_alive_at_once_than_there_are_jobs() {
         MOST.fetch_max(ALIVE.fetch_add(1, Ordering::SeqCst) + 1, Ordering::SeqCst);
         Ok(set_up()?.observables(move |state| {
             let _ = &counted;
-            Ok(vec![crate::Observable::number("step", state.step() as f64)])
+            Ok(vec![xca_record::Observable::number("step", state.step() as f64)])
         }))
     };
     let folder = tempfile::tempdir().unwrap();

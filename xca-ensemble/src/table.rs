@@ -2,12 +2,12 @@
 
 use super::grouped;
 use super::member::{End, Finished, Member};
-use crate::observable::Observable;
 use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 use xca_io::atomic::{WriteError, write_atomically};
 use xca_io::regular_file;
+use xca_record::Observable;
 
 /// A table that cannot be read or written.
 #[derive(Debug, thiserror::Error)]

@@ -54,8 +54,11 @@ fn once(lane: &mut Lane<'_>, steps: u64, watch: &mut Watch<'_>) -> Result<(), Co
 /// Several times the same thing.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Spread {
+    /// The median.
     pub median: f64,
+    /// The least value.
     pub least: f64,
+    /// The largest value.
     pub largest: f64,
 }
 

@@ -3,23 +3,28 @@
 //! The engines run beside the first one, with a check every so many steps (`lockstep`); then each is timed (`timing`). What comes of it
 //! is a [`ComparisonReport`].
 
-pub mod difference;
-pub mod lane;
-mod lockstep;
-pub mod result;
-pub mod timing;
-pub mod verdict;
+#![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
-pub use result::{ComparisonReport, EngineResult, Subject};
+mod difference;
+mod lane;
+mod lockstep;
+mod result;
+mod timing;
+mod verdict;
+
+pub use difference::{Difference, Differences, Kind, Place, Worst};
+pub use lane::{Check, FirstDifference};
+pub use result::{ComparisonReport, EngineResult, ObservableResult, Subject};
+pub use timing::Spread;
 pub use verdict::Verdict;
 
-use crate::machine::{NotEnoughMemory, check_memory};
-use crate::monitor::Monitor;
-use crate::record::{RecordError, Recorder};
-use crate::set_up::{SetUp, SetUpError};
 use lane::Lane;
 use std::time::Duration;
 use xca_core::{Engine, Precision, RunError};
+use xca_record::Monitor;
+use xca_record::machine::{NotEnoughMemory, check_memory};
+use xca_record::record::{RecordError, Recorder};
+use xca_record::{SetUp, SetUpError};
 
 /// How many checks there are, unless it is said how often.
 const CHECKS: u64 = 50;
@@ -28,7 +33,8 @@ const CHECKS: u64 = 50;
 ///
 /// ```
 /// use xca_core::prelude::*;
-/// use xca_record::{Comparison, SetUp, Verdict};
+/// use xca_compare::{Comparison, Verdict};
+/// use xca_record::SetUp;
 ///
 /// #[derive(Substates, Clone)]
 /// struct Colony {

@@ -4,10 +4,10 @@ use super::CompareError;
 use super::Contender;
 use super::difference::{Differences, Side, Worst};
 use super::verdict::Verdict;
-use crate::observable::Observable;
 use serde::Serialize;
 use std::time::{Duration, Instant};
 use xca_core::{Model, RunOptions, Simulation, Snapshot};
+use xca_record::Observable;
 
 /// A contender on its way.
 pub(super) struct Lane<'a> {
@@ -118,6 +118,7 @@ impl Findings {
 }
 
 impl FirstDifference {
+    /// The gravest of the differences after that step.
     pub fn new(step: u64, is_exact: bool, differences: &Differences) -> Self {
         let gravest = differences.gravest();
         Self {
@@ -130,6 +131,7 @@ impl FirstDifference {
 }
 
 impl Check {
+    /// The differences of all substates after that step.
     pub fn new(step: u64, differences: &Differences) -> Self {
         let substates = differences.substates.iter();
         let substates = substates.map(|difference| (difference.substate.clone(), difference.relative_rms()));

@@ -6,7 +6,6 @@ mod pairs;
 mod tests;
 
 use super::verdict::Verdict;
-use crate::components::{state_names, text};
 use numbers::Numbers;
 use pairs::Pairs;
 use serde::Serialize;
@@ -14,6 +13,7 @@ use std::fmt;
 use std::ops::Range;
 use xca_core::model::Group;
 use xca_core::{GroupSnapshot, Model, Precision, ScalarType, Snapshot, ValueType};
+use xca_record::components::{state_names, text};
 
 /// A state with what its `Real` is.
 #[derive(Debug, Clone, Copy)]
@@ -48,6 +48,7 @@ pub enum Kind {
 pub struct Difference {
     /// `Struct.field`.
     pub substate: String,
+    /// What its values are.
     pub kind: Kind,
     /// How many scalars were compared; a vector has several.
     pub values: usize,
@@ -76,13 +77,16 @@ pub struct Difference {
 /// A value that differs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Worst {
+    /// Where it is.
     pub place: Place,
     /// The number of the component among those that were compared.
     #[serde(skip)]
     number: usize,
     /// What follows the name of the substate in that of the component: `.x`, `[3]`; nothing for a scalar.
     pub component: String,
+    /// The value on the first engine.
     pub first: f64,
+    /// The value on the other engine.
     pub other: f64,
     /// The names of the two values, where they are states or `bool`.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -147,6 +151,7 @@ impl Difference {
         if self.values == 0 { 1.0 } else { 1.0 - self.different as f64 / self.values as f64 }
     }
 
+    /// Whether all bits are the same.
     pub fn is_identical(&self) -> bool {
         self.different == 0 && self.unmatched == 0
     }
@@ -316,6 +321,7 @@ impl Differences {
         }
     }
 
+    /// Whether all bits of all substates are the same.
     pub fn is_identical(&self) -> bool {
         self.verdict(0.0) == Verdict::Identical
     }

@@ -1,7 +1,7 @@
 //! The members of an ensemble, and what comes of them.
 
-use crate::observable::Observable;
 use serde::Serialize;
+use xca_record::Observable;
 
 /// One run of an ensemble.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]

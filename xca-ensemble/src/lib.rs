@@ -1,5 +1,7 @@
 //! Many runs of a model, with other parameters and seeds, and one table of what comes of them.
 
+#![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
+
 mod member;
 mod table;
 mod work;
@@ -7,12 +9,6 @@ mod work;
 pub use member::{Assigned, End, Finished, Member};
 pub use table::{Summary, TableError};
 
-use crate::checkpoint::Origin;
-use crate::observable::Failure;
-use crate::outputs::Outputs;
-use crate::record::{Claim, ENSEMBLE, FolderError, Kind, LockedFolder};
-use crate::report::{self, Identity, ReadReportError};
-use crate::set_up::SetUp;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
@@ -23,6 +19,12 @@ use table::Table;
 use work::Work;
 use xca_core::{Engine, Precision, RunOptions};
 use xca_io::atomic::{WriteError, write_atomically};
+use xca_record::Failure;
+use xca_record::Outputs;
+use xca_record::SetUp;
+use xca_record::checkpoint::Origin;
+use xca_record::record::{Claim, ENSEMBLE, FolderError, Kind, LockedFolder};
+use xca_record::report::{self, Identity, ReadReportError};
 
 /// The file that has a row for each member.
 pub const MEMBERS: &str = "members.csv";
@@ -41,7 +43,8 @@ const PAGE: &str = "summary.html";
 /// # let out = temporary.path().join("growth");
 /// use xca_core::prelude::*;
 /// use xca_core::Engine;
-/// use xca_record::{Ensemble, Failure, SetUp};
+/// use xca_ensemble::Ensemble;
+/// use xca_record::{Failure, SetUp};
 ///
 /// #[derive(Substates, Clone)]
 /// struct Colony {

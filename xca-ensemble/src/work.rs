@@ -1,16 +1,16 @@
 //! Members side by side.
 
 use super::member::{End, Finished, Member};
-use crate::observable::Failure;
-use crate::record::Recorder;
-use crate::recording::{Batch, check_finite};
-use crate::set_up::SetUp;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::thread;
 use std::time::{Duration, Instant};
 use xca_core::{Engine, Precision, RunOptions, Simulation};
+use xca_record::Failure;
+use xca_record::SetUp;
+use xca_record::record::Recorder;
+use xca_record::recording::{Batch, check_finite};
 
 /// How often the calling thread looks whether it should end.
 const PATIENCE: Duration = Duration::from_millis(50);

@@ -5,12 +5,12 @@ use super::difference::Differences;
 use super::lane::{Check, FirstDifference, Lane, Times};
 use super::timing::Spread;
 use super::verdict::Verdict;
-use crate::machine;
-use crate::report::{self, Host, ModelReport};
 use serde::Serialize;
 use serde_json::{Map, Value};
 use xca_core::model::GroupKind;
 use xca_core::{GroupSnapshot, Model, Precision, Snapshot};
+use xca_record::machine;
+use xca_record::report::{self, Host, ModelReport};
 
 /// What is compared.
 #[derive(Debug, Clone, Default, Serialize)]
