@@ -8,7 +8,7 @@ use toml::{Table, Value};
 type TestResult = Result<(), Box<dyn Error>>;
 
 /// For each member, the members that it may depend on. A new member finds its place here first.
-const DIRECTIONS: [(&str, &[&str]); 22] = [
+const DIRECTIONS: [(&str, &[&str]); 23] = [
     ("xca-methods", &[]),
     ("xca-macros", &["xca-methods"]),
     ("xca-core", &["xca-macros", "xca-methods"]),
@@ -17,9 +17,10 @@ const DIRECTIONS: [(&str, &[&str]); 22] = [
     ("xca-gpu", &["xca-core", "xca-wgsl"]),
     ("xca-io", &[]),
     ("xca-picture", &["xca-io"]),
-    ("xca-record", &["xca-core", "xca-io", "xca-picture", "xca-wgsl"]),
-    ("xca-compare", &["xca-core", "xca-record"]),
-    ("xca-ensemble", &["xca-core", "xca-io", "xca-record"]),
+    ("xca-checkpoint", &["xca-core", "xca-io", "xca-wgsl"]),
+    ("xca-record", &["xca-core", "xca-io", "xca-checkpoint", "xca-picture"]),
+    ("xca-compare", &["xca-core", "xca-checkpoint", "xca-record"]),
+    ("xca-ensemble", &["xca-core", "xca-io", "xca-checkpoint", "xca-record"]),
     (
         "xca-run",
         &[
@@ -27,6 +28,7 @@ const DIRECTIONS: [(&str, &[&str]); 22] = [
             "xca-cpu",
             "xca-gpu",
             "xca-io",
+            "xca-checkpoint",
             "xca-picture",
             "xca-record",
             "xca-compare",
@@ -52,7 +54,7 @@ const DIRECTIONS: [(&str, &[&str]); 22] = [
     ("new-model", &["xca"]),
     ("xca-tests-additions", &["xca"]),
     ("xca-tests-library", &["xca"]),
-    ("xca-tests-fuzz", &["xca-core", "xca-ensemble", "xca-io", "xca-picture", "xca-record", "xca-run"]),
+    ("xca-tests-fuzz", &["xca-core", "xca-checkpoint", "xca-ensemble", "xca-io", "xca-picture", "xca-record", "xca-run"]),
     ("xca-benchmarks", &["xca-core", "xca-cpu", "xca-gpu", "cadem", "xca-examples"]),
     (
         "xca-tests",

@@ -11,9 +11,9 @@ use pairs::Pairs;
 use serde::Serialize;
 use std::fmt;
 use std::ops::Range;
+use xca_checkpoint::components::{state_names, text};
 use xca_core::model::Group;
 use xca_core::{GroupSnapshot, Model, Precision, ScalarType, Snapshot, ValueType};
-use xca_record::components::{state_names, text};
 
 /// A state with what its `Real` is.
 #[derive(Debug, Clone, Copy)]

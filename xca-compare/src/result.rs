@@ -7,10 +7,11 @@ use super::timing::Spread;
 use super::verdict::Verdict;
 use serde::Serialize;
 use serde_json::{Map, Value};
+use xca_checkpoint::ModelReport;
 use xca_core::model::GroupKind;
 use xca_core::{GroupSnapshot, Model, Precision, Snapshot};
 use xca_record::machine;
-use xca_record::report::{self, Host, ModelReport};
+use xca_record::report::{self, Host};
 
 /// What is compared.
 #[derive(Debug, Clone, Default, Serialize)]
@@ -170,7 +171,7 @@ impl ComparisonReport {
         Self {
             xca: env!("CARGO_PKG_VERSION"),
             subject,
-            model: report::of_model(model),
+            model: ModelReport::new(model),
             parameters: report::of_parameters(model.parameters()),
             host: report::of_host(),
             hardware: machine::processor(),

@@ -17,14 +17,14 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use table::Table;
 use work::Work;
+use xca_checkpoint::{Identity, Origin};
 use xca_core::{Engine, Precision, RunOptions};
 use xca_io::atomic::{WriteError, write_atomically};
 use xca_record::Failure;
 use xca_record::Outputs;
 use xca_record::SetUp;
-use xca_record::checkpoint::Origin;
 use xca_record::record::{Claim, ENSEMBLE, FolderError, Kind, LockedFolder};
-use xca_record::report::{self, Identity, ReadReportError};
+use xca_record::report::{self, ReadReportError};
 
 /// The file that has a row for each member.
 pub const MEMBERS: &str = "members.csv";
@@ -316,7 +316,7 @@ impl Ensemble {
             Identity { command_line: Vec::new(), directory: String::new(), ..self.identity.clone() };
         let steps = self.steps.unwrap_or(set_up.steps);
         // An ensemble writes no states.
-        Origin::new(&identity, set_up, options, steps, Outputs::Growing)
+        Origin::new(&identity, &set_up.model, &set_up.inputs, options, steps, Outputs::Growing)
     }
 
     /// The folder of this ensemble, new or known again.

@@ -16,6 +16,7 @@
 //! | [`vtk`] | `.vtp`, `.vti`, `.pvd` | particles and dense substates in ParaView |
 //! | [`regular_file`] | | how files are opened to be read: regular ones alone |
 //! | [`deflate`] | | how much a compressed stream can hold |
+//! | [`numbered`] | | files that are numbered by their names |
 //! | [`numbers`] | | numbers as people read them |
 //!
 //! Pictures are made by the crate `xca-picture`.
@@ -29,6 +30,7 @@ pub mod extended_xyz;
 pub mod geotiff;
 mod lines;
 pub mod map;
+pub mod numbered;
 pub mod numbers;
 pub mod particle_csv;
 pub mod raster;

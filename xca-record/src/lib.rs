@@ -50,21 +50,13 @@
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
-#[doc(hidden)]
-pub mod checkpoint;
-#[doc(hidden)]
-pub mod components;
 pub mod format;
-mod input_file;
 mod interval;
 mod items_file;
 #[doc(hidden)]
 pub mod machine;
 mod monitor;
-#[doc(hidden)]
-pub mod numbers;
 mod observable;
-mod outputs;
 #[doc(hidden)]
 pub mod record;
 #[doc(hidden)]
@@ -75,14 +67,11 @@ mod run;
 mod set_up;
 mod view;
 
-pub use checkpoint::CheckpointError;
-pub use input_file::InputFile;
 pub use interval::Interval;
 pub use items_file::{ReadItem, read_items};
 pub use machine::{NotEnoughMemory, check_memory};
 pub use monitor::Monitor;
 pub use observable::{Failure, Observable};
-pub use outputs::Outputs;
 pub use record::{FolderError, Kind as FolderKind, RecordError};
 pub use recording::{Outcome, Recording};
 pub use report::ReadReportError;
@@ -91,3 +80,5 @@ pub use run::Resumed;
 pub use run::{BeginError, Run};
 pub use set_up::{SetUp, SetUpError};
 pub use view::{CellView, ItemView, ViewError};
+#[doc(no_inline)]
+pub use xca_checkpoint::{CheckpointError, InputFile, Outputs};

@@ -18,13 +18,10 @@ mod values;
 
 pub use cells::CellState;
 pub use drawing::{Drawing, Scales};
-pub use folder::{
-    COMPARISON, Claim, ENSEMBLE, FRAMES, FolderError, Kind, LockedFolder, REPORT, RunFolder, numbered_files,
-};
+pub use folder::{COMPARISON, Claim, ENSEMBLE, FRAMES, FolderError, Kind, LockedFolder, REPORT, RunFolder};
 pub use items::{ItemColumn, ItemState, column_type};
 pub use look::{Look, ViewKind};
 pub(crate) use painting::Frame;
-pub use recorded::Recorded;
 pub use saved::SavedError;
 pub use seen::Seen;
 pub(crate) use shown::Shown;

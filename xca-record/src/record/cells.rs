@@ -3,8 +3,8 @@
 use super::seen::Seen;
 use super::substate_values::SubstateValues;
 use super::values::Plane;
-use crate::components::{DrawnPart, Part};
 use crate::view::{AnyCellView, Quantity, StoredBytes};
+use xca_checkpoint::components::{DrawnPart, Part};
 use xca_core::model::Group;
 use xca_core::{Geometry, Precision, StoredScalar, StoredType};
 

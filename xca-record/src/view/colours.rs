@@ -1,7 +1,7 @@
 //! The colours of states and kinds.
 
 use super::Quantity;
-use crate::components::{DrawnPart, Part};
+use xca_checkpoint::components::{DrawnPart, Part};
 use xca_core::{HostScalar, HostValue, Schema, Substate, Substates};
 use xca_picture::Category;
 

@@ -19,13 +19,13 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use values::{Values, ValuesError};
+use xca_checkpoint::Identity;
 use xca_core::Engine;
 use xca_ensemble::{End, Ensemble, EnsembleError, EnsembleMonitor, Finished, MEMBERS, Member, SUMMARY};
 use xca_io::atomic::write_atomically;
 use xca_io::numbers::counted;
 use xca_record::machine::{check_memory, cores};
 use xca_record::record::LockedFolder;
-use xca_record::report::Identity;
 use xca_record::{Failure, SetUp};
 
 pub(super) const NAME: &str = "sweep";

@@ -3,10 +3,10 @@
 use super::{accesses, subject};
 use crate::engines::{EngineKind, Engines};
 use crate::table::{table, table_with_notes};
+use xca_checkpoint::components::state_names;
 use xca_core::model::GroupKind;
 use xca_core::{Field, Model, ScalarType};
 use xca_io::numbers::counted;
-use xca_record::components::state_names;
 use xca_record::format::Formats;
 
 /// Everything about a model, and the engines.

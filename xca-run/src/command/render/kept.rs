@@ -6,7 +6,7 @@ use crate::command::{Definition, Unable, parse};
 use serde::Deserialize;
 use serde_json::{Map, Value};
 use std::path::Path;
-use xca_record::checkpoint::{Description, Difference, Parameter, other_model, other_program};
+use xca_checkpoint::{Description, Difference, Parameter, other_model, other_program};
 use xca_record::record::{REPORT, Recorder};
 use xca_record::report;
 

@@ -2,8 +2,7 @@
 
 use super::origin::{Origin, Parameter};
 use crate::components::state_names;
-use crate::numbers::Exact;
-use crate::record::{Recorded, Recorder};
+use crate::{Exact, Recorded};
 use serde::{Deserialize, Serialize};
 use xca_core::model::Group;
 use xca_core::{GroupSnapshot, Model, Precision, Snapshot, StoredScalar, StoredType};
@@ -11,6 +10,7 @@ use xca_core::{GroupSnapshot, Model, Precision, Snapshot, StoredScalar, StoredTy
 /// The JSON part of a checkpoint.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Description {
+    /// The run that it belongs to.
     pub run: Origin,
     /// The number of steps done.
     pub step: u64,
@@ -20,10 +20,12 @@ pub struct Description {
     pub stop: Option<String>,
     /// The present values of the parameters.
     pub parameters: Vec<Parameter>,
+    /// What the data are, struct by struct.
     pub groups: Vec<GroupShape>,
     /// The cells without ground.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) missing: Vec<Run>,
+    /// What the run has written.
     pub recorded: Recorded,
 }
 
@@ -52,9 +54,12 @@ impl Run {
 /// The substates of one struct.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GroupShape {
+    /// The name of the struct.
     pub name: String,
+    /// What they belong to.
     #[serde(flatten)]
     pub kind: Kind,
+    /// The substates in the order of the struct.
     pub substates: Vec<SubstateShape>,
 }
 
@@ -62,8 +67,20 @@ pub struct GroupShape {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "of", rename_all = "lowercase")]
 pub enum Kind {
-    Cells { cells: usize },
-    Items { cells: usize, items: usize, left: u64 },
+    /// Cells.
+    Cells {
+        /// How many.
+        cells: usize,
+    },
+    /// Items of a population.
+    Items {
+        /// How many cells there are.
+        cells: usize,
+        /// How many items.
+        items: usize,
+        /// How many items have left the space.
+        left: u64,
+    },
 }
 
 /// A substate.
@@ -84,20 +101,27 @@ pub struct SubstateShape {
 }
 
 impl Description {
-    pub fn new(run: Origin, recorder: &Recorder, snapshot: &Snapshot, recorded: Recorded) -> Self {
-        let model = recorder.model();
+    /// That of a run at a snapshot. `missing` is the mask of the cells without ground, `time` in s where the model knows it.
+    pub fn new(
+        run: Origin,
+        model: &Model,
+        missing: Option<&[bool]>,
+        time: f64,
+        snapshot: &Snapshot,
+        recorded: Recorded,
+    ) -> Self {
         let groups = model.groups().iter().zip(&snapshot.groups);
         let components =
             snapshot.parameters.iter().map(|bits| bits.iter().copied().map(f64::from_bits).collect());
         Self {
             step: snapshot.step,
-            time: Exact(recorder.time(snapshot.step)),
+            time: Exact(time),
             stop: snapshot.stop.clone(),
             parameters: Parameter::with_values(model.parameters(), components),
             groups: groups
                 .map(|(group, state)| GroupShape::new(group, state, model, run.precision))
                 .collect(),
-            missing: recorder.set_up().missing().map(Run::all).unwrap_or_default(),
+            missing: missing.map(Run::all).unwrap_or_default(),
             run,
             recorded,
         }

@@ -1,11 +1,7 @@
 //! The run that a checkpoint belongs to, and how it differs from another.
 
 use crate::components::{state_names, text};
-use crate::input_file::InputFile;
-use crate::numbers::Exact;
-use crate::outputs::Outputs;
-use crate::report::{self, Identity};
-use crate::set_up::SetUp;
+use crate::{Exact, Identity, InputFile, ModelReport, Outputs};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use xca_core::{Engine, Field, Model, ParameterSet, Precision, Process, RunOptions};
@@ -15,7 +11,9 @@ use xca_core::{Engine, Field, Model, ParameterSet, Precision, Process, RunOption
 pub struct Origin {
     /// The version of the framework.
     pub xca: String,
+    /// The name of the program.
     pub program: String,
+    /// The version of the program.
     pub version: String,
     /// The command line, with what a configuration file added to it.
     pub command_line: Vec<String>,
@@ -23,9 +21,13 @@ pub struct Origin {
     pub directory: String,
     /// The files that the set-up has read.
     pub inputs: Vec<InputFile>,
+    /// The precision of `Real`.
     pub precision: Precision,
+    /// The seed of random numbers.
     pub seed: u64,
+    /// The number of steps of the whole run.
     pub steps_wanted: u64,
+    /// When states are written.
     pub every: Outputs,
     /// The shape of the model, as in `run.json`.
     pub model: Value,
@@ -40,14 +42,18 @@ pub struct Origin {
 /// A parameter with its value.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Parameter {
+    /// Its name.
     pub name: String,
+    /// As the model says it.
     #[serde(rename = "type")]
     pub value_type: String,
     /// The names of the values of `bool` and states, by number.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub states: Vec<String>,
+    /// Its unit, if it has one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<String>,
+    /// Its value.
     pub components: Vec<Exact>,
 }
 
@@ -91,8 +97,11 @@ impl std::fmt::Display for Parameter {
 /// What is not the same in a checkpoint and in the program that is to go on from it.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Difference {
+    /// The property.
     pub what: &'static str,
+    /// What it is in the checkpoint.
     pub found: String,
+    /// What it is in the program.
     pub wanted: String,
 }
 
@@ -199,27 +208,27 @@ fn listed(parameters: &[Parameter]) -> String {
 const EXACT: &str = "exact";
 
 impl Origin {
-    /// The run of a model, with what the command line chose for it.
+    /// The run of a model that has read these files, with what the command line chose for it.
     pub fn new(
         identity: &Identity,
-        set_up: &SetUp,
+        model: &Model,
+        inputs: &[InputFile],
         options: RunOptions,
         steps_wanted: u64,
         every: Outputs,
     ) -> Self {
-        let model = &set_up.model;
         Self {
             xca: env!("CARGO_PKG_VERSION").to_owned(),
             program: identity.program.clone(),
             version: identity.version.clone(),
             command_line: identity.command_line.clone(),
             directory: identity.directory.clone(),
-            inputs: set_up.inputs.clone(),
+            inputs: inputs.to_vec(),
             precision: options.precision,
             seed: options.seed,
             steps_wanted,
             every,
-            model: serde_json::to_value(report::of_model(model)).unwrap_or_default(),
+            model: serde_json::to_value(ModelReport::new(model)).unwrap_or_default(),
             processes: of_processes(model),
             rounding: EXACT.to_owned(),
             parameters: Parameter::all(model.parameters()),
@@ -227,7 +236,7 @@ impl Origin {
     }
 
     /// How many slots a cell has for the items of each population, by the name of its substates.
-    pub(crate) fn slots(&self) -> Vec<(&str, usize)> {
+    pub fn slots(&self) -> Vec<(&str, usize)> {
         let groups = self.model.get("groups").and_then(Value::as_array);
         groups.into_iter().flatten().filter_map(population_slots).collect()
     }

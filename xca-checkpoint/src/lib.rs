@@ -2,16 +2,31 @@
 //!
 //! What such a file holds, byte by byte, is in `docs/checkpoints.md`.
 
+#![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
+
+pub mod components;
 mod description;
 mod file;
 mod folder;
+mod identity;
+mod input_file;
+mod model_report;
+mod numbers;
 mod origin;
+mod outputs;
 mod planes;
+mod recorded;
 
 pub use description::{Description, GroupShape, Kind};
 pub use file::CheckpointError;
 pub use folder::{CHECKPOINTS, CheckpointFolder};
+pub use identity::Identity;
+pub use input_file::InputFile;
+pub use model_report::ModelReport;
+pub use numbers::Exact;
 pub use origin::{Difference, Origin, Parameter, other_model, other_program};
+pub use outputs::Outputs;
+pub use recorded::{Quantity, Recorded};
 
 use std::path::Path;
 use xca_core::Snapshot;
@@ -20,7 +35,9 @@ use xca_io::atomic::WriteError;
 /// A run at some step.
 #[derive(Debug, Clone)]
 pub struct Checkpoint {
+    /// What the file says of itself.
     pub description: Description,
+    /// The state.
     pub snapshot: Snapshot,
 }
 

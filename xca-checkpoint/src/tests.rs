@@ -1,8 +1,4 @@
 use super::*;
-use crate::outputs::Outputs;
-use crate::record::{Recorded, Recorder};
-use crate::report::Identity;
-use crate::set_up::SetUp;
 use std::fs;
 use std::io::Cursor;
 use xca_core::prelude::*;
@@ -104,11 +100,14 @@ fn identity() -> Identity {
 }
 
 fn checkpoint(simulation: &Simulation) -> Checkpoint {
-    let recorder = Recorder::new(SetUp::new(model(), 10).time_step(0.25)).unwrap();
-    let run = Origin::new(&identity(), recorder.set_up(), simulation.options(), 10, Outputs::Every(2));
+    let model = model();
+    let run = Origin::new(&identity(), &model, &[], simulation.options(), 10, Outputs::Every(2));
     let snapshot = simulation.snapshot().unwrap();
-    let recorded = recorder.recorded().unwrap();
-    Checkpoint { description: Description::new(run, &recorder, &snapshot, recorded), snapshot }
+    let time = 0.25 * snapshot.step as f64;
+    Checkpoint {
+        description: Description::new(run, &model, None, time, &snapshot, Recorded::default()),
+        snapshot,
+    }
 }
 
 #[test]
@@ -246,7 +245,7 @@ fn forged_checkpoints_are_refused() {
         |forged| forged.description.step = forged.description.run.steps_wanted + 1,
         |forged| forged.description.recorded = recorded(&[0, 2, 2]),
         |forged| forged.description.recorded = recorded(&[0, 99]),
-        |forged| forged.description.parameters[0].components[0] = crate::numbers::Exact(f64::NAN),
+        |forged| forged.description.parameters[0].components[0] = Exact(f64::NAN),
         |forged| {
             let GroupSnapshot::Population(population, _) = &mut forged.snapshot.groups[1] else {
                 panic!("no items")
@@ -318,9 +317,8 @@ fn parameters_of_several_structs() -> Result<(), ParameterError> {
         .parameters(Climate { rain: 8.0, sun: [0.5, 2.0] })
         .build()
         .unwrap();
-    let origin = |model: &Model| {
-        Origin::new(&identity(), &SetUp::new(model.clone(), 10), RunOptions::default(), 10, Outputs::Every(2))
-    };
+    let origin =
+        |model: &Model| Origin::new(&identity(), model, &[], RunOptions::default(), 10, Outputs::Every(2));
     let listed = |parameters: &[Parameter]| parameters.iter().map(ToString::to_string).collect::<Vec<_>>();
     let run = origin(&model);
     assert_eq!(
@@ -329,10 +327,8 @@ fn parameters_of_several_structs() -> Result<(), ParameterError> {
     );
     let mut simulation = Simulation::new(&model, &Reference, RunOptions::default()).unwrap();
     simulation.state().set_parameter("Climate.rain", "9").unwrap();
-    let recorder = Recorder::new(SetUp::new(model.clone(), 10)).unwrap();
     let snapshot = simulation.snapshot().unwrap();
-    let recorded = recorder.recorded().unwrap();
-    let description = Description::new(run.clone(), &recorder, &snapshot, recorded);
+    let description = Description::new(run.clone(), &model, None, 3.0, &snapshot, Recorded::default());
     assert_eq!(
         listed(&description.parameters),
         ["Weather.rain = 0.25", "days = 3.0", "Climate.rain = 9.0", "sun = 0.5,2.0"]
@@ -353,7 +349,7 @@ fn another_run_is_known_by_what_differs() -> Result<(), ParameterError> {
     let run = checkpoint(&simulation).description.run;
     let own = |model: &Model, seed, [steps, every]: [u64; 2]| {
         let options = RunOptions { seed, ..RunOptions::default() };
-        Origin::new(&identity(), &SetUp::new(model.clone(), 10), options, steps, Outputs::Every(every))
+        Origin::new(&identity(), model, &[], options, steps, Outputs::Every(every))
     };
     let text = |difference: Option<Difference>| {
         difference.map(|Difference { what, found, wanted }| format!("{what}: {found}, not {wanted}"))

@@ -35,11 +35,13 @@ impl Part {
 /// The one number of a value that is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DrawnPart {
+    /// The component of that number.
     Component(usize),
     /// The sum of the elements of an array; of `bool`, how many are true.
     Sum,
     /// The length of a vector of so many lanes; of an array of vectors, that of their sum.
     Length {
+        /// The components of the vector.
         lanes: usize,
     },
 }

@@ -1,12 +1,12 @@
 //! The checkpoints of a run: the last two.
 
 use super::Checkpoint;
-use crate::record::numbered_files;
 use std::ffi::OsString;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use xca_io::atomic::{OutputFolder, WriteError};
+use xca_io::numbered;
 
 /// The folder, below the run's own, that holds them.
 pub const CHECKPOINTS: &str = "checkpoints";
@@ -62,7 +62,7 @@ impl CheckpointFolder {
     }
 
     fn all(folder: &Path) -> Vec<PathBuf> {
-        numbered_files(folder, &format!("{STEM}_"), &format!(".{EXTENSION}"))
+        numbered::files(folder, &format!("{STEM}_"), &format!(".{EXTENSION}"))
     }
 
     /// The files as a report lists them, with `*` for the number of the step.
