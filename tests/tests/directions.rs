@@ -8,7 +8,7 @@ use toml::{Table, Value};
 type TestResult = Result<(), Box<dyn Error>>;
 
 /// For each member, the members that it may depend on. A new member finds its place here first.
-const DIRECTIONS: [(&str, &[&str]); 23] = [
+const DIRECTIONS: [(&str, &[&str]); 25] = [
     ("xca-methods", &[]),
     ("xca-macros", &["xca-methods"]),
     ("xca-core", &["xca-macros", "xca-methods"]),
@@ -22,6 +22,11 @@ const DIRECTIONS: [(&str, &[&str]); 23] = [
     ("xca-compare", &["xca-core", "xca-checkpoint", "xca-record"]),
     ("xca-ensemble", &["xca-core", "xca-io", "xca-checkpoint", "xca-record"]),
     (
+        "xca-report",
+        &["xca-core", "xca-io", "xca-checkpoint", "xca-record", "xca-compare", "xca-ensemble"],
+    ),
+    ("xca-watch", &["xca-core", "xca-io", "xca-picture", "xca-record"]),
+    (
         "xca-run",
         &[
             "xca-core",
@@ -33,6 +38,8 @@ const DIRECTIONS: [(&str, &[&str]); 23] = [
             "xca-record",
             "xca-compare",
             "xca-ensemble",
+            "xca-report",
+            "xca-watch",
         ],
     ),
     (
@@ -54,7 +61,10 @@ const DIRECTIONS: [(&str, &[&str]); 23] = [
     ("new-model", &["xca"]),
     ("xca-tests-additions", &["xca"]),
     ("xca-tests-library", &["xca"]),
-    ("xca-tests-fuzz", &["xca-core", "xca-checkpoint", "xca-ensemble", "xca-io", "xca-picture", "xca-record", "xca-run"]),
+    (
+        "xca-tests-fuzz",
+        &["xca-core", "xca-checkpoint", "xca-ensemble", "xca-io", "xca-picture", "xca-record", "xca-run"],
+    ),
     ("xca-benchmarks", &["xca-core", "xca-cpu", "xca-gpu", "cadem", "xca-examples"]),
     (
         "xca-tests",

@@ -67,13 +67,12 @@
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
 mod command;
-mod compare;
+mod contender;
 mod engines;
 pub mod interrupt;
 mod options;
 mod program;
 pub mod progress;
-mod table;
 mod terminal;
 
 pub use command::{CommandLine, ConfigError};

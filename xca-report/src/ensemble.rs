@@ -8,7 +8,7 @@ use xca_io::numbers::significant;
 use xca_record::Failure;
 
 /// The page.
-pub(super) const PAGE: &str = "summary.html";
+pub const PAGE: &str = "summary.html";
 
 const TEXT: RGBColor = RGBColor(0x2b, 0x2f, 0x36);
 const GRID: RGBColor = RGBColor(0xe3, 0xe6, 0xea);
@@ -48,7 +48,7 @@ struct Line {
 }
 
 /// The page of all observables over the parameter that is named first; nothing where no parameter is swept or nothing is observed.
-pub(super) fn page(title: &str, finished: &[Finished]) -> Result<Option<String>, Failure> {
+pub fn page(title: &str, finished: &[Finished]) -> Result<Option<String>, Failure> {
     let Some(parameter) = finished.first().and_then(|first| first.member.parameters.first()) else {
         return Ok(None);
     };

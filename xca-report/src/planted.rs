@@ -1,6 +1,6 @@
 //! Differences that are planted into an engine are found where and when they were planted.
 
-use super::report;
+use crate::comparison;
 use std::ops::Range;
 use std::time::Duration;
 use xca_compare::{CompareError, Comparison};
@@ -391,7 +391,7 @@ fn the_drift_of_what_the_model_keeps_is_told() {
     // From -10 to -30 it is twice as much, downwards.
     assert_eq!(of_grown.drift, [Some(-2.0), Some(-2.0), None]);
     assert!(of_age.drift.is_empty());
-    let text = report::text(&comparison);
+    let text = comparison::text(&comparison);
     let row = text.lines().find(|line| line.contains("lost: drift")).unwrap();
     assert_eq!(row.split_whitespace().collect::<Vec<_>>(), ["lost:", "drift", "20", "20", "–"]);
 }

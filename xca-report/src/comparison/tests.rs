@@ -3,7 +3,7 @@
 mod browser;
 
 use super::*;
-use crate::compare::tests::{SubstateOrFailure, with_harm};
+use crate::planted::{SubstateOrFailure, with_harm};
 use scraper::{Html, Selector};
 use std::collections::HashSet;
 

@@ -36,7 +36,7 @@ fn any_news() -> impl Strategy<Value = News> {
                     kinds,
                     range: None,
                 },
-                observables: vec![crate::Observable::new("energy", "J", 1.5)],
+                observables: vec![xca_record::Observable::new("energy", "J", 1.5)],
                 observed: 2,
                 end: has_ended.then(|| "ended".to_owned()),
             }

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 /// A table with a line below its header; the columns with these numbers are aligned to the right. Lines do not end in blanks, and there is no
 /// line end after the last.
-pub(crate) fn table(
+pub fn table(
     header: impl Into<Row>,
     rows: impl IntoIterator<Item = impl Into<Row>>,
     right: &[usize],
@@ -32,10 +32,10 @@ pub(crate) fn table(
 }
 
 /// Columns that a terminal has.
-pub(crate) const WIDTH: usize = 80;
+pub const WIDTH: usize = 80;
 
 /// A table in which notes stand below each row, indented.
-pub(crate) fn table_with_notes<const COLUMNS: usize>(
+pub fn table_with_notes<const COLUMNS: usize>(
     header: [&str; COLUMNS],
     rows: impl IntoIterator<Item = ([String; COLUMNS], Vec<String>)>,
 ) -> String {
@@ -51,7 +51,7 @@ pub(crate) fn table_with_notes<const COLUMNS: usize>(
 }
 
 /// The words of a text in lines of at most so many characters, where no word is longer.
-pub(crate) fn wrapped(text: &str, width: usize) -> Vec<String> {
+pub fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
         match lines.last_mut() {

@@ -1,9 +1,9 @@
 //! The page as a reader sees it, in a browser without a screen.
 
 use super::rounded;
-use crate::compare::report::page;
-use crate::compare::report::plots::{self, Plot};
-use crate::compare::tests::{SubstateOrFailure, with_harm};
+use crate::comparison::page;
+use crate::comparison::plots::{self, Plot};
+use crate::planted::{SubstateOrFailure, with_harm};
 use scraper::{Html, Selector};
 use serde_json::{Value, json};
 use std::collections::HashSet;

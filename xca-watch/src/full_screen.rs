@@ -57,7 +57,7 @@ impl Drop for FullScreen {
 }
 
 /// Gives the terminal back as it was, if it is taken.
-pub(crate) fn give_back() {
+pub fn give_back() {
     if TAKEN.swap(false, Ordering::SeqCst) {
         // A terminal that is gone needs nothing any more.
         let _ = execute!(stdout(), LeaveAlternateScreen, Show);

@@ -5,7 +5,7 @@ mod items;
 mod sizes;
 
 use super::*;
-use crate::command::watch::show::worker::{Shared, Worker};
+use crate::worker::{Shared, Worker};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::style::Color;

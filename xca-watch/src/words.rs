@@ -4,12 +4,11 @@ use super::blocks::Colours;
 use super::pixels::{looked_along, scale};
 use super::screen::Screen;
 use super::worker::News;
-use crate::progress::rate_text;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Style, Stylize};
 use ratatui::text::{Line, Span};
-use xca_io::numbers::{counted, significant};
+use xca_io::numbers::{counted, rate_text, significant};
 use xca_picture::Palette;
 use xca_record::record::{Sight, Subject};
 

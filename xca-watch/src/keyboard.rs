@@ -42,7 +42,7 @@ mod of_unix {
     /// A thread of its own reads it: whoever reads waits until there is a byte, and the end of the terminal is the end
     /// of what can be read.
     #[derive(Debug)]
-    pub(in super::super) struct Keyboard {
+    pub(crate) struct Keyboard {
         bytes: Receiver<Vec<u8>>,
         decoder: Decoder,
         /// When the last bytes came.
@@ -53,7 +53,7 @@ mod of_unix {
 
     impl Keyboard {
         /// Begins to listen; to be done once, as nobody else can read then.
-        pub(in super::super) fn listen() -> io::Result<Self> {
+        pub(crate) fn listen() -> io::Result<Self> {
             let is_resized = Arc::new(AtomicBool::new(false));
             signal_hook::flag::register(SIGWINCH, Arc::clone(&is_resized))?;
             let (sender, bytes) = mpsc::sync_channel(WAITING);
@@ -64,7 +64,7 @@ mod of_unix {
         }
 
         /// What comes next, or nothing if nothing comes in this time.
-        pub(in super::super) fn next(&mut self, patience: Duration) -> Input {
+        pub(crate) fn next(&mut self, patience: Duration) -> Input {
             loop {
                 if let Some(key) = self.keys.pop_front() {
                     return Input::Key(key);
@@ -112,16 +112,16 @@ mod of_others {
 
     /// The keyboard of the console.
     #[derive(Debug)]
-    pub(in super::super) struct Keyboard;
+    pub(crate) struct Keyboard;
 
     impl Keyboard {
         /// Begins to listen.
-        pub(in super::super) fn listen() -> io::Result<Self> {
+        pub(crate) fn listen() -> io::Result<Self> {
             Ok(Self)
         }
 
         /// What comes next, or nothing if nothing comes in this time.
-        pub(in super::super) fn next(&mut self, patience: Duration) -> Input {
+        pub(crate) fn next(&mut self, patience: Duration) -> Input {
             match event::poll(patience) {
                 Ok(true) => match event::read() {
                     Ok(Event::Key(key)) => Input::Key(key),

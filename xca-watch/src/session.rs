@@ -1,14 +1,12 @@
 //! The keys, the clock and the terminal.
 
+use super::full_screen::FullScreen;
 use super::keyboard::{Input, Keyboard};
 use super::screen::{Reaction, Screen};
 use super::worker::{Advance, News, Order, Shared, Worker};
-use crate::command::Ended;
-use crate::interrupt::Interrupt;
-use crate::terminal::FullScreen;
 use std::collections::VecDeque;
 use std::panic;
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, Sender, TryRecvError};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -25,12 +23,21 @@ const LONG: Duration = Duration::from_millis(300);
 /// The time over which steps a second are counted.
 const WHILE: Duration = Duration::from_secs(2);
 
+/// Why a run is watched no longer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ended {
+    /// A key said so.
+    Left,
+    /// It was interrupted, or the terminal is gone.
+    Interrupted,
+}
+
 /// Lets the worker run as the keys say, until one says that it is enough.
 pub(super) fn watch(
     screen: &mut Screen,
     worker: &Worker<'_>,
     simulation: Simulation,
-    interrupt: &Interrupt,
+    interrupt: &AtomicBool,
 ) -> Result<Ended, Failure> {
     thread::scope(|scope| {
         let (orders, received) = mpsc::channel();
@@ -43,7 +50,7 @@ pub(super) fn watch(
         });
         worker.shared.halt.store(true, Ordering::Relaxed);
         // From now on Ctrl-C is a signal again, and ends the program at once.
-        interrupt.raise();
+        interrupt.store(true, Ordering::Relaxed);
         match at_work.join() {
             Ok(()) => ended,
             Err(panic) => panic::resume_unwind(panic),
@@ -58,7 +65,7 @@ struct Session<'a> {
     orders: Sender<Order>,
     news: Receiver<Result<News, Failure>>,
     shared: &'a Shared,
-    interrupt: &'a Interrupt,
+    interrupt: &'a AtomicBool,
     /// The order that has no answer yet, and since when.
     under_way: Option<(Advance, Instant)>,
 }
@@ -69,7 +76,7 @@ impl Session<'_> {
         let mut picture = Instant::now();
         let mut is_stale = true;
         loop {
-            if self.interrupt.is_raised() {
+            if self.interrupt.load(Ordering::Relaxed) {
                 return Ok(Ended::Interrupted);
             }
             match self.news.try_recv() {
@@ -79,7 +86,7 @@ impl Session<'_> {
                 }
                 Err(TryRecvError::Empty) => {}
                 // The worker has panicked; whoever waits for it will see.
-                Err(TryRecvError::Disconnected) => return Ok(Ended::Done),
+                Err(TryRecvError::Disconnected) => return Ok(Ended::Left),
             }
             let now = Instant::now();
             if self.under_way.is_none()
@@ -128,7 +135,7 @@ impl Session<'_> {
                             self.hurry();
                             is_stale = true;
                         }
-                        Reaction::Quit => return Ok(Ended::Done),
+                        Reaction::Quit => return Ok(Ended::Left),
                         Reaction::Interrupt => return Ok(Ended::Interrupted),
                     },
                 }
@@ -142,7 +149,7 @@ impl Session<'_> {
         loop {
             match self.keyboard.next(LONG) {
                 Input::Closed => return true,
-                Input::Nothing => return self.interrupt.is_raised(),
+                Input::Nothing => return self.interrupt.load(Ordering::Relaxed),
                 Input::Key(_) | Input::Resized => {}
             }
         }

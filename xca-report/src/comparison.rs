@@ -20,21 +20,24 @@ use xca_record::record::{COMPARISON as JSON, Claim, FolderError, Kind, LockedFol
 
 /// A report that cannot be made.
 #[derive(Debug, thiserror::Error)]
-pub(crate) enum ReportError {
+pub enum ReportError {
+    /// A file cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
     /// The library that draws says why.
     #[error("a plot cannot be drawn: {0}")]
     Plot(String),
+    /// JSON.
     #[error("the result cannot be written as JSON")]
     Json(#[from] serde_json::Error),
+    /// CSV.
     #[error("a table cannot be written as CSV")]
     Csv(#[from] csv::Error),
 }
 
 /// The folder of a comparison.
 #[derive(Debug)]
-pub(crate) struct Files {
+pub struct Files {
     folder: LockedFolder,
 }
 
@@ -49,14 +52,14 @@ fn files() -> impl Iterator<Item = &'static str> {
 
 impl Files {
     /// Makes the folder; `inputs` is what the comparison has read.
-    pub(crate) fn prepare(folder: &Path, inputs: &[InputFile]) -> Result<Self, FolderError> {
+    pub fn prepare(folder: &Path, inputs: &[InputFile]) -> Result<Self, FolderError> {
         let files: Vec<String> = files().map(str::to_owned).collect();
         let claim = Claim { kind: Kind::Comparison, files: &files, inputs };
         Ok(Self { folder: LockedFolder::prepare(folder, &claim)? })
     }
 
     /// Writes all files; the report lists them.
-    pub(crate) fn write(&self, comparison: &mut ComparisonReport) -> Result<(), ReportError> {
+    pub fn write(&self, comparison: &mut ComparisonReport) -> Result<(), ReportError> {
         comparison.files = files().collect();
         // The first, as it tells whose the others are.
         self.file(JSON, format!("{}\n", serde_json::to_string_pretty(comparison)?).as_bytes())?;
@@ -73,14 +76,14 @@ impl Files {
     }
 
     /// Where they are.
-    pub(crate) fn told(&self) -> String {
+    pub fn told(&self) -> String {
         let names = csv_files::NAMES.join(", ");
         format!("{} ({MARKDOWN}, {JSON}, {names} beside it)", self.folder.top.file(PAGE).display())
     }
 }
 
 /// For the terminal.
-pub(crate) fn text(comparison: &ComparisonReport) -> String {
+pub fn text(comparison: &ComparisonReport) -> String {
     let mut out = sheets::headline(comparison);
     for Sheet { header, right, rows, .. } in sheets::all(comparison) {
         // Writing to a string cannot fail.
