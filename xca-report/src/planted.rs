@@ -219,7 +219,7 @@ fn comparison(set_up: SetUp, every: u64, contenders: impl IntoIterator<Item = Co
         version: "0.1".to_owned(),
         title,
         command_line: vec!["plate".to_owned()],
-        compiler: option_env!("XCA_COMPILER"),
+        compiler: Some("rustc 1.95.0"),
         ..Subject::default()
     };
     let comparison = Comparison::new(set_up).unwrap().subject(subject).steps(20).check_every(every);
