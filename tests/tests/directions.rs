@@ -99,6 +99,9 @@ const DRIVERS: [(&str, &[&str]); 2] = [("rayon", &["xca-cpu", "xca-benchmarks"])
 /// The engines; none may know of another.
 const ENGINES: [&str; 2] = ["xca-cpu", "xca-gpu"];
 
+/// No member has more lines of source than this, without those of its tests.
+const MOST_LINES: usize = 7000;
+
 /// The files that argue for unsafe code.
 const UNSAFE: [&str; 11] = [
     "xca-process/src/kernel.rs",
@@ -293,8 +296,25 @@ fn unsafe_code_stands_where_it_is_argued_for() -> TestResult {
     Ok(())
 }
 
+/// The lines of a source file before its own module of tests.
+fn lines(text: &str) -> usize {
+    text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default().lines().count()
+}
+
+#[test]
+fn no_member_is_large() -> TestResult {
+    for member in Member::all()? {
+        let sources = member.sources("src")?;
+        let own = sources.iter().filter(|(name, _)| !name.contains("/tests/") && !name.ends_with("tests.rs"));
+        let count: usize = own.map(|(_, text)| lines(text)).sum();
+        assert!(count <= MOST_LINES, "`{}` has {count} lines", member.name);
+    }
+    Ok(())
+}
+
 #[test]
 fn words_and_code() {
+    assert_eq!(lines("one\ntwo\n#[cfg(test)]\nmod tests {\nthree"), 2);
     assert!(has_word("use rayon::prelude", "rayon") && has_word("(rayon)", "rayon"));
     assert!(!has_word("crayons", "rayon") && !has_word("rayon_core", "rayon"));
     assert_eq!(code("let a = \"unsafe\"; // unsafe\nunsafe {}"), "let a = ; \nunsafe {}\n");
