@@ -11,10 +11,10 @@ pub use input::{
 use crate::model::Model;
 use crate::parameter_set::ParameterSet;
 use crate::reduction::{Reduced, Reduction};
-use crate::value::Precision;
 use std::any::Any;
 use std::fmt;
 use std::sync::Arc;
+use xca_values::Precision;
 
 /// A way to run models: a value that a program chooses, and that a model never names.
 pub trait Engine: fmt::Debug + Send + Sync {

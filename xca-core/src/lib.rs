@@ -89,66 +89,43 @@
 // The macros name this crate by its outer name, also in its own tests and documentation.
 extern crate self as xca_core;
 
-#[doc(hidden)]
-pub mod checks;
-pub mod directions;
 pub mod engine;
-#[doc(hidden)]
-pub mod field_type;
-mod float;
-mod geometry;
-mod host_value;
-mod interval;
-pub mod ir;
-mod ir_constant;
-pub mod kernel;
-pub mod math;
-#[doc(hidden)]
-pub mod methods;
 pub mod model;
-mod neighbourhood;
 mod parameter_set;
-mod parameters;
 pub mod plan;
-mod process;
-mod random;
 pub mod reduction;
 mod reference;
-mod schema;
 mod simulation;
 mod site;
 mod state;
-mod states;
 mod steering;
-pub mod storage;
-mod substates;
-mod value;
-mod vector;
-mod vocabulary;
 
 pub use engine::{Engine, EngineFailure, Fault, StartError};
-pub use float::Float;
-pub use geometry::{Boundary, Face, Faces, Geometry, Reached};
-pub use host_value::{HostScalar, HostValue};
-pub use interval::{End, Interval};
 pub use model::{InitialError, Model, ModelBuilder, ModelError};
-pub use neighbourhood::{Hexagons, Neighbourhood, NeighbourhoodError, Parity};
 pub use parameter_set::ParameterSet;
-pub use parameters::{AnyParameters, ParameterError, ParameterValue, Parameters};
-pub use process::{Argument, ElementaryProcess, Holds, ParametersArgument, Process, ProcessKind, Processes};
-pub use random::{Draw, Stream, philox};
 pub use reference::Reference;
-pub use schema::{Field, Schema};
 pub use simulation::{GroupSnapshot, Outcome, RunError, RunOptions, Simulation, Snapshot, SnapshotError};
 pub use site::Site;
 pub use state::{Item, State, StateError};
-pub use states::{StateNames, States};
 pub use steering::{Schedule, SteeringError};
-pub use substates::{HasSubstate, Substate, Substates};
-pub use value::{Precision, Real, ScalarType, StoredScalar, StoredType, UnknownPrecision, ValueType};
-pub use vector::{Vector2, Vector3, Vector4};
-pub use vocabulary::{Cell, Destination, Other, Others, Slot, Slots, Space};
 pub use xca_macros::{Parameters, States, Substates, elementary_process, helper, migration};
+#[doc(inline)]
+pub use xca_process::{
+    AnyParameters, Argument, Boundary, Cell, Destination, Draw, ElementaryProcess, Face, Faces, Float,
+    Geometry, HasSubstate, Hexagons, Holds, HostScalar, HostValue, Neighbourhood, NeighbourhoodError, Other,
+    Others, ParameterError, ParameterValue, Parameters, ParametersArgument, Parity, Process, ProcessKind,
+    Processes, Reached, Slot, Slots, Space, States, Stream, Substate, Substates, directions, ir, kernel,
+    math, philox, storage,
+};
+#[doc(hidden)]
+pub use xca_process::{checks, field_type};
+#[doc(hidden)]
+pub use xca_values::methods;
+#[doc(inline)]
+pub use xca_values::{
+    End, Field, Interval, Precision, Real, ScalarType, Schema, StateNames, StoredScalar, StoredType,
+    UnknownPrecision, ValueType, Vector2, Vector3, Vector4,
+};
 
 /// What a model's source needs.
 pub mod prelude {

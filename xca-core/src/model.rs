@@ -12,18 +12,18 @@ pub use error::ModelError;
 pub use initial::InitialError;
 
 use crate::engine::SubstateId;
-use crate::geometry::{Faces, Geometry};
 use crate::parameter_set::ParameterSet;
-use crate::parameters::{ParameterError, Parameters};
 use crate::plan::Plan;
-use crate::process::Process;
-use crate::schema::{Field, Schema};
 use crate::steering::{Schedule, Steering};
-use crate::substates::Substates;
-use crate::value::{Precision, ScalarType, StoredType};
 use std::any::TypeId;
 use std::fmt;
 use std::sync::Arc;
+use xca_process::Process;
+use xca_process::Substates;
+use xca_process::{Faces, Geometry};
+use xca_process::{ParameterError, Parameters};
+use xca_values::{Field, Schema};
+use xca_values::{Precision, ScalarType, StoredType};
 
 /// An Extended Cellular Automaton in three dimensions (or two: one layer of cells), built by [`Model::builder`] and checked when it is built.
 #[derive(Clone, Debug)]

@@ -1,11 +1,11 @@
 //! The parameters of a model: a struct, or several.
 
-use crate::parameters::{AnyParameters, ParameterError, ParameterValue, Parameters};
-use crate::schema::{Field, Schema};
-use crate::value::Precision;
 use std::any::{Any, TypeId};
 use std::fmt;
 use std::sync::Arc;
+use xca_process::{AnyParameters, ParameterError, ParameterValue, Parameters};
+use xca_values::Precision;
+use xca_values::{Field, Schema};
 
 /// All parameters of a model, numbered through all structs in their order.
 ///

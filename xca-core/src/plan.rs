@@ -5,8 +5,8 @@
 
 use crate::engine::SubstateId;
 use crate::model::Group;
-use crate::process::{Argument, Process};
 use std::any::TypeId;
+use xca_process::{Argument, Process};
 
 /// What follows from the processes of a model.
 #[derive(Debug, Clone, Default)]

@@ -9,8 +9,8 @@
 //! value, so [`Reduction::CountEqual`] does not count it, and it is not zero, so logical reductions take it
 //! for true. [`Reduction::CountNonFinite`] counts NaN and infinities.
 
-use crate::host_value::HostValue;
-use crate::value::{StoredScalar, StoredType};
+use xca_process::HostValue;
+use xca_values::{StoredScalar, StoredType};
 
 /// What is made of the values.
 #[derive(Debug, Clone, PartialEq)]
@@ -254,14 +254,14 @@ impl<T: Reducible, const N: usize> Reducible for [T; N] {
 
 macro_rules! reducible_vector {
     ($($vector:ident { $($index:literal),+ }),*) => {$(
-        impl<T> Reducible for crate::vector::$vector<T>
+        impl<T> Reducible for xca_values::$vector<T>
         where
-            T: Reducible<Scalar = T> + crate::host_value::HostScalar,
+            T: Reducible<Scalar = T> + xca_process::HostScalar,
         {
-            type Sum = crate::vector::$vector<T::Sum>;
+            type Sum = xca_values::$vector<T::Sum>;
 
             fn total(results: &[Reduced], of_nothing: u8) -> Self::Sum {
-                crate::vector::$vector::new($(T::total(&results[$index..], of_nothing)),+)
+                xca_values::$vector::new($(T::total(&results[$index..], of_nothing)),+)
             }
 
             fn reduced(&self, component: usize) -> Reduced {
@@ -269,7 +269,7 @@ macro_rules! reducible_vector {
             }
 
             fn same(results: &[Reduced]) -> Option<Self> {
-                Some(crate::vector::$vector::new($(T::same(&results[$index..])?),+))
+                Some(xca_values::$vector::new($(T::same(&results[$index..])?),+))
             }
         }
     )*};
@@ -280,7 +280,7 @@ reducible_vector!(Vector2 { 0, 1 }, Vector3 { 0, 1, 2 }, Vector4 { 0, 1, 2, 3 })
 #[cfg(test)]
 mod tests {
     use super::{Reduced, Reduction, reduce_values};
-    use crate::value::{StoredScalar, StoredType};
+    use xca_values::{StoredScalar, StoredType};
 
     #[test]
     fn each_reduction_by_hand() {

@@ -9,10 +9,10 @@ mod migration;
 mod pass;
 
 use crate::engine::{Engine, Execution, StartError};
-use crate::geometry::{Face, Faces, Geometry, Reached};
 use crate::model::{GroupKind, Model};
-use crate::storage::Buffer;
-use crate::value::{Precision, StoredType};
+use xca_process::storage::Buffer;
+use xca_process::{Face, Faces, Geometry, Reached};
+use xca_values::{Precision, StoredType};
 
 /// The serial engine.
 #[derive(Debug, Clone, Copy, Default)]

@@ -6,14 +6,14 @@ mod snapshot;
 pub use snapshot::{GroupSnapshot, Snapshot, SnapshotError};
 
 use crate::engine::{Engine, EngineFailure, Execution, Fault, Figure, Interruption, StartError, StepContext};
-use crate::geometry::Geometry;
 use crate::model::Model;
 use crate::parameter_set::ParameterSet;
-use crate::parameters::ParameterError;
 use crate::state::State;
 use crate::steering::{Schedule, SteeringError};
-use crate::value::Precision;
 use std::fmt;
+use xca_process::Geometry;
+use xca_process::ParameterError;
+use xca_values::Precision;
 
 /// How a model is run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -1,8 +1,8 @@
 //! A cell of the initial state, as the functions that make it see it.
 
-use crate::geometry::Geometry;
-use crate::random::{Draw, Stream, uniform};
-use crate::vector::Vector3;
+use xca_process::Geometry;
+use xca_process::{Draw, Stream, uniform};
+use xca_values::Vector3;
 
 /// A cell whose initial state, or whose items, are about to be made: where it lies, and its random numbers.
 ///

@@ -5,15 +5,15 @@ mod expressions;
 mod initial;
 
 use crate::engine::{EngineFailure, Execution, Fault, Population, SubstateId};
-use crate::geometry::Geometry;
-use crate::host_value::{HostScalar, HostValue};
 use crate::model::Model;
 use crate::parameter_set::ParameterSet;
-use crate::parameters::{ParameterError, ParameterValue, Parameters};
-use crate::random::{Draw, Stream, uniform};
 use crate::reduction::{Reduced, Reducible, Reduction};
-use crate::substates::{Substate, Substates};
-use crate::value::{Precision, StoredScalar};
+use xca_process::Geometry;
+use xca_process::{Draw, Stream, uniform};
+use xca_process::{HostScalar, HostValue};
+use xca_process::{ParameterError, ParameterValue, Parameters};
+use xca_process::{Substate, Substates};
+use xca_values::{Precision, StoredScalar};
 
 /// The state between steps. Values of `Real` pass as `f64`, whatever the precision of the run.
 pub struct State<'a> {

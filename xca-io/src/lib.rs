@@ -13,25 +13,28 @@
 //! | [`ascii_grid`] | `.asc` | a layer of cells for geographic information systems, also to begin from |
 //! | [`geotiff`] | `.tif` | the same in binary, with a coordinate system |
 //! | [`map`] | | where a layer of cells lies, and which of its cells have no ground |
+//! | [`lattice`] | | how squares and hexagons lie in a layer |
 //! | [`vtk`] | `.vtp`, `.vti`, `.pvd` | particles and dense substates in ParaView |
-//! | [`picture`] | `.png` | pictures, made without a display |
-//! | [`animation`] | `.png`, `.gif` | the same in motion |
 //! | [`regular_file`] | | how files are opened to be read: regular ones alone |
+//! | [`deflate`] | | how much a compressed stream can hold |
+//! | [`numbered`] | | files that are numbered by their names |
 //! | [`numbers`] | | numbers as people read them |
+//!
+//! Pictures are made by the crate `xca-picture`.
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
-pub mod animation;
 pub mod ascii_grid;
 pub mod atomic;
-mod deflate;
+pub mod deflate;
 pub mod extended_xyz;
 pub mod geotiff;
+pub mod lattice;
 pub mod lines;
 pub mod map;
+pub mod numbered;
 pub mod numbers;
 pub mod particle_csv;
-pub mod picture;
 pub mod raster;
 pub mod regular_file;
 pub mod table_csv;

@@ -42,33 +42,21 @@
 //! | [`SetUp`], [`CellView`], [`ItemView`], [`Observable`] | what is recorded |
 //! | [`mod@format`] | the formats of its files, and how to add one |
 //! | [`Run`], [`Recording`] | a run, from its beginning or from a checkpoint, and its files |
-//! | [`Comparison`] | one model on several engines: whether they agree, and what each takes |
-//! | [`Ensemble`] | many runs with other parameters and seeds, and one table of them |
 //! | [`Monitor`] | who watches a run, and can end it |
 //! | [`read_items`] | a table of items, read back |
 //!
-//! The formats themselves are in `xca_io`; a program with a command line is made by `xca_run`.
+//! The formats themselves are in `xca_io`. Several engines on one model are compared by `xca_compare`, many runs with other
+//! parameters and seeds are done by `xca_ensemble`, and a program with a command line is made by `xca_run`.
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
-#[doc(hidden)]
-pub mod checkpoint;
-#[doc(hidden)]
-pub mod comparison;
-#[doc(hidden)]
-pub mod components;
-mod ensemble;
 pub mod format;
-mod input_file;
 mod interval;
 mod items_file;
 #[doc(hidden)]
 pub mod machine;
 mod monitor;
-#[doc(hidden)]
-pub mod numbers;
 mod observable;
-mod outputs;
 #[doc(hidden)]
 pub mod record;
 #[doc(hidden)]
@@ -79,23 +67,11 @@ mod run;
 mod set_up;
 mod view;
 
-pub use checkpoint::CheckpointError;
-pub use comparison::difference::{Difference, Differences, Place, Worst};
-pub use comparison::lane::{Check, FirstDifference};
-pub use comparison::result::ObservableResult;
-pub use comparison::timing::Spread;
-pub use comparison::{CompareError, Comparison, ComparisonReport, Contender, EngineResult, Verdict};
-pub use ensemble::{
-    Assigned, End, Ensemble, EnsembleError, EnsembleMonitor, Finished, MEMBERS, Member, SUMMARY, Summary,
-    TableError,
-};
-pub use input_file::InputFile;
 pub use interval::Interval;
 pub use items_file::{ReadItem, read_items};
 pub use machine::{NotEnoughMemory, check_memory};
 pub use monitor::Monitor;
 pub use observable::{Failure, Observable};
-pub use outputs::Outputs;
 pub use record::{FolderError, Kind as FolderKind, RecordError};
 pub use recording::{Outcome, Recording};
 pub use report::ReadReportError;
@@ -104,3 +80,5 @@ pub use run::Resumed;
 pub use run::{BeginError, Run};
 pub use set_up::{SetUp, SetUpError};
 pub use view::{CellView, ItemView, ViewError};
+#[doc(no_inline)]
+pub use xca_checkpoint::{CheckpointError, InputFile, Outputs};

@@ -20,13 +20,10 @@ mod values;
 pub use cells::CellState;
 pub(crate) use cells::lattice;
 pub use drawing::{Drawing, Scales};
-pub use folder::{
-    COMPARISON, Claim, ENSEMBLE, FRAMES, FolderError, Kind, LockedFolder, REPORT, RunFolder, numbered_files,
-};
+pub use folder::{COMPARISON, Claim, ENSEMBLE, FRAMES, FolderError, Kind, LockedFolder, REPORT, RunFolder};
 pub use items::{ItemColumn, ItemState, column_type};
 pub use look::{Look, ViewKind};
 pub(crate) use painting::Frame;
-pub use recorded::Recorded;
 pub use saved::{SavedError, SavedRun};
 pub use seen::Seen;
 pub(crate) use shown::Shown;
@@ -41,8 +38,8 @@ use crate::set_up::{SetUp, SetUpError};
 use crate::view::complete;
 use xca_core::{Model, ModelError, RunError, Simulation, Snapshot};
 use xca_io::atomic::WriteError;
-use xca_io::picture::PictureError;
 use xca_io::table_csv::{SeriesError, SeriesWriter};
+use xca_picture::PictureError;
 
 /// A part of a run's record that cannot be made or written.
 #[derive(Debug, thiserror::Error)]

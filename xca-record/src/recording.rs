@@ -7,9 +7,8 @@ mod finite;
 #[doc(hidden)]
 pub use batch::Batch;
 pub(crate) use checkpoints::Checkpoints;
-pub(crate) use finite::check as check_finite;
+pub use finite::check as check_finite;
 
-use crate::checkpoint::{Checkpoint, Description, Origin};
 use crate::machine::peak_memory;
 use crate::monitor::Monitor;
 use crate::observable::Failure;
@@ -17,6 +16,7 @@ use crate::record::{Recorder, RunFolder};
 use crate::report::{self, Earlier, Report};
 use std::path::Path;
 use std::time::{Duration, Instant};
+use xca_checkpoint::{Checkpoint, Description, Origin};
 use xca_core::Simulation;
 
 /// A run under way.
@@ -172,7 +172,14 @@ impl Recording {
         let Some(checkpoints) = &mut self.checkpoints else { return Ok(()) };
         let snapshot = self.simulation.snapshot()?;
         let recorded = self.recorder.recorded()?;
-        let description = Description::new(self.origin.clone(), &self.recorder, &snapshot, recorded);
+        let description = Description::new(
+            self.origin.clone(),
+            self.recorder.model(),
+            self.recorder.set_up().missing(),
+            self.recorder.time(snapshot.step),
+            &snapshot,
+            recorded,
+        );
         checkpoints.write(&Checkpoint { description, snapshot })?;
         self.complete_report();
         self.report.write(&self.folder.report())?;

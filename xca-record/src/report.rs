@@ -5,12 +5,8 @@ mod earlier;
 pub use earlier::ReadReportError;
 pub use earlier::{Earlier, parts, read};
 
-use crate::checkpoint::Origin;
-use crate::components::{json, type_text};
-use crate::input_file::InputFile;
 use crate::machine::cores;
 use crate::observable::Observable;
-use crate::outputs::Outputs;
 use crate::set_up::SetUp;
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -18,23 +14,11 @@ use std::collections::BTreeMap;
 use std::io::{self, Write as _};
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
-use xca_core::model::GroupKind;
-use xca_core::{Boundary, Engine, Faces, Model, ParameterSet, ParameterValue, Precision, ValueType};
+use xca_checkpoint::components::json;
+use xca_checkpoint::{Identity, InputFile, ModelReport, Origin, Outputs};
+use xca_core::{Engine, Model, ParameterSet, ParameterValue, Precision, ValueType};
 use xca_io::atomic::{WriteError, write_atomically};
 use xca_io::map::{self, Placement};
-
-/// The program that runs a model.
-#[derive(Debug, Clone, Default)]
-pub struct Identity {
-    pub program: String,
-    pub version: String,
-    /// The command line, with what a configuration file added to it.
-    pub command_line: Vec<String>,
-    /// The working directory, from which the relative paths of the command line go.
-    pub directory: String,
-    /// All options of the model, with their defaults.
-    pub options: Map<String, Value>,
-}
 
 /// The report of a run.
 #[derive(Debug, Clone, Serialize)]
@@ -119,7 +103,7 @@ impl Report {
             options,
             notes: set_up.notes.clone(),
             warnings: set_up.warnings.clone(),
-            model: of_model(&set_up.model),
+            model: ModelReport::new(&set_up.model),
             map: of_map(set_up),
             parameters: of_parameters(set_up.model.parameters()),
             units: of_units(&set_up.model),
@@ -180,18 +164,6 @@ impl Report {
     }
 }
 
-/// The shape of a model.
-#[derive(Debug, Clone, Serialize)]
-pub struct ModelReport {
-    name: String,
-    cells: [usize; 3],
-    cell_side: f64,
-    boundaries: Faces<Boundary>,
-    neighbourhood: String,
-    groups: Vec<GroupReport>,
-    processes: Vec<&'static str>,
-}
-
 /// Where the cells of a model lie.
 #[derive(Debug, Clone, Serialize)]
 pub struct MapReport {
@@ -216,17 +188,6 @@ pub fn of_map(set_up: &SetUp) -> Option<MapReport> {
     set_up.map.as_ref().map(report)
 }
 
-/// Substates that belong together.
-#[derive(Debug, Clone, Serialize)]
-struct GroupReport {
-    name: &'static str,
-    substates: Vec<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    slots: Option<usize>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    items_may_leave: Option<bool>,
-}
-
 /// The machine.
 #[derive(Debug, Clone, Serialize)]
 pub struct Host {
@@ -246,30 +207,6 @@ pub struct ObservableReport {
     /// Of a quantity that the model keeps.
     #[serde(skip_serializing_if = "Option::is_none")]
     drift: Option<f64>,
-}
-
-/// The shape of a model.
-pub fn of_model(model: &Model) -> ModelReport {
-    let geometry = model.geometry();
-    let groups = model.groups().iter().map(|group| {
-        let (slots, items_may_leave) = match group.kind() {
-            GroupKind::Population { slots, may_leave } => (Some(*slots), Some(*may_leave)),
-            GroupKind::Cells { .. } => (None, None),
-        };
-        let fields = group.schema().fields.iter();
-        let substates =
-            fields.map(|field| format!("{}: {}", field.name, type_text(field.value_type))).collect();
-        GroupReport { name: group.schema().name, substates, slots, items_may_leave }
-    });
-    ModelReport {
-        name: model.name().to_owned(),
-        cells: geometry.extents(),
-        cell_side: geometry.side(),
-        boundaries: geometry.boundaries(),
-        neighbourhood: geometry.neighbourhood().to_string(),
-        groups: groups.collect(),
-        processes: model.processes().iter().map(|process| process.name).collect(),
-    }
 }
 
 /// The machine that this program runs on.

@@ -1,15 +1,15 @@
 //! How a model is run and recorded.
 
-use crate::checkpoint::{Checkpoint, CheckpointError, CheckpointFolder, Difference, Origin};
 use crate::interval::Interval;
 use crate::observable::Failure;
-use crate::outputs::Outputs;
 use crate::record::{Claim, FolderError, Kind, REPORT, RecordError, Recorder, RunFolder};
 use crate::recording::{Checkpoints, Recording, check_finite};
-use crate::report::{Earlier, Identity, ReadReportError, Report};
+use crate::report::{Earlier, ReadReportError, Report};
 use crate::set_up::{SetUp, SetUpError};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
+use xca_checkpoint::Outputs;
+use xca_checkpoint::{Checkpoint, CheckpointError, CheckpointFolder, Difference, Identity, Origin};
 use xca_core::{Engine, Model, ModelError, RunError, RunOptions, Simulation};
 use xca_io::atomic::WriteError;
 
@@ -223,7 +223,8 @@ impl Run {
     #[doc(hidden)]
     pub fn origin(&self) -> Origin {
         let outputs = self.outputs.unwrap_or(Outputs::Every(self.steps.div_ceil(OUTPUTS).max(1)));
-        Origin::new(&self.identity, self.recorder.set_up(), self.options, self.steps, outputs)
+        let set_up = self.recorder.set_up();
+        Origin::new(&self.identity, &set_up.model, &set_up.inputs, self.options, self.steps, outputs)
     }
 
     /// The report of the run on this engine, before its first step.

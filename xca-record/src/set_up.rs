@@ -1,13 +1,13 @@
 //! A model with what its program shows of it.
 
 use crate::format::{Formats, Writer, is_row};
-use crate::input_file::InputFile;
 use crate::observable::{Failure, Observable};
-use crate::outputs::Outputs;
 use crate::view::{AnyView, CellView, ItemView, ViewError};
 use serde::Serialize;
 use std::fmt;
 use std::path::PathBuf;
+use xca_checkpoint::InputFile;
+use xca_checkpoint::Outputs;
 use xca_core::{Model, State, Substates};
 use xca_io::map::{Map, Placement, PlacementDifference};
 

@@ -9,13 +9,13 @@ pub use complete::ViewError;
 pub(crate) use complete::complete;
 pub(crate) use quantity::{Computation, Drawn, Quantity, StoredBytes};
 
-use crate::components::{DrawnPart, Part};
 use colours::{categories, coloured};
 use std::any::TypeId;
 use std::marker::PhantomData;
+use xca_checkpoint::components::{DrawnPart, Part};
 use xca_core::{Field, Geometry, HostValue, Schema, Substate, Substates};
 use xca_io::atomic::plain_name;
-use xca_io::picture::{Category, ColourMap};
+use xca_picture::{Category, ColourMap};
 
 /// How the items of a population are saved and drawn.
 ///

@@ -70,6 +70,12 @@ impl Interrupt {
         self.raised.load(Ordering::Relaxed)
     }
 
+    /// The flag itself.
+    #[cfg(feature = "terminal")]
+    pub(crate) fn flag(&self) -> &AtomicBool {
+        &self.raised
+    }
+
     /// Asks the run to end.
     pub fn raise(&self) {
         self.raised.store(true, Ordering::Relaxed);
@@ -118,7 +124,7 @@ fn listen(raised: Arc<AtomicBool>) -> io::Result<()> {
 fn on_signal(raised: &AtomicBool) {
     if raised.swap(true, Ordering::Relaxed) {
         #[cfg(feature = "terminal")]
-        crate::terminal::give_back();
+        xca_watch::give_back();
         #[expect(clippy::exit, reason = "the user asked twice, and the run did not answer the first time")]
         std::process::exit(i32::from(EXIT_INTERRUPTED));
     }

@@ -56,7 +56,8 @@
 //! # The parts
 //! | module | holds |
 //! |---|---|
-//! | [`io`] | the files: particles and time series as CSV, VTK files for ParaView, ESRI ASCII grids, GeoTIFF, PNG pictures |
+//! | [`io`] | the files: particles and time series as CSV, VTK files for ParaView, ESRI ASCII grids, GeoTIFF |
+//! | [`picture`] | PNG pictures and animations |
 //! | [`progress`] | the line that shows how far a run has come, and the table at its end |
 //! | [`number_in`], [`positive_number`] | value parsers for a model's own options |
 //! | [`interrupt`] | Ctrl-C and termination: the run ends after its current step |
@@ -66,13 +67,12 @@
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
 mod command;
-mod compare;
+mod contender;
 mod engines;
 pub mod interrupt;
 mod options;
 mod program;
 pub mod progress;
-mod table;
 mod terminal;
 
 pub use command::{CommandLine, ConfigError};
@@ -81,6 +81,8 @@ pub use options::{number_in, positive_number};
 pub use program::{Assignment, Given, NoAssignment, Program};
 #[doc(no_inline)]
 pub use xca_io as io;
+#[doc(no_inline)]
+pub use xca_picture as picture;
 #[doc(no_inline)]
 pub use xca_record::{
     self as record, CellView, Failure, ItemView, Observable, ReadItem, SetUp, check_memory, read_items,
@@ -93,7 +95,7 @@ pub mod prelude {
     pub use std::process::ExitCode;
     pub use xca_core::prelude::*;
     pub use xca_io::map::{Map, Placement};
-    pub use xca_io::picture::ColourMap;
     pub use xca_io::raster::Raster;
+    pub use xca_picture::ColourMap;
     pub use xca_record::{CellView, Failure, ItemView, Observable, SetUp};
 }

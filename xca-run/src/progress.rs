@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
-use crate::table::table;
-use xca_io::numbers::significant;
+use xca_io::numbers::{duration_text, rate_text, significant};
+use xca_report::table::table;
 
 /// The line that shows how far a run has come: steps done and to do, steps a second, time left.
 ///
@@ -105,31 +105,6 @@ impl Progress {
     /// Leaves the line as it is and ends it; the next output starts on a line of its own.
     pub fn finish(&self) {
         self.bar.abandon();
-    }
-}
-
-/// A rate for people: `1.23e6`, `812.4` or `0.51` steps a second; below one in ten seconds, the seconds a step.
-#[must_use]
-pub fn rate_text(steps_per_second: f64) -> String {
-    match steps_per_second {
-        rate if !rate.is_finite() || rate <= 0.0 => "- steps/s".to_owned(),
-        rate if rate < 0.1 => format!("{} s/step", significant(1.0 / rate, 3)),
-        rate if rate < 1e4 => format!("{} steps/s", significant(rate, if rate < 100.0 { 3 } else { 4 })),
-        rate if rate < 1e6 => format!("{rate:.0} steps/s"),
-        rate => format!("{rate:.2e} steps/s"),
-    }
-}
-
-/// A duration for people: `0.8 s`, `42 s`, `3 min 05 s`, `2 h 07 min` or `4 d 03 h`.
-#[must_use]
-pub fn duration_text(duration: Duration) -> String {
-    let seconds = duration.as_secs();
-    match seconds {
-        0..10 => format!("{:.1} s", duration.as_secs_f64()),
-        10..60 => format!("{seconds} s"),
-        60..3600 => format!("{} min {:02} s", seconds / 60, seconds % 60),
-        3600..86_400 => format!("{} h {:02} min", seconds / 3600, seconds / 60 % 60),
-        _ => format!("{} d {:02} h", seconds / 86_400, seconds / 3600 % 24),
     }
 }
 
@@ -238,30 +213,6 @@ mod tests {
         progress.at(3);
         assert_eq!(progress.suspend(|| 7), 7);
         progress.finish();
-    }
-
-    #[test]
-    fn rates_and_durations_are_short() {
-        for (rate, text) in [
-            (1.0e7, "1.00e7 steps/s"),
-            (29_460.4, "29460 steps/s"),
-            (812.36, "812.4 steps/s"),
-            (4.5678, "4.57 steps/s"),
-            (0.025, "40 s/step"),
-            (0.0, "- steps/s"),
-            (f64::INFINITY, "- steps/s"),
-        ] {
-            assert_eq!(rate_text(rate), text);
-        }
-        for (seconds, text) in [
-            (0.81, "0.8 s"),
-            (42.9, "42 s"),
-            (185.0, "3 min 05 s"),
-            (7620.0, "2 h 07 min"),
-            (86_400.0 * 4.0 + 3.0 * 3600.0, "4 d 03 h"),
-        ] {
-            assert_eq!(duration_text(Duration::from_secs_f64(seconds)), text);
-        }
     }
 
     #[test]

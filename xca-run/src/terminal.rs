@@ -5,12 +5,7 @@
 //!
 //! What is printed may come from files of anyone: characters that control terminals are escaped, and errors are cut to what one can read.
 
-#[cfg(feature = "terminal")]
-mod full_screen;
 mod plain;
-
-#[cfg(feature = "terminal")]
-pub(crate) use full_screen::{FullScreen, give_back};
 
 pub(crate) use plain::short_lines;
 

@@ -7,7 +7,7 @@
 //! | | [`prelude`], models, the serial reference engine | |
 //! | `cpu` | `xca::Cpu`, the engine for all cores | yes |
 //! | `gpu` | `xca::gpu`, the engine for graphics adapters; with `run` also `--engine gpu` | |
-//! | `record` | `xca::record` and `xca::io`: frames, pictures, checkpoints and files without a command line | |
+//! | `record` | `xca::record`, `xca::compare`, `xca::ensemble`, `xca::picture` and `xca::io`: runs and their files without a command line | |
 //! | `run` | `xca::run`, the command line of a model's program, and its names in the prelude | |
 //! | `terminal` | the subcommand `watch` of a program | |
 //!
@@ -57,17 +57,26 @@ extern crate self as xca;
 #[doc(hidden)]
 pub use xca_core as __core;
 
+#[cfg(feature = "record")]
+#[doc(no_inline)]
+pub use xca_compare as compare;
 #[doc(no_inline)]
 pub use xca_core::*;
 #[cfg(feature = "cpu")]
 #[doc(no_inline)]
 pub use xca_cpu::{Cpu, CpuError};
+#[cfg(feature = "record")]
+#[doc(no_inline)]
+pub use xca_ensemble as ensemble;
 #[cfg(feature = "gpu")]
 #[doc(no_inline)]
 pub use xca_gpu as gpu;
 #[cfg(feature = "record")]
 #[doc(no_inline)]
 pub use xca_io as io;
+#[cfg(feature = "record")]
+#[doc(no_inline)]
+pub use xca_picture as picture;
 #[cfg(feature = "record")]
 #[doc(no_inline)]
 pub use xca_record as record;

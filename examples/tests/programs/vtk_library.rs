@@ -4,7 +4,7 @@ use crate::running::{CADEM, DEBRIS, HEAT, LIFE, MOD2, POND, Table, Workplace, re
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
-use xca_io::picture::Lattice;
+use xca_io::lattice::Lattice;
 use xca_io::vtk::{DataArray, GHOST_TYPE, HexagonGrid, ghost_types, write_hexagons};
 
 /// Runs the script that reads files with the library.

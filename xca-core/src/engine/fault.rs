@@ -1,12 +1,12 @@
 //! What stops a run.
 
 use super::input::InputError;
-use crate::geometry::Geometry;
-use crate::kernel::{BEYOND_NEIGHBOURHOOD, RowFault, StoppedAt, WRONG_RADIUS};
-use crate::process::Process;
-use crate::value::Precision;
 use std::any::Any;
 use std::fmt;
+use xca_process::Geometry;
+use xca_process::Process;
+use xca_process::kernel::{BEYOND_NEIGHBOURHOOD, RowFault, StoppedAt, WRONG_RADIUS};
+use xca_values::Precision;
 
 /// Why an engine does not do what it is asked to do with a state.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

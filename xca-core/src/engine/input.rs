@@ -5,8 +5,8 @@
 
 use super::{EngineFailure, Fault, Population, SubstateId};
 use crate::model::{Group, GroupKind, Model};
-use crate::schema::Field;
-use crate::value::{Precision, ScalarType};
+use xca_values::Field;
+use xca_values::{Precision, ScalarType};
 
 /// Input that does not fit the model. It has changed nothing.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

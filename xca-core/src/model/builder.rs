@@ -5,21 +5,21 @@ use super::filling::Filling;
 use super::names::check_names;
 use super::{Group, GroupKind, Model, ModelError, WriteOutside};
 use crate::engine::SubstateId;
-use crate::geometry::{Boundary, Face, Faces, Geometry};
-use crate::host_value::HostValue;
-use crate::neighbourhood::Neighbourhood;
 use crate::parameter_set::ParameterSet;
-use crate::parameters::Parameters;
 use crate::plan::Plan;
-use crate::process::{Process, Processes};
-use crate::random::Stream;
 use crate::state::State;
 use crate::steering::{Schedule, Steering, SteeringError};
-use crate::substates::{Substate, Substates};
-use crate::value::Precision;
 use std::any::TypeId;
 use std::fmt;
 use std::sync::Arc;
+use xca_process::HostValue;
+use xca_process::Neighbourhood;
+use xca_process::Parameters;
+use xca_process::Stream;
+use xca_process::{Boundary, Face, Faces, Geometry};
+use xca_process::{Process, Processes};
+use xca_process::{Substate, Substates};
+use xca_values::Precision;
 
 /// Collects the definition of a model. Mistakes are reported by [`ModelBuilder::build`].
 #[must_use = "call `build` to get the model"]

@@ -1,11 +1,11 @@
 //! What is checked of a model when it is built.
 
 use super::{Group, GroupKind, ModelError};
-use crate::geometry::{Boundary, Face, Geometry};
-use crate::kernel::NOWHERE;
-use crate::neighbourhood::{Neighbourhood, Parity};
 use crate::parameter_set::ParameterSet;
-use crate::process::{Holds, Process};
+use xca_process::kernel::NOWHERE;
+use xca_process::{Boundary, Face, Geometry};
+use xca_process::{Holds, Process};
+use xca_process::{Neighbourhood, Parity};
 
 const AXES: [char; 3] = ['x', 'y', 'z'];
 

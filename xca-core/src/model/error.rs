@@ -1,7 +1,7 @@
 //! What can be wrong with a model.
 
-use crate::geometry::{Boundary, Face};
-use crate::parameters::ParameterError;
+use xca_process::ParameterError;
+use xca_process::{Boundary, Face};
 
 /// A model that cannot be built; the message says what to change.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

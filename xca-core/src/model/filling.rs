@@ -2,10 +2,10 @@
 
 use super::{Group, GroupKind, ModelBuilder, ModelError};
 use crate::parameter_set::ParameterSet;
-use crate::parameters::Parameters;
 use crate::site::Site;
-use crate::substates::Substates;
 use std::any::TypeId;
+use xca_process::Parameters;
+use xca_process::Substates;
 
 impl ModelBuilder {
     /// Makes the initial state of each cell.

@@ -2,9 +2,9 @@
 
 use super::{Group, GroupKind, Model};
 use crate::engine::SubstateId;
-use crate::schema::{Field, Schema};
 use crate::steering::{Schedule, Steering};
-use crate::value::ValueType;
+use xca_values::ValueType;
+use xca_values::{Field, Schema};
 
 /// Initial values that a substate cannot have.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -5,10 +5,10 @@ use crate::engine::{
     EngineFailure, Execution, Fault, Interruption, Population, StepContext, SubstateId, check_cells,
     check_population, check_substate, check_values, check_values_of_cells, step_by_step,
 };
-use crate::process::ProcessKind;
-use crate::random::Stream;
 use crate::reduction::{Reduced, Reduction, reduce_values};
 use std::ops::Range;
+use xca_process::ProcessKind;
+use xca_process::Stream;
 
 impl Execution for ReferenceExecution {
     fn run(&mut self, processes: Range<usize>, context: &StepContext<'_>) -> Result<(), Fault> {
@@ -146,7 +146,7 @@ impl GroupState {
     }
 
     fn memory(&self) -> usize {
-        let planes: usize = self.planes.iter().map(crate::storage::Buffer::capacity).sum();
+        let planes: usize = self.planes.iter().map(xca_process::storage::Buffer::capacity).sum();
         planes + (self.counts.capacity() + self.labels.capacity()) * size_of::<u32>()
     }
 }

@@ -5,12 +5,12 @@
 
 use super::{GroupState, Neighbour, ReferenceExecution, neighbourhood};
 use crate::engine::{Fault, StepContext, SubstateId};
-use crate::kernel::{Access, Entry, Frame, Memory, MemoryOf, Row, RowItems, Scratch};
-use crate::process::{Process, ProcessKind};
-use crate::random::Stream;
-use crate::storage::Buffer;
-use crate::value::StoredType;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use xca_process::Stream;
+use xca_process::kernel::{Access, Entry, Frame, Memory, MemoryOf, Row, RowItems, Scratch};
+use xca_process::storage::Buffer;
+use xca_process::{Process, ProcessKind};
+use xca_values::StoredType;
 
 /// Where a process's substates are read and written during a pass.
 struct Pass {

@@ -4,7 +4,7 @@ use super::{RunError, Simulation};
 use crate::engine::{EngineFailure, Fault, SubstateId};
 use crate::model::GroupKind;
 use crate::reduction::{Reduced, Reduction};
-use crate::value::{StoredScalar, StoredType};
+use xca_values::{StoredScalar, StoredType};
 
 impl Simulation {
     /// Checks that all floating substates of cells and items are finite, but for those that the model allows to be otherwise

@@ -4,8 +4,8 @@ use super::{RunError, RunOptions, Simulation};
 use crate::engine::input::{wrong_fields, wrong_items};
 use crate::engine::{Engine, Fault, Population, SubstateId};
 use crate::model::{Group, GroupKind, Model};
-use crate::parameters::ParameterValue;
-use crate::schema::Field;
+use xca_process::ParameterValue;
+use xca_values::Field;
 
 /// The whole state of a run between two steps: equal snapshots are equal to the last bit.
 ///

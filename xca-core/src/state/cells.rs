@@ -2,9 +2,9 @@
 
 use super::{State, StateError};
 use crate::engine::SubstateId;
-use crate::host_value::HostValue;
-use crate::substates::{Substate, Substates};
 use std::collections::HashMap;
+use xca_process::HostValue;
+use xca_process::{Substate, Substates};
 
 impl State<'_> {
     /// The value of a substate in one cell.

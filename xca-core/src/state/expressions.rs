@@ -3,7 +3,7 @@
 use super::{State, StateError};
 use crate::engine::{Population, SubstateId};
 use crate::reduction::{Reduced, Reducible, Reduction, combine_rows};
-use crate::substates::Substates;
+use xca_process::Substates;
 
 impl State<'_> {
     /// How many cells, or items of a population, meet a condition.

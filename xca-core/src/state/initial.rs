@@ -2,9 +2,9 @@
 
 use super::{State, StateError};
 use crate::engine::{Population, SubstateId};
-use crate::parameters::Parameters;
 use crate::site::{Site, Sites};
-use crate::substates::Substates;
+use xca_process::Parameters;
+use xca_process::Substates;
 
 impl State<'_> {
     fn sites(&self, group: usize) -> Sites<'_> {

@@ -6,7 +6,7 @@ use super::super::atomic::write_atomically;
 use super::VtkError;
 use super::appended::{Appended, numbers_as_text};
 use super::values::{DataArray, Values, check_arrays};
-use crate::picture::Lattice;
+use crate::lattice::Lattice;
 
 /// The corners of a hexagon.
 pub(super) const CORNERS: usize = 6;

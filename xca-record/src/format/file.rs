@@ -1,9 +1,10 @@
 //! The names of files: one place that makes them, and knows them again.
 
 use super::View;
-use crate::record::{FRAMES, RunFolder, SavedRun, numbered_files};
+use crate::record::{FRAMES, RunFolder, SavedRun};
 use std::path::{Path, PathBuf};
 use xca_io::atomic::{OutputFolder, plain_name};
+use xca_io::numbered;
 
 /// What a file is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -115,7 +116,7 @@ impl OutputFile {
             let name = path.file_name()?.to_str()?;
             name.strip_prefix(&before)?.strip_suffix(&after)?.parse().ok()
         };
-        let files = numbered_files(frames, &before, &after).into_iter();
+        let files = numbered::files(frames, &before, &after).into_iter();
         files.filter_map(|path| Some((step(&path)?, path))).collect()
     }
 }

@@ -1,10 +1,10 @@
 //! Pictures of the first and the final state.
 
 use super::{Moment, OutputFile, RecordedState, ResumedRun, Subject, View, Writer};
-use crate::numbers::Exact;
 use crate::observable::Failure;
 use crate::record::Frame;
 use serde_json::Value;
+use xca_checkpoint::Exact;
 
 /// `initial.png` and `final.png` of the first view, `initial_NAME.png` and `final_NAME.png` of the others.
 #[derive(Debug, Default)]

@@ -1,12 +1,12 @@
 //! Models of one row, as pictures of space and time.
 
 use super::{Moment, OutputFile, RecordedState, ResumedRun, Subject, View, Writer};
-use crate::numbers::Exact;
 use crate::observable::Failure;
 use crate::record::{Frame, Seen};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
+use xca_checkpoint::Exact;
 use xca_core::Model;
 
 /// `final_spacetime.png` of the first view of cells, `final_spacetime_NAME.png` of the others: a row of the picture for each

@@ -6,7 +6,7 @@ use crate::observable::Failure;
 use crate::record::{CellState, ItemState, SubstateValues, lattice};
 use serde_json::Value;
 use std::path::Path;
-use xca_io::picture::Lattice;
+use xca_io::lattice::Lattice;
 use xca_io::vtk::{
     Collection, DataArray, GHOST_TYPE, Grid, HexagonGrid, PolyDataFile, ghost_types, read_dense,
     read_poly_data, write_dense, write_hexagons, write_particles,

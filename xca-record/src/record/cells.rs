@@ -3,11 +3,11 @@
 use super::seen::Seen;
 use super::substate_values::SubstateValues;
 use super::values::Plane;
-use crate::components::{DrawnPart, Part};
 use crate::view::{AnyCellView, Quantity, StoredBytes};
+use xca_checkpoint::components::{DrawnPart, Part};
 use xca_core::model::Group;
 use xca_core::{Geometry, Parity, Precision, StoredScalar, StoredType};
-use xca_io::picture::Lattice;
+use xca_io::lattice::Lattice;
 
 /// What a view shows of cells in one state: their substates.
 #[derive(Debug)]

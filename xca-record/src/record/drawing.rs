@@ -8,7 +8,7 @@ use super::shown::Shown;
 use super::{RecordError, Recorder};
 use crate::view::AnyView;
 use xca_core::{Model, Precision, Snapshot};
-use xca_io::picture::{PanelPicture, Picture};
+use xca_picture::{PanelPicture, Picture};
 
 /// What is drawn of every state: one panel, or several side by side.
 #[derive(Debug)]

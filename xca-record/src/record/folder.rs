@@ -7,17 +7,16 @@ mod error;
 mod owner;
 
 pub use error::FolderError;
-pub use owner::numbered_files;
 
-use crate::checkpoint::CHECKPOINTS;
-use crate::input_file::InputFile;
 use owner::{Owner, is_folder, meant};
 use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use xca_checkpoint::CHECKPOINTS;
+use xca_checkpoint::InputFile;
 use xca_io::atomic::{OutputFolder, remove_leftovers};
-use xca_io::picture::is_picture_of_xca;
+use xca_picture::is_picture_of_xca;
 
 /// The folder, below the run's own, that holds the frames.
 pub const FRAMES: &str = "frames";

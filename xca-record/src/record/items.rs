@@ -3,8 +3,8 @@
 use super::seen::Seen;
 use super::substate_values::SubstateValues;
 use super::values::Plane;
-use crate::components::{DrawnPart, Part};
 use crate::view::{AnyItemView, Quantity, StoredBytes, TableColumn};
+use xca_checkpoint::components::{DrawnPart, Part};
 use xca_core::engine::Population;
 use xca_core::model::Group;
 use xca_core::{Geometry, Precision, ScalarType, StoredType};

@@ -3,8 +3,8 @@
 use super::Recorder;
 use super::drawing::Panel;
 use super::shown::Shown;
-use crate::components::{DrawnPart, Part};
 use crate::view::{AnyView, Drawn, Quantity};
+use xca_checkpoint::components::{DrawnPart, Part};
 
 /// How a state is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! What is observed of a model that does not say it.
 
-use crate::components::state_names;
 use crate::observable::Observable;
 use std::borrow::Cow;
+use xca_checkpoint::components::state_names;
 use xca_core::engine::Population;
 use xca_core::model::{Group, GroupKind};
 use xca_core::reduction::{Reduction, reduce_values};

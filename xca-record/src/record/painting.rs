@@ -7,7 +7,7 @@ use crate::format::Subject;
 use crate::view::{AnyCellView, AnyItemView, AnyView, Drawn};
 use xca_core::model::Group;
 use xca_core::{Geometry, Model, Schema};
-use xca_io::picture::{
+use xca_picture::{
     Axes, BlockPicture, Category, ColourMap, Domain, LandscapePicture, Lattice, ParticlePicture, Picture,
     PictureError, Relief, Scalar, SlicePicture,
 };

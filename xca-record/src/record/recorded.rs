@@ -3,55 +3,20 @@
 use super::folder::remove;
 use super::{RecordError, Recorder, RunFolder, SERIES};
 use crate::format::{Moment, ResumedRun, Subject};
-use crate::numbers::Exact;
 use crate::observable::Observable;
-use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value};
+use serde_json::Value;
 use std::collections::HashSet;
 use std::path::PathBuf;
-use xca_io::table_csv::{SeriesWriter, Written};
+use xca_checkpoint::{Exact, Quantity, Recorded};
+use xca_io::table_csv::SeriesWriter;
 
-/// What a recorder has written, as a checkpoint keeps it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Recorded {
-    /// The steps after which the state was recorded.
-    steps: Vec<u64>,
-    /// How long the time series was.
-    series: Written,
-    /// The observables before the first step.
-    first: Vec<Quantity>,
-    /// Those of the last of the steps.
-    last: Vec<Quantity>,
-    /// What each format has to know.
-    formats: Map<String, Value>,
+/// An observable to the last bit.
+fn quantity(Observable { name, unit, value, is_conserved }: &Observable) -> Quantity {
+    Quantity { name: name.clone(), unit: unit.clone(), value: Exact(*value), is_conserved: *is_conserved }
 }
 
-impl Recorded {
-    /// Whether this can have been recorded until that step: in order, and each step once.
-    pub(crate) fn can_be_after(&self, step: u64) -> bool {
-        self.steps.is_sorted_by(|one, next| one < next) && self.steps.last().is_none_or(|last| *last <= step)
-    }
-}
-
-/// An observable that is kept to the last bit.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Quantity {
-    name: String,
-    unit: String,
-    value: Exact,
-    is_conserved: bool,
-}
-
-impl From<&Observable> for Quantity {
-    fn from(Observable { name, unit, value, is_conserved }: &Observable) -> Self {
-        Self { name: name.clone(), unit: unit.clone(), value: Exact(*value), is_conserved: *is_conserved }
-    }
-}
-
-impl From<&Quantity> for Observable {
-    fn from(Quantity { name, unit, value, is_conserved }: &Quantity) -> Self {
-        Self { name: name.clone(), unit: unit.clone(), value: value.0, is_conserved: *is_conserved }
-    }
+fn observable(Quantity { name, unit, value, is_conserved }: &Quantity) -> Observable {
+    Observable { name: name.clone(), unit: unit.clone(), value: value.0, is_conserved: *is_conserved }
 }
 
 impl Recorder {
@@ -65,8 +30,8 @@ impl Recorder {
         Ok(Recorded {
             steps: self.steps.clone(),
             series: series.unwrap_or_default(),
-            first: self.first.iter().map(Quantity::from).collect(),
-            last: self.last.iter().map(Quantity::from).collect(),
+            first: self.first.iter().map(quantity).collect(),
+            last: self.last.iter().map(quantity).collect(),
             formats: self
                 .formats
                 .chosen()
@@ -77,8 +42,8 @@ impl Recorder {
 
     /// Goes on where a recorder of the same model was. What was written after that is removed; it will be written again.
     pub fn resume(&mut self, folder: RunFolder, recorded: &Recorded) -> Result<(), RecordError> {
-        self.first = recorded.first.iter().map(Observable::from).collect();
-        self.last = recorded.last.iter().map(Observable::from).collect();
+        self.first = recorded.first.iter().map(observable).collect();
+        self.last = recorded.last.iter().map(observable).collect();
         self.steps.clone_from(&recorded.steps);
         // The time series first: if it is not the one that was written, nothing has been changed yet.
         self.series =

@@ -1,6 +1,6 @@
 //! What a picture shows of a state: numbers alone, wherever they come from.
 
-use xca_io::picture::Scalar;
+use xca_picture::Scalar;
 
 /// The share of items that may be beyond the scale: a few fast ones must not make all others look alike.
 const FAST: f64 = 0.02;

@@ -5,10 +5,10 @@ use super::look::{Look, LookError};
 use super::painting::Field;
 use super::seen::{Seen, wider};
 use super::{Recorder, Shown};
-use crate::components::{Part, name_of};
 use crate::view::{AnyView, Quantity};
+use xca_checkpoint::components::{Part, name_of};
 use xca_core::{Model, Precision, Snapshot};
-use xca_io::picture::{Category, ColourMap, Scalar};
+use xca_picture::{Category, ColourMap, Scalar};
 
 /// What is seen of one state.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,7 @@
 //! The values of a substate, with what is known of it.
 
 use super::values::Plane;
-use crate::components::state_names;
+use xca_checkpoint::components::state_names;
 use xca_core::Field;
 use xca_io::vtk::DataArray;
 

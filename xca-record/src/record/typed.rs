@@ -1,7 +1,7 @@
 //! Numbers of a file that keeps no types, as the model stores them.
 
 use super::values::Plane;
-use crate::components::state_names;
+use xca_checkpoint::components::state_names;
 use xca_core::{Field, Precision, StoredScalar};
 use xca_io::vtk::{NumberType, ReadArray};
 

@@ -1,6 +1,6 @@
 //! Stored bytes as numbers.
 
-use crate::components::DrawnPart;
+use xca_checkpoint::components::DrawnPart;
 use xca_core::{StoredScalar, StoredType};
 use xca_io::vtk::{NumberType, ReadArray, Values};
 

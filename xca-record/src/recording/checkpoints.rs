@@ -1,10 +1,10 @@
 //! When checkpoints are written.
 
-use crate::checkpoint::{Checkpoint, CheckpointFolder};
 use crate::interval::Interval;
 use crate::record::RunFolder;
 use std::path::Path;
 use std::time::Instant;
+use xca_checkpoint::{Checkpoint, CheckpointFolder};
 use xca_io::atomic::WriteError;
 
 /// The checkpoints of a run.

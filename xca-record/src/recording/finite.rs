@@ -8,7 +8,7 @@ use xca_core::{Fault, RunError, Simulation};
 #[error("{0}; add --allow-non-finite to run on, or `.allow_non_finite(…)` to a model that means such values")]
 struct NonFinite(RunError);
 
-pub(crate) fn check(simulation: &Simulation) -> Result<(), Failure> {
+pub fn check(simulation: &Simulation) -> Result<(), Failure> {
     simulation.check_finite().map_err(|error| match error {
         RunError::Fault { fault: Fault::NotFinite { .. }, .. } => NonFinite(error).into(),
         other => other.into(),

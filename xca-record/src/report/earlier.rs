@@ -1,11 +1,11 @@
 //! What the report of an earlier run tells: whoever has written or changed it.
 
-use crate::checkpoint::Difference;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::io;
 use std::path::{Path, PathBuf};
+use xca_checkpoint::Difference;
 use xca_io::regular_file;
 
 /// No report has more bytes.

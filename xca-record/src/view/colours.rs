@@ -1,9 +1,9 @@
 //! The colours of states and kinds.
 
 use super::Quantity;
-use crate::components::{DrawnPart, Part};
+use xca_checkpoint::components::{DrawnPart, Part};
 use xca_core::{HostScalar, HostValue, Schema, Substate, Substates};
-use xca_io::picture::Category;
+use xca_picture::Category;
 
 /// The colour of a value of a substate.
 #[derive(Debug, Clone)]

@@ -1,7 +1,7 @@
 //! The views of a model: those that are given, checked, and plain ones of what no one shows.
 
 use super::{AnyCellView, AnyItemView, AnyView};
-use crate::components::Part;
+use xca_checkpoint::components::Part;
 use xca_core::model::GroupKind;
 use xca_core::{Model, Schema};
 

@@ -1,8 +1,8 @@
 //! What colours the cells or the items of a view: a substate, a component of one, or a number computed of all of them.
 
-use crate::components::Part;
 use std::fmt;
 use std::sync::Arc;
+use xca_checkpoint::components::Part;
 use xca_core::{Precision, StoredType, Substates};
 
 /// What is drawn, and what the scale calls it.

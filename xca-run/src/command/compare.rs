@@ -6,17 +6,18 @@ use super::parse::{Choice as ModelChoice, with_help, with_model};
 use super::prepare::warn;
 use super::voice::Voice;
 use super::{Definition, Ended, Unable};
-use crate::compare::Choice;
-use crate::compare::report::{self, Files};
+use crate::contender::Choice;
 use crate::engines::{EngineError, EngineOptions};
 use crate::interrupt::Interrupt;
 use crate::options::number_in;
 use crate::progress::Progress;
 use clap::{Args, Command};
 use std::path::PathBuf;
+use xca_compare::{CompareError, Comparison};
+use xca_compare::{Contender, Subject, Verdict};
 use xca_core::{Precision, RunError};
-use xca_record::comparison::{Contender, Subject, Verdict};
-use xca_record::{CompareError, Comparison, Monitor};
+use xca_record::Monitor;
+use xca_report::comparison::{self, Files};
 
 pub(super) const NAME: &str = "compare";
 
@@ -124,7 +125,7 @@ pub(super) fn compare(
         result => result.map_err(Unable::failed)?,
     };
     files.write(&mut comparison).map_err(Unable::failed)?;
-    let text = || format!("{}\n\n{}", report::text(&comparison), files.told());
+    let text = || format!("{}\n\n{}", comparison::text(&comparison), files.told());
     arguments.voice.tell(&comparison, text)?;
     Ok(if comparison.verdict == Verdict::Different { Ended::Different } else { Ended::Done })
 }

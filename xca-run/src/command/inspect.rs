@@ -13,8 +13,8 @@ use serde::Serialize;
 use serde_json::Value;
 use state::{Place, Statistics};
 use std::path::{Path, PathBuf};
-use xca_record::checkpoint::{Checkpoint, CheckpointFolder, Parameter};
-use xca_record::numbers::Exact;
+use xca_checkpoint::Exact;
+use xca_checkpoint::{Checkpoint, CheckpointFolder, Parameter};
 use xca_record::record::REPORT;
 use xca_record::report::{self, Earlier};
 

@@ -10,10 +10,11 @@ use crate::terminal;
 use clap::{Args, Command};
 use serde_json::{Map, Value, json};
 use text::as_text;
+use xca_checkpoint::ModelReport;
+use xca_checkpoint::components::state_names;
 use xca_core::model::GroupKind;
 use xca_core::{End, Model, Process, ProcessKind};
 use xca_record::SetUp;
-use xca_record::components::state_names;
 use xca_record::format::Formats;
 use xca_record::report;
 
@@ -119,7 +120,7 @@ fn as_json(model: &Model, engines: &Engines, formats: &Formats) -> serde_json::R
     serde_json::to_string_pretty(&json!({
         "engines": engines.collect::<Vec<_>>(),
         "formats": formats.collect::<Vec<_>>(),
-        "model": report::of_model(model),
+        "model": ModelReport::new(model),
         "substates": substates(model).collect::<Vec<_>>(),
         "parameters": parameters(model),
         "processes": processes.collect::<Vec<_>>(),

@@ -6,9 +6,9 @@ use super::parse::RunInvocation;
 use super::working_directory::WorkingDirectory;
 use crate::program::Given;
 use crate::terminal;
+use xca_checkpoint::Identity;
 use xca_core::{Engine, Model, Precision, RunOptions};
 use xca_record::machine::check_memory;
-use xca_record::report::Identity;
 use xca_record::{BeginError, Run, SetUp};
 
 /// A run that can begin.

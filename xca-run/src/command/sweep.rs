@@ -1,6 +1,5 @@
 //! The subcommand `sweep`.
 
-mod plots;
 mod values;
 
 use super::arguments::steps;
@@ -11,23 +10,22 @@ use super::voice::Voice;
 use super::{Definition, Ended, Unable};
 use crate::interrupt::Interrupt;
 use crate::program::{Assignment, Given};
-use crate::progress::{Progress, duration_text};
+use crate::progress::Progress;
 use clap::{Args, Command};
-use plots::PAGE;
 use serde::Serialize;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use values::{Values, ValuesError};
+use xca_checkpoint::Identity;
 use xca_core::Engine;
+use xca_ensemble::{End, Ensemble, EnsembleError, EnsembleMonitor, Finished, MEMBERS, Member, SUMMARY};
 use xca_io::atomic::write_atomically;
-use xca_io::numbers::counted;
+use xca_io::numbers::{counted, duration_text};
 use xca_record::machine::{check_memory, cores};
 use xca_record::record::LockedFolder;
-use xca_record::report::Identity;
-use xca_record::{
-    End, Ensemble, EnsembleError, EnsembleMonitor, Failure, Finished, MEMBERS, Member, SUMMARY, SetUp,
-};
+use xca_record::{Failure, SetUp};
+use xca_report::ensemble::{self, PAGE};
 
 pub(super) const NAME: &str = "sweep";
 
@@ -256,7 +254,7 @@ fn best(finished: &[Finished], observable: &str) -> Result<Option<Best>, SweepEr
 
 /// Draws mean and spread, where a parameter was swept.
 fn write_page(folder: &Path, title: &str, finished: &[Finished]) -> Result<(), Unable> {
-    let Some(page) = plots::page(title, finished).map_err(Unable::Failed)? else { return Ok(()) };
+    let Some(page) = ensemble::page(title, finished).map_err(Unable::Failed)? else { return Ok(()) };
     let folder = LockedFolder::again(folder).map_err(Unable::failed)?;
     write_atomically(&folder.top.file(PAGE), |file| file.write_all(page.as_bytes())).map_err(Unable::failed)
 }

@@ -58,11 +58,11 @@ impl EngineKind for GpuKind {
 mod built {
     use super::{ADAPTER, ARITHMETIC};
     use crate::engines::{Devices, EngineOptions};
-    use crate::table::table_with_notes;
     use serde_json::json;
     use xca_core::{Engine, Model, Precision};
     use xca_gpu::{Adapter, AdapterChoice, Arithmetic, Gpu, GpuError, GpuOptions, adapters};
     use xca_record::Failure;
+    use xca_report::table::table_with_notes;
 
     pub(super) fn make(options: &EngineOptions) -> Result<Box<dyn Engine>, Failure> {
         let arithmetic = match options.get(ARITHMETIC.name) {
@@ -124,9 +124,9 @@ mod built {
 #[cfg(not(feature = "gpu"))]
 mod built {
     use crate::engines::{Devices, EngineOptions, MissingFeature};
-    use crate::table::{WIDTH, wrapped};
     use xca_core::{Engine, Model, Precision};
     use xca_record::Failure;
+    use xca_report::table::{WIDTH, wrapped};
 
     const MISSING: MissingFeature = MissingFeature { feature: "gpu" };
 

@@ -5,9 +5,9 @@ use crate::measured::{TestResult, alone};
 use crate::model::{read, run};
 use std::fs;
 use std::path::Path;
+use xca_checkpoint::{Checkpoint, CheckpointFolder, Kind};
 use xca_core::GroupSnapshot;
 use xca_io::vtk::{DataArray, Grid, write_dense};
-use xca_record::checkpoint::{Checkpoint, CheckpointFolder, Kind};
 
 /// The side of a square of cells, of a byte each: 64 MiB.
 const SIDE: usize = 8192;

@@ -4,14 +4,15 @@ use crate::measured::{BESIDES, Subject, TestResult, alone, container};
 use crate::model::{draw, read, run, set_up};
 use std::fs;
 use std::path::{Path, PathBuf};
+use xca_checkpoint::Checkpoint;
 use xca_core::{Engine, Reference};
-use xca_io::animation::write_gif;
+use xca_ensemble::{Ensemble, MEMBERS};
 use xca_io::table_csv::{SeriesWriter, Written};
 use xca_io::vtk::{read_dense, read_particles};
-use xca_record::checkpoint::Checkpoint;
+use xca_picture::animation::write_gif;
+use xca_record::Failure;
 use xca_record::record::ViewKind;
 use xca_record::report::Earlier;
-use xca_record::{Ensemble, Failure, MEMBERS};
 use xca_tests_fuzz as fuzz;
 
 /// Words of VTK files.

@@ -1,6 +1,6 @@
 use super::super::{DataArray, Values, ghost_types, write_dense, write_hexagons, write_particles};
 use super::*;
-use crate::picture::Lattice;
+use crate::lattice::Lattice;
 use std::fs;
 use tempfile::TempDir;
 

@@ -1,13 +1,13 @@
 //! Whose folder it is, and which files in it are of its owner.
 
 use super::{FolderError, Kind};
-use crate::checkpoint::CheckpointFolder;
-use crate::ensemble::{MEMBERS, SUMMARY};
 use crate::format::{Moment, Shape, shape};
 use crate::record::SERIES;
 use crate::report::Earlier;
 use std::fs;
 use std::path::{Path, PathBuf};
+use xca_checkpoint::CheckpointFolder;
+use xca_io::numbered;
 
 /// The command that has written to a folder before, as its report tells.
 pub(super) struct Owner {
@@ -64,6 +64,9 @@ pub(super) fn is_folder(path: &Path) -> bool {
 const COMPARISON_FILES: [&str; 6] =
     ["compare.html", "compare.md", "engines.csv", "differences.csv", "divergence.csv", "observables.csv"];
 
+/// The files of an ensemble beside its report.
+const ENSEMBLE_FILES: [&str; 3] = ["members.csv", "summary.csv", "summary.html"];
+
 /// Whether a command makes files of that name.
 fn can_be_made(name: &str, kind: Kind, others: &[String]) -> bool {
     let is_plain = |part: &str| {
@@ -76,7 +79,7 @@ fn can_be_made(name: &str, kind: Kind, others: &[String]) -> bool {
     }
     match kind {
         Kind::Comparison => COMPARISON_FILES.contains(&name),
-        Kind::Ensemble => [MEMBERS, SUMMARY, "summary.html"].contains(&name),
+        Kind::Ensemble => ENSEMBLE_FILES.contains(&name),
         Kind::Pictures => {
             matches!(name, "animation.png" | "animation.gif")
                 || shape(name) == Some(Shape { moment: Moment::Each, extension: "png" })
@@ -111,30 +114,7 @@ pub(super) fn meant(folder: &Path, name: &str) -> Vec<PathBuf> {
     let Some((before, after)) = name.rsplit('/').next().and_then(|last| last.split_once('*')) else {
         return if fs::symlink_metadata(&path).is_ok() { vec![path] } else { Vec::new() };
     };
-    path.parent().map(|folder| numbered(folder, before, after)).unwrap_or_default()
-}
-
-/// What a folder holds under names that have only digits between `before` and `after`, in the order of these numbers.
-fn numbered(folder: &Path, before: &str, after: &str) -> Vec<PathBuf> {
-    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
-    let is_meant = |file: &str| {
-        let middle = file.strip_prefix(before).and_then(|rest| rest.strip_suffix(after));
-        middle.is_some_and(|middle| !middle.is_empty() && middle.bytes().all(|byte| byte.is_ascii_digit()))
-    };
-    let mut found: Vec<PathBuf> = entries
-        .filter_map(Result::ok)
-        .filter(|entry| entry.file_name().to_str().is_some_and(is_meant))
-        .map(|entry| entry.path())
-        .collect();
-    found.sort_by_key(|path| (path.as_os_str().len(), path.clone()));
-    found
-}
-
-/// The files of a folder whose names have only digits between `before` and `after`, in the order of these numbers.
-pub fn numbered_files(folder: &Path, before: &str, after: &str) -> Vec<PathBuf> {
-    let mut files = numbered(folder, before, after);
-    files.retain(|path| path.is_file());
-    files
+    path.parent().map(|folder| numbered::entries(folder, before, after)).unwrap_or_default()
 }
 
 #[cfg(test)]

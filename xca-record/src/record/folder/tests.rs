@@ -1,7 +1,7 @@
 //! Folders that commands get, and those that they do not.
 
 use super::*;
-use xca_io::picture::{Domain, ParticlePicture};
+use xca_picture::{Domain, ParticlePicture};
 
 fn files() -> Vec<String> {
     ["final.csv", "frames/p_*.vtp"].map(str::to_owned).to_vec()

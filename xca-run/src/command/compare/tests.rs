@@ -52,6 +52,7 @@ fn compared(words: &[&str]) -> (Result<Ended, Unable>, Value) {
     let json =
         fs::read(out.join("compare.json")).map_or(Value::Null, |text| serde_json::from_slice(&text).unwrap());
     if ended.is_ok() {
+        assert!(json["compiler"].as_str().is_some_and(|compiler| compiler.starts_with("rustc 1.")));
         let mut names: Vec<_> = fs::read_dir(&out).unwrap().map(|entry| entry.unwrap().file_name()).collect();
         names.sort();
         let all = [

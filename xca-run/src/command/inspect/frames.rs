@@ -7,11 +7,11 @@ use crate::command::render::formats_of;
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
+use xca_checkpoint::Exact;
 use xca_io::particle_csv::LABEL;
 use xca_io::vtk::{NumberType, ReadArray};
 use xca_record::Failure;
 use xca_record::format::{Formats, SavedState};
-use xca_record::numbers::Exact;
 use xca_record::record::FRAMES;
 
 /// A file of a state by its name, `NAME_STEP.EXTENSION`, and what is in it.

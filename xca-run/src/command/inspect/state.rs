@@ -4,10 +4,10 @@ use super::numbers::Numbers;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
+use xca_checkpoint::Exact;
+use xca_checkpoint::components::{state_name, text};
+use xca_checkpoint::{Checkpoint, GroupShape, Kind};
 use xca_core::GroupSnapshot;
-use xca_record::checkpoint::{Checkpoint, GroupShape, Kind};
-use xca_record::components::{state_name, text};
-use xca_record::numbers::Exact;
 
 /// One component of a substate over all cells or items.
 #[derive(Debug, Serialize)]

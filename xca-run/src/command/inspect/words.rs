@@ -2,11 +2,11 @@
 
 use super::state::{Place, Spread, Statistics};
 use super::{Findings, Inside};
-use crate::table::table;
 use serde_json::Value;
 use std::fmt;
+use xca_checkpoint::Exact;
 use xca_io::numbers::significant;
-use xca_record::numbers::Exact;
+use xca_report::table::table;
 
 impl fmt::Display for Findings {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -2,12 +2,12 @@
 
 use super::{accesses, subject};
 use crate::engines::{EngineKind, Engines};
-use crate::table::{table, table_with_notes};
+use xca_checkpoint::components::state_names;
 use xca_core::model::GroupKind;
 use xca_core::{Field, Model, ScalarType};
 use xca_io::numbers::counted;
-use xca_record::components::state_names;
 use xca_record::format::Formats;
+use xca_report::table::{table, table_with_notes};
 
 /// Everything about a model, and the engines.
 pub(super) fn as_text(model: &Model, engines: &Engines, formats: &Formats) -> String {

@@ -8,8 +8,8 @@ use crate::command::voice::Voice;
 use clap::builder::Resettable;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
-use xca_io::animation::{write_apng, write_gif};
 use xca_io::atomic::WriteError;
+use xca_picture::animation::{write_apng, write_gif};
 use xca_record::record::{Drawing, Look, Recorder, ViewKind};
 
 /// How a state is drawn.

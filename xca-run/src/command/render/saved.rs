@@ -9,10 +9,10 @@ use crate::interrupt::Interrupt;
 use serde_json::{Value, json};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+use xca_checkpoint::{Checkpoint, CheckpointFolder};
 use xca_io::atomic::{OutputFolder, write_atomically};
 use xca_io::numbers::counted;
 use xca_record::Failure;
-use xca_record::checkpoint::{Checkpoint, CheckpointFolder};
 use xca_record::record::LockedFolder;
 use xca_record::record::{Drawing, FRAMES, RunFolder, SavedError, SavedRun};
 

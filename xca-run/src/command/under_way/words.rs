@@ -4,7 +4,7 @@ use super::UnderWay;
 use crate::progress::{self, Diagnostic};
 use std::time::Duration;
 use xca_core::Model;
-use xca_io::numbers::{counted, significant};
+use xca_io::numbers::{counted, duration_text, rate_text, significant};
 use xca_record::report::Report;
 
 impl UnderWay {
@@ -64,8 +64,8 @@ impl UnderWay {
             _ => counted(progress.steps, "step"),
         };
         let time = progress.time_step.map(|_| format!(", {} s simulated", significant(progress.time, 6)));
-        let rate = progress.steps_per_second.map(|rate| format!(", {}", progress::rate_text(rate)));
-        let wall = progress::duration_text(Duration::from_secs_f64(progress.wall_seconds));
+        let rate = progress.steps_per_second.map(|rate| format!(", {}", rate_text(rate)));
+        let wall = duration_text(Duration::from_secs_f64(progress.wall_seconds));
         let plain =
             self.recording.report().files.iter().filter(|file| !file.contains('*')).map(String::as_str);
         let files: Vec<&str> = plain.chain(["run.json"]).collect();

@@ -1,16 +1,5 @@
 //! What shows a run in the terminal.
 
-mod blocks;
-mod keyboard;
-mod keys;
-mod pace;
-mod pixels;
-mod screen;
-mod session;
-mod window;
-mod words;
-mod worker;
-
 use super::super::parse::RunInvocation;
 use super::super::prepare::{Prepared, warn};
 use super::super::run::not_started;
@@ -18,12 +7,9 @@ use super::super::under_way::engine_words;
 use super::super::{Ended, Unable};
 use super::WatchArguments;
 use crate::interrupt::Interrupt;
-use blocks::Colours;
-use pace::Pace;
-use screen::{Facts, Screen};
 use std::io::{IsTerminal, stdin, stdout};
-use worker::{Shared, Worker};
 use xca_core::Simulation;
+use xca_watch::Watch;
 
 /// In how many pictures the steps of the model are shown, unless the command line says how many there are from one to the next.
 const PICTURES: u64 = 1000;
@@ -46,19 +32,18 @@ pub(super) fn show(invocation: &RunInvocation<'_>, arguments: &WatchArguments) -
     // They are read when the terminal is given back.
     warn(recorder.set_up());
     let interrupt = Interrupt::install().map_err(Unable::failed)?;
-    let facts = Facts {
-        title: recorder.set_up().title.clone(),
-        engine: [engine_words(&report), format!("{} engine", report.engine)],
-        note: engine.note(),
-        time_step: recorder.set_up().time_step,
-        wanted: arguments.steps,
-        substates: recorder.substates(),
+    let watch = Watch {
+        recorder: &recorder,
+        engine: &*engine,
+        engine_words: [engine_words(&report), format!("{} engine", report.engine)],
+        options,
+        steps: arguments.steps,
+        every: arguments.every.unwrap_or(origin.steps_wanted / PICTURES),
+        fps: arguments.fps,
+        look,
     };
-    let every = arguments.every.unwrap_or(origin.steps_wanted / PICTURES);
-    let pace = Pace::new(every, arguments.fps);
-    let mut screen = Screen::new(facts, Colours::of_environment(), pace, look);
-    let shared = Shared::default();
-    let worker =
-        Worker { recorder: &recorder, engine: &*engine, options, wanted: arguments.steps, shared: &shared };
-    session::watch(&mut screen, &worker, simulation, &interrupt).map_err(Unable::Failed)
+    match watch.show(simulation, interrupt.flag()).map_err(Unable::Failed)? {
+        xca_watch::Ended::Left => Ok(Ended::Done),
+        xca_watch::Ended::Interrupted => Ok(Ended::Interrupted),
+    }
 }

@@ -1,0 +1,207 @@
+//! What a checkpoint says of itself: whose it is, how far it has come, and what its data are.
+
+use super::origin::{Origin, Parameter};
+use crate::components::state_names;
+use crate::{Exact, Recorded};
+use serde::{Deserialize, Serialize};
+use xca_core::model::Group;
+use xca_core::{GroupSnapshot, Model, Precision, Snapshot, StoredScalar, StoredType};
+
+/// The JSON part of a checkpoint.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Description {
+    /// The run that it belongs to.
+    pub run: Origin,
+    /// The number of steps done.
+    pub step: u64,
+    /// Simulated time, in s where the model knows it.
+    pub time: Exact,
+    /// Why a steering operation has ended the run, if one has.
+    pub stop: Option<String>,
+    /// The present values of the parameters.
+    pub parameters: Vec<Parameter>,
+    /// What the data are, struct by struct.
+    pub groups: Vec<GroupShape>,
+    /// The cells without ground.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) missing: Vec<Run>,
+    /// What the run has written.
+    pub recorded: Recorded,
+}
+
+/// Cells that follow each other by linear index.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Run {
+    first: usize,
+    cells: usize,
+}
+
+impl Run {
+    /// The cells of a mask.
+    pub(super) fn all(mask: &[bool]) -> Vec<Self> {
+        let mut first = 0;
+        let mut runs = Vec::new();
+        for chunk in mask.chunk_by(|one, other| one == other) {
+            if chunk[0] {
+                runs.push(Self { first, cells: chunk.len() });
+            }
+            first += chunk.len();
+        }
+        runs
+    }
+}
+
+/// The substates of one struct.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct GroupShape {
+    /// The name of the struct.
+    pub name: String,
+    /// What they belong to.
+    #[serde(flatten)]
+    pub kind: Kind,
+    /// The substates in the order of the struct.
+    pub substates: Vec<SubstateShape>,
+}
+
+/// What the substates belong to, and how many there are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(tag = "of", rename_all = "lowercase")]
+pub enum Kind {
+    /// Cells.
+    Cells {
+        /// How many.
+        cells: usize,
+    },
+    /// Items of a population.
+    Items {
+        /// How many cells there are.
+        cells: usize,
+        /// How many items.
+        items: usize,
+        /// How many items have left the space.
+        left: u64,
+    },
+}
+
+/// A substate.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SubstateShape {
+    pub name: String,
+    /// As the model says it.
+    #[serde(rename = "type")]
+    pub value_type: String,
+    /// The names of the values of `bool` and states, by number.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub states: Vec<String>,
+    /// What follows its name for each of its components: `.x`, `[3]`.
+    pub components: Vec<String>,
+    /// As it is stored.
+    #[serde(flatten)]
+    pub stored: StoredType,
+}
+
+impl Description {
+    /// That of a run at a snapshot. `missing` is the mask of the cells without ground, `time` in s where the model knows it.
+    pub fn new(
+        run: Origin,
+        model: &Model,
+        missing: Option<&[bool]>,
+        time: f64,
+        snapshot: &Snapshot,
+        recorded: Recorded,
+    ) -> Self {
+        let groups = model.groups().iter().zip(&snapshot.groups);
+        let components =
+            snapshot.parameters.iter().map(|bits| bits.iter().copied().map(f64::from_bits).collect());
+        Self {
+            step: snapshot.step,
+            time: Exact(time),
+            stop: snapshot.stop.clone(),
+            parameters: Parameter::with_values(model.parameters(), components),
+            groups: groups
+                .map(|(group, state)| GroupShape::new(group, state, model, run.precision))
+                .collect(),
+            missing: missing.map(Run::all).unwrap_or_default(),
+            run,
+            recorded,
+        }
+    }
+
+    /// The cells along each axis.
+    pub fn extents(&self) -> Option<[usize; 3]> {
+        serde_json::from_value(self.run.model.get("cells")?.clone()).ok()
+    }
+
+    /// How many cells there are; nothing where that is no number of this machine.
+    pub(super) fn cells(&self) -> Option<usize> {
+        self.extents()?.into_iter().try_fold(1, usize::checked_mul)
+    }
+
+    /// Whether a run can have come to this, with so many bytes of data: the whole has a checksum, but anyone can
+    /// forge that.
+    pub(super) fn makes_sense(&self, data: u64) -> bool {
+        let components = self.parameters.iter().flat_map(|parameter| &parameter.components);
+        let mut substates = self.groups.iter().flat_map(|group| &group.substates);
+        // Each cell has at least a byte.
+        let has_mask = self.missing.is_empty() || self.cells().is_some_and(|cells| cells as u64 <= data);
+        self.step <= self.run.steps_wanted
+            && self.recorded.can_be_after(self.step)
+            && components.into_iter().all(|component| !component.0.is_nan())
+            && substates.all(SubstateShape::makes_sense)
+            && has_mask
+    }
+
+    /// The mask of the cells without ground; none where all have ground.
+    pub fn mask(&self) -> Option<Vec<bool>> {
+        let mut mask =
+            (!self.missing.is_empty()).then(|| self.cells()).flatten().map(|cells| vec![false; cells])?;
+        for Run { first, cells } in &self.missing {
+            mask.iter_mut().skip(*first).take(*cells).for_each(|is_missing| *is_missing = true);
+        }
+        Some(mask)
+    }
+
+    /// How many bytes the data are.
+    pub(super) fn data_bytes(&self) -> usize {
+        let number = size_of::<u32>();
+        let of_group = |group: &GroupShape| {
+            let size: usize = group.substates.iter().map(|substate| substate.stored.size()).sum();
+            match group.kind {
+                Kind::Cells { cells } => cells * size,
+                Kind::Items { cells, items, .. } => cells * number + items * (number + size),
+            }
+        };
+        self.groups.iter().map(of_group).sum()
+    }
+}
+
+impl SubstateShape {
+    /// Whether there is such a type.
+    fn makes_sense(&self) -> bool {
+        let Self { states, components, stored, .. } = self;
+        (1..=4).contains(&stored.lanes)
+            && stored.length > 0
+            && components.len() == stored.components()
+            && (states.is_empty() || stored.scalar == StoredScalar::U8)
+    }
+}
+
+impl GroupShape {
+    fn new(group: &Group, state: &GroupSnapshot, model: &Model, precision: Precision) -> Self {
+        let cells = model.geometry().cells();
+        let kind = match state {
+            GroupSnapshot::Cells(_) => Kind::Cells { cells },
+            GroupSnapshot::Population(population, left) => {
+                Kind::Items { cells, items: population.labels.len(), left: *left }
+            }
+        };
+        let substates = group.schema().fields.iter().map(|field| SubstateShape {
+            name: field.name.to_owned(),
+            value_type: field.value_type.to_string(),
+            states: state_names(field.value_type.scalar),
+            components: field.value_type.component_suffixes(),
+            stored: field.value_type.stored(precision),
+        });
+        Self { name: group.schema().name.to_owned(), kind, substates: substates.collect() }
+    }
+}

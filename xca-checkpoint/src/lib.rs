@@ -1,0 +1,59 @@
+//! Checkpoints: the whole of a run in one file, from which it can go on.
+//!
+//! What such a file holds, byte by byte, is in `docs/checkpoints.md`.
+
+#![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
+
+pub mod components;
+mod description;
+mod file;
+mod folder;
+mod identity;
+mod input_file;
+mod model_report;
+mod numbers;
+mod origin;
+mod outputs;
+mod planes;
+mod recorded;
+
+pub use description::{Description, GroupShape, Kind};
+pub use file::CheckpointError;
+pub use folder::{CHECKPOINTS, CheckpointFolder};
+pub use identity::Identity;
+pub use input_file::InputFile;
+pub use model_report::ModelReport;
+pub use numbers::Exact;
+pub use origin::{Difference, Origin, Parameter, other_model, other_program};
+pub use outputs::Outputs;
+pub use recorded::{Quantity, Recorded};
+
+use std::path::Path;
+use xca_core::Snapshot;
+use xca_io::atomic::WriteError;
+
+/// A run at some step.
+#[derive(Debug, Clone)]
+pub struct Checkpoint {
+    /// What the file says of itself.
+    pub description: Description,
+    /// The state.
+    pub snapshot: Snapshot,
+}
+
+impl Checkpoint {
+    /// Writes the file, in place of an earlier one of this name.
+    pub fn write(&self, path: &Path) -> Result<(), WriteError> {
+        let planes = planes::of(&self.description, &self.snapshot);
+        file::write(path, &self.description, &planes, self.description.data_bytes())
+    }
+
+    /// Reads a file. Nothing of a file that is not whole is used.
+    pub fn read(path: &Path) -> Result<Self, CheckpointError> {
+        let (description, snapshot) = file::read(path)?;
+        Ok(Self { description, snapshot })
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,361 @@
+//! How two states differ: bit by bit, and by how much.
+
+mod numbers;
+mod pairs;
+#[cfg(test)]
+mod tests;
+
+use super::verdict::Verdict;
+use numbers::Numbers;
+use pairs::Pairs;
+use serde::Serialize;
+use std::fmt;
+use std::ops::Range;
+use xca_checkpoint::components::{state_names, text};
+use xca_core::model::Group;
+use xca_core::{GroupSnapshot, Model, Precision, ScalarType, Snapshot, ValueType};
+
+/// A state with what its `Real` is.
+#[derive(Debug, Clone, Copy)]
+pub struct Side<'a> {
+    pub snapshot: &'a Snapshot,
+    pub precision: Precision,
+}
+
+/// How two states differ.
+#[derive(Debug, Clone, Serialize)]
+pub struct Differences {
+    /// All substates, then the cells of the items of each population, then the parameters that differ.
+    pub substates: Vec<Difference>,
+    /// What differs beside: the number of steps, items that have left.
+    pub remarks: Vec<String>,
+}
+
+/// What kind of values a difference is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// Floating numbers, which may be rounded.
+    Float,
+    /// Whole numbers, which may not.
+    Whole,
+    /// The cells of items.
+    Cell,
+}
+
+/// How the values of one substate differ. Values of different precision are compared in the coarser one.
+#[derive(Debug, Clone, Serialize)]
+pub struct Difference {
+    /// `Struct.field`.
+    pub substate: String,
+    /// What its values are.
+    pub kind: Kind,
+    /// How many scalars were compared; a vector has several.
+    pub values: usize,
+    /// How many of them have other bits.
+    pub different: usize,
+    /// How many items are in one state only.
+    pub unmatched: usize,
+    /// The largest absolute difference. Infinite, in JSON null, where one of two values is not finite.
+    pub largest_absolute: f64,
+    /// The largest difference in relation to the larger of the two values.
+    pub largest_relative: f64,
+    /// The largest number of representable values from one to the other; for floating numbers only.
+    pub largest_ulp: Option<u64>,
+    /// The root of the mean square of all differences.
+    pub rms: f64,
+    /// The largest magnitude of the first state's values, which the others are measured by.
+    pub scale: f64,
+    /// Where the absolute difference is largest.
+    pub worst: Option<Worst>,
+    /// Of a vector or an array, the components that differ, each as a substate of its own
+    /// (`Lava.outflow[3]`).
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub components: Vec<Self>,
+}
+
+/// A value that differs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Worst {
+    /// Where it is.
+    pub place: Place,
+    /// The number of the component among those that were compared.
+    #[serde(skip)]
+    number: usize,
+    /// What follows the name of the substate in that of the component: `.x`, `[3]`; nothing for a scalar.
+    pub component: String,
+    /// The value on the first engine.
+    pub first: f64,
+    /// The value on the other engine.
+    pub other: f64,
+    /// The names of the two values, where they are states or `bool`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub states: Option<[String; 2]>,
+}
+
+impl Worst {
+    fn new(place: Place, number: usize, [first, other]: [f64; 2]) -> Self {
+        Self { place, number, component: String::new(), first, other, states: None }
+    }
+}
+
+/// Where a value is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Place {
+    /// In a cell with these indices.
+    Cell([usize; 3]),
+    /// In the item with this label.
+    Item(u32),
+    /// In the model.
+    Parameter,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Cell(indices) => write!(f, "cell {indices:?}"),
+            Self::Item(label) => write!(f, "item {label}"),
+            Self::Parameter => f.write_str("parameter"),
+        }
+    }
+}
+
+impl Difference {
+    /// A substate in which nothing was compared yet.
+    fn none(substate: String, kind: Kind) -> Self {
+        let largest_ulp = (kind == Kind::Float).then_some(0);
+        Self {
+            substate,
+            kind,
+            values: 0,
+            different: 0,
+            unmatched: 0,
+            largest_absolute: 0.0,
+            largest_relative: 0.0,
+            largest_ulp,
+            rms: 0.0,
+            scale: 0.0,
+            worst: None,
+            components: Vec::new(),
+        }
+    }
+
+    /// This, and then its components that differ.
+    pub fn with_components(&self) -> impl Iterator<Item = &Self> {
+        std::iter::once(self).chain(&self.components)
+    }
+
+    /// The share of identical bits, from 0 to 1.
+    pub fn identical_share(&self) -> f64 {
+        if self.values == 0 { 1.0 } else { 1.0 - self.different as f64 / self.values as f64 }
+    }
+
+    /// Whether all bits are the same.
+    pub fn is_identical(&self) -> bool {
+        self.different == 0 && self.unmatched == 0
+    }
+
+    /// The root mean square in relation to the largest value.
+    pub fn relative_rms(&self) -> f64 {
+        if self.rms == 0.0 { 0.0 } else { self.rms / self.scale.max(f64::MIN_POSITIVE) }
+    }
+
+    fn verdict(&self, tolerance: f64) -> Verdict {
+        if self.is_identical() {
+            Verdict::Identical
+        } else if self.kind == Kind::Float
+            && self.unmatched == 0
+            && self.largest_absolute <= tolerance * self.scale
+        {
+            Verdict::Rounding
+        } else {
+            Verdict::Different
+        }
+    }
+
+    /// Compares pairs of values; then, where there are several components, those that differ, each for
+    /// itself.
+    fn compare(
+        &mut self,
+        both: [&Numbers<'_>; 2],
+        pairs: &Pairs,
+        value_type: ValueType,
+        place: &dyn Fn(usize) -> Place,
+    ) {
+        let suffixes = value_type.component_suffixes();
+        self.compare_components(both, pairs, 0..suffixes.len(), place);
+        let states = state_names(value_type.scalar);
+        let name = |worst: Worst, first: usize| {
+            let states = (!states.is_empty()).then(|| [worst.first, worst.other].map(|it| text(&states, it)));
+            Worst { component: suffixes[first + worst.number].clone(), states, ..worst }
+        };
+        self.worst = self.worst.take().map(|worst| name(worst, 0));
+        if suffixes.len() == 1 || self.different == 0 {
+            return;
+        }
+        for (component, suffix) in suffixes.iter().enumerate() {
+            let mut single = Self::none(format!("{}{suffix}", self.substate), self.kind);
+            single.unmatched = self.unmatched;
+            single.compare_components(both, pairs, component..component + 1, place);
+            single.worst = single.worst.take().map(|worst| name(worst, component));
+            if single.different > 0 {
+                self.components.push(single);
+            }
+        }
+    }
+
+    fn compare_components(
+        &mut self,
+        [first, other]: [&Numbers<'_>; 2],
+        pairs: &Pairs,
+        components: Range<usize>,
+        place: &dyn Fn(usize) -> Place,
+    ) {
+        let all = first.components();
+        let (mut squares, mut largest) = (0.0, -1.0);
+        for (index, (a, b)) in pairs.iter().enumerate() {
+            for (number, component) in components.clone().enumerate() {
+                let pair = first.pair(a * all + component, other, b * all + component);
+                self.values += 1;
+                if pair.first.is_finite() {
+                    self.scale = self.scale.max(pair.first.abs());
+                }
+                if pair.is_identical {
+                    continue;
+                }
+                self.different += 1;
+                let absolute = pair.absolute();
+                squares += absolute * absolute;
+                self.largest_relative = self.largest_relative.max(pair.relative());
+                self.largest_ulp = self.largest_ulp.map(|ulp| ulp.max(pair.ulp));
+                if absolute > largest {
+                    largest = absolute;
+                    self.largest_absolute = absolute;
+                    self.worst = Some(Worst::new(place(index), number, [pair.first, pair.other]));
+                }
+            }
+        }
+        self.rms = (squares / self.values.max(1) as f64).sqrt();
+    }
+}
+
+impl Differences {
+    /// How the second state differs from the first.
+    pub fn between(model: &Model, first: Side<'_>, other: Side<'_>) -> Self {
+        let mut differences = Self { substates: Vec::new(), remarks: Vec::new() };
+        differences.remark("steps done", first.snapshot.step, other.snapshot.step);
+        if first.snapshot.stop != other.snapshot.stop {
+            let told = |stop: &Option<String>| stop.clone().unwrap_or_else(|| "goes on".to_owned());
+            differences.remark("end of the run", told(&first.snapshot.stop), told(&other.snapshot.stop));
+        }
+        let mut cells = Vec::new();
+        for (index, group) in model.groups().iter().enumerate() {
+            match (&first.snapshot.groups[index], &other.snapshot.groups[index]) {
+                (GroupSnapshot::Cells(a), GroupSnapshot::Cells(b)) => {
+                    let pairs = Pairs::Same(model.geometry().cells());
+                    let place = |index| Place::Cell(model.geometry().indices(index));
+                    let fields = Fields { group, precisions: [first.precision, other.precision] };
+                    differences.fields(&fields, [a, b], &pairs, 0, &place);
+                }
+                (GroupSnapshot::Population(a, left_a), GroupSnapshot::Population(b, left_b)) => {
+                    let name = group.schema().name;
+                    differences.remark(&format!("items of {name} that have left"), left_a, left_b);
+                    let (pairs, unmatched) = pairs::by_label(a, b);
+                    let place = |index: usize| Place::Item(a.labels[pairs.first(index)]);
+                    let fields = Fields { group, precisions: [first.precision, other.precision] };
+                    differences.fields(&fields, [&a.fields, &b.fields], &pairs, unmatched, &place);
+                    cells.push(pairs::cells(name, a, b, &pairs));
+                }
+                _ => differences.remarks.push(format!("{} is of another kind", group.schema().name)),
+            }
+        }
+        differences.substates.extend(cells);
+        differences.parameters(model, first, other);
+        differences
+    }
+
+    fn remark(&mut self, what: &str, first: impl fmt::Display, other: impl fmt::Display) {
+        let (first, other) = (first.to_string(), other.to_string());
+        if first != other {
+            self.remarks.push(format!("{what}: {first} and {other}"));
+        }
+    }
+
+    fn fields(
+        &mut self,
+        fields: &Fields<'_>,
+        planes: [&Vec<Vec<u8>>; 2],
+        pairs: &Pairs,
+        unmatched: usize,
+        place: &dyn Fn(usize) -> Place,
+    ) {
+        let schema = fields.group.schema();
+        for (index, field) in schema.fields.iter().enumerate() {
+            let [a, b] = [0, 1].map(|side| {
+                Numbers::new(field.value_type.stored(fields.precisions[side]), &planes[side][index])
+            });
+            let kind = if a.is_float() { Kind::Float } else { Kind::Whole };
+            let mut difference = Difference::none(format!("{}.{}", schema.name, field.name), kind);
+            difference.unmatched = unmatched;
+            difference.compare([&a, &b], pairs, field.value_type, place);
+            self.substates.push(difference);
+        }
+    }
+
+    /// Parameters, where steering has made them differ.
+    fn parameters(&mut self, model: &Model, first: Side<'_>, other: Side<'_>) {
+        let parameters = model.parameters();
+        let values = first.snapshot.parameters.iter().zip(&other.snapshot.parameters);
+        for ((field, name), (a, b)) in parameters.fields().zip(parameters.names()).zip(values) {
+            if a == b {
+                continue;
+            }
+            let stored = ValueType { scalar: ScalarType::F64, ..field.value_type }.stored(Precision::F64);
+            let bytes = [a, b]
+                .map(|numbers| numbers.iter().flat_map(|number| number.to_ne_bytes()).collect::<Vec<u8>>());
+            let [a, b] = bytes.each_ref().map(|bytes| Numbers::new(stored, bytes));
+            let mut difference = Difference::none(format!("parameter {name}"), Kind::Float);
+            difference.compare([&a, &b], &Pairs::Same(1), field.value_type, &|_| Place::Parameter);
+            self.substates.push(difference);
+        }
+    }
+
+    /// Whether all bits of all substates are the same.
+    pub fn is_identical(&self) -> bool {
+        self.verdict(0.0) == Verdict::Identical
+    }
+
+    /// What is to be thought of the second state, where floating numbers may differ by so much in relation to the largest value of their
+    /// substate.
+    pub fn verdict(&self, tolerance: f64) -> Verdict {
+        if !self.remarks.is_empty() {
+            return Verdict::Different;
+        }
+        let of_values = self.substates.iter().filter(|difference| difference.kind != Kind::Cell);
+        let of_values = of_values.map(|difference| difference.verdict(tolerance)).max();
+        let of_values = of_values.unwrap_or(Verdict::Identical);
+        let cells_differ = self
+            .substates
+            .iter()
+            .any(|difference| difference.kind == Kind::Cell && !difference.is_identical());
+        // An item near a side of its cell may be on either of the two where it was rounded; but not where nothing was.
+        if cells_differ && of_values == Verdict::Identical { Verdict::Different } else { of_values }
+    }
+
+    /// The difference to name first: the one that is largest in relation to the values of its substate.
+    pub fn gravest(&self) -> Option<&Difference> {
+        let measure = |difference: &Difference| match difference.kind {
+            Kind::Cell => 0.0,
+            _ => difference.largest_absolute / difference.scale.max(f64::MIN_POSITIVE),
+        };
+        let different = self.substates.iter().filter(|difference| !difference.is_identical());
+        different.max_by(|a, b| measure(a).total_cmp(&measure(b)))
+    }
+}
+
+/// A group with the precisions of two states.
+struct Fields<'a> {
+    group: &'a Group,
+    precisions: [Precision; 2],
+}

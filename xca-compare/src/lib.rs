@@ -1,0 +1,267 @@
+//! One model on several engines: what each takes, and whether they agree.
+//!
+//! The engines run beside the first one, with a check every so many steps (`lockstep`); then each is timed (`timing`). What comes of it
+//! is a [`ComparisonReport`].
+
+#![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
+
+mod difference;
+mod lane;
+mod lockstep;
+mod result;
+mod timing;
+mod verdict;
+
+pub use difference::{Difference, Differences, Kind, Place, Worst};
+pub use lane::{Check, FirstDifference};
+pub use result::{ComparisonReport, EngineResult, ObservableResult, Subject};
+pub use timing::Spread;
+pub use verdict::Verdict;
+
+use lane::Lane;
+use std::time::Duration;
+use xca_core::{Engine, Precision, RunError};
+use xca_record::Monitor;
+use xca_record::machine::{NotEnoughMemory, check_memory};
+use xca_record::record::{RecordError, Recorder};
+use xca_record::{SetUp, SetUpError};
+
+/// How many checks there are, unless it is said how often.
+const CHECKS: u64 = 50;
+
+/// A comparison of engines on one model.
+///
+/// ```
+/// use xca_core::prelude::*;
+/// use xca_compare::{Comparison, Verdict};
+/// use xca_record::SetUp;
+///
+/// #[derive(Substates, Clone)]
+/// struct Colony {
+///     size: Real,
+/// }
+///
+/// #[elementary_process]
+/// fn grow(cell: &mut Cell<Colony>) {
+///     cell.size *= 1.01;
+/// }
+///
+/// let model = Model::builder("growth")
+///     .extents([8, 8, 1])
+///     .substates::<Colony>()
+///     .process(grow)
+///     .fill(|_| Colony { size: 1.0 })
+///     .build()?;
+/// let comparison = Comparison::new(SetUp::new(model, 100))?
+///     .engine("first", Box::new(Reference))
+///     .engine("second", Box::new(Reference));
+/// let report = comparison.run(&mut ())?;
+/// assert_eq!(report.verdict, Verdict::Identical);
+/// assert!(report.engines[1].speed_up.is_some());
+/// # Ok::<(), Box<dyn std::error::Error + Send + Sync>>(())
+/// ```
+#[derive(Debug)]
+pub struct Comparison {
+    recorder: Recorder,
+    subject: Subject,
+    contenders: Vec<Contender>,
+    seed: u64,
+    steps: u64,
+    every: Option<u64>,
+    repeats: usize,
+    tolerance: Option<f64>,
+}
+
+/// An engine that takes part.
+#[derive(Debug)]
+pub struct Contender {
+    /// What the report calls it.
+    pub name: String,
+    /// The engine.
+    pub engine: Box<dyn Engine>,
+    /// What `Real` is.
+    pub precision: Precision,
+    /// What it took to make the engine.
+    pub making: Duration,
+}
+
+/// A comparison that does not come to its end.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CompareError {
+    /// An engine cannot run the model, or the first one fails.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// The observables cannot be measured.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// The machine has no room for the model on all engines at once.
+    #[error(transparent)]
+    Memory(#[from] NotEnoughMemory),
+    /// Its monitor said so.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+/// How engines are compared.
+#[derive(Debug, Clone, Copy)]
+struct Plan {
+    seed: u64,
+    steps: u64,
+    every: u64,
+    repeats: usize,
+    tolerance: f64,
+}
+
+/// Who watches a comparison, and how many steps all engines have done.
+struct Watch<'a> {
+    monitor: &'a mut dyn Monitor,
+    done: u64,
+}
+
+impl Watch<'_> {
+    /// So many steps more are done.
+    fn did(&mut self, steps: u64) -> Result<(), CompareError> {
+        self.done += steps;
+        self.monitor.at(self.done);
+        if self.monitor.is_interrupted() { Err(CompareError::Interrupted) } else { Ok(()) }
+    }
+}
+
+impl Comparison {
+    /// A comparison over all steps of a set-up, with 50 checks, each engine being timed three times.
+    ///
+    /// # Errors
+    /// Where a view or the time step of the set-up makes no sense.
+    pub fn new(set_up: SetUp) -> Result<Self, SetUpError> {
+        set_up.check()?;
+        let steps = set_up.steps;
+        let subject = Subject {
+            program: set_up.model.name().to_owned(),
+            title: set_up.title.clone(),
+            ..Subject::default()
+        };
+        Ok(Self {
+            recorder: Recorder::new(set_up)?,
+            subject,
+            contenders: Vec::new(),
+            seed: 0,
+            steps,
+            every: None,
+            repeats: 3,
+            tolerance: None,
+        })
+    }
+
+    /// Adds an engine, in `f64`. The others are compared with the first.
+    #[must_use]
+    pub fn engine(self, name: impl Into<String>, engine: Box<dyn Engine>) -> Self {
+        self.engine_in(Precision::F64, name, engine)
+    }
+
+    /// Adds an engine in a precision.
+    #[must_use]
+    pub fn engine_in(self, precision: Precision, name: impl Into<String>, engine: Box<dyn Engine>) -> Self {
+        self.contender(Contender { name: name.into(), engine, precision, making: Duration::ZERO })
+    }
+
+    /// Adds an engine with what it took to make it.
+    #[must_use]
+    pub fn contender(mut self, contender: Contender) -> Self {
+        self.contenders.push(contender);
+        self
+    }
+
+    /// The seed of random numbers; 0 unless it is given.
+    #[must_use]
+    pub fn seed(self, seed: u64) -> Self {
+        Self { seed, ..self }
+    }
+
+    /// Does so many steps.
+    #[must_use]
+    pub fn steps(self, steps: u64) -> Self {
+        Self { steps, ..self }
+    }
+
+    /// Compares the states every so many steps, at least 1. The exact step of a difference is searched for in
+    /// between.
+    #[must_use]
+    pub fn check_every(self, steps: u64) -> Self {
+        Self { every: Some(steps.max(1)), ..self }
+    }
+
+    /// Times each engine so often.
+    #[must_use]
+    pub fn repeats(self, repeats: usize) -> Self {
+        Self { repeats, ..self }
+    }
+
+    /// How far floating numbers may be apart to count as rounding, in relation to the largest value of their
+    /// substate; 1e-9 unless it is given, 1e-4 where `f32` takes part.
+    #[must_use]
+    pub fn tolerance(self, tolerance: f64) -> Self {
+        Self { tolerance: Some(tolerance), ..self }
+    }
+
+    /// What the report tells of the program.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn subject(self, subject: Subject) -> Self {
+        Self { subject, ..self }
+    }
+
+    #[doc(hidden)]
+    pub fn set_up(&self) -> &SetUp {
+        self.recorder.set_up()
+    }
+
+    /// How many steps all engines do together.
+    pub fn work(&self) -> u64 {
+        let runs = (self.contenders.len() as u64).saturating_mul(self.repeats as u64 + 1);
+        self.steps.saturating_mul(runs)
+    }
+
+    fn plan(&self) -> Plan {
+        let is_single = self.contenders.iter().any(|contender| contender.precision == Precision::F32);
+        Plan {
+            seed: self.seed,
+            steps: self.steps,
+            every: self.every.unwrap_or(self.steps.div_ceil(CHECKS).max(1)),
+            repeats: self.repeats,
+            tolerance: self.tolerance.unwrap_or(if is_single { 1e-4 } else { 1e-9 }),
+        }
+    }
+
+    /// Compares the engines with the first of them. The monitor is told how many of the steps of all engines
+    /// ([`Self::work`]) are done.
+    ///
+    /// # Errors
+    /// Where an engine cannot run the model, the first engine fails, or the monitor ends it. An engine beside the
+    /// first that fails is part of the report.
+    pub fn run(&self, monitor: &mut dyn Monitor) -> Result<ComparisonReport, CompareError> {
+        let model = self.recorder.model();
+        let plan = self.plan();
+        let memory = self.contenders.iter().map(|it| it.engine.least_memory(model, it.precision)).sum();
+        check_memory(memory, "this model on all these engines at once")?;
+        let mut lanes: Vec<Lane<'_>> = Vec::with_capacity(self.contenders.len());
+        for contender in &self.contenders {
+            let same = lanes.first().filter(|first| first.contender.precision == contender.precision);
+            let initial = same.map(|first| first.initial.clone());
+            lanes.push(Lane::start(model, contender, plan.seed, initial.as_ref())?);
+        }
+        for lane in &mut lanes {
+            lane.findings.observables[0] = self.recorder.measure(&mut lane.simulation, &lane.initial)?;
+        }
+        monitor.begin(0);
+        let mut watch = Watch { monitor, done: 0 };
+        let done = lockstep::run(model, &mut lanes, &plan, &mut watch)?;
+        for lane in &mut lanes {
+            if let (Some(end), false) = (&lane.findings.end, lane.has_failed()) {
+                lane.findings.observables[1] = self.recorder.measure(&mut lane.simulation, end)?;
+            }
+        }
+        timing::run(&mut lanes, done, plan.repeats, &mut watch)?;
+        Ok(ComparisonReport::new(self.subject.clone(), &plan, done, model, lanes))
+    }
+}

@@ -1,0 +1,129 @@
+//! How far a search can reach so that it misses nothing.
+
+use super::Geometry;
+use std::collections::HashSet;
+
+/// The distance from a cell to the nearest cell of the space that its neighbourhood does not hold, in sides
+/// of a cell; infinite where it holds all.
+///
+/// Cells are closed boxes, so cells that touch have no distance. A displacement counts where some cell of the
+/// space has a cell there: not across the flat faces of a thin space, and round a torus by the shorter way.
+/// With hexagons the rows or columns that see less decide.
+pub(super) fn covered(geometry: &Geometry) -> f64 {
+    let alternating = [[0; 3], [1, 1, 0]];
+    alternating.map(|cell| covered_from(geometry, cell)).into_iter().fold(f64::INFINITY, f64::min)
+}
+
+fn covered_from(geometry: &Geometry, cell: [usize; 3]) -> f64 {
+    let displacements = geometry.neighbourhood.displacements(cell);
+    let held: HashSet<[i32; 3]> =
+        displacements.iter().map(|at| [0, 1, 2].map(|axis| canonical(geometry, axis, at[axis]))).collect();
+    // The displacements that the space has along an axis, no further than one cell beyond the reach: what
+    // lies further is missing too, and no nearer.
+    let steps = |axis: usize| {
+        let extent = extent(geometry, axis);
+        let (low, high) =
+            if geometry.toroidal()[axis] { ((extent - 1) / 2, extent / 2) } else { (extent - 1, extent - 1) };
+        let reach = geometry.neighbourhood.reach()[axis] as i64 + 1;
+        -low.min(reach)..=high.min(reach)
+    };
+    let [along_x, along_y, along_z] = [0, 1, 2].map(steps);
+    let furthest = [&along_x, &along_y, &along_z]
+        .into_iter()
+        .map(|along| (-along.start()).max(*along.end()))
+        .max()
+        .unwrap_or(0);
+    let mut least = i64::MAX;
+    // From shell to shell: the cells of a shell are at least its number less one away.
+    for shell in 1..=furthest {
+        if (shell - 1) * (shell - 1) >= least {
+            break;
+        }
+        let within =
+            |along: &std::ops::RangeInclusive<i64>| (*along.start()).max(-shell)..=(*along.end()).min(shell);
+        for z in within(&along_z) {
+            for y in within(&along_y) {
+                for x in within(&along_x) {
+                    let of_shell = [x, y, z].iter().any(|step| step.abs() == shell);
+                    if of_shell && !held.contains(&[x as i32, y as i32, z as i32]) {
+                        let gaps = [x, y, z].map(|step| (step.abs() - 1).max(0));
+                        least = least.min(gaps.iter().map(|gap| gap * gap).sum());
+                    }
+                }
+            }
+        }
+    }
+    if least == i64::MAX { f64::INFINITY } else { (least as f64).sqrt() }
+}
+
+/// The number of cells along an axis, before it is known whether so many can be.
+fn extent(geometry: &Geometry, axis: usize) -> i64 {
+    i64::try_from(geometry.extents[axis]).unwrap_or(i64::MAX)
+}
+
+/// The shorter one of the displacements that lead to the same cell.
+fn canonical(geometry: &Geometry, axis: usize, step: i32) -> i32 {
+    let extent = extent(geometry, axis);
+    if !geometry.toroidal()[axis] || extent == 0 {
+        return step;
+    }
+    let low = (extent - 1) / 2;
+    ((i64::from(step) + low).rem_euclid(extent) - low) as i32
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::geometry::{Boundary, Faces, Geometry};
+    use crate::neighbourhood::{Hexagons, Neighbourhood};
+    use xca_values::Precision;
+
+    fn covered(extents: [usize; 3], boundary: Boundary, neighbourhood: Neighbourhood) -> f64 {
+        Geometry::new(extents, 0.5, Faces::all(boundary), neighbourhood).covered_radius(Precision::F64)
+    }
+
+    #[test]
+    fn cubes_cover_their_radius() {
+        for radius in 0..3 {
+            let cube = covered([9; 3], Boundary::Flat, Neighbourhood::moore(radius));
+            assert_eq!(cube, 0.5 * f64::from(radius));
+        }
+        // In one layer nothing is missing above and below; in a deep space it is.
+        let layer = |extents, boundary| covered(extents, boundary, Neighbourhood::moore_2d(1));
+        assert_eq!(layer([9, 9, 1], Boundary::Flat), 0.5);
+        assert_eq!(layer([9, 9, 1], Boundary::Toroidal), 0.5);
+        assert_eq!(layer([9, 9, 2], Boundary::Flat), 0.0);
+    }
+
+    /// The corners decide: a cell whose corner touches has no distance.
+    #[test]
+    fn crosses_cover_less() {
+        let cross = |radius| covered([9; 3], Boundary::Flat, Neighbourhood::von_neumann(radius));
+        assert_eq!([1, 2, 3, 4].map(cross), [0.0, 0.0, 0.5, 0.5 * 2_f64.sqrt()]);
+        let flat = |radius| covered([9, 9, 1], Boundary::Flat, Neighbourhood::von_neumann_2d(radius));
+        assert_eq!([1, 2, 3, 4].map(flat), [0.0, 0.5, 0.5 * 2_f64.sqrt(), 0.5 * 5_f64.sqrt()]);
+        for hexagons in [Hexagons::CornerUp, Hexagons::SideUp] {
+            assert_eq!(covered([8, 8, 1], Boundary::Flat, Neighbourhood::hexagonal(hexagons)), 0.0);
+        }
+    }
+
+    #[test]
+    fn a_space_that_is_held_as_a_whole_has_no_limit() {
+        let seven = || Neighbourhood::von_neumann(1);
+        assert_eq!(covered([2, 1, 1], Boundary::Flat, seven()), f64::INFINITY);
+        assert_eq!(covered([3, 1, 1], Boundary::Flat, seven()), 0.5);
+        assert_eq!(covered([3; 3], Boundary::Toroidal, Neighbourhood::moore(1)), f64::INFINITY);
+        assert_eq!(covered([4; 3], Boundary::Toroidal, Neighbourhood::moore(1)), 0.5);
+    }
+
+    /// A list with a hole covers as far as the hole.
+    #[test]
+    fn holes_count() {
+        let mut displacements: Vec<[i32; 3]> = Neighbourhood::moore_2d(2).displacements([0; 3]).to_vec();
+        displacements.retain(|at| *at != [2, 0, 0]);
+        let holed = Neighbourhood::custom(displacements.clone()).unwrap();
+        assert_eq!(covered([9, 9, 1], Boundary::Flat, holed), 0.5);
+        displacements.retain(|at| *at != [1, 1, 0]);
+        let holed = Neighbourhood::custom(displacements).unwrap();
+        assert_eq!(covered([9, 9, 1], Boundary::Flat, holed), 0.0);
+    }
+}

@@ -1,0 +1,253 @@
+//! Expressions of a kernel.
+
+use super::{Block, Function, Type};
+use xca_methods::Operation;
+use xca_values::ScalarType;
+use xca_values::StateNames;
+
+/// An expression.
+#[derive(Debug, Clone)]
+pub enum Expression {
+    /// A literal.
+    Literal(Literal),
+    /// A variable or a value argument.
+    Local(&'static str),
+    /// A constant of the surrounding Rust code.
+    Constant {
+        /// Its path in the source, for a reader.
+        name: &'static str,
+        /// Its value.
+        value: Constant,
+    },
+    /// A substate of the cell or item that the process runs for: what the process has written already, if it has.
+    Own(&'static str),
+    /// A substate that another struct of the cell has (`&Cell<S>`): of the cell that the process runs for, or that its item stands in.
+    OfCell {
+        /// The number of the struct among those of substates that the process takes.
+        argument: usize,
+        /// The substate.
+        field: &'static str,
+    },
+    /// `cell.neighbour(index).field`
+    Neighbour {
+        /// The number of the struct; 0 is that of the cell that the process runs for.
+        argument: usize,
+        /// The index of the neighbour, `u32`.
+        index: Box<Expression>,
+        /// The substate.
+        field: &'static str,
+    },
+    /// `name.field` where `name` was bound by [`super::Statement::LetNeighbour`].
+    NamedNeighbour {
+        /// The number of the struct.
+        argument: usize,
+        /// The variable.
+        name: &'static str,
+        /// The substate.
+        field: &'static str,
+    },
+    /// `name.field` where `name` is the variable of [`super::LoopKind::Others`] or [`super::LoopKind::Items`].
+    Other {
+        /// The number of the struct.
+        argument: usize,
+        /// The variable.
+        name: &'static str,
+        /// The substate.
+        field: &'static str,
+    },
+    /// `name.label()` of such a variable, `u32`.
+    OtherLabel(&'static str),
+    /// `parameters.field`
+    Parameter {
+        /// The name of the argument of the function.
+        argument: &'static str,
+        /// The field.
+        field: &'static str,
+    },
+    /// An argument of parameters as a whole, passed on to a helper.
+    Parameters(&'static str),
+    /// The space as a whole, passed on to a helper.
+    Space,
+    /// Something that the engine provides.
+    Builtin(Builtin, Vec<Expression>),
+    /// `-a`, `!a`
+    Unary(UnaryOperator, Box<Expression>),
+    /// `a + b` and the like.
+    Binary(BinaryOperator, Box<Expression>, Box<Expression>),
+    /// `value as type`
+    Cast(Box<Expression>, Type),
+    /// A call of a helper.
+    Call {
+        /// Gives the helper.
+        function: fn() -> Function,
+        /// The arguments.
+        arguments: Vec<Expression>,
+    },
+    /// A method of a number, vector or array that is an operation; others are calls of helpers.
+    Method {
+        /// Which.
+        method: Operation,
+        /// The receiver.
+        receiver: Box<Expression>,
+        /// The further arguments.
+        arguments: Vec<Expression>,
+    },
+    /// `.x`, `.y`, `.z`, `.w`: 0 to 3.
+    Component(Box<Expression>, u8),
+    /// `array[index]`
+    Element(Box<Expression>, Box<Expression>),
+    /// `[a, b, c]`
+    Array(Vec<Expression>),
+    /// `(a, b, …)`, two or more.
+    Tuple(Vec<Expression>),
+    /// `[value; length]`
+    Repeat(Box<Expression>, usize),
+    /// `Vector3::new(a, b, c)`: as many components as lanes.
+    Vector(Vec<Expression>),
+    /// `Vector3::splat(a)`; the second is the number of lanes.
+    Splat(Box<Expression>, u8),
+    /// `if condition { then } else { otherwise }`
+    If {
+        /// The condition.
+        condition: Box<Expression>,
+        /// The first branch.
+        then: Block,
+        /// The second branch.
+        otherwise: Option<Block>,
+    },
+    /// `match value { … }` over integers.
+    Match {
+        /// What is compared.
+        value: Box<Expression>,
+        /// The arms in order.
+        arms: Vec<Arm>,
+    },
+    /// `{ … }`
+    Block(Block),
+}
+
+/// An arm of a match.
+#[derive(Debug, Clone)]
+pub struct Arm {
+    /// The patterns, any of which selects the arm.
+    pub patterns: Vec<Pattern>,
+    /// `if` guard.
+    pub guard: Option<Expression>,
+    /// The value or statements.
+    pub body: Block,
+}
+
+/// A pattern of a match arm.
+#[derive(Debug, Clone)]
+pub enum Pattern {
+    /// `_`
+    Any,
+    /// A literal or constant.
+    Value(Expression),
+    /// `a..=b`
+    Range(Expression, Expression),
+}
+
+/// A literal as it is written.
+#[derive(Debug, Clone)]
+pub enum Literal {
+    /// `true`, `false`
+    Bool(bool),
+    /// An integer, with its suffix where one is written.
+    Integer(u64, Option<ScalarType>),
+    /// A decimal fraction: the digits as written, without underscores and suffix, with the suffix apart.
+    Float(&'static str, Option<ScalarType>),
+}
+
+/// The value of a Rust constant.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Constant {
+    /// `bool`
+    Bool(bool),
+    /// `u8`
+    U8(u8),
+    /// `i32`
+    I32(i32),
+    /// `u32`
+    U32(u32),
+    /// `f32`
+    F32(f32),
+    /// `f64`, which in a process is `Real`.
+    Real(f64),
+    /// A state by its number.
+    State(u8, &'static StateNames),
+    /// A small vector.
+    Vector(Vec<Constant>),
+    /// An array.
+    Array(Vec<Constant>),
+}
+
+/// What an engine provides to a process.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Builtin {
+    /// `cell.neighbour_count()`: the number of cells in the neighbourhood with the central one, `usize`.
+    NeighbourCount,
+    /// `cell.opposite(n)`: the index of the neighbour in the opposite direction, `usize`.
+    Opposite,
+    /// `cell.displacement(n)`: from the cell to a neighbour, `Vector3<i32>`.
+    Displacement,
+    /// `cell.exists(n)`: whether a neighbour is a cell of the space, `bool`.
+    Exists,
+    /// `cell.index()`: the cell's indices x, y, z, `Vector3<i32>`.
+    Index,
+    /// `me.label()`: the item's label, `u32`.
+    Label,
+    /// `cell.random(draw)`: uniform in [0, 1), `Real`.
+    Random,
+    /// `cell.random_bits(draw)`: 32 random bits, `u32`.
+    RandomBits,
+    /// `space.side()`: the side of a cell in metres, `Real`.
+    Side,
+    /// `space.extents()`: the number of cells along x, y, z, `Vector3<i32>`.
+    Extents,
+    /// `space.step()`: the number of the step, from 0, `u32` (its low 32 bits).
+    Step,
+    /// `space.nearest_image(separation)`: a separation by the shorter way round, `Vector3<Real>`.
+    NearestImage,
+    /// `space.wrapped(position)`: a position inside the space, `Vector3<Real>`.
+    Wrapped,
+    /// `space.cell_containing(position)`: a destination.
+    CellContaining,
+    /// `Destination::Stay`
+    Stay,
+    /// `Destination::Outside`
+    Outside,
+}
+
+/// Operators of one operand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UnaryOperator {
+    /// `-`
+    Negate,
+    /// `!`
+    Not,
+}
+
+/// Operators of two operands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum BinaryOperator {
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Remainder,
+    And,
+    Or,
+    BitAnd,
+    BitOr,
+    BitXor,
+    ShiftLeft,
+    ShiftRight,
+    Equal,
+    NotEqual,
+    Less,
+    LessEqual,
+    Greater,
+    GreaterEqual,
+}

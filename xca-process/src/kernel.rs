@@ -1,0 +1,396 @@
+//! What native kernels run on: a row of cells, or the items of a row of cells.
+//!
+//! An engine describes a row by a [`Row`]; a kernel, made by the macros, asks it for the substates that its process declares
+//! (its [`Access`] list) and works through the row. One dynamic call serves a whole row, and inside it everything is
+//! monomorphic, so that the compiler can vectorise.
+//!
+//! This module is for engines and for code that the macros write. An engine promises much of a row ([`Row::new`]); a kernel is trusted with
+//! nothing: what it asks for is compared with the row's entries, once a row.
+#![allow(unsafe_code)]
+
+use crate::float::Float;
+use crate::geometry::Geometry;
+use crate::random::{Draw, Stream};
+use std::any::Any;
+use std::cell::Cell;
+use std::marker::PhantomData;
+use std::ops::Range;
+use std::sync::Arc;
+use xca_values::Vector3;
+
+mod cells;
+mod constants;
+mod entries;
+mod near;
+mod neighbours;
+mod search;
+mod space;
+mod values;
+mod wide;
+mod work;
+mod written;
+
+pub use crate::neighbourhood::shapes::{ANY as ANY_SHAPE, ShapeNumber};
+pub use cells::{AroundRead, Blocks, CentreRead, Column, Columns, Offset};
+pub use constants::{KernelConstant, constant};
+pub use entries::{Entry, Memory, MemoryOf};
+pub use near::{NO_PLACE, NearLists};
+pub use neighbours::{Directions, Offsets};
+pub use search::{CellFilter, Found, Scratch, reach};
+pub use space::NativeSpace;
+pub use values::{ArrayValue, KernelElement, KernelValue, load, load_element, store};
+pub use work::{Work, run};
+pub use written::{Lanes, Planes, Stage, Written, WrittenArrays, block};
+
+/// A migration's answer: the item stays where it is.
+pub const STAY: u32 = u32::MAX;
+/// A migration's answer: the item leaves the space.
+pub const OUTSIDE: u32 = u32::MAX - 1;
+/// A migration's answer: the position is no number.
+pub const NOWHERE: u32 = u32::MAX - 2;
+/// The code of the fault that a neighbour index beyond the neighbourhood is.
+pub const BEYOND_NEIGHBOURHOOD: u32 = u32::MAX;
+/// The code of the fault that a search is whose radius is too large, negative or NaN.
+pub const WRONG_RADIUS: u32 = u32::MAX - 1;
+
+/// A kernel: runs a process over one row.
+pub type RowKernel = fn(&Row<'_>);
+
+/// How a process uses one substate; derived from its body.
+#[derive(Debug, Clone, Copy)]
+pub struct Access {
+    /// The number of its struct among those that the process takes.
+    pub argument: usize,
+    /// The number of the field.
+    pub field: usize,
+    /// Read at the centre.
+    pub centre: bool,
+    /// Read at neighbours, or of other items.
+    pub others: bool,
+    /// Written.
+    pub write: bool,
+}
+
+/// What is the same in all rows of a step.
+#[derive(Debug, Clone, Copy)]
+pub struct Frame<'a> {
+    /// The shape of the space.
+    pub geometry: &'a Geometry,
+    /// The number of cells along x, y, z.
+    pub extents: [u32; 3],
+    /// The side of a cell in metres.
+    pub side: f64,
+    /// Which axes are toroidal.
+    pub toroidal: [bool; 3],
+    /// The number of the step, from 0.
+    pub step: u64,
+    /// The seed of the run's random numbers.
+    pub seed: u64,
+    /// The stream of the process's random numbers.
+    pub stream: Stream,
+    /// `P::Native<R>` of each struct of the model's parameters.
+    pub parameters: &'a [Arc<dyn Any + Send + Sync>],
+    /// The distance in elements from a cell to each cell of its neighbourhood, index 0 being the cell itself.
+    pub offsets: &'a [isize],
+    /// Which cells a search can leave out; nothing to look at all of them.
+    pub filter: Option<&'a CellFilter>,
+}
+
+/// Where the items of a row's cells and of their neighbours are.
+#[derive(Debug, Clone, Copy)]
+pub struct RowItems<'a> {
+    /// The first item of the row's first cell; at an offset, of that neighbour.
+    pub starts: *const u32,
+    /// One past the last item, likewise.
+    pub ends: *const u32,
+    /// The labels of all items.
+    pub labels: &'a [u32],
+    /// The row's own items: no other row shares them.
+    pub own: (usize, usize),
+    /// For each of the row's own items the linear index of its cell.
+    pub cells: &'a [u32],
+    /// Lists of what is near, where the engine has them.
+    pub near: Option<&'a NearLists<'a>>,
+}
+
+/// A fault that a process reported.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RowFault {
+    /// The linear index of the cell.
+    pub cell: u32,
+    /// The label of the item, in a process over items.
+    pub label: Option<u32>,
+    /// The code.
+    pub code: u32,
+    /// The value.
+    pub value: f64,
+}
+
+/// Where a kernel has panicked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct StoppedAt {
+    /// The linear index of the cell.
+    pub cell: u32,
+    /// The label of the item, in a process over items.
+    pub label: Option<u32>,
+}
+
+/// Where a kernel is in its row. It tells the row when it is dropped, which only a panic does; a kernel that arrives leaves it by
+/// [`Self::leave`]. So it lives in registers, and costs nothing where nothing can panic.
+#[derive(Debug)]
+pub struct Place<'r, 'a> {
+    /// The number of the cell in the row, in a process over cells.
+    pub x: usize,
+    /// The number of the item, in a process over items.
+    pub item: Option<usize>,
+    row: &'r Row<'a>,
+}
+
+impl Place<'_, '_> {
+    /// At the end of the row.
+    #[inline(always)]
+    pub fn leave(self) {
+        std::mem::forget(self);
+    }
+}
+
+impl Drop for Place<'_, '_> {
+    #[inline(always)]
+    fn drop(&mut self) {
+        self.row.stop(self.x, self.item);
+    }
+}
+
+/// A row of cells as a kernel sees it.
+pub struct Row<'a> {
+    frame: &'a Frame<'a>,
+    entries: &'a [Entry],
+    items: Option<RowItems<'a>>,
+    destinations: Cell<Option<&'a mut [u32]>>,
+    scratch: &'a Scratch,
+    origin: [u32; 3],
+    length: usize,
+    /// The entries that the kernel has asked to write.
+    taken: Cell<u128>,
+    /// The largest radius of a search.
+    widest: Cell<f64>,
+    /// The radius, in bits, within which what is near all items has been found by lists.
+    walked: Cell<Option<u64>>,
+    fault: Cell<Option<RowFault>>,
+    stopped: Cell<Option<StoppedAt>>,
+}
+
+impl std::fmt::Debug for Row<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Row")
+            .field("origin", &self.origin)
+            .field("length", &self.length)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<'a> Row<'a> {
+    /// Describes a row of `length` cells along x, the first of which has the indices `origin`.
+    ///
+    /// # Safety
+    /// For the lifetime `'a`, and for every entry (that is not null, aligned for its elements):
+    /// - each plane of cells can be read at every cell of the row and, with `around`, at all of `frame.offsets` from there;
+    /// - of items, the row's own can be read and, with `all`, as many as `labels.len()`;
+    /// - no one writes meanwhile what can be read by this (other rows' cells and own items may be written by other threads);
+    /// - `length` elements of each plane of cells at `write` are this row's alone;
+    /// - the row's own items at `write` are this row's alone;
+    /// - `write` is apart from everything that can be read through any entry, but for another entry's `read` of cells or own items of the
+    ///   same substate;
+    /// - `starts` and `ends` can be read at every cell of the row and at all offsets from there, hold ranges within
+    ///   `labels.len()`, and the ranges of the row's cells lie within `own`, which lies within `labels.len()`.
+    pub unsafe fn new(
+        frame: &'a Frame<'a>,
+        entries: &'a [Entry],
+        items: Option<RowItems<'a>>,
+        destinations: Option<&'a mut [u32]>,
+        scratch: &'a Scratch,
+        origin: [u32; 3],
+        length: usize,
+    ) -> Self {
+        Self {
+            frame,
+            entries,
+            items,
+            destinations: Cell::new(destinations),
+            scratch,
+            origin,
+            length,
+            taken: Cell::new(0),
+            widest: Cell::new(0.0),
+            walked: Cell::new(None),
+            fault: Cell::new(None),
+            stopped: Cell::new(None),
+        }
+    }
+
+    /// The first fault in the row, in the order of cells and labels.
+    pub fn first_fault(&self) -> Option<RowFault> {
+        self.fault.get()
+    }
+
+    /// Where the kernel was when it panicked: in the first cell if that was before it began.
+    pub fn stopped_at(&self) -> StoppedAt {
+        self.stopped.get().unwrap_or_else(|| StoppedAt { cell: self.cell(0), label: None })
+    }
+
+    /// Where a kernel is that is about to begin.
+    #[inline(always)]
+    pub fn place(&self) -> Place<'_, 'a> {
+        Place { x: 0, item: None, row: self }
+    }
+
+    #[cold]
+    fn stop(&self, x: usize, item: Option<usize>) {
+        let x = item.map_or(x, |item| self.column_of(item - self.first_item()).number());
+        let label = self.items.zip(item).and_then(|(items, item)| items.labels.get(item).copied());
+        self.stopped.set(Some(StoppedAt { cell: self.cell(x), label }));
+    }
+
+    /// The number of cells.
+    #[inline(always)]
+    pub fn length(&self) -> usize {
+        self.length
+    }
+
+    /// A struct of parameters; nothing where the model has none of this type, which building it has excluded.
+    #[inline(always)]
+    pub fn parameters<P: 'static>(&self) -> Option<&'a P> {
+        self.frame.parameters.iter().find_map(|parameters| parameters.downcast_ref())
+    }
+
+    /// The space.
+    #[inline(always)]
+    pub fn space<R: Float>(&self) -> NativeSpace<'a, R> {
+        NativeSpace::new(self.frame)
+    }
+
+    /// The cells of the row.
+    #[inline(always)]
+    pub fn columns(&self) -> Columns<'_> {
+        Columns { first: 0, lanes: 0..self.length, row: PhantomData }
+    }
+
+    /// The cells of the row, in blocks of so many at most.
+    #[inline(always)]
+    pub fn blocks(&self, most: usize) -> Blocks<'_> {
+        Blocks { rest: 0..self.length, most, row: PhantomData }
+    }
+
+    /// The number of the row's first own item.
+    #[inline(always)]
+    pub fn first_item(&self) -> usize {
+        self.items.map_or(0, |items| items.own.0)
+    }
+
+    /// How many items the row has of its own.
+    #[inline(always)]
+    pub fn own_items(&self) -> usize {
+        self.items.map_or(0, |items| items.own.1 - items.own.0)
+    }
+
+    /// The cell of an own item, which is given by its number among them. It cannot panic, so a kernel that has no use for it does not pay for
+    /// it.
+    #[inline(always)]
+    pub fn column_of(&self, number: usize) -> Column<'_> {
+        let cell = self.items.and_then(|items| items.cells.get(number).copied()).unwrap_or_default();
+        self.column(cell.wrapping_sub(self.cell(0)) as usize)
+    }
+
+    /// The answers of a migration, one for each own item of the row.
+    #[inline(always)]
+    pub fn destinations(&self) -> &'a mut [u32] {
+        self.destinations.take().unwrap_or_default()
+    }
+
+    /// The items of a cell of the row.
+    #[inline(always)]
+    pub fn items(&self, cell: Column<'_>) -> Range<usize> {
+        // SAFETY: the cell itself.
+        unsafe { self.items_at(cell, 0) }
+    }
+
+    /// The items of a cell near a cell of the row.
+    ///
+    /// # Safety
+    /// The distance is 0 or that of a cell of the neighbourhood.
+    #[inline(always)]
+    unsafe fn items_at(&self, cell: Column<'_>, distance: isize) -> Range<usize> {
+        let Some(items) = &self.items else { return 0..0 };
+        let at = cell.number() as isize + distance;
+        // SAFETY: `Row::new`: readable at every cell of the row and at all offsets from there; the column is this row's.
+        unsafe { *items.starts.offset(at) as usize..*items.ends.offset(at) as usize }
+    }
+
+    /// The label of an item.
+    #[inline(always)]
+    pub fn label(&self, item: usize) -> u32 {
+        self.items.map_or(0, |items| items.labels[item])
+    }
+
+    /// Records a fault of an item or cell of the row; the first one stays.
+    #[cold]
+    pub fn report<R: Float>(&self, x: usize, label: Option<u32>, code: u32, value: R) {
+        if self.fault.get().is_none() {
+            self.fault.set(Some(RowFault { cell: self.cell(x), label, code, value: value.to_f64() }));
+        }
+    }
+
+    /// Records that a neighbour index lies beyond the neighbourhood.
+    #[cold]
+    pub fn beyond_neighbourhood(&self, x: usize, index: usize) {
+        // Indices have 32 bits on other engines, and in the message.
+        let index = u32::try_from(index).unwrap_or(u32::MAX);
+        self.report(x, None, BEYOND_NEIGHBOURHOOD, f64::from(index));
+    }
+
+    /// The linear index of a cell of the row.
+    #[inline(always)]
+    pub fn cell(&self, x: usize) -> u32 {
+        let [width, height, _] = self.frame.extents;
+        (self.origin[2] * height + self.origin[1]) * width + self.origin[0] + x as u32
+    }
+
+    /// The indices of a cell of the row.
+    #[inline(always)]
+    pub fn index(&self, x: usize) -> Vector3<i32> {
+        let [first, y, z] = self.origin;
+        Vector3::new(first as i32 + x as i32, y as i32, z as i32)
+    }
+
+    #[inline]
+    fn draw(&self, owner: u32, number: u32) -> [u32; 4] {
+        let Frame { stream, step, seed, .. } = *self.frame;
+        Draw { stream, step, owner, number }.words(seed)
+    }
+
+    /// Random bits of a cell of the row.
+    #[inline]
+    pub fn random_bits(&self, x: usize, draw: usize) -> u32 {
+        self.draw(self.cell(x), draw as u32)[0]
+    }
+
+    /// A random number of a cell of the row.
+    #[inline]
+    pub fn random<R: Float>(&self, x: usize, draw: usize) -> R {
+        let words = self.draw(self.cell(x), draw as u32);
+        R::uniform([words[0], words[1]])
+    }
+
+    /// Random bits of an item.
+    #[inline]
+    pub fn item_random_bits(&self, item: usize, draw: usize) -> u32 {
+        self.draw(self.label(item), draw as u32)[0]
+    }
+
+    /// A random number of an item.
+    #[inline]
+    pub fn item_random<R: Float>(&self, item: usize, draw: usize) -> R {
+        let words = self.draw(self.label(item), draw as u32);
+        R::uniform([words[0], words[1]])
+    }
+}

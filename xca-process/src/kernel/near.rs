@@ -1,0 +1,298 @@
+//! Searches in lists that an engine keeps over many passes.
+//!
+//! A list holds for each item those that were nearer than some radius when it was made. As long as no two items can have come closer by more
+//! than what that radius is larger, a search in the list finds what a search in the cells finds. Items are known to the lists by a number
+//! that they keep when they change their place.
+
+use super::search::{CellFilter, reach};
+use super::{Column, Row, RowItems};
+use crate::float::Float;
+use xca_values::Vector3;
+
+/// The place, in [`NearLists::places`], of an item that has left the space.
+pub const NO_PLACE: u32 = u32::MAX;
+
+/// For each item those that were near when the lists were made.
+#[derive(Debug, Clone, Copy)]
+pub struct NearLists<'a> {
+    /// For each place the number of its item.
+    pub numbers: &'a [u32],
+    /// For each number the place of its item, or [`NO_PLACE`].
+    pub places: &'a [u32],
+    /// For each number where its list starts in `candidates`, and at the end their count.
+    pub starts: &'a [u32],
+    /// The numbers in the lists.
+    pub candidates: &'a [u32],
+    /// For each of the candidates the number in whose list it is.
+    pub owners: &'a [u32],
+    /// For each place the linear index of its item's cell.
+    pub cells: &'a [u32],
+    /// A search within this radius, in metres, finds in the lists what it finds in the cells.
+    pub radius: f64,
+}
+
+/// What all searches of a row have found, to be found again by other processes of the pass.
+#[derive(Debug, Default)]
+pub(super) struct Walk {
+    key: Option<Key>,
+    /// For each own item where in `near` its items start, and at the end their count.
+    starts: Vec<u32>,
+    /// Places.
+    near: Vec<u32>,
+    /// The number among the row's own items of the one that is near.
+    owners: Vec<u32>,
+}
+
+/// Which searches have the same result.
+#[derive(Debug, PartialEq)]
+struct Key {
+    positions: usize,
+    own: (usize, usize),
+    radius: u64,
+}
+
+/// What a search by lists needs.
+struct Lists<'a> {
+    items: &'a RowItems<'a>,
+    near: &'a NearLists<'a>,
+    filter: &'a CellFilter,
+    /// Whether what is near is surely in cells of the neighbourhood, in the order of places.
+    plain: bool,
+}
+
+impl Row<'_> {
+    /// Whether searches within this radius, whose number of bits is given, are looked up in what has been found by the lists.
+    #[inline(always)]
+    pub(super) fn is_walked(&self, bits: u64) -> bool {
+        self.walked.get() == Some(bits)
+    }
+
+    /// Whether searches within some radius are looked up.
+    #[inline(always)]
+    pub(super) fn has_walked(&self) -> bool {
+        self.walked.get().is_some()
+    }
+
+    /// The lists, if there are any for this radius, and whether what is within it is surely in cells of the neighbourhood.
+    #[inline(always)]
+    fn lists_within<R: Float>(&self, radius: R) -> Option<Lists<'_>> {
+        let items = self.items.as_ref()?;
+        let near = items.near.filter(|near| radius.to_f64() <= near.radius)?;
+        let filter = self.frame.filter?;
+        let plain = filter.holds(self.frame.geometry.covered_radius(R::PRECISION), radius.to_f64());
+        Some(Lists { items, near, filter, plain })
+    }
+
+    /// Finds by the lists what is near one item; not where cells have to be compared.
+    pub(super) fn listed<R: Float, const REACH: u8>(
+        &self,
+        cell: Column<'_>,
+        item: usize,
+        radius: R,
+        positions: &[Vector3<R>],
+        found: &mut Vec<u32>,
+    ) -> bool {
+        let Some(Lists { near, plain: true, .. }) = self.lists_within(radius) else { return false };
+        let number = near.numbers[item] as usize;
+        let own = self.items(cell);
+        let square = radius * radius;
+        for candidate in &near.candidates[near.starts[number] as usize..near.starts[number + 1] as usize] {
+            let place = near.places[*candidate as usize];
+            let Some(other) = positions.get(place as usize) else { continue };
+            let here = own.contains(&(place as usize));
+            let wanted = REACH == reach::ALL || here == (REACH == reach::CELL);
+            if wanted && super::search::length_squared(positions[item] - *other) < square {
+                found.push(place);
+            }
+        }
+        found.sort_unstable_by_key(|place| (!own.contains(&(*place as usize)), *place));
+        true
+    }
+
+    /// Finds by the lists, if there are any for this radius, what is near all items of the row.
+    #[inline(never)]
+    pub(super) fn walk<R: Float>(&self, radius: R, positions: &[Vector3<R>]) -> bool {
+        let Some(Lists { items, near, filter, plain }) = self.lists_within(radius) else { return false };
+        let key =
+            Key { positions: positions.as_ptr() as usize, own: items.own, radius: radius.to_f64().to_bits() };
+        self.walked.set(Some(key.radius));
+        let mut walk = self.scratch.walk.borrow_mut();
+        if walk.key.as_ref() == Some(&key) {
+            return true;
+        }
+        walk.key = Some(key);
+        let walk = &mut *walk;
+        let square = radius * radius;
+        self.fetch(positions);
+        if self.frame.toroidal.contains(&true) {
+            let space = self.space::<R>();
+            walk.fill(items, near, positions, |one, other| {
+                super::search::length_squared(space.nearest_image(one - other)) < square
+            });
+        } else {
+            walk.fill(items, near, positions, |one, other| {
+                super::search::length_squared(one - other) < square
+            });
+        }
+        if plain {
+            walk.sort();
+        } else {
+            self.order(near, filter, walk);
+        }
+        walk.count(items.own.1 - items.own.0);
+        self.announce(&walk.near);
+        true
+    }
+
+    /// Adds what is near an item of a row that has been walked.
+    #[inline(always)]
+    pub(super) fn walked<const REACH: u8>(&self, cell: Column<'_>, item: usize, found: &mut Vec<u32>) {
+        let walk = self.scratch.walk.borrow();
+        let number = item - self.first_item();
+        let (start, end) = (walk.starts[number] as usize, walk.starts[number + 1] as usize);
+        if start == end {
+            return;
+        }
+        let near = &walk.near[start..end];
+        let own = self.items(cell);
+        let here = |place: &u32| own.contains(&(*place as usize));
+        if REACH != reach::NEIGHBOURS {
+            found.extend(near.iter().filter(|place| here(place)));
+        }
+        if REACH != reach::CELL {
+            found.extend(near.iter().filter(|place| !here(place)));
+        }
+    }
+
+    /// Leaves out what is in no cell of the neighbourhood, and brings the rest into the order of neighbour index, then label.
+    #[cold]
+    fn order(&self, near: &NearLists<'_>, filter: &CellFilter, walk: &mut Walk) {
+        let geometry = self.frame.geometry;
+        let indices = |place: usize| geometry.indices(near.cells[place] as usize).map(|index| index as i32);
+        let (extents, toroidal, first) = (self.frame.extents, self.frame.toroidal, self.first_item());
+        let mut ordered: Vec<(u32, usize, u32)> = Vec::with_capacity(walk.near.len());
+        for (&owner, &place) in walk.owners.iter().zip(&walk.near) {
+            let (here, there) = (indices(first + owner as usize), indices(place as usize));
+            let displacement = std::array::from_fn(|axis| {
+                let (step, extent) = (there[axis] - here[axis], extents[axis] as i32);
+                match toroidal[axis] {
+                    true if 2 * step > extent => step - extent,
+                    true if 2 * step < -extent => step + extent,
+                    _ => step,
+                }
+            });
+            if let Some(number) = filter.number(displacement) {
+                ordered.push((owner, number, place));
+            }
+        }
+        ordered.sort_unstable();
+        walk.owners.clear();
+        walk.near.clear();
+        for (owner, _, place) in ordered {
+            walk.owners.push(owner);
+            walk.near.push(place);
+        }
+    }
+}
+
+impl Walk {
+    /// Finds what is near each own item. Items that the lists know by successive numbers have their lists one after the other: one loop goes
+    /// through them, without a branch on whose they are or on what is near.
+    #[inline(always)]
+    fn fill<R: Float>(
+        &mut self,
+        items: &RowItems<'_>,
+        lists: &NearLists<'_>,
+        positions: &[Vector3<R>],
+        is_near: impl Fn(Vector3<R>, Vector3<R>) -> bool,
+    ) {
+        let (first, end) = items.own;
+        let numbers = &lists.numbers[first..end];
+        let own = &positions[first..end];
+        let (mut length, mut start) = (0, 0);
+        while start < numbers.len() {
+            let base = numbers[start];
+            let run =
+                numbers[start..].iter().zip(base..).take_while(|(number, next)| *number == next).count();
+            let (from, to) =
+                (lists.starts[base as usize] as usize, lists.starts[base as usize + run] as usize);
+            self.near.resize(length + to - from, 0);
+            self.owners.resize(length + to - from, 0);
+            let pairs = Pairs {
+                candidates: &lists.candidates[from..to],
+                owners: &lists.owners[from..to],
+                base,
+                own: &own[start..start + run],
+                places: lists.places,
+                positions,
+            };
+            let (near, owners) = (&mut self.near[length..], &mut self.owners[length..]);
+            length += keep(pairs, start as u32, near, owners, &is_near);
+            start += run;
+        }
+        self.near.truncate(length);
+        self.owners.truncate(length);
+    }
+
+    /// Sorts what is near each item by places. It nearly is.
+    fn sort(&mut self) {
+        let mut start = 0;
+        while start < self.owners.len() {
+            let owner = self.owners[start];
+            let count = self.owners[start..].iter().take_while(|other| **other == owner).count();
+            let near = &mut self.near[start..start + count];
+            if !near.is_sorted() {
+                near.sort_unstable();
+            }
+            start += count;
+        }
+    }
+
+    /// Notes where each item's start.
+    fn count(&mut self, items: usize) {
+        self.starts.clear();
+        self.starts.resize(items + 1, 0);
+        for owner in &self.owners {
+            self.starts[*owner as usize + 1] += 1;
+        }
+        let mut sum = 0;
+        for start in &mut self.starts {
+            sum += *start;
+            *start = sum;
+        }
+    }
+}
+
+/// The lists of some of a row's items that follow each other.
+struct Pairs<'a, R> {
+    candidates: &'a [u32],
+    owners: &'a [u32],
+    /// The number of the first item.
+    base: u32,
+    /// The items' positions.
+    own: &'a [Vector3<R>],
+    places: &'a [u32],
+    positions: &'a [Vector3<R>],
+}
+
+/// Keeps the pairs that are near, of which it gives the count. What is written is an argument of its own: it is apart from what is read.
+#[inline(never)]
+fn keep<R: Float>(
+    Pairs { candidates, owners, base, own, places, positions }: Pairs<'_, R>,
+    first: u32,
+    near: &mut [u32],
+    near_owners: &mut [u32],
+    is_near: &impl Fn(Vector3<R>, Vector3<R>) -> bool,
+) -> usize {
+    let mut count = 0;
+    for (candidate, owner) in candidates.iter().zip(owners) {
+        let owner = owner - base;
+        let place = places[*candidate as usize];
+        // One that has left the space has no place.
+        let Some(other) = positions.get(place as usize) else { continue };
+        near[count] = place;
+        near_owners[count] = first + owner;
+        count += usize::from(is_near(own[owner as usize], *other));
+    }
+    count
+}

@@ -1,0 +1,138 @@
+//! Where the neighbours of a row's cells lie.
+//!
+//! Kernels are generic in the [shape](crate::neighbourhood::shapes) of the neighbourhood. Of a known one, numbers, opposites and
+//! displacements are constants of the kernel.
+
+use super::Row;
+use super::cells::Offset;
+use crate::geometry::{Boundary, Faces};
+use crate::neighbourhood::shapes::{self, ANY, HEXAGONAL, Shape, ShapeNumber};
+use std::marker::PhantomData;
+use xca_values::Vector3;
+
+/// The neighbourhood of a row's cells as distances in memory. An index beyond it is a fault, and means the cell itself.
+#[derive(Debug, Clone, Copy)]
+pub struct Offsets<'a, const SHAPE: ShapeNumber> {
+    /// Those of a known shape.
+    fixed: [isize; shapes::MOST],
+    any: &'a [isize],
+}
+
+impl<const SHAPE: ShapeNumber> Offsets<'_, SHAPE> {
+    const KNOWN: Shape = shapes::shape(SHAPE);
+
+    /// The number of cells.
+    #[inline(always)]
+    pub fn count(&self) -> usize {
+        if SHAPE == ANY { self.any.len() } else { Self::KNOWN.size }
+    }
+
+    /// The offset of the neighbour with this index.
+    #[inline(always)]
+    pub fn at<'r>(&self, index: usize, row: &'r Row<'_>, x: usize) -> Offset<'r> {
+        let distance = if index < self.count() {
+            if SHAPE == ANY { self.any[index] } else { self.fixed[index] }
+        } else {
+            row.beyond_neighbourhood(x, index);
+            0
+        };
+        Offset { distance, row: PhantomData }
+    }
+}
+
+/// The neighbourhood of a row's cells as directions. An index beyond it is the same fault as for a neighbour's
+/// substate, and means the cell itself.
+#[derive(Debug, Clone, Copy)]
+pub struct Directions<'a, const SHAPE: ShapeNumber> {
+    displacements: &'a [[i32; 3]],
+    opposites: &'a [Option<usize>],
+    /// The faces beyond which neighbours may lie outside.
+    flat: Faces<bool>,
+}
+
+impl<const SHAPE: ShapeNumber> Directions<'_, SHAPE> {
+    const KNOWN: Shape = shapes::shape(SHAPE);
+
+    /// Whether there is a neighbour with this index; it is a fault where there is none.
+    #[inline(always)]
+    fn check(&self, index: usize, row: &Row<'_>, x: usize) -> bool {
+        let count = if SHAPE == ANY { self.displacements.len() } else { Self::KNOWN.size };
+        if index >= count {
+            row.beyond_neighbourhood(x, index);
+        }
+        index < count
+    }
+
+    /// The index of the neighbour in the opposite direction.
+    #[inline(always)]
+    pub fn opposite(&self, index: usize, row: &Row<'_>, x: usize) -> usize {
+        if !self.check(index, row, x) {
+            0
+        } else if SHAPE == ANY {
+            // Building the model has excluded that an opposite is missing.
+            self.opposites[index].unwrap_or(0)
+        } else {
+            Self::KNOWN.opposite(index)
+        }
+    }
+
+    /// The displacement from the cell to the neighbour.
+    #[inline(always)]
+    pub fn displacement(&self, index: usize, row: &Row<'_>, x: usize) -> Vector3<i32> {
+        let [x, y, z] = if !self.check(index, row, x) {
+            [0; 3]
+        } else if SHAPE == ANY || SHAPE == HEXAGONAL {
+            self.displacements[index]
+        } else {
+            Self::KNOWN.displacements[index]
+        };
+        Vector3::new(x, y, z)
+    }
+
+    /// Whether the neighbour is a cell of the space.
+    #[inline(always)]
+    pub fn exists(&self, index: usize, row: &Row<'_>, x: usize) -> bool {
+        let (here, step) = (row.index(x), self.displacement(index, row, x));
+        let [width, height, depth] = row.frame.extents;
+        let inside = |here: i32, step: i32, extent: u32, low: bool, high: bool| {
+            let there = here.wrapping_add(step);
+            (step == 0) | !((low & (there < 0)) | (high & (there >= extent as i32)))
+        };
+        inside(here.x, step.x, width, self.flat.west, self.flat.east)
+            & inside(here.y, step.y, height, self.flat.south, self.flat.north)
+            & inside(here.z, step.z, depth, self.flat.bottom, self.flat.top)
+    }
+}
+
+impl<'a> Row<'a> {
+    /// The shape of the neighbourhood.
+    #[inline(always)]
+    pub fn shape(&self) -> ShapeNumber {
+        self.frame.geometry.neighbourhood().shape()
+    }
+
+    /// How far in memory the neighbours lie.
+    #[inline(always)]
+    pub fn offsets<const SHAPE: ShapeNumber>(&self) -> Offsets<'a, SHAPE> {
+        let any = self.frame.offsets;
+        let mut fixed = [0; shapes::MOST];
+        let size = Offsets::<SHAPE>::KNOWN.size;
+        // A number of bytes that the compiler knows, so that the offsets stay in registers.
+        if let Some(any) = any.get(..size) {
+            fixed[..size].copy_from_slice(any);
+        }
+        Offsets { fixed, any }
+    }
+
+    /// Where the neighbours lie. All cells of the row have the same neighbourhood.
+    #[inline(always)]
+    pub fn directions<const SHAPE: ShapeNumber>(&self) -> Directions<'a, SHAPE> {
+        let geometry = self.frame.geometry;
+        let neighbourhood = geometry.neighbourhood();
+        Directions {
+            displacements: neighbourhood.displacements(self.origin.map(|index| index as usize)),
+            opposites: neighbourhood.opposites(),
+            flat: geometry.boundaries().map(|boundary| *boundary == Boundary::Flat),
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! The cellular space in a kernel.
+
+use super::{Frame, NOWHERE, OUTSIDE};
+use crate::float::Float;
+use std::marker::PhantomData;
+use xca_values::Vector3;
+
+/// The cellular space in a kernel.
+#[derive(Debug, Clone, Copy)]
+pub struct NativeSpace<'a, R> {
+    frame: &'a Frame<'a>,
+    real: PhantomData<R>,
+}
+
+impl<'a, R: Float> NativeSpace<'a, R> {
+    pub(super) fn new(frame: &'a Frame<'a>) -> Self {
+        Self { frame, real: PhantomData }
+    }
+
+    /// The side of a cell in metres.
+    #[inline(always)]
+    pub fn side(&self) -> R {
+        R::from_f64(self.frame.side)
+    }
+
+    /// The number of cells along x, y, z.
+    #[inline(always)]
+    pub fn extents(&self) -> Vector3<i32> {
+        let [x, y, z] = self.frame.extents;
+        Vector3::new(x as i32, y as i32, z as i32)
+    }
+
+    /// The low 32 bits of the number of the step.
+    #[inline(always)]
+    pub fn step(&self) -> u32 {
+        self.frame.step as u32
+    }
+
+    /// The length of the space along an axis.
+    #[inline(always)]
+    fn period(&self, axis: usize) -> R {
+        R::from_f64(f64::from(self.frame.extents[axis])) * self.side()
+    }
+
+    /// What `along` makes of the lanes of toroidal axes.
+    #[inline(always)]
+    fn along_toroidal(&self, vector: Vector3<R>, along: impl Fn(R, usize) -> R) -> Vector3<R> {
+        let lane = |value, axis| if self.frame.toroidal[axis] { along(value, axis) } else { value };
+        Vector3::new(lane(vector.x, 0), lane(vector.y, 1), lane(vector.z, 2))
+    }
+
+    /// The separation by the shorter way round each toroidal axis.
+    #[inline(always)]
+    pub fn nearest_image(&self, separation: Vector3<R>) -> Vector3<R> {
+        self.along_toroidal(separation, |value, axis| {
+            let period = self.period(axis);
+            let half = R::from_f64(0.5) * period;
+            if value > half {
+                value - period
+            } else if value < R::default() - half {
+                value + period
+            } else {
+                value
+            }
+        })
+    }
+
+    /// The position inside the space, as far as the axes are toroidal.
+    ///
+    /// What counts is the number of the cell: a position so little outside that it would be rounded to the opposite face itself, which
+    /// belongs to no cell, becomes 0.
+    #[inline(always)]
+    pub fn wrapped(&self, position: Vector3<R>) -> Vector3<R> {
+        self.along_toroidal(position, |value, axis| {
+            let (side, zero) = (self.side(), R::default());
+            let extent = i64::from(self.frame.extents[axis]);
+            match R::cell_number(value, side) {
+                Some(number) if number < 0 => {
+                    let inside = value + self.period(axis);
+                    let is_beyond = R::cell_number(inside, side).is_some_and(|number| number >= extent);
+                    if is_beyond { zero } else { inside }
+                }
+                Some(number) if number >= extent => {
+                    let inside = value - self.period(axis);
+                    if inside < zero { zero } else { inside }
+                }
+                _ => value,
+            }
+        })
+    }
+
+    /// The answer of a migration that sends an item to where its position is.
+    #[inline(always)]
+    pub fn cell_containing(&self, position: Vector3<R>) -> u32 {
+        let side = self.side();
+        let [width, height, depth] = self.frame.extents;
+        let (Some(x), Some(y), Some(z)) = (
+            R::cell_number(position.x, side),
+            R::cell_number(position.y, side),
+            R::cell_number(position.z, side),
+        ) else {
+            let nowhere = [position.x, position.y, position.z].iter().any(|along| along.to_f64().is_nan());
+            return if nowhere { NOWHERE } else { OUTSIDE };
+        };
+        let inside = |number: i64, extent: u32| number >= 0 && number < i64::from(extent);
+        if inside(x, width) && inside(y, height) && inside(z, depth) {
+            (z as u32 * height + y as u32) * width + x as u32
+        } else {
+            OUTSIDE
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! Elementary processes as engines see them: the words of their source, their kernels and bodies, and the space that they work in.
+//!
+//! Models name what is here by `xca_core`. The modules [`ir`], [`kernel`] and [`storage`] are for engines and generated code; they change
+//! with these, in any version.
+
+// The macros name `xca_core`, also in the helpers of this crate.
+extern crate self as xca_core;
+
+#[doc(hidden)]
+pub mod checks;
+pub mod directions;
+#[doc(hidden)]
+pub mod field_type;
+mod float;
+mod geometry;
+mod host_value;
+pub mod ir;
+mod ir_constant;
+pub mod kernel;
+pub mod math;
+mod neighbourhood;
+mod parameters;
+mod process;
+mod random;
+mod states;
+pub mod storage;
+mod substates;
+mod vocabulary;
+
+pub use float::Float;
+pub use geometry::{Boundary, Face, Faces, Geometry, Reached};
+pub use host_value::{HostScalar, HostValue};
+pub use neighbourhood::{Hexagons, Neighbourhood, NeighbourhoodError, Parity};
+pub use parameters::{AnyParameters, ParameterError, ParameterValue, Parameters};
+pub use process::{Argument, ElementaryProcess, Holds, ParametersArgument, Process, ProcessKind, Processes};
+#[doc(hidden)]
+pub use random::uniform;
+pub use random::{Draw, Stream, philox};
+pub use states::States;
+pub use substates::{HasSubstate, Substate, Substates};
+pub use vocabulary::{Cell, Destination, Other, Others, Slot, Slots, Space};
+#[doc(no_inline)]
+pub use xca_values::*;
+
+use xca_macros::helper;

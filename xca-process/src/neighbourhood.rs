@@ -1,0 +1,250 @@
+//! Neighbourhoods: which cells a cell sees.
+
+use shapes::ShapeNumber;
+use std::collections::HashMap;
+use std::fmt;
+
+pub(crate) mod shapes;
+
+/// The cells that a process sees, as displacements from the central cell, which has index 0.
+///
+/// In the ready-made neighbourhoods the others follow with z slowest and x fastest, from the negative to the positive side: the seven of
+/// [`Neighbourhood::von_neumann`] are centre, -z, -y, -x, +x, +y, +z. Only with [`Hexagons::SideUp`] y is fastest, so that an index means the
+/// same direction in all columns. A custom list keeps its order.
+#[derive(Clone, PartialEq, Eq)]
+pub struct Neighbourhood {
+    name: String,
+    /// For cells in even and in odd rows (or columns): the same list except in hexagonal grids.
+    displacements: [Vec<[i32; 3]>; 2],
+    parity: Parity,
+    /// For each index that of the opposite direction, the same for all cells.
+    opposites: Vec<Option<usize>>,
+    shape: ShapeNumber,
+}
+
+/// What the displacements depend on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Parity {
+    /// Nothing: all cells have the same.
+    None,
+    /// On whether the row, y, is even or odd.
+    Row,
+    /// On whether the column, x, is even or odd.
+    Column,
+}
+
+/// How the hexagons of a hexagonal grid stand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Hexagons {
+    /// With a corner up: cells stand in straight rows, and odd rows are shifted half a cell towards +x.
+    CornerUp,
+    /// With a side up: cells stand in straight columns, and odd columns are shifted half a cell towards +y.
+    SideUp,
+}
+
+/// A list of displacements that is no neighbourhood.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NeighbourhoodError {
+    /// Index 0 is the central cell.
+    #[error("a neighbourhood starts with the central cell: put [0, 0, 0] first")]
+    NoCentre,
+    /// The same displacement twice.
+    #[error("the displacement {0:?} stands twice in the neighbourhood")]
+    Twice([i32; 3]),
+}
+
+impl Neighbourhood {
+    /// The cells that are at most `radius` steps away along the axes: 7 for radius 1.
+    pub fn von_neumann(radius: u8) -> Self {
+        Self::ball(format!("von Neumann, radius {radius}"), radius, radius, |[x, y, z]| {
+            x.unsigned_abs() + y.unsigned_abs() + z.unsigned_abs() <= radius.into()
+        })
+    }
+
+    /// The cube of cells at most `radius` away along each axis: 27 for radius 1.
+    pub fn moore(radius: u8) -> Self {
+        Self::ball(format!("Moore, radius {radius}"), radius, radius, |_| true)
+    }
+
+    /// [`Self::von_neumann`] within one layer: 5 for radius 1.
+    pub fn von_neumann_2d(radius: u8) -> Self {
+        Self::ball(format!("von Neumann 2D, radius {radius}"), radius, 0, |[x, y, _]| {
+            x.unsigned_abs() + y.unsigned_abs() <= radius.into()
+        })
+    }
+
+    /// [`Self::moore`] within one layer: 9 for radius 1.
+    pub fn moore_2d(radius: u8) -> Self {
+        Self::ball(format!("Moore 2D, radius {radius}"), radius, 0, |_| true)
+    }
+
+    /// The six touching hexagons of a cell in one layer, 7 with itself. An index means the same direction in even and odd rows or columns:
+    /// with a corner up the two below, those at the sides, the two above; with a side up the same with x and y exchanged.
+    pub fn hexagonal(hexagons: Hexagons) -> Self {
+        // In even rows the two neighbours below and above stand at x - 1 and x, in odd rows at x and x + 1.
+        let rows = |shift: i32| {
+            vec![
+                [0, 0, 0],
+                [shift - 1, -1, 0],
+                [shift, -1, 0],
+                [-1, 0, 0],
+                [1, 0, 0],
+                [shift - 1, 1, 0],
+                [shift, 1, 0],
+            ]
+        };
+        let turn = |list: Vec<[i32; 3]>| list.into_iter().map(|[x, y, z]| [y, x, z]).collect();
+        match hexagons {
+            Hexagons::CornerUp => {
+                Self::new("hexagonal, corner up".to_owned(), [rows(0), rows(1)], Parity::Row)
+            }
+            Hexagons::SideUp => {
+                Self::new("hexagonal, side up".to_owned(), [turn(rows(0)), turn(rows(1))], Parity::Column)
+            }
+        }
+    }
+
+    /// Any list of displacements; the first is the central cell.
+    ///
+    /// # Errors
+    /// Where the first is not `[0, 0, 0]`, or one stands twice.
+    pub fn custom(displacements: Vec<[i32; 3]>) -> Result<Self, NeighbourhoodError> {
+        if displacements.first() != Some(&[0, 0, 0]) {
+            return Err(NeighbourhoodError::NoCentre);
+        }
+        for (index, displacement) in displacements.iter().enumerate() {
+            if displacements[..index].contains(displacement) {
+                return Err(NeighbourhoodError::Twice(*displacement));
+            }
+        }
+        let name = format!("custom, {} cells", displacements.len());
+        Ok(Self::new(name, [displacements.clone(), displacements], Parity::None))
+    }
+
+    fn ball(name: String, radius: u8, layers: u8, inside: impl Fn([i32; 3]) -> bool) -> Self {
+        let (radius, layers) = (i32::from(radius), i32::from(layers));
+        let mut displacements = vec![[0, 0, 0]];
+        for z in -layers..=layers {
+            for y in -radius..=radius {
+                for x in -radius..=radius {
+                    if [x, y, z] != [0, 0, 0] && inside([x, y, z]) {
+                        displacements.push([x, y, z]);
+                    }
+                }
+            }
+        }
+        Self::new(name, [displacements.clone(), displacements], Parity::None)
+    }
+
+    fn new(name: String, displacements: [Vec<[i32; 3]>; 2], parity: Parity) -> Self {
+        let opposites = opposites(&displacements, parity);
+        let shape = match parity {
+            Parity::None => shapes::number_of(&displacements[0]),
+            Parity::Row | Parity::Column => shapes::HEXAGONAL,
+        };
+        Self { name, displacements, parity, opposites, shape }
+    }
+
+    /// The number of cells, with the central one.
+    pub fn size(&self) -> usize {
+        self.displacements[0].len()
+    }
+
+    /// The displacements along x, y, z for a cell with these indices.
+    pub fn displacements(&self, cell: [usize; 3]) -> &[[i32; 3]] {
+        let odd = match self.parity {
+            Parity::None => 0,
+            Parity::Row => cell[1] % 2,
+            Parity::Column => cell[0] % 2,
+        };
+        &self.displacements[odd]
+    }
+
+    /// The index of the neighbour at a displacement from the cell with these indices; `None` where the
+    /// neighbourhood does not hold it. Only in hexagonal grids does the cell matter.
+    ///
+    /// ```
+    /// use xca_core::prelude::*;
+    ///
+    /// let eight = Neighbourhood::moore_2d(1);
+    /// assert_eq!(eight.index_of([4, 7, 0], [1, 1, 0]), Some(directions::moore_2d::NORTH_EAST));
+    /// assert_eq!(eight.index_of([4, 7, 0], [2, 0, 0]), None);
+    /// ```
+    pub fn index_of(&self, cell: [usize; 3], displacement: [i32; 3]) -> Option<usize> {
+        self.displacements(cell).iter().position(|known| *known == displacement)
+    }
+
+    /// The index of the neighbour in the opposite direction: seen from neighbour `index`, the cell itself has
+    /// this index. 0 for 0. `None` where a custom neighbourhood lacks the opposite displacement, and for an
+    /// index beyond the neighbourhood.
+    pub fn opposite(&self, index: usize) -> Option<usize> {
+        self.opposites.get(index).copied().flatten()
+    }
+
+    /// [`Self::opposite`] for each index.
+    pub(crate) fn opposites(&self) -> &[Option<usize>] {
+        &self.opposites
+    }
+
+    /// The shape that kernels know it by.
+    pub(crate) fn shape(&self) -> ShapeNumber {
+        self.shape
+    }
+
+    /// The first displacement whose opposite is missing.
+    pub fn without_opposite(&self) -> Option<[i32; 3]> {
+        let first = self.opposites.iter().position(Option::is_none)?;
+        self.displacements[0].get(first).copied()
+    }
+
+    /// What the displacements depend on.
+    pub fn parity(&self) -> Parity {
+        self.parity
+    }
+
+    /// The largest displacement along x, y, z.
+    pub fn reach(&self) -> [usize; 3] {
+        let mut reach = [0; 3];
+        for displacement in self.displacements.iter().flatten() {
+            for (reach, along) in reach.iter_mut().zip(displacement) {
+                *reach = (*reach).max(along.unsigned_abs() as usize);
+            }
+        }
+        reach
+    }
+}
+
+/// For each index that under which the neighbour sees the cell: its displacement, turned round, is in the
+/// list of the neighbour's row or column.
+fn opposites(displacements: &[Vec<[i32; 3]>; 2], parity: Parity) -> Vec<Option<usize>> {
+    let indices = displacements
+        .each_ref()
+        .map(|list| list.iter().enumerate().map(|(index, at)| (*at, index)).collect::<HashMap<_, _>>());
+    let back = |[x, y, z]: &[i32; 3]| {
+        let list = match parity {
+            Parity::None => 0,
+            Parity::Row => y & 1,
+            Parity::Column => x & 1,
+        };
+        // A displacement that no number can turn round has no opposite.
+        let turned = [x.checked_neg()?, y.checked_neg()?, z.checked_neg()?];
+        indices[list as usize].get(&turned).copied()
+    };
+    displacements[0].iter().map(back).collect()
+}
+
+impl fmt::Debug for Neighbourhood {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Neighbourhood({self})")
+    }
+}
+
+impl fmt::Display for Neighbourhood {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.name)
+    }
+}
+
+#[cfg(test)]
+mod tests;

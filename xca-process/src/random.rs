@@ -1,0 +1,128 @@
+//! Counter-based random numbers: Philox 4x32-10.
+//!
+//! J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw: "Parallel random numbers: as easy as 1, 2, 3", SC11. A number is
+//! a function of its counter and key alone, so that it does not matter who draws it, when, or in which order.
+
+use crate::float::Float;
+
+const MULTIPLIERS: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];
+const KEY_INCREMENTS: [u32; 2] = [0x9E37_79B9, 0xBB67_AE85];
+const ROUNDS: usize = 10;
+
+/// The four words that belong to this counter and key.
+#[inline]
+pub fn philox(mut counter: [u32; 4], mut key: [u32; 2]) -> [u32; 4] {
+    for round in 0..ROUNDS {
+        if round > 0 {
+            key = [key[0].wrapping_add(KEY_INCREMENTS[0]), key[1].wrapping_add(KEY_INCREMENTS[1])];
+        }
+        let first = u64::from(MULTIPLIERS[0]) * u64::from(counter[0]);
+        let second = u64::from(MULTIPLIERS[1]) * u64::from(counter[2]);
+        counter = [
+            (second >> 32) as u32 ^ counter[1] ^ key[0],
+            second as u32,
+            (first >> 32) as u32 ^ counter[3] ^ key[1],
+            first as u32,
+        ];
+    }
+    counter
+}
+
+/// A sequence of random numbers that is independent of all others: one for each process of a step, one for
+/// the initial state of each struct of substates, one for steering.
+///
+/// A stream is 16 bits of the counter. Those below 2^15 belong to the processes by their places in the step,
+/// so that two runs of one process in a step are independent too. From 2^15 on they belong to the initial
+/// states; the last one belongs to steering.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Stream(u16);
+
+impl Stream {
+    /// The most processes that a step can have.
+    pub const PROCESSES: usize = 0x8000;
+    /// The most structs of substates that a model can have.
+    pub const GROUPS: usize = 0x7FFF;
+    /// The stream of steering.
+    pub const STEERING: Self = Self(u16::MAX);
+
+    /// The stream of the process at this place in the step, which is below [`Self::PROCESSES`].
+    pub const fn process(place: usize) -> Self {
+        Self(place as u16 & 0x7FFF)
+    }
+
+    /// The stream of the initial state of the group with this number, which is below [`Self::GROUPS`].
+    pub const fn initial(group: usize) -> Self {
+        Self(group as u16 | 0x8000)
+    }
+
+    /// Its number.
+    pub const fn number(self) -> u16 {
+        self.0
+    }
+}
+
+/// One draw of random bits: together with the seed everything that they depend on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Draw {
+    /// Whose sequence.
+    pub stream: Stream,
+    /// The number of the step, from 0. Numbers repeat after 2^48 steps.
+    pub step: u64,
+    /// The linear index of a cell (x fastest), or the label of an item.
+    pub owner: u32,
+    /// Which of the owner's numbers.
+    pub number: u32,
+}
+
+impl Draw {
+    /// The words: Philox with the seed as its key (low word, high word), and the counter
+    ///
+    /// | word | holds |
+    /// |---|---|
+    /// | 0 | the owner |
+    /// | 1 | the low 32 bits of the step |
+    /// | 2 | the next 16 bits of the step, then the 16 bits of the stream |
+    /// | 3 | the number of the draw |
+    #[inline]
+    pub fn words(self, seed: u64) -> [u32; 4] {
+        let high = (self.step >> 32) as u32 & 0xFFFF | u32::from(self.stream.0) << 16;
+        philox([self.owner, self.step as u32, high, self.number], [seed as u32, (seed >> 32) as u32])
+    }
+}
+
+/// A random number in [0, 1) for the host, whose `Real` is `f64` in every run.
+pub fn uniform([first, second, ..]: [u32; 4]) -> f64 {
+    f64::uniform([first, second])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Draw, Stream, philox};
+
+    /// The known answers published with the Random123 library.
+    #[test]
+    fn published_known_answers() {
+        let ones = u32::MAX;
+        assert_eq!(philox([0; 4], [0; 2]), [0x6627_e8d5, 0xe169_c58d, 0xbc57_ac4c, 0x9b00_dbd8]);
+        assert_eq!(philox([ones; 4], [ones; 2]), [0x408f_276d, 0x41c8_3b0e, 0xa20b_c7c6, 0x6d54_51fd]);
+        assert_eq!(
+            philox([0x243f_6a88, 0x85a3_08d3, 0x1319_8a2e, 0x0370_7344], [0xa409_3822, 0x299f_31d0]),
+            [0xd16c_fe09, 0x94fd_cceb, 0x5001_e420, 0x2412_6ea1]
+        );
+    }
+    /// The layout of the counter, written out.
+    #[test]
+    fn layout_of_the_counter() {
+        let seed = 0x0123_4567_89AB_CDEF;
+        let draw = Draw { stream: Stream::process(5), step: 0x7654_3210_FEDC, owner: 9, number: 11 };
+        assert_eq!(draw.words(seed), philox([9, 0x3210_FEDC, 0x0005_7654, 11], [0x89AB_CDEF, 0x0123_4567]));
+    }
+
+    #[test]
+    fn streams_are_apart() {
+        let last_process = Stream::process(Stream::PROCESSES - 1);
+        let (first, last) = (Stream::initial(0), Stream::initial(Stream::GROUPS - 1));
+        let numbers = [Stream::process(0), last_process, first, last, Stream::STEERING].map(Stream::number);
+        assert_eq!(numbers, [0, 0x7FFF, 0x8000, 0xFFFE, 0xFFFF]);
+    }
+}

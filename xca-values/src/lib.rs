@@ -1,0 +1,19 @@
+//! The values of substates and parameters: scalar types, small vectors, states, and their ranges.
+//!
+//! Models name them by `xca_core`, which has all of them too.
+
+mod interval;
+#[doc(hidden)]
+pub mod methods;
+mod schema;
+mod state_names;
+mod value;
+mod vector;
+
+pub use interval::{End, Interval};
+pub use schema::{Field, Schema};
+pub use state_names::StateNames;
+#[doc(hidden)]
+pub use value::Shortest;
+pub use value::{Precision, Real, ScalarType, StoredScalar, StoredType, UnknownPrecision, ValueType};
+pub use vector::{Vector2, Vector3, Vector4};
