@@ -30,6 +30,8 @@ pub struct ProcessPlan {
 pub struct SubstateUse {
     /// The substate.
     pub substate: SubstateId,
+    /// Whether it reads it, here or elsewhere.
+    pub read: bool,
     /// Whether it reads it at neighbours or of other items.
     pub elsewhere: bool,
     /// Whether it writes it.
@@ -83,11 +85,17 @@ impl ProcessPlan {
         for (access, &substate) in process.access.iter().zip(&accesses) {
             match uses.iter_mut().find(|known| known.substate == substate) {
                 Some(known) => {
+                    known.read |= access.centre || access.others;
                     known.elsewhere |= access.others;
                     known.written |= access.write;
                 }
                 None => {
-                    uses.push(SubstateUse { substate, elsewhere: access.others, written: access.write });
+                    uses.push(SubstateUse {
+                        substate,
+                        read: access.centre || access.others,
+                        elsewhere: access.others,
+                        written: access.write,
+                    });
                 }
             }
         }

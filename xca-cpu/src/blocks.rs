@@ -1,5 +1,6 @@
 //! How the rows of a pass are shared among the threads.
 
+use crate::activity::DueRow;
 use crate::layout::Layout;
 use crate::population::Population;
 use std::ops::Range;
@@ -27,6 +28,25 @@ pub(crate) fn blocks(layout: &Layout, populations: &[&Population], threads: usiz
         if start < end {
             blocks.push(start..end);
             start = end;
+        }
+    }
+    blocks
+}
+
+/// The tiles that are worth the start of a block.
+const TILES_PER_BLOCK: usize = 16;
+
+/// Blocks of numbers of these rows, which have about the same work.
+pub(crate) fn blocks_of_due(due: &[DueRow], threads: usize) -> Vec<Range<usize>> {
+    let tiles: usize = due.iter().map(|row| row.tiles).sum();
+    let share = (tiles / (threads * BLOCKS_PER_THREAD)).max(TILES_PER_BLOCK);
+    let mut blocks = Vec::new();
+    let (mut start, mut work) = (0, 0);
+    for (number, row) in due.iter().enumerate() {
+        work += row.tiles;
+        if work >= share || number + 1 == due.len() {
+            blocks.push(start..number + 1);
+            (start, work) = (number + 1, 0);
         }
     }
     blocks

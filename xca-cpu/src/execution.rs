@@ -1,5 +1,7 @@
 //! The state of a model on this engine.
 
+use crate::Choices;
+use crate::activity::Activity;
 use crate::blocks::blocks;
 use crate::dense::Dense;
 use crate::layout::Layout;
@@ -27,6 +29,8 @@ pub(crate) struct CpuExecution {
     threads: Threads,
     layout: Layout,
     groups: Vec<Group>,
+    /// Where processes over cells are due; nothing for a model that has none.
+    activity: Option<Activity>,
     /// The stages of a step in which every process is due.
     stages: Vec<Stage>,
 }
@@ -36,21 +40,60 @@ impl CpuExecution {
         model: &Model,
         precision: Precision,
         threads: Threads,
-        skin: Option<f64>,
+        choices: Choices,
     ) -> Result<Self, StartError> {
         let layout = Layout::new(model.geometry());
         check_size(model, &layout, precision)?;
         let groups = model.groups().iter().enumerate();
         let groups = threads.run(|| {
-            groups.map(|(number, group)| state(model, number, group, (&layout, precision, skin))).collect()
+            groups
+                .map(|(number, group)| state(model, number, group, (&layout, precision, choices.skin)))
+                .collect()
         });
         let stages = stages(model, 0..model.processes().len());
-        Ok(Self { model: model.clone(), precision, threads, layout, groups, stages })
+        let activity = Activity::new(model, &layout, choices.tile);
+        Ok(Self { model: model.clone(), precision, threads, layout, groups, activity, stages })
     }
 
-    fn run_stage(&mut self, stage: &[usize], context: &StepContext<'_>) -> Result<(), Fault> {
+    /// Runs those of these processes that are due in the step, with the parameters that the engine knows.
+    fn run_step(&mut self, processes: Range<usize>, context: &StepContext<'_>) -> Result<(), Fault> {
+        let all = self.model.processes();
+        let whole = processes == (0..all.len()) && all.iter().all(|process| process.is_due(context.step));
+        let due = processes.filter(|number| all[*number].is_due(context.step));
+        let stages = if whole { self.stages.clone() } else { stages(&self.model, due) };
+        let threads = self.threads.clone();
+        let leaves_out = self.activity.as_mut().is_some_and(Activity::begin_step);
+        let result =
+            threads.run(|| stages.iter().try_for_each(|stage| self.run_stage(stage, leaves_out, context)));
+        if let Some(activity) = &mut self.activity {
+            activity.end_step();
+            if result.is_err() {
+                activity.wake();
+            }
+        }
+        result
+    }
+
+    fn take_parameters(&mut self, context: &StepContext<'_>) {
+        if let Some(activity) = &mut self.activity {
+            activity.take_parameters(context.values);
+        }
+    }
+
+    fn run_stage(
+        &mut self,
+        stage: &[usize],
+        leaves_out: bool,
+        context: &StepContext<'_>,
+    ) -> Result<(), Fault> {
+        if let Some(activity) = &mut self.activity
+            && !leaves_out
+        {
+            activity.worked_on_all(stage);
+        }
+        let activity = self.activity.as_mut().filter(|_| leaves_out);
         let mut movers =
-            rows::run(&self.model, &self.layout, self.precision, &mut self.groups, stage, context)?;
+            rows::run(&self.model, &self.layout, self.precision, &mut self.groups, stage, activity, context)?;
         // A migration is the last of its stage.
         let Some(&last) = stage.last() else { return Ok(()) };
         let process = &self.model.processes()[last];
@@ -121,17 +164,14 @@ fn state(
 
 impl Execution for CpuExecution {
     fn run(&mut self, processes: Range<usize>, context: &StepContext<'_>) -> Result<(), Fault> {
-        let all = self.model.processes();
-        let whole = processes == (0..all.len()) && all.iter().all(|process| process.is_due(context.step));
-        let due = processes.filter(|number| all[*number].is_due(context.step));
-        let stages = if whole { self.stages.clone() } else { stages(&self.model, due) };
-        let threads = self.threads.clone();
-        threads.run(|| stages.iter().try_for_each(|stage| self.run_stage(stage, context)))
+        self.take_parameters(context);
+        self.run_step(processes, context)
     }
 
     fn run_steps(&mut self, steps: u64, context: &StepContext<'_>) -> Result<(), Interruption> {
         let processes = self.model.processes().len();
-        step_by_step(steps, context, |context| self.run(0..processes, context))
+        self.take_parameters(context);
+        step_by_step(steps, context, |context| self.run_step(0..processes, context))
     }
 
     fn read(&self, substate: SubstateId) -> Result<Vec<u8>, EngineFailure> {
@@ -144,6 +184,9 @@ impl Execution for CpuExecution {
 
     fn write(&mut self, substate: SubstateId, values: &[u8]) -> Result<(), EngineFailure> {
         check_values(&self.model, self.precision, substate, self.items(substate.group), values)?;
+        if let Some(activity) = &mut self.activity {
+            activity.replaced(substate);
+        }
         match &mut self.groups[substate.group] {
             Group::Cells(planes) => planes[substate.field].write(&self.layout, values),
             Group::Population(population) => population.write(substate.field, values),
@@ -168,6 +211,9 @@ impl Execution for CpuExecution {
         check_values_of_cells(&self.model, self.precision, substate, cells, values)?;
         if let Group::Cells(planes) = &mut self.groups[substate.group] {
             planes[substate.field].write_cells(&self.layout, cells, values);
+            if let Some(activity) = &mut self.activity {
+                activity.replaced_in(substate, cells);
+            }
         }
         Ok(())
     }
@@ -263,7 +309,7 @@ impl Execution for CpuExecution {
             }
             Group::Cells(_) => None,
         });
-        figures.flatten().collect()
+        figures.flatten().chain(self.activity.as_ref().and_then(Activity::figure)).collect()
     }
 
     fn workers(&self) -> Option<Arc<dyn Workers>> {
@@ -277,6 +323,7 @@ impl Execution for CpuExecution {
                 Group::Cells(planes) => planes.iter().map(Dense::memory).sum(),
                 Group::Population(population) => population.memory(),
             })
-            .sum()
+            .sum::<usize>()
+            + self.activity.as_ref().map_or(0, Activity::memory)
     }
 }

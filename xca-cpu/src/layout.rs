@@ -82,6 +82,22 @@ impl Layout {
         layers.into_iter().flat_map(move |z| beside(y, height).map(|y| z * height + y))
     }
 
+    /// The rows from which a row is seen: itself, and those within reach along y and z, also round a torus. A row may come twice.
+    pub(crate) fn rows_around(&self, row: usize) -> impl Iterator<Item = usize> {
+        let height = self.extents[1];
+        let [y, z] = self.row(row);
+        let along = move |axis: usize, index: usize| {
+            let (reach, extent) = (self.reach[axis] as isize, self.extents[axis] as isize);
+            let is_ring = self.boundaries[Face::ALONG[axis][0]] == Boundary::Toroidal;
+            (-reach..=reach).filter_map(move |step| {
+                let place = index as isize + step;
+                let inside = (0..extent).contains(&place);
+                (inside || is_ring).then(|| place.rem_euclid(extent) as usize)
+            })
+        };
+        along(2, z).flat_map(move |z| along(1, y).map(move |y| z * height + y))
+    }
+
     /// The padded number of a row's first cell.
     pub(crate) fn first(&self, row: usize) -> usize {
         let [y, z] = self.row(row);

@@ -6,6 +6,7 @@
 //! - processes that do not disturb each other run together, row by row, while a row is in the processor's cache;
 //! - a substate that is read at the centre only is written in place, any other is written to a second buffer.
 
+mod activity;
 mod blocks;
 mod dense;
 mod execution;
@@ -14,10 +15,12 @@ mod listing;
 mod lists;
 mod migration;
 mod motion;
+mod pace;
 mod population;
 mod rows;
 mod stages;
 mod threads;
+mod tiles;
 mod upkeep;
 
 use execution::CpuExecution;
@@ -31,8 +34,16 @@ use xca_core::{Model, Precision};
 #[derive(Clone)]
 pub struct Cpu {
     own: Threads,
+    choices: Choices,
+}
+
+/// What is chosen instead of what the engine finds best.
+#[derive(Debug, Clone, Copy, Default)]
+struct Choices {
     /// The skin of lists of what is near, in radii of a search.
     skin: Option<f64>,
+    /// The cells of a tile, and that tiles are left out whether it pays or not.
+    tile: Option<usize>,
 }
 
 impl Cpu {
@@ -71,7 +82,7 @@ impl Cpu {
             .thread_name(|number| format!("xca-cpu-{number}"))
             .build()
             .map_err(|source| CpuError::Threads { threads, source })?;
-        Ok(Self { own: Threads::new(pool), skin: None })
+        Ok(Self { own: Threads::new(pool), choices: Choices::default() })
     }
 
     /// With lists of what is near that reach further than a search by so many of its radii, instead of by what the engine finds best. For
@@ -79,7 +90,15 @@ impl Cpu {
     #[doc(hidden)]
     #[must_use]
     pub fn with_skin(self, radii: f64) -> Self {
-        Self { skin: Some(radii), ..self }
+        Self { choices: Choices { skin: Some(radii), ..self.choices }, ..self }
+    }
+
+    /// With pieces of so many cells, at least one, which are left out where nothing can change, whether that pays or not. For tests: it changes
+    /// the time that a step takes, and no result.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn with_tiles(self, cells: std::num::NonZeroUsize) -> Self {
+        Self { choices: Choices { tile: Some(cells.get()), ..self.choices }, ..self }
     }
 }
 
@@ -125,7 +144,7 @@ impl Engine for Cpu {
     }
 
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {
-        Ok(Box::new(CpuExecution::new(model, precision, self.own.clone(), self.skin)?))
+        Ok(Box::new(CpuExecution::new(model, precision, self.own.clone(), self.choices)?))
     }
 }
 

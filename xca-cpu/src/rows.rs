@@ -5,16 +5,19 @@
 #![allow(unsafe_code)]
 
 mod now;
+mod pieces;
 mod prepare;
 mod prepared;
 mod search;
 
-use crate::blocks::blocks;
+use crate::activity::{Activity, DueRow};
+use crate::blocks::{blocks, blocks_of_due};
 use crate::dense::Dense;
 use crate::layout::Layout;
 use crate::motion::Motion;
 use crate::population::Population;
 use now::{Now, Report};
+use pieces::Pieces;
 use prepare::prepare_buffers;
 use prepared::{Prepared, prepare};
 use rayon::prelude::*;
@@ -49,6 +52,8 @@ pub(crate) struct Found {
     motions: Vec<Motion>,
     /// For each process the largest radius of its searches.
     widest: Vec<f64>,
+    /// The cells that were worked on, each counted once a process.
+    worked: u64,
     fault: Option<(usize, u32, Fault)>,
 }
 
@@ -68,15 +73,22 @@ impl Found {
     }
 }
 
-/// Runs processes together over all rows. The result is what the migration among them, if there is one, moves, in the order of items.
+/// Runs processes together over all rows, or with `activity` where they are due. The result is what the migration among them, if there is one,
+/// moves, in the order of items.
 pub(crate) fn run(
     model: &Model,
     layout: &Layout,
     precision: Precision,
     groups: &mut [Group],
     processes: &[usize],
+    mut activity: Option<&mut Activity>,
     context: &StepContext<'_>,
 ) -> Result<Vec<Mover>, Fault> {
+    let due = activity.as_ref().and_then(|activity| activity.rows(processes));
+    if let (Some(activity), Some([])) = (&mut activity, due.as_deref()) {
+        activity.worked(processes, 0);
+        return Ok(Vec::new());
+    }
     let geometry = model.geometry();
     let written = prepare_buffers(model, layout, groups, processes);
     let searches = search::prepare(model, layout, precision, groups, processes);
@@ -111,6 +123,8 @@ pub(crate) fn run(
         groups,
         searches: &searches,
         measured: &measured,
+        activity: activity.as_deref(),
+        due: due.as_deref(),
     };
     // Each block can go to another thread.
     let blocks = pass.blocks().into_par_iter().with_max_len(1);
@@ -121,7 +135,9 @@ pub(crate) fn run(
     let mut first = Found::default();
     let mut motions = vec![Motion::NONE; measured.len()];
     let mut widest = vec![0.0_f64; processes.len()];
+    let mut worked = 0;
     for block in found {
+        worked += block.worked;
         movers.extend(block.movers);
         motions.iter_mut().zip(block.motions).for_each(|(all, one)| *all = all.and(one));
         widest.iter_mut().zip(block.widest).for_each(|(all, one)| *all = all.max(one));
@@ -145,6 +161,15 @@ pub(crate) fn run(
     for (measured, motion) in measured.iter().zip(motions) {
         if let Group::Population(population) = &mut groups[measured.population] {
             population.measured(motion);
+        }
+    }
+    if let Some(activity) = activity {
+        activity.worked(processes, worked);
+        for (substate, _) in written.iter().filter(|(one, _)| matches!(groups[one.group], Group::Cells(_))) {
+            match &due {
+                Some(due) => activity.spread(*substate, processes, due.iter().map(|due| due.row)),
+                None => activity.spread(*substate, processes, 0..layout.rows()),
+            }
         }
     }
     for (substate, second) in written {
@@ -174,11 +199,18 @@ struct Pass<'a> {
     groups: &'a [Group],
     searches: &'a Searches,
     measured: &'a [Measured],
+    /// What is known of where processes are due.
+    activity: Option<&'a Activity>,
+    /// The rows in which they are, where not all rows are needed.
+    due: Option<&'a [DueRow]>,
 }
 
 impl Pass<'_> {
-    /// Shares the rows among the threads.
+    /// Shares the rows among the threads: ranges of rows, or of those that are due.
     fn blocks(&self) -> Vec<Range<usize>> {
+        if let Some(due) = self.due {
+            return blocks_of_due(due, rayon::current_num_threads());
+        }
         let mut numbers: Vec<usize> =
             self.prepared.iter().filter_map(|prepared| prepared.population).collect();
         numbers.sort_unstable();
@@ -196,6 +228,7 @@ impl Pass<'_> {
             ..Found::default()
         };
         let now = Now::default();
+        // Numbers in the list of those that are due, if there is one.
         let (mut rows, mut processes) = (rows, self.prepared.len());
         while let Err(panic) = catch_unwind(AssertUnwindSafe(|| {
             self.rows(model, rows.clone(), processes, &now, &mut found);
@@ -214,22 +247,29 @@ impl Pass<'_> {
                 }
             }
             // The fault of an earlier process comes first, in whatever row.
-            (rows, processes) = (row + 1..rows.end, number);
+            (rows, processes) = (now.place.get() + 1..rows.end, number);
         }
         found
     }
 
     /// Runs the first processes over rows.
     fn rows(&self, model: &Model, rows: Range<usize>, processes: usize, now: &Now, found: &mut Found) {
-        let mut work = Work { entries: Vec::new(), answers: Vec::new(), scratch: Scratch::default(), now };
+        let mut work = Work {
+            entries: Vec::new(),
+            answers: Vec::new(),
+            scratch: Scratch::default(),
+            pieces: Pieces::default(),
+            now,
+        };
         let populations: Vec<Option<&Population>> =
             self.prepared.iter().map(|prepared| self.population(prepared)).collect();
-        for row in rows {
+        for place in rows {
+            let row = self.due.map_or(place, |due| due[place].row);
             let [y, z] = self.layout.row(row);
             let first = self.layout.first_at(y, z);
             let those = self.prepared[..processes].iter().zip(&populations);
             for (number, (prepared, population)) in those.enumerate() {
-                now.start(number, row);
+                now.start(number, row, place);
                 let own = population.map_or((0, 0), |population| population.row(row));
                 if prepared.process.kind != ProcessKind::Cells && own.0 == own.1 {
                     continue;
@@ -240,9 +280,19 @@ impl Pass<'_> {
                 }
                 let cells =
                     Cells { first, origin: [0, y as u32, z as u32], length: self.layout.width(), own };
-                let widest = self.run_row(prepared, &cells, *population, &mut work);
+                let widest = match self.activity {
+                    Some(activity) if prepared.process.kind == ProcessKind::Cells => {
+                        let done = self.run_pieces(activity, prepared, (row, &cells), *population, &mut work);
+                        found.worked += done.cells as u64;
+                        done.widest
+                    }
+                    _ => {
+                        let outcome = self.run_row(prepared, &cells, *population, &mut work);
+                        self.continue_row(prepared, first);
+                        outcome.widest
+                    }
+                };
                 found.widest[number] = found.widest[number].max(widest);
-                self.continue_row(prepared, first);
                 if let Some(fault) = now.reported.get() {
                     found.keep(
                         prepared.index,
@@ -292,29 +342,29 @@ impl Pass<'_> {
         cells: &Cells,
         population: Option<&Population>,
         work: &mut Work<'_>,
-    ) -> f64 {
+    ) -> Outcome {
         let frames = &self.frames[prepared.number];
         if self.parity != Parity::Column || !prepared.process.local_interaction {
             let frame = &frames[if self.parity == Parity::Row { cells.origin[1] as usize % 2 } else { 0 }];
             return self.run_cells(prepared, frame, cells, population, 0, work);
         }
         // The neighbourhood changes from cell to cell: each is a row of its own.
-        let mut widest: f64 = 0.0;
-        for x in 0..cells.length {
-            let first = cells.first + x;
+        let mut outcome = Outcome::default();
+        for number in 0..cells.length {
+            let (first, x) = (cells.first + number, cells.origin[0] as usize + number);
             let own = population.map_or((0, 0), |population| {
                 (population.starts[first] as usize, population.ends[first] as usize)
             });
             let cell = Cells { first, origin: [x as u32, cells.origin[1], cells.origin[2]], length: 1, own };
             // In a row without items the ranges of cells are empty, but may start anywhere.
             let first_answer = own.0.saturating_sub(cells.own.0);
-            widest =
-                widest.max(self.run_cells(prepared, &frames[x % 2], &cell, population, first_answer, work));
+            let one = self.run_cells(prepared, &frames[x % 2], &cell, population, first_answer, work);
+            outcome.widest = outcome.widest.max(one.widest);
+            outcome.asked_for_step |= one.asked_for_step;
         }
-        widest
+        outcome
     }
 
-    /// The result is the largest radius of a search.
     fn run_cells(
         &self,
         prepared: &Prepared<'_>,
@@ -323,7 +373,7 @@ impl Pass<'_> {
         population: Option<&Population>,
         first_answer: usize,
         work: &mut Work<'_>,
-    ) -> f64 {
+    ) -> Outcome {
         work.entries.clear();
         work.entries.extend(prepared.substates.iter().map(|shared| shared.entry(cells.first, cells.own.0)));
         let near = population.and_then(|population| {
@@ -355,7 +405,7 @@ impl Pass<'_> {
         };
         let report = Report { row: &row, now: work.now };
         (prepared.kernel)(report.row);
-        report.row.widest_search()
+        Outcome { widest: row.widest_search(), asked_for_step: row.has_asked_for_step() }
     }
 
     fn collect_movers(&self, population: &Population, row: usize, answers: &[u32], movers: &mut Vec<Mover>) {
@@ -385,12 +435,22 @@ unsafe fn copy_value(size: usize, from: *const u8, to: *mut u8) {
     }
 }
 
+/// What a kernel has done in some cells.
+#[derive(Default)]
+struct Outcome {
+    /// The largest radius of a search.
+    widest: f64,
+    /// Whether the result may be another one in another step.
+    asked_for_step: bool,
+}
+
 /// Lists that are kept from row to row.
 struct Work<'a> {
     entries: Vec<Entry>,
     /// A migration's answers for the items of a row.
     answers: Vec<u32>,
     scratch: Scratch,
+    pieces: Pieces,
     now: &'a Now,
 }
 

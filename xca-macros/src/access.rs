@@ -46,11 +46,19 @@ pub(crate) struct Uses {
     pub(crate) directions: bool,
     /// Whether opposites are asked for.
     pub(crate) opposites: bool,
+    /// Whether random numbers or the number of the step are asked for.
+    pub(crate) step: bool,
 }
 
 impl Uses {
     pub(crate) fn of(function: &Function) -> Self {
-        let mut uses = Self { accesses: Vec::new(), neighbours: false, directions: false, opposites: false };
+        let mut uses = Self {
+            accesses: Vec::new(),
+            neighbours: false,
+            directions: false,
+            opposites: false,
+            step: false,
+        };
         uses.block(&function.body);
         uses
     }
@@ -165,6 +173,7 @@ impl Uses {
             }
             Expression::Builtin(builtin, arguments, _) => {
                 self.opposites |= *builtin == Builtin::Opposite;
+                self.step |= matches!(builtin, Builtin::Random | Builtin::RandomBits | Builtin::Step);
                 self.directions |=
                     matches!(builtin, Builtin::Opposite | Builtin::Displacement | Builtin::Exists);
                 self.neighbours |= self.directions || *builtin == Builtin::NeighbourCount;

@@ -217,7 +217,7 @@ fn description(function: &Function, uses: &Uses, data: &TokenStream) -> TokenStr
             }
         }
     });
-    let (neighbours, opposites) = (uses.neighbours, uses.opposites);
+    let (neighbours, opposites, step) = (uses.neighbours, uses.opposites, uses.step);
     let [row_f32, row_f64] = [quote!(f32), quote!(f64)].map(|real| kernels::row(function, uses, &real));
     quote! {
         const __XCA_ACCESS: &[::xca_core::kernel::Access] = &[#(#accesses),*];
@@ -230,6 +230,7 @@ fn description(function: &Function, uses: &Uses, data: &TokenStream) -> TokenStr
             parameters: &[#(#parameters),*],
             local_interaction: #neighbours,
             uses_opposite: #opposites,
+            uses_step: #step,
             access: __XCA_ACCESS,
             body: || #data,
             row_f32: #row_f32,

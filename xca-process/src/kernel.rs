@@ -176,6 +176,8 @@ pub struct Row<'a> {
     widest: Cell<f64>,
     /// The radius, in bits, within which what is near all items has been found by lists.
     walked: Cell<Option<u64>>,
+    /// Whether a random number or the number of the step has been asked for.
+    asked_for_step: Cell<bool>,
     fault: Cell<Option<RowFault>>,
     stopped: Cell<Option<StoppedAt>>,
 }
@@ -223,6 +225,7 @@ impl<'a> Row<'a> {
             taken: Cell::new(0),
             widest: Cell::new(0.0),
             walked: Cell::new(None),
+            asked_for_step: Cell::new(false),
             fault: Cell::new(None),
             stopped: Cell::new(None),
         }
@@ -231,6 +234,11 @@ impl<'a> Row<'a> {
     /// The first fault in the row, in the order of cells and labels.
     pub fn first_fault(&self) -> Option<RowFault> {
         self.fault.get()
+    }
+
+    /// Whether the kernel has asked for a random number or for the number of the step, so that its results may be others in another step.
+    pub fn has_asked_for_step(&self) -> bool {
+        self.asked_for_step.get()
     }
 
     /// Where the kernel was when it panicked: in the first cell if that was before it began.
@@ -265,8 +273,8 @@ impl<'a> Row<'a> {
 
     /// The space.
     #[inline(always)]
-    pub fn space<R: Float>(&self) -> NativeSpace<'a, R> {
-        NativeSpace::new(self.frame)
+    pub fn space<R: Float>(&self) -> NativeSpace<'_, R> {
+        NativeSpace::new(self.frame, &self.asked_for_step)
     }
 
     /// The cells of the row.
@@ -364,6 +372,7 @@ impl<'a> Row<'a> {
 
     #[inline]
     fn draw(&self, owner: u32, number: u32) -> [u32; 4] {
+        self.asked_for_step.set(true);
         let Frame { stream, step, seed, .. } = *self.frame;
         Draw { stream, step, owner, number }.words(seed)
     }

@@ -56,6 +56,8 @@ pub struct Process {
     pub local_interaction: bool,
     /// Whether it asks for the opposite of a neighbour.
     pub uses_opposite: bool,
+    /// Whether its text asks for random numbers or for the number of the step; a helper may do so too, which only a kernel notes.
+    pub uses_step: bool,
     /// How it uses each substate; a substate may stand in two accesses, one of which is the position for a search.
     pub access: &'static [Access],
     /// Its body as data.

@@ -2,6 +2,7 @@
 
 use std::error::Error;
 use std::fmt::Debug;
+use std::num::NonZeroUsize;
 use xca_core::{
     Engine, Fault, GroupSnapshot, Model, Precision, Reference, RunError, RunOptions, Simulation, Snapshot,
     State, StoredScalar,
@@ -15,6 +16,11 @@ pub const THREADS: [usize; 4] = [1, 2, 3, 8];
 /// How much further than a search its lists reach, in radii, for each of the thread counts: what the engine finds best, next to nothing, as
 /// is common, and more than there is room for. It must make no difference either.
 pub const SKINS: [Option<f64>; 4] = [None, Some(1e-3), Some(0.3), Some(1e9)];
+
+/// The cells of a piece that is left out where nothing can change, for each of the thread counts: what the engine finds best, a single cell, an odd
+/// number, and more than most rows have.
+pub const TILES: [Option<NonZeroUsize>; 4] =
+    [None, NonZeroUsize::new(1), NonZeroUsize::new(3), NonZeroUsize::new(1000)];
 
 /// Both precisions.
 pub const PRECISIONS: [Precision; 2] = [Precision::F32, Precision::F64];
@@ -69,12 +75,15 @@ pub fn with_one_nan(model: &Model, precision: Precision, mut snapshot: Snapshot)
 /// Where an engine cannot be made.
 pub fn all() -> Result<Vec<Box<dyn Engine>>, Box<dyn Error>> {
     let mut engines: Vec<Box<dyn Engine>> = vec![Box::new(Reference)];
-    for (threads, skin) in THREADS.into_iter().zip(SKINS) {
-        let engine = Cpu::with_threads(threads)?;
-        engines.push(Box::new(match skin {
-            Some(radii) => engine.with_skin(radii),
-            None => engine,
-        }));
+    for (threads, (skin, tile)) in THREADS.into_iter().zip(SKINS.into_iter().zip(TILES)) {
+        let mut engine = Cpu::with_threads(threads)?;
+        if let Some(radii) = skin {
+            engine = engine.with_skin(radii);
+        }
+        if let Some(cells) = tile {
+            engine = engine.with_tiles(cells);
+        }
+        engines.push(Box::new(engine));
     }
     engines.push(Box::new(gpu()?));
     Ok(engines)

@@ -9,6 +9,8 @@ pub(super) struct Now {
     /// The number of the process in the pass.
     pub(super) process: Cell<usize>,
     pub(super) row: Cell<usize>,
+    /// The number of the row in the list of those that are due, or the row.
+    pub(super) place: Cell<usize>,
     /// The first fault that the process has reported in the row.
     pub(super) reported: Cell<Option<RowFault>>,
     /// Where the process was when it ended or panicked.
@@ -16,8 +18,9 @@ pub(super) struct Now {
 }
 
 impl Now {
-    pub(super) fn start(&self, process: usize, row: usize) {
+    pub(super) fn start(&self, process: usize, row: usize, place: usize) {
         self.process.set(process);
+        self.place.set(place);
         self.row.set(row);
         self.reported.set(None);
         self.stopped.set(None);

@@ -10,8 +10,9 @@ use xca_core::{Model, Precision, Process};
 /// Where a substate's memory starts, shared by the threads.
 #[derive(Clone, Copy)]
 pub(super) struct Shared {
+    pub(super) substate: SubstateId,
     /// Null where the process reads what it writes, in place.
-    read: *const u8,
+    pub(super) read: *const u8,
     /// Null where the process does not write.
     pub(super) write: *mut u8,
     pub(super) memory: Memory,
@@ -101,5 +102,5 @@ fn shared(
         _ => (std::ptr::null(), current.as_mut_ptr()),
     };
     let memory = Memory { element: stored.element_size(), length: stored.length as usize, of };
-    Shared { read, write, memory, continued }
+    Shared { substate, read, write, memory, continued }
 }

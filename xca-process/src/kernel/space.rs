@@ -2,6 +2,7 @@
 
 use super::{Frame, NOWHERE, OUTSIDE};
 use crate::float::Float;
+use std::cell::Cell;
 use std::marker::PhantomData;
 use xca_values::Vector3;
 
@@ -9,12 +10,13 @@ use xca_values::Vector3;
 #[derive(Debug, Clone, Copy)]
 pub struct NativeSpace<'a, R> {
     frame: &'a Frame<'a>,
+    asked_for_step: &'a Cell<bool>,
     real: PhantomData<R>,
 }
 
 impl<'a, R: Float> NativeSpace<'a, R> {
-    pub(super) fn new(frame: &'a Frame<'a>) -> Self {
-        Self { frame, real: PhantomData }
+    pub(super) fn new(frame: &'a Frame<'a>, asked_for_step: &'a Cell<bool>) -> Self {
+        Self { frame, asked_for_step, real: PhantomData }
     }
 
     /// The side of a cell in metres.
@@ -33,6 +35,7 @@ impl<'a, R: Float> NativeSpace<'a, R> {
     /// The low 32 bits of the number of the step.
     #[inline(always)]
     pub fn step(&self) -> u32 {
+        self.asked_for_step.set(true);
         self.frame.step as u32
     }
 

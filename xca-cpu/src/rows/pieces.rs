@@ -1,0 +1,170 @@
+//! Processes over cells, in those pieces of a row in which they are due, and what they have changed there.
+#![allow(unsafe_code)]
+
+use super::prepared::{Prepared, Shared};
+use super::{Cells, Pass, Work};
+use crate::activity::Activity;
+use crate::population::Population;
+use crate::tiles::Tiles;
+use std::ops::Range;
+use xca_core::kernel::MemoryOf;
+
+/// What is kept from row to row.
+#[derive(Default)]
+pub(super) struct Pieces {
+    /// The tiles of a row that are due.
+    due: Vec<u64>,
+    /// What a piece held before a process wrote to it in place.
+    before: Vec<u8>,
+    /// For each substate of the process the tiles that have changed, and those from which that is seen.
+    changes: Vec<[Vec<u64>; 2]>,
+}
+
+/// What a process has done in a row.
+#[derive(Default)]
+pub(super) struct Done {
+    /// The cells that it has worked on.
+    pub(super) cells: usize,
+    /// The largest radius of a search.
+    pub(super) widest: f64,
+}
+
+impl Pass<'_> {
+    /// Runs a process over cells where it is due in a row.
+    pub(super) fn run_pieces(
+        &self,
+        activity: &Activity,
+        prepared: &Prepared<'_>,
+        (row, cells): (usize, &Cells),
+        population: Option<&Population>,
+        work: &mut Work<'_>,
+    ) -> Done {
+        let tiles = activity.tiles();
+        let mut pieces = std::mem::take(&mut work.pieces);
+        activity.take(prepared.index, row, &mut pieces.due);
+        pieces.changes.resize_with(prepared.substates.len(), Default::default);
+        for marks in pieces.changes.iter_mut().flatten() {
+            marks.clear();
+            marks.resize(tiles.words(), 0);
+        }
+        // Where one cell has asked for a random number, no more than its tile stays due.
+        let most = if prepared.process.uses_step { 1 } else { usize::MAX };
+        let mut done = Done::default();
+        let mut from = 0;
+        while let Some(run) = tiles.next(&pieces.due, from, most) {
+            from = run.end;
+            let Range { start, end } = tiles.cells(&run);
+            let [_, y, z] = cells.origin;
+            let piece = Cells {
+                first: cells.first + start,
+                origin: [start as u32, y, z],
+                length: end - start,
+                own: cells.own,
+            };
+            pieces.before.clear();
+            prepared.substates.iter().for_each(|shared| keep(shared, &piece, &mut pieces.before));
+            let outcome = self.run_row(prepared, &piece, population, work);
+            if outcome.asked_for_step {
+                run.clone().for_each(|tile| activity.keep(prepared.index, row, tile));
+            }
+            done.cells += piece.length;
+            done.widest = done.widest.max(outcome.widest);
+            let mut before = &pieces.before[..];
+            for (shared, changes) in prepared.substates.iter().zip(&mut pieces.changes) {
+                before = compare(shared, &piece, before, (tiles, &run), changes);
+            }
+        }
+        if done.cells > 0 {
+            self.continue_row(prepared, cells.first);
+        }
+        for (shared, [here, around]) in prepared.substates.iter().zip(&pieces.changes) {
+            if here.iter().any(|word| *word != 0) {
+                let following = self.prepared[prepared.number + 1..].iter().map(|prepared| prepared.index);
+                activity.change(shared.substate, row, [here, around], following);
+            }
+        }
+        work.pieces = pieces;
+        done
+    }
+}
+
+/// The bytes of a piece in each plane that a process writes, and those that stood there before where these are in other memory.
+fn planes<'a>(shared: &'a Shared, piece: &Cells) -> impl Iterator<Item = Plane<'a>> {
+    let element = shared.memory.element;
+    let (first, bytes) = (piece.first * element, piece.length * element);
+    let planes = if shared.write.is_null() { 0 } else { shared.memory.length };
+    let [read_stride, write_stride] = match shared.memory.of {
+        MemoryOf::Cells { read_stride, write_stride, .. } => [read_stride, write_stride],
+        MemoryOf::Items { .. } => [0, 0],
+    };
+    (0..planes).map(move |number| {
+        // SAFETY: the cells of the piece, in a plane that the process writes, and in the one that it reads where this is another. They are this
+        // thread's alone, as the row is; what it reads no one writes. The kernel has not begun or has ended.
+        unsafe {
+            let now = shared.write.wrapping_add(first + number * write_stride * element).cast_const();
+            let before = shared.read.wrapping_add(first + number * read_stride * element);
+            let apart = !shared.read.is_null();
+            Plane {
+                now: std::slice::from_raw_parts(now, bytes),
+                before: apart.then(|| std::slice::from_raw_parts(before, bytes)),
+            }
+        }
+    })
+}
+
+/// A piece of a plane.
+struct Plane<'a> {
+    now: &'a [u8],
+    before: Option<&'a [u8]>,
+}
+
+/// Copies what a process is about to write in place.
+fn keep(shared: &Shared, piece: &Cells, before: &mut Vec<u8>) {
+    for plane in planes(shared, piece).filter(|plane| plane.before.is_none()) {
+        before.extend_from_slice(plane.now);
+    }
+}
+
+/// Marks the tiles in which a substate is not what it was. Gives what is left of the copies.
+fn compare<'a>(
+    shared: &Shared,
+    piece: &Cells,
+    mut kept: &'a [u8],
+    (tiles, run): (&Tiles, &Range<usize>),
+    [here, around]: &mut [Vec<u64>; 2],
+) -> &'a [u8] {
+    let element = shared.memory.element;
+    for plane in planes(shared, piece) {
+        let before = match plane.before {
+            Some(before) => before,
+            None => {
+                let (before, rest) = kept.split_at(plane.now.len());
+                kept = rest;
+                before
+            }
+        };
+        for tile in run.clone() {
+            let cells = tiles.cells(&(tile..tile + 1));
+            let start = piece.origin[0] as usize;
+            let differs = |cells: &Range<usize>| {
+                let bytes = (cells.start - start) * element..(cells.end - start) * element;
+                plane.now[bytes.clone()] != before[bytes]
+            };
+            if differs(&cells) {
+                Tiles::mark(here, tile);
+                // Few tiles see what changes in the middle of one.
+                let ends = [cells.start, cells.end.saturating_sub(tiles.reach()).max(cells.start)];
+                let [low, high] = ends.map(|end| end..(end + tiles.reach()).min(cells.end));
+                let seen = if cells.len() <= 2 * tiles.reach() {
+                    cells
+                } else {
+                    let start = if differs(&low) { cells.start } else { low.end };
+                    let end = if differs(&high) { cells.end } else { high.start };
+                    start..end
+                };
+                tiles.mark_around(around, &seen);
+            }
+        }
+    }
+    kept
+}

@@ -1,0 +1,216 @@
+//! Pieces of rows that are worked on or left out as a whole.
+
+use crate::layout::Layout;
+use std::ops::Range;
+use std::sync::atomic::{AtomicU64, Ordering};
+use xca_core::Geometry;
+
+/// The tiles that a word has bits for.
+const BITS: usize = u64::BITS as usize;
+
+/// How rows are cut into tiles. A row has a bit for each, in as many words as that takes.
+#[derive(Debug, Clone)]
+pub(crate) struct Tiles {
+    /// The cells of a tile; the last one of a row may have fewer.
+    width: usize,
+    /// The cells of a row.
+    cells: usize,
+    /// How far the neighbourhood reaches along x.
+    reach: usize,
+    /// Whether the row is a ring.
+    is_ring: bool,
+}
+
+impl Tiles {
+    /// Tiles of so many cells.
+    pub(crate) fn new(geometry: &Geometry, layout: &Layout, width: usize) -> Self {
+        let is_ring = geometry.toroidal()[0];
+        Self { width, cells: layout.width(), reach: layout.reach()[0], is_ring }
+    }
+
+    /// The tiles of a row.
+    pub(crate) fn count(&self) -> usize {
+        self.cells.div_ceil(self.width)
+    }
+
+    /// The words of a row.
+    pub(crate) fn words(&self) -> usize {
+        self.count().div_ceil(BITS)
+    }
+
+    /// A word of a row all of whose tiles are marked.
+    pub(crate) fn full(&self, word: usize) -> u64 {
+        let tiles = (self.count() - word * BITS).min(BITS);
+        u64::MAX >> (BITS - tiles)
+    }
+
+    /// The cells of some tiles of a row.
+    pub(crate) fn cells(&self, tiles: &Range<usize>) -> Range<usize> {
+        tiles.start * self.width..(tiles.end * self.width).min(self.cells)
+    }
+
+    /// How many cells at each end of a tile are seen from other tiles.
+    pub(crate) fn reach(&self) -> usize {
+        self.reach
+    }
+
+    /// Marks a tile.
+    pub(crate) fn mark(words: &mut [u64], tile: usize) {
+        words[tile / BITS] |= 1 << (tile % BITS);
+    }
+
+    /// Marks the tile of a cell.
+    pub(crate) fn mark_cell(&self, words: &mut [u64], cell: usize) {
+        Self::mark(words, cell / self.width);
+    }
+
+    /// Marks the tiles from which cells are seen.
+    pub(crate) fn mark_around(&self, words: &mut [u64], cells: &Range<usize>) {
+        if cells.is_empty() {
+            return;
+        }
+        let mut mark = |cells: Range<usize>| {
+            (cells.start / self.width..=(cells.end - 1) / self.width)
+                .for_each(|tile| Self::mark(words, tile));
+        };
+        mark(cells.start.saturating_sub(self.reach)..(cells.end + self.reach).min(self.cells));
+        let (below, above) =
+            (self.reach.saturating_sub(cells.start), (cells.end + self.reach).saturating_sub(self.cells));
+        if self.is_ring && below > 0 {
+            mark(self.cells.saturating_sub(below)..self.cells);
+        }
+        if self.is_ring && above > 0 {
+            mark(0..above.min(self.cells));
+        }
+    }
+
+    /// The first of the next marked tiles of a row, with those that follow it: so many at most.
+    pub(crate) fn next(&self, words: &[u64], from: usize, most: usize) -> Option<Range<usize>> {
+        let is_marked = |tile: usize| words[tile / BITS] >> (tile % BITS) & 1 == 1;
+        let mut start = from;
+        while start < self.count() && !is_marked(start) {
+            let rest = words[start / BITS] >> (start % BITS);
+            start += if rest == 0 { BITS - start % BITS } else { rest.trailing_zeros() as usize };
+        }
+        let last = start.saturating_add(most).min(self.count());
+        let end = (start..last).find(|tile| !is_marked(*tile)).unwrap_or(last);
+        (start < end).then_some(start..end)
+    }
+}
+
+/// Marks on the tiles of all rows. Threads set them, each in rows of its own.
+#[derive(Debug)]
+pub(crate) struct Marks {
+    words: Vec<AtomicU64>,
+    of_row: usize,
+}
+
+impl Marks {
+    /// No mark at all.
+    pub(crate) fn new(tiles: &Tiles, rows: usize) -> Self {
+        let of_row = tiles.words();
+        Self { words: (0..rows * of_row).map(|_| AtomicU64::new(0)).collect(), of_row }
+    }
+
+    /// Marks all tiles.
+    pub(crate) fn fill(&mut self, tiles: &Tiles) {
+        for row in self.words.chunks_exact_mut(self.of_row) {
+            row.iter_mut().enumerate().for_each(|(number, word)| *word.get_mut() = tiles.full(number));
+        }
+    }
+
+    fn row(&self, row: usize) -> &[AtomicU64] {
+        &self.words[row * self.of_row..(row + 1) * self.of_row]
+    }
+
+    /// How many tiles of a row are marked.
+    pub(crate) fn count(&self, row: usize) -> usize {
+        let ones = |word: &AtomicU64| word.load(Ordering::Relaxed).count_ones() as usize;
+        self.row(row).iter().map(ones).sum()
+    }
+
+    /// Adds marks to a row.
+    pub(crate) fn add(&self, row: usize, marks: impl IntoIterator<Item = u64>) {
+        for (word, marks) in self.row(row).iter().zip(marks) {
+            word.store(word.load(Ordering::Relaxed) | marks, Ordering::Relaxed);
+        }
+    }
+
+    /// Adds a mark to a tile.
+    pub(crate) fn add_tile(&self, row: usize, tile: usize) {
+        let word = &self.row(row)[tile / BITS];
+        word.store(word.load(Ordering::Relaxed) | 1 << (tile % BITS), Ordering::Relaxed);
+    }
+
+    /// The marks of a row, which is then without.
+    pub(crate) fn take(&self, row: usize, marks: &mut Vec<u64>) {
+        marks.clear();
+        for word in self.row(row) {
+            marks.push(word.load(Ordering::Relaxed));
+            word.store(0, Ordering::Relaxed);
+        }
+    }
+
+    pub(crate) fn memory(&self) -> usize {
+        self.words.len() * size_of::<AtomicU64>()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Tiles;
+
+    fn tiles(width: usize, cells: usize, reach: usize, is_ring: bool) -> Tiles {
+        Tiles { width, cells, reach, is_ring }
+    }
+
+    fn bits(words: &[u64], count: usize) -> Vec<usize> {
+        (0..count).filter(|tile| words[tile / 64] >> (tile % 64) & 1 == 1).collect()
+    }
+
+    /// Cell by cell: which tiles hold a cell from which one of the cells is seen.
+    #[test]
+    fn cells_are_seen_from_the_tiles_within_reach() {
+        for (width, cells, reach) in [(3, 10, 2), (1, 70, 1), (4, 4, 3), (5, 21, 5), (32, 33, 3), (2, 1, 2)] {
+            for is_ring in [false, true] {
+                let tiles = tiles(width, cells, reach, is_ring);
+                for start in 0..cells {
+                    for end in start + 1..=cells.min(start + 4) {
+                        let mut words = vec![0; tiles.words()];
+                        tiles.mark_around(&mut words, &(start..end));
+                        let sees = |cell: usize| {
+                            (start..end).any(|seen| {
+                                let straight = cell.abs_diff(seen);
+                                straight <= reach || (is_ring && cells - straight.min(cells) <= reach)
+                            })
+                        };
+                        let mut wanted: Vec<usize> =
+                            (0..cells).filter(|cell| sees(*cell)).map(|cell| cell / width).collect();
+                        wanted.dedup();
+                        assert_eq!(bits(&words, tiles.count()), wanted, "{tiles:?} {start}..{end}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn marked_tiles_come_in_runs() {
+        let tiles = tiles(2, 401, 1, false);
+        let mut words = vec![0; tiles.words()];
+        let marked = [0, 1, 2, 62, 63, 64, 65, 130, 199, 200];
+        marked.iter().for_each(|tile| Tiles::mark(&mut words, *tile));
+        for most in [1, 2, 1000] {
+            let mut runs = Vec::new();
+            let mut from = 0;
+            while let Some(run) = tiles.next(&words, from, most) {
+                assert!(run.len() <= most);
+                from = run.end;
+                runs.push(run);
+            }
+            assert_eq!(runs.into_iter().flatten().collect::<Vec<_>>(), marked);
+        }
+        assert_eq!(tiles.cells(&(199..201)), 398..401);
+        assert_eq!((0..4).map(|word| tiles.full(word).count_ones()).sum::<u32>(), 201);
+    }
+}
