@@ -54,6 +54,7 @@ pub enum Reduced {
 
 impl Reduced {
     /// The result of two results.
+    #[inline(always)]
     pub fn combine(self, other: Self, reduction: &Reduction) -> Self {
         match (self, other) {
             (Self::Nothing, result) | (result, Self::Nothing) => result,
@@ -106,11 +107,38 @@ pub fn append_row(reduction: &Reduction, stored: StoredType, values: &[u8], resu
         results[first..].fill(none);
         return;
     }
+    if let ([result], StoredScalar::F32 | StoredScalar::F64) = (&mut results[first..], stored.scalar) {
+        *result = match stored.scalar {
+            StoredScalar::F32 => reduce_floats(reduction, StoredScalar::F32, values),
+            _ => reduce_floats(reduction, StoredScalar::F64, values),
+        };
+        return;
+    }
     for value in values.chunks_exact(stored.size()) {
         for (result, lane) in results[first..].iter_mut().zip(value.chunks_exact(size)) {
             *result = result.combine(one(reduction, stored.scalar, lane), reduction);
         }
     }
+}
+
+/// Reduces single floating numbers. Where the reduction is known to the compiler, no choice is left in the loop.
+#[inline(always)]
+fn reduce_floats(reduction: &Reduction, scalar: StoredScalar, values: &[u8]) -> Reduced {
+    match reduction {
+        Reduction::Sum => reduce_lanes(&Reduction::Sum, scalar, values),
+        Reduction::Minimum => reduce_lanes(&Reduction::Minimum, scalar, values),
+        Reduction::Maximum => reduce_lanes(&Reduction::Maximum, scalar, values),
+        other => reduce_lanes(other, scalar, values),
+    }
+}
+
+/// Reduces values of one lane.
+#[inline(always)]
+fn reduce_lanes(reduction: &Reduction, scalar: StoredScalar, values: &[u8]) -> Reduced {
+    let mut lanes = values.chunks_exact(scalar.size());
+    let Some(first) = lanes.next() else { return Reduced::Nothing };
+    lanes
+        .fold(one(reduction, scalar, first), |all, lane| all.combine(one(reduction, scalar, lane), reduction))
 }
 
 /// Combines the results of rows in their order: for each lane one result.
@@ -146,18 +174,12 @@ fn are_finite(scalar: StoredScalar, values: &[u8]) -> bool {
     }
 }
 
+/// What a lane adds to a result.
+#[inline(always)]
 fn one(reduction: &Reduction, scalar: StoredScalar, bytes: &[u8]) -> Reduced {
-    let number = match scalar {
-        StoredScalar::U8 => Reduced::Integer(i64::from(bytes[0])),
-        StoredScalar::I32 => Reduced::Integer(i64::from(bytemuck::pod_read_unaligned::<i32>(bytes))),
-        StoredScalar::U32 => Reduced::Integer(i64::from(bytemuck::pod_read_unaligned::<u32>(bytes))),
-        StoredScalar::F32 => Reduced::Float(f64::from(bytemuck::pod_read_unaligned::<f32>(bytes))),
-        StoredScalar::F64 => Reduced::Float(bytemuck::pod_read_unaligned(bytes)),
-    };
+    let number = number(scalar, bytes);
     match reduction {
-        Reduction::CountEqual(wanted) => {
-            Reduced::Integer(i64::from(number == one(&Reduction::Sum, scalar, wanted)))
-        }
+        Reduction::CountEqual(wanted) => Reduced::Integer(i64::from(number == self::number(scalar, wanted))),
         Reduction::CountNonFinite => {
             Reduced::Integer(i64::from(number.number().is_some_and(|number| !number.is_finite())))
         }
@@ -165,6 +187,18 @@ fn one(reduction: &Reduction, scalar: StoredScalar, bytes: &[u8]) -> Reduced {
             Reduced::Integer(i64::from(number.number() != Some(0.0)))
         }
         _ => number,
+    }
+}
+
+/// The number that a lane stores.
+#[inline(always)]
+fn number(scalar: StoredScalar, bytes: &[u8]) -> Reduced {
+    match scalar {
+        StoredScalar::U8 => Reduced::Integer(i64::from(bytes[0])),
+        StoredScalar::I32 => Reduced::Integer(i64::from(bytemuck::pod_read_unaligned::<i32>(bytes))),
+        StoredScalar::U32 => Reduced::Integer(i64::from(bytemuck::pod_read_unaligned::<u32>(bytes))),
+        StoredScalar::F32 => Reduced::Float(f64::from(bytemuck::pod_read_unaligned::<f32>(bytes))),
+        StoredScalar::F64 => Reduced::Float(bytemuck::pod_read_unaligned(bytes)),
     }
 }
 

@@ -28,6 +28,8 @@ pub(crate) struct Activity {
     /// The parameters of the last pass, in bits.
     parameters: Vec<u64>,
     pace: Pace,
+    /// Counts changes from outside and passes that changed something.
+    time: u64,
     work: Work,
     /// That of the steps before.
     past: Work,
@@ -57,6 +59,16 @@ struct Changes {
     here: Marks,
     /// From where changes are seen along x.
     around: Marks,
+    /// For each row when it last changed.
+    last: Vec<u64>,
+    /// When it last changed in all rows.
+    replaced: u64,
+}
+
+impl Changes {
+    fn memory(&self) -> usize {
+        self.here.memory() + self.around.memory() + self.last.len() * size_of::<u64>()
+    }
 }
 
 /// A process that uses a substate.
@@ -108,7 +120,13 @@ impl Activity {
             let users = users(model, SubstateId { group, field });
             // What no one uses needs no marks.
             let rows = if users.is_empty() { 0 } else { rows };
-            Changes { users, here: Marks::new(&tiles, rows), around: Marks::new(&tiles, rows) }
+            Changes {
+                users,
+                here: Marks::new(&tiles, rows),
+                around: Marks::new(&tiles, rows),
+                last: vec![0; rows],
+                replaced: 0,
+            }
         };
         let substates = model.groups().iter().enumerate().map(|(number, group)| {
             (0..group.schema().fields.len()).map(|field| changes(number, field)).collect()
@@ -117,7 +135,8 @@ impl Activity {
         let parameters = Vec::new();
         let (work, past) = (Work::default(), Work::default());
         let layout = layout.clone();
-        let mut activity = Self { tiles, layout, processes, substates, parameters, pace, work, past };
+        let mut activity =
+            Self { tiles, layout, processes, substates, parameters, pace, time: 0, work, past };
         activity.wake();
         Some(activity)
     }
@@ -126,8 +145,26 @@ impl Activity {
         &self.tiles
     }
 
-    /// Everything is due.
+    /// Whether what is not due is left out, and changes are followed.
+    pub(crate) fn is_on(&self) -> bool {
+        self.pace.is_on()
+    }
+
+    /// The present time.
+    pub(crate) fn time(&self) -> u64 {
+        self.time
+    }
+
+    /// When a substate last changed in a row, as far as changes are followed.
+    pub(crate) fn last_change(&self, substate: SubstateId, row: usize) -> u64 {
+        let changes = &self.substates[substate.group][substate.field];
+        changes.last.get(row).map_or(changes.replaced, |last| changes.replaced.max(*last))
+    }
+
+    /// Everything may have changed, and is due.
     pub(crate) fn wake(&mut self) {
+        self.time += 1;
+        self.substates.iter_mut().flatten().for_each(|changes| changes.replaced = self.time);
         for process in &mut self.processes {
             process.due.fill(&self.tiles);
         }
@@ -261,7 +298,8 @@ impl Activity {
         processes: &[usize],
         rows: impl Iterator<Item = usize> + Clone,
     ) {
-        let changes = &self.substates[substate.group][substate.field];
+        self.time += 1;
+        let changes = &mut self.substates[substate.group][substate.field];
         let place = |process: usize| processes.iter().position(|one| *one == process);
         let writers = changes.users.iter().filter(|user| user.writes).filter_map(|user| place(user.process));
         let writers: Vec<usize> = writers.collect();
@@ -285,6 +323,7 @@ impl Activity {
             if here.iter().all(|word| *word == 0) {
                 continue;
             }
+            changes.last[row] = self.time;
             beside.clear();
             beside.extend(self.layout.rows_around(row));
             for user in &woken {
@@ -300,7 +339,10 @@ impl Activity {
 
     /// A substate has been replaced in all cells.
     pub(crate) fn replaced(&mut self, substate: SubstateId) {
-        for user in &self.substates[substate.group][substate.field].users {
+        self.time += 1;
+        let changes = &mut self.substates[substate.group][substate.field];
+        changes.replaced = self.time;
+        for user in &changes.users {
             self.processes[user.process].due.fill(&self.tiles);
         }
     }
@@ -308,6 +350,7 @@ impl Activity {
     /// A substate has been replaced in the cells with these linear indices.
     pub(crate) fn replaced_in(&mut self, substate: SubstateId, cells: &[usize]) {
         if self.substates[substate.group][substate.field].users.is_empty() {
+            self.replaced(substate);
             return;
         }
         let mut rows: Vec<usize> = cells.iter().map(|cell| self.row_of(*cell)).collect();
@@ -335,7 +378,7 @@ impl Activity {
     pub(crate) fn memory(&self) -> usize {
         let of_processes: usize = self.processes.iter().map(|process| process.due.memory()).sum();
         let substates = self.substates.iter().flatten();
-        of_processes + substates.map(|changes| changes.here.memory() + changes.around.memory()).sum::<usize>()
+        of_processes + substates.map(|changes| changes.memory()).sum::<usize>()
     }
 }
 

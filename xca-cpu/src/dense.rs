@@ -84,21 +84,24 @@ impl Dense {
         values
     }
 
+    /// The elements with this number of the values of a row.
+    pub(crate) fn row_of_plane(&self, layout: &Layout, row: usize, number: usize) -> &[u8] {
+        let element = self.stored.element_size();
+        let first = number * layout.cells() + layout.first(row);
+        &self.current.bytes()[first * element..(first + layout.width()) * element]
+    }
+
     /// The values of a row of the space.
-    pub(crate) fn row(&self, layout: &Layout, row: usize) -> Cow<'_, [u8]> {
+    fn row(&self, layout: &Layout, row: usize) -> Cow<'_, [u8]> {
         let element = self.stored.element_size();
         let elements = self.stored.length as usize;
-        let of_plane = |number: usize| {
-            let first = number * layout.cells() + layout.first(row);
-            &self.current.bytes()[first * element..(first + layout.width()) * element]
-        };
         if elements == 1 {
-            return of_plane(0).into();
+            return self.row_of_plane(layout, row, 0).into();
         }
         let mut values = vec![0; layout.width() * self.stored.size()];
         for number in 0..elements {
             let whole = values.chunks_exact_mut(self.stored.size());
-            for (value, of_cell) in whole.zip(of_plane(number).chunks_exact(element)) {
+            for (value, of_cell) in whole.zip(self.row_of_plane(layout, row, number).chunks_exact(element)) {
                 value[number * element..(number + 1) * element].copy_from_slice(of_cell);
             }
         }

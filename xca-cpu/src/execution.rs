@@ -7,12 +7,13 @@ use crate::dense::Dense;
 use crate::layout::Layout;
 use crate::migration;
 use crate::population::Population;
+use crate::reductions::{Reductions, reduce_row};
 use crate::rows::{self, Group};
 use crate::stages::{Stage, stages};
 use crate::threads::Threads;
 use rayon::prelude::*;
 use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 use xca_core::engine::{
     EngineFailure, Execution, Fault, Figure, Interruption, Population as Items, StartError, StepContext,
     SubstateId, Workers, check_cells, check_population, check_substate, check_values, check_values_of_cells,
@@ -31,6 +32,7 @@ pub(crate) struct CpuExecution {
     groups: Vec<Group>,
     /// Where processes over cells are due; nothing for a model that has none.
     activity: Option<Activity>,
+    reductions: Mutex<Reductions>,
     /// The stages of a step in which every process is due.
     stages: Vec<Stage>,
 }
@@ -52,7 +54,16 @@ impl CpuExecution {
         });
         let stages = stages(model, 0..model.processes().len());
         let activity = Activity::new(model, &layout, choices.tile);
-        Ok(Self { model: model.clone(), precision, threads, layout, groups, activity, stages })
+        Ok(Self {
+            model: model.clone(),
+            precision,
+            threads,
+            layout,
+            groups,
+            activity,
+            reductions: Mutex::default(),
+            stages,
+        })
     }
 
     /// Runs those of these processes that are due in the step, with the parameters that the engine knows.
@@ -267,9 +278,17 @@ impl Execution for CpuExecution {
     fn reduce(&self, substate: SubstateId, reduction: &Reduction) -> Result<Vec<Reduced>, EngineFailure> {
         check_substate(&self.model, substate)?;
         let stored = self.model.stored(substate, self.precision);
+        if let Group::Cells(planes) = &self.groups[substate.group]
+            && let Some(activity) = self.activity.as_ref().filter(|activity| activity.is_on())
+        {
+            let dense = (substate, &planes[substate.field]);
+            let mut reductions = self.reductions.lock().unwrap_or_else(PoisonError::into_inner);
+            let reductions = &mut *reductions;
+            return Ok(self.threads.run(|| reductions.reduce(dense, &self.layout, activity, reduction)));
+        }
         let row = |row: usize, results: &mut Vec<Reduced>| match &self.groups[substate.group] {
             Group::Cells(planes) => {
-                append_row(reduction, stored, &planes[substate.field].row(&self.layout, row), results);
+                reduce_row(&planes[substate.field], &self.layout, row, reduction, results);
             }
             // Most rows may be empty.
             Group::Population(population) => match population.row(row) {

@@ -17,6 +17,7 @@ mod migration;
 mod motion;
 mod pace;
 mod population;
+mod reductions;
 mod rows;
 mod stages;
 mod threads;
