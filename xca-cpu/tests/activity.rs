@@ -170,7 +170,7 @@ fn wood(
         .steer(Schedule::At(vec![14, 19]), move |state| {
             Ok(state.set_cells(Site::LIT, [(corner, 4), ([0; 3], 4)])?)
         })
-        .steer(Schedule::At(vec![22]), |state| Ok(state.set_parameters(Rule { catch: 1 })?))
+        .steer(Schedule::At(vec![22]), |state| Ok(state.set_parameters(Rule { catch: 0 })?))
         .steer(Schedule::At(vec![25]), |state| Ok(state.set_parameters(Rule { catch: 9 })?))
         .steer(Schedule::At(vec![31]), |state| {
             let wind: Vec<u32> = (0_u32..)
