@@ -65,12 +65,6 @@ struct Changes {
     replaced: u64,
 }
 
-impl Changes {
-    fn memory(&self) -> usize {
-        self.here.memory() + self.around.memory() + self.last.len() * size_of::<u64>()
-    }
-}
-
 /// A process that uses a substate.
 #[derive(Debug, Clone, Copy)]
 struct User {
@@ -373,12 +367,6 @@ impl Activity {
     pub(crate) fn figure(&self) -> Option<Figure> {
         let all = Work { done: self.past.done + self.work.done, all: self.past.all + self.work.all };
         (all.all > 0).then(|| Figure { name: "share_of_cells_worked_on".to_owned(), value: all.share() })
-    }
-
-    pub(crate) fn memory(&self) -> usize {
-        let of_processes: usize = self.processes.iter().map(|process| process.due.memory()).sum();
-        let substates = self.substates.iter().flatten();
-        of_processes + substates.map(|changes| changes.memory()).sum::<usize>()
     }
 }
 

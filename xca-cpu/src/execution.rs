@@ -342,7 +342,6 @@ impl Execution for CpuExecution {
                 Group::Cells(planes) => planes.iter().map(Dense::memory).sum(),
                 Group::Population(population) => population.memory(),
             })
-            .sum::<usize>()
-            + self.activity.as_ref().map_or(0, Activity::memory)
+            .sum()
     }
 }

@@ -150,10 +150,6 @@ impl Marks {
             word.store(0, Ordering::Relaxed);
         }
     }
-
-    pub(crate) fn memory(&self) -> usize {
-        self.words.len() * size_of::<AtomicU64>()
-    }
 }
 
 #[cfg(test)]
