@@ -9,6 +9,9 @@
 //! value, so [`Reduction::CountEqual`] does not count it, and it is not zero, so logical reductions take it
 //! for true. [`Reduction::CountNonFinite`] counts NaN and infinities.
 
+mod extreme;
+
+use extreme::extreme;
 use xca_process::HostValue;
 use xca_values::{StoredScalar, StoredType};
 
@@ -107,11 +110,18 @@ pub fn append_row(reduction: &Reduction, stored: StoredType, values: &[u8], resu
         results[first..].fill(none);
         return;
     }
-    if let ([result], StoredScalar::F32 | StoredScalar::F64) = (&mut results[first..], stored.scalar) {
-        *result = match stored.scalar {
-            StoredScalar::F32 => reduce_floats(reduction, StoredScalar::F32, values),
-            _ => reduce_floats(reduction, StoredScalar::F64, values),
-        };
+    let single = stored.components() == 1;
+    let fast = match (reduction, stored.scalar) {
+        (Reduction::Minimum, StoredScalar::F32) if single => Some(extreme::<f32>(values, |a, b| a < b)),
+        (Reduction::Minimum, StoredScalar::F64) if single => Some(extreme::<f64>(values, |a, b| a < b)),
+        (Reduction::Maximum, StoredScalar::F32) if single => Some(extreme::<f32>(values, |a, b| a > b)),
+        (Reduction::Maximum, StoredScalar::F64) if single => Some(extreme::<f64>(values, |a, b| a > b)),
+        (Reduction::Sum, StoredScalar::F32) if single => Some(sum(StoredScalar::F32, values)),
+        (Reduction::Sum, StoredScalar::F64) if single => Some(sum(StoredScalar::F64, values)),
+        _ => None,
+    };
+    if let Some(result) = fast {
+        results[first] = result;
         return;
     }
     for value in values.chunks_exact(stored.size()) {
@@ -121,24 +131,11 @@ pub fn append_row(reduction: &Reduction, stored: StoredType, values: &[u8], resu
     }
 }
 
-/// Reduces single floating numbers. Where the reduction is known to the compiler, no choice is left in the loop.
+/// Adds up numbers of one lane, in order. What is done is known to the compiler, so that no choice is left in the loop.
 #[inline(always)]
-fn reduce_floats(reduction: &Reduction, scalar: StoredScalar, values: &[u8]) -> Reduced {
-    match reduction {
-        Reduction::Sum => reduce_lanes(&Reduction::Sum, scalar, values),
-        Reduction::Minimum => reduce_lanes(&Reduction::Minimum, scalar, values),
-        Reduction::Maximum => reduce_lanes(&Reduction::Maximum, scalar, values),
-        other => reduce_lanes(other, scalar, values),
-    }
-}
-
-/// Reduces values of one lane.
-#[inline(always)]
-fn reduce_lanes(reduction: &Reduction, scalar: StoredScalar, values: &[u8]) -> Reduced {
-    let mut lanes = values.chunks_exact(scalar.size());
-    let Some(first) = lanes.next() else { return Reduced::Nothing };
-    lanes
-        .fold(one(reduction, scalar, first), |all, lane| all.combine(one(reduction, scalar, lane), reduction))
+fn sum(scalar: StoredScalar, values: &[u8]) -> Reduced {
+    let lanes = values.chunks_exact(scalar.size()).map(|lane| number(scalar, lane));
+    lanes.fold(Reduced::Nothing, |all, one| all.combine(one, &Reduction::Sum))
 }
 
 /// Combines the results of rows in their order: for each lane one result.
