@@ -146,13 +146,21 @@ pub(crate) fn heat_model(size: usize) -> Result<Model, ModelError> {
 
 /// Life on a square torus of `size` cells along each side.
 pub(crate) fn life_model(size: usize) -> Result<Model, ModelError> {
+    life_from(size, life_at)
+}
+
+/// The same from other beginnings: 1 where a cell is alive.
+pub(crate) fn life_from(
+    size: usize,
+    alive: impl Fn([usize; 3]) -> u8 + Send + Sync + 'static,
+) -> Result<Model, ModelError> {
     Model::builder("life")
         .extents([size, size, 1])
         .neighbourhood(Neighbourhood::moore_2d(1))
         .boundaries([Boundary::Toroidal, Boundary::Toroidal, Boundary::Flat])
         .substates::<Life>()
         .process(evolve)
-        .fill(move |site| Life { alive: life_at(site.cell()) })
+        .fill(move |site| Life { alive: alive(site.cell()) })
         .build()
 }
 

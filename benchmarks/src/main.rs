@@ -7,6 +7,7 @@ mod engines;
 mod lammps;
 mod mathematics;
 mod particles;
+mod quiet;
 mod timing;
 
 use clap::{Parser, Subcommand};
@@ -74,6 +75,8 @@ enum Benchmark {
         #[arg(long, default_value = "target/benchmarks")]
         folder: PathBuf,
     },
+    /// Models that are quiet nearly everywhere: the CPU engine as it is against itself where it works on all cells.
+    Quiet,
     /// A call of each function of `xca_core::math`, on one thread.
     Mathematics,
 }
@@ -144,6 +147,11 @@ fn run(arguments: Arguments) -> Result<(), Box<dyn Error>> {
             for cells in cells {
                 let state = State::start(cells)?;
                 say!("{}", particles::cost(&format!("start, {cells}^3 cells"), &state, rounds, None)?)?;
+            }
+        }
+        Benchmark::Quiet => {
+            for model in quiet::Quiet::all()? {
+                say!("{}", model.cost(arguments.threads, arguments.rounds)?)?;
             }
         }
         Benchmark::Mathematics => {

@@ -7,6 +7,7 @@
 //! A substate that goes to a second buffer has the same values in both, in each tile in which the processes that read it elsewhere are not
 //! due: where one of them has changed it, it is due itself. So buffers can be swapped though a tile was left out.
 
+use crate::LeaveOut;
 use crate::layout::Layout;
 use crate::pace::Pace;
 use crate::tiles::{Marks, Tiles};
@@ -88,10 +89,14 @@ impl Work {
 }
 
 impl Activity {
-    /// Everything is due. With `width`, tiles have so many cells, and are kept whether that pays or not. A model without processes over cells
-    /// has none.
-    pub(crate) fn new(model: &Model, layout: &Layout, width: Option<usize>) -> Option<Self> {
-        let tiles = Tiles::new(model.geometry(), layout, width.unwrap_or(CELLS_PER_TILE));
+    /// Everything is due. There is nothing to know of a model without processes over cells.
+    pub(crate) fn new(model: &Model, layout: &Layout, leave_out: LeaveOut) -> Option<Self> {
+        let (width, always) = match leave_out {
+            LeaveOut::WhereItPays => (CELLS_PER_TILE, false),
+            LeaveOut::Always(cells) => (cells, true),
+            LeaveOut::Never => return None,
+        };
+        let tiles = Tiles::new(model.geometry(), layout, width);
         let rows = layout.rows();
         let processes: Vec<Followed> = model
             .processes()
@@ -125,7 +130,7 @@ impl Activity {
         let substates = model.groups().iter().enumerate().map(|(number, group)| {
             (0..group.schema().fields.len()).map(|field| changes(number, field)).collect()
         });
-        let (substates, pace) = (substates.collect(), Pace::new(width.is_some()));
+        let (substates, pace) = (substates.collect(), Pace::new(always));
         let parameters = Vec::new();
         let (work, past) = (Work::default(), Work::default());
         let layout = layout.clone();

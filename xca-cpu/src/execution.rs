@@ -53,7 +53,7 @@ impl CpuExecution {
                 .collect()
         });
         let stages = stages(model, 0..model.processes().len());
-        let activity = Activity::new(model, &layout, choices.tile);
+        let activity = Activity::new(model, &layout, choices.leave_out);
         Ok(Self {
             model: model.clone(),
             precision,

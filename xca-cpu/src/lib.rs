@@ -43,8 +43,17 @@ pub struct Cpu {
 struct Choices {
     /// The skin of lists of what is near, in radii of a search.
     skin: Option<f64>,
-    /// The cells of a tile, and that tiles are left out whether it pays or not.
-    tile: Option<usize>,
+    leave_out: LeaveOut,
+}
+
+/// When cells are left out in which nothing can change.
+#[derive(Debug, Clone, Copy, Default)]
+enum LeaveOut {
+    #[default]
+    WhereItPays,
+    /// In tiles of so many cells.
+    Always(usize),
+    Never,
 }
 
 impl Cpu {
@@ -99,7 +108,15 @@ impl Cpu {
     #[doc(hidden)]
     #[must_use]
     pub fn with_tiles(self, cells: std::num::NonZeroUsize) -> Self {
-        Self { choices: Choices { tile: Some(cells.get()), ..self.choices }, ..self }
+        let leave_out = LeaveOut::Always(cells.get());
+        Self { choices: Choices { leave_out, ..self.choices }, ..self }
+    }
+
+    /// Works on all cells in each step. For benchmarks: it changes the time that a step takes, and no result.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn without_tiles(self) -> Self {
+        Self { choices: Choices { leave_out: LeaveOut::Never, ..self.choices }, ..self }
     }
 }
 
