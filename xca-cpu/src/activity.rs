@@ -9,9 +9,10 @@
 
 use crate::LeaveOut;
 use crate::layout::Layout;
-use crate::pace::Pace;
+use crate::pace::{Pace, Step};
 use crate::tiles::{Marks, Tiles};
 use std::ops::Range;
+use std::time::Duration;
 use xca_core::engine::{Figure, SubstateId};
 
 use xca_core::{Model, ParameterSet, ProcessKind};
@@ -80,12 +81,6 @@ struct User {
 struct Work {
     done: u64,
     all: u64,
-}
-
-impl Work {
-    fn share(self) -> f64 {
-        self.done as f64 / self.all.max(1) as f64
-    }
 }
 
 impl Activity {
@@ -183,23 +178,17 @@ impl Activity {
         }
     }
 
-    /// A step begins. Whether its passes leave out what is not due.
-    pub(crate) fn begin_step(&mut self) -> bool {
-        if self.pace.begins_again() {
-            self.wake();
-        }
-        self.pace.is_on()
-    }
-
-    /// A step has ended.
-    pub(crate) fn end_step(&mut self) {
+    /// A step has ended, after so much time.
+    pub(crate) fn end_step(&mut self, time: Duration) {
         let work = std::mem::take(&mut self.work);
         self.past.done += work.done;
         self.past.all += work.all;
-        if self.pace.is_on() && work.all > 0 {
-            // The first step after a pause works on everything: what counts is how much is due then.
-            let share = if self.pace.is_much(work.share()) { self.due_share() } else { work.share() };
-            self.pace.judge(share);
+        if work.all > 0 && self.pace.ended(Step { cells: work.all, time }) {
+            self.pace.judge_share(self.due_share());
+        }
+        // No one has seen what changed in a pause.
+        if self.pace.is_first() {
+            self.wake();
         }
     }
 
@@ -371,7 +360,8 @@ impl Activity {
     /// Of all cells of all steps, each counted once a process, the share that was worked on.
     pub(crate) fn figure(&self) -> Option<Figure> {
         let all = Work { done: self.past.done + self.work.done, all: self.past.all + self.work.all };
-        (all.all > 0).then(|| Figure { name: "share_of_cells_worked_on".to_owned(), value: all.share() })
+        let share = || all.done as f64 / all.all as f64;
+        (all.all > 0).then(|| Figure { name: "share_of_cells_worked_on".to_owned(), value: share() })
     }
 }
 

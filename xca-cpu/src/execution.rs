@@ -14,6 +14,7 @@ use crate::threads::Threads;
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Instant;
 use xca_core::engine::{
     EngineFailure, Execution, Fault, Figure, Interruption, Population as Items, StartError, StepContext,
     SubstateId, Workers, check_cells, check_population, check_substate, check_values, check_values_of_cells,
@@ -73,11 +74,12 @@ impl CpuExecution {
         let due = processes.filter(|number| all[*number].is_due(context.step));
         let stages = if whole { self.stages.clone() } else { stages(&self.model, due) };
         let threads = self.threads.clone();
-        let leaves_out = self.activity.as_mut().is_some_and(Activity::begin_step);
+        let start = Instant::now();
+        let leaves_out = self.activity.as_ref().is_some_and(Activity::is_on);
         let result =
             threads.run(|| stages.iter().try_for_each(|stage| self.run_stage(stage, leaves_out, context)));
         if let Some(activity) = &mut self.activity {
-            activity.end_step();
+            activity.end_step(start.elapsed());
             if result.is_err() {
                 activity.wake();
             }

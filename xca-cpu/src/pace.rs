@@ -1,49 +1,144 @@
-//! Whether it pays to look for what is not due. Where nearly everything changes in each step, steps go on without for a while.
+//! Whether it pays to leave out what is not due. Steps that work on all cells are timed, and steps that do not; the cheaper way goes on. Times
+//! decide what is worked on, and no result.
 
-/// Where more than this share of the cells is due, it does not pay to leave out the rest.
-const MOST: f64 = 0.6;
+use std::time::Duration;
 
-/// How many steps go on without a look at first, and at most.
-const PAUSES: [u64; 2] = [64, 1024];
+/// Where more than this share of the cells is due, the rest is not worth a try.
+const MOST_DUE: f64 = 0.8;
+
+/// How many steps work on all cells: before the first try, after the first one that failed, and at most.
+const PAUSES: [u64; 3] = [2, 64, 1024];
+
+/// The part of a new time in the mean of the latest ones.
+const WEIGHT: f64 = 0.125;
+
+/// How many steps are a try.
+const TRY: u64 = 4;
 
 /// Whether cells are left out.
 #[derive(Debug)]
 pub(crate) struct Pace {
     /// Whether they always are, for tests.
     always: bool,
-    /// Steps to go without.
+    /// Steps to go in which all cells are worked on.
     pause: u64,
     next_pause: u64,
+    /// Steps since then.
+    tried: u64,
+    /// Seconds of a step for each of its cells: where all were worked on, and where some were left out.
+    whole: Option<f64>,
+    part: Option<f64>,
+}
+
+/// A step that has ended.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Step {
+    /// The cells that it was for, each counted once a process.
+    pub(crate) cells: u64,
+    pub(crate) time: Duration,
 }
 
 impl Pace {
     pub(crate) fn new(always: bool) -> Self {
-        Self { always, pause: 0, next_pause: PAUSES[0] }
+        let pause = if always { 0 } else { PAUSES[0] };
+        Self { always, pause, next_pause: PAUSES[1], tried: 0, whole: None, part: None }
     }
 
+    /// Whether the step leaves out what is not due.
     pub(crate) fn is_on(&self) -> bool {
         self.pause == 0
     }
 
-    /// A step begins. Whether it ends a pause, in which no one has seen what changed.
-    pub(crate) fn begins_again(&mut self) -> bool {
-        let was_paused = !self.is_on();
-        self.pause = self.pause.saturating_sub(1);
-        was_paused && self.is_on()
+    /// Whether the step is the first one after a pause, in which no one has seen what changed.
+    pub(crate) fn is_first(&self) -> bool {
+        self.is_on() && self.tried == 0
     }
 
-    /// Whether this share of the cells is too much.
-    pub(crate) fn is_much(&self, share: f64) -> bool {
-        share > MOST && !self.always
+    /// A step has ended. Whether the share of cells that is due is asked for, see [`Self::judge_share`].
+    pub(crate) fn ended(&mut self, step: Step) -> bool {
+        if self.always {
+            self.tried += 1;
+            return false;
+        }
+        let of_cell = step.time.as_secs_f64() / step.cells.max(1) as f64;
+        let mean = |before: Option<f64>| before.map_or(of_cell, |mean| mean + WEIGHT * (of_cell - mean));
+        if !self.is_on() {
+            // The first step of all meets memory that has never been touched.
+            if self.pause < PAUSES[0] || self.whole.is_some() {
+                self.whole = Some(mean(self.whole));
+            }
+            self.pause -= 1;
+            self.tried = 0;
+            return false;
+        }
+        self.tried += 1;
+        if self.tried == 1 {
+            return true;
+        }
+        self.part = Some(mean(self.part));
+        if self.tried > TRY {
+            let pays = self.part < self.whole;
+            self.judge(pays);
+        }
+        false
     }
 
-    /// A step has ended that left out what was not due, and after which this share is.
-    pub(crate) fn judge(&mut self, share: f64) {
-        if self.is_much(share) {
-            self.pause = self.next_pause;
-            self.next_pause = (2 * self.next_pause).min(PAUSES[1]);
-        } else {
-            self.next_pause = PAUSES[0];
+    /// After a step that followed all changes: so many of the cells are due.
+    pub(crate) fn judge_share(&mut self, due: f64) {
+        if due > MOST_DUE {
+            self.judge(false);
+        }
+    }
+
+    fn judge(&mut self, pays: bool) {
+        if pays {
+            self.next_pause = PAUSES[1];
+            return;
+        }
+        self.part = None;
+        self.pause = self.next_pause;
+        self.next_pause = (2 * self.next_pause).min(PAUSES[2]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{PAUSES, Pace, Step};
+    use std::time::Duration;
+
+    /// The numbers of those of so many steps that leave cells out, where such a step takes so many times what one takes that does not, and
+    /// this share is due.
+    fn steps(count: u64, times: f64, due: f64) -> Vec<u64> {
+        let mut pace = Pace::new(false);
+        let mut left_out = Vec::new();
+        for step in 0..count {
+            let seconds = if pace.is_on() { times } else { 1.0 };
+            if pace.is_on() {
+                left_out.push(step);
+            }
+            if pace.ended(Step { cells: 10, time: Duration::from_secs_f64(seconds) }) {
+                pace.judge_share(due);
+            }
+        }
+        left_out
+    }
+
+    #[test]
+    fn what_pays_goes_on() {
+        assert_eq!(steps(1000, 0.5, 0.3), (PAUSES[0]..1000).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn what_does_not_pay_is_tried_more_and_more_seldom() {
+        for (times, due, try_) in [(2.0, 0.3, 5), (0.5, 0.9, 1)] {
+            let left_out = steps(5000, times, due);
+            let begins = [2, 64, 128, 256, 512, 1024, 1024, 1024].iter().scan(0, |at, pause| {
+                *at += pause;
+                let begin = *at;
+                *at += try_;
+                Some(begin..begin + try_)
+            });
+            assert_eq!(left_out, begins.flatten().filter(|step| *step < 5000).collect::<Vec<_>>());
         }
     }
 }

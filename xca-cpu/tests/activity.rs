@@ -330,7 +330,7 @@ fn a_glider_is_all_that_is_worked_on() -> TestResult {
     const GLIDER: [[usize; 3]; 5] = [[1, 0, 0], [2, 1, 0], [0, 2, 0], [1, 2, 0], [2, 2, 0]];
     let model = life::model(|cell| GLIDER.contains(&cell))?;
     let steps = 1200;
-    let share = share(&model, &Cpu::with_threads(2)?, steps)?;
+    let share = share(&model, &forced((32, 2))?, steps)?;
     // Five rows, of which each is at most twice a tile of 32 cells, in 256 of 256.
     let of_glider = 5.0 * 64.0 / (256.0 * 256.0);
     assert!(share < 1.0 / steps as f64 + of_glider, "{share}");

@@ -89,7 +89,8 @@ pub fn burn(cell: &mut Cell<Landscape>, weather: &Weather, space: &Space) {
                     escape *= 1.0 - chance.min(1.0);
                 }
             }
-            if cell.random(0) >= escape {
+            // Far from a fire no number is drawn: nothing can happen there.
+            if escape < 1.0 && cell.random(0) >= escape {
                 cell.cover = Cover::Burning;
             }
         }
