@@ -7,6 +7,7 @@ use super::timing::Spread;
 use super::verdict::Verdict;
 use serde::Serialize;
 use serde_json::{Map, Value};
+use std::collections::BTreeMap;
 use xca_checkpoint::ModelReport;
 use xca_core::model::GroupKind;
 use xca_core::{GroupSnapshot, Model, Precision, Snapshot};
@@ -107,6 +108,8 @@ pub struct EngineResult {
     pub speed_up: Option<f64>,
     /// The bytes that its state takes.
     pub state_bytes: usize,
+    /// What it tells of its work, such as the share of cells that it has worked on.
+    pub engine_figures: BTreeMap<String, f64>,
     /// In relation to the first engine; of that itself only where it does not even agree with itself.
     pub verdict: Option<Verdict>,
     /// Why it did not come to the end.
@@ -223,6 +226,7 @@ fn engine(lane: Lane<'_>, is_first: bool) -> EngineResult {
         updates_per_second: None,
         speed_up: None,
         state_bytes: simulation.memory(),
+        engine_figures: simulation.figures().into_iter().map(|figure| (figure.name, figure.value)).collect(),
         // The first engine can differ from itself.
         verdict: (!is_first || !has_come).then_some(verdict),
         failure: findings.failure,

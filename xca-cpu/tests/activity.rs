@@ -190,7 +190,7 @@ fn wood(
                     let place = [0, 1, 2].map(|axis| number([axis, 3, 3], label, extents[axis] as u32));
                     let way = [0, 1, 2].map(|axis| f64::from(number([axis, 5, 5], label, 9)) / 16.0 - 0.25);
                     let [x, y, z] = place.map(|index| f64::from(index) + 0.5);
-                    let moves = |axis: usize| label % 4 == 0 && extents[axis] > 1;
+                    let moves = |axis: usize| label.is_multiple_of(4) && extents[axis] > 1;
                     let [u, v, w] = [0, 1, 2].map(|axis| if moves(axis) { way[axis] } else { 0.0 });
                     let state = Walker { position: Vector3::new(x, y, z), velocity: Vector3::new(u, v, w) };
                     Item { label, cell: place.map(|index| index as usize), state }

@@ -26,7 +26,7 @@ fn words<const N: usize>(words: [&str; N]) -> Vec<String> {
 }
 
 pub(super) fn all(comparison: &ComparisonReport) -> Vec<Sheet> {
-    let sheets = [engines(comparison), differences(comparison), observables(comparison)];
+    let sheets = [engines(comparison), work(comparison), differences(comparison), observables(comparison)];
     sheets.into_iter().filter(|sheet| !sheet.rows.is_empty()).collect()
 }
 
@@ -117,6 +117,16 @@ fn engines(comparison: &ComparisonReport) -> Sheet {
     header[8] = format!("{}/s", comparison.updated);
     let rows = comparison.engines.iter().map(row).collect();
     Sheet { title: "Times, speed-up and memory", header, right: vec![1, 4, 5, 6, 7, 8, 9, 10], rows }
+}
+
+/// What engines tell of their work.
+fn work(comparison: &ComparisonReport) -> Sheet {
+    let rows = comparison.engines.iter().flat_map(|engine| {
+        let figures = engine.engine_figures.iter();
+        figures.map(|(name, value)| vec![engine.name.clone(), name.replace('_', " "), number(*value)])
+    });
+    let header = words(["engine", "of its work", ""]);
+    Sheet { title: "Work of the engines", header, right: vec![2], rows: rows.collect() }
 }
 
 /// A share, which is 100 % only if nothing is missing.

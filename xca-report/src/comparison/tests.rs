@@ -50,6 +50,8 @@ fn json_holds_everything() {
     assert_eq!(harmed["first_difference"]["worst"]["place"], serde_json::json!({ "item": 2 }));
     assert_eq!(harmed["differences"]["substates"].as_array().unwrap().len(), 5);
     assert_eq!(harmed["history"].as_array().unwrap().len(), 21);
+    let share = json["engines"][2]["engine_figures"]["share_of_cells_worked_on"].as_f64();
+    assert!(share.is_some_and(|share| share > 0.0 && share <= 1.0), "{share:?}");
     assert!(harmed["step_seconds"]["median"].as_f64().is_some_and(|seconds| seconds > 0.0));
     assert_eq!(json["compiler"], "rustc 1.95.0");
 }
@@ -65,7 +67,7 @@ fn markdown_tables_have_rows_of_one_length() {
         assert_eq!(columns.len(), 1, "{block}");
         assert!(block.lines().nth(1).unwrap().starts_with("| --- |"), "{block}");
     }
-    assert_eq!(tables, 3);
+    assert_eq!(tables, 4);
     assert!(
         text.starts_with("# A plate <1>: 20 steps of 3 items on 3 engines") || text.contains("**ROUNDING**")
     );
@@ -120,7 +122,7 @@ fn the_page_is_sound_and_needs_nothing_but_itself() {
         assert_eq!(texts(&page, &format!("#divergence {width} svg")).len(), 1);
     }
     assert_eq!(texts(&page, "#divergence .legend li"), ["Grain.position"]);
-    assert_eq!(texts(&page, "tbody tr").len(), 3 + 11 + rounded().observables.len());
+    assert_eq!(texts(&page, "tbody tr").len(), 3 + 1 + 11 + rounded().observables.len());
     let alike = page::page(&with_harm(SubstateOrFailure::Kind(0), 21, 5)).unwrap();
     assert!(texts(&Html::parse_document(&alike), "#divergence, #verdicts p").is_empty());
 }

@@ -153,12 +153,12 @@ fn assert_shown(
 
 #[test]
 fn engines_that_agree_are_shown() {
-    assert_shown(with_harm(SubstateOrFailure::Kind(0), 21, 5), ("IDENTICAL", GREEN), 2, 3);
+    assert_shown(with_harm(SubstateOrFailure::Kind(0), 21, 5), ("IDENTICAL", GREEN), 2, 4);
 }
 
 #[test]
 fn rounding_is_shown() {
-    for seen in assert_shown(rounded(), ("ROUNDING", AMBER), 3, 3) {
+    for seen in assert_shown(rounded(), ("ROUNDING", AMBER), 3, 4) {
         // The first colour of the lines.
         assert_eq!(seen["legend"], json!([["Grain.position", "rgb(0, 114, 178)"]]));
     }
@@ -166,8 +166,8 @@ fn rounding_is_shown() {
 
 #[test]
 fn differences_and_failures_are_shown() {
-    assert_shown(with_harm(SubstateOrFailure::Kind(0), 3, 1), ("DIFFERENT", RED), 3, 3);
-    assert_shown(with_harm(SubstateOrFailure::Failure, 4, 5), ("DIFFERENT", RED), 2, 3);
+    assert_shown(with_harm(SubstateOrFailure::Kind(0), 3, 1), ("DIFFERENT", RED), 3, 4);
+    assert_shown(with_harm(SubstateOrFailure::Failure, 4, 5), ("DIFFERENT", RED), 2, 4);
 }
 
 /// Names, titles and numbers of engines as they may come.
