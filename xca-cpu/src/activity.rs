@@ -201,7 +201,7 @@ impl Activity {
             let tiles = rows * self.tiles.count();
             all += tiles;
             due += match process.scope {
-                Scope::Due => (0..rows).map(|row| process.due.count(row)).sum(),
+                Scope::Due => process.due.count(),
                 Scope::AllCells | Scope::Items => tiles,
             };
         }
@@ -234,9 +234,9 @@ impl Activity {
         if processes.iter().any(|process| self.processes[*process].scope != Scope::Due) {
             return None;
         }
-        let tiles =
-            |row: usize| processes.iter().map(|process| self.processes[*process].due.count(row)).sum();
-        let rows = (0..self.layout.rows()).map(|row| DueRow { row, tiles: tiles(row) });
+        let mut tiles = vec![0; self.layout.rows()];
+        processes.iter().for_each(|process| self.processes[*process].due.count_rows(&mut tiles));
+        let rows = tiles.into_iter().enumerate().map(|(row, tiles)| DueRow { row, tiles });
         Some(rows.filter(|row| row.tiles > 0).collect())
     }
 

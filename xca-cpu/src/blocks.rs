@@ -34,7 +34,7 @@ pub(crate) fn blocks(layout: &Layout, populations: &[&Population], threads: usiz
 }
 
 /// The tiles that are worth the start of a block.
-const TILES_PER_BLOCK: usize = 16;
+const TILES_PER_BLOCK: usize = 48;
 
 /// Blocks of numbers of these rows, which have about the same work.
 pub(crate) fn blocks_of_due(due: &[DueRow], threads: usize) -> Vec<Range<usize>> {
@@ -67,9 +67,10 @@ fn first(mut range: Range<usize>, condition: impl Fn(usize) -> bool) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::{BLOCKS_PER_THREAD, CELLS_PER_ITEM, blocks};
+    use super::{BLOCKS_PER_THREAD, CELLS_PER_ITEM, DueRow, TILES_PER_BLOCK, blocks, blocks_of_due};
     use crate::layout::Layout;
     use crate::population::Population;
+    use std::ops::Range;
     use xca_core::engine::Population as Items;
     use xca_core::prelude::*;
 
@@ -93,7 +94,7 @@ mod tests {
         Layout::new(model(extents).geometry())
     }
 
-    fn work(layout: &Layout, population: &Population, rows: std::ops::Range<usize>) -> usize {
+    fn work(layout: &Layout, population: &Population, rows: Range<usize>) -> usize {
         let items = population.row(rows.end - 1).1 - population.row(rows.start).0;
         rows.len() * layout.width() + items * CELLS_PER_ITEM
     }
@@ -122,6 +123,22 @@ mod tests {
                 assert!(work(&layout, &population, block) <= share + heaviest_row + 1);
             }
         }
+    }
+
+    #[test]
+    fn due_rows_are_shared_in_blocks_that_are_worth_it() {
+        let due: Vec<DueRow> = (0..500).map(|row| DueRow { row: 3 * row, tiles: 1 + row % 7 }).collect();
+        let tiles = |blocks: &Range<usize>| due[blocks.clone()].iter().map(|row| row.tiles).sum::<usize>();
+        for threads in [1, 2, 16] {
+            let blocks = blocks_of_due(&due, threads);
+            assert_eq!(blocks.iter().cloned().flatten().collect::<Vec<_>>(), (0..500).collect::<Vec<_>>());
+            let (last, others) = blocks.split_last().unwrap();
+            let all: usize = due.iter().map(|row| row.tiles).sum();
+            let share = (all / (threads * BLOCKS_PER_THREAD)).max(TILES_PER_BLOCK);
+            assert!(others.iter().all(|block| (share..share + 7).contains(&tiles(block))));
+            assert!(tiles(last) < share + 7);
+        }
+        assert_eq!(blocks_of_due(&[], 2), []);
     }
 
     #[test]

@@ -123,10 +123,20 @@ impl Marks {
         &self.words[row * self.of_row..(row + 1) * self.of_row]
     }
 
-    /// How many tiles of a row are marked.
-    pub(crate) fn count(&self, row: usize) -> usize {
-        let ones = |word: &AtomicU64| word.load(Ordering::Relaxed).count_ones() as usize;
-        self.row(row).iter().map(ones).sum()
+    /// How many tiles are marked.
+    pub(crate) fn count(&self) -> usize {
+        self.words.iter().map(marked).sum()
+    }
+
+    /// Adds to each row's number how many of its tiles are marked.
+    pub(crate) fn count_rows(&self, tiles: &mut [usize]) {
+        if self.of_row == 1 {
+            tiles.iter_mut().zip(&self.words).for_each(|(tiles, word)| *tiles += marked(word));
+            return;
+        }
+        for (tiles, words) in tiles.iter_mut().zip(self.words.chunks_exact(self.of_row)) {
+            *tiles += words.iter().map(marked).sum::<usize>();
+        }
     }
 
     /// Adds marks to a row.
@@ -150,6 +160,11 @@ impl Marks {
             word.store(0, Ordering::Relaxed);
         }
     }
+}
+
+/// How many bits of a word are set.
+fn marked(word: &AtomicU64) -> usize {
+    word.load(Ordering::Relaxed).count_ones() as usize
 }
 
 #[cfg(test)]
