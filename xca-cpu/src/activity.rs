@@ -7,14 +7,13 @@
 //! A substate that goes to a second buffer has the same values in both, in each tile in which the processes that read it elsewhere are not
 //! due: where one of them has changed it, it is due itself. So buffers can be swapped though a tile was left out.
 
-use crate::LeaveOut;
+use crate::choices::LeaveOut;
 use crate::layout::Layout;
 use crate::pace::{Pace, Step};
 use crate::tiles::{Marks, Tiles};
 use std::ops::Range;
 use std::time::Duration;
 use xca_core::engine::{Figure, SubstateId};
-
 use xca_core::{Model, ParameterSet, ProcessKind};
 
 /// The cells of a tile: few, as a front is narrow, but enough for a kernel to be worth its start.
@@ -221,12 +220,8 @@ impl Activity {
 
     fn cells(&self, processes: &[usize]) -> u64 {
         let cells = (self.layout.rows() * self.layout.width()) as u64;
-        cells * processes.iter().filter(|number| self.is_over_cells(**number)).count() as u64
-    }
-
-    /// Whether a process runs over cells.
-    pub(crate) fn is_over_cells(&self, process: usize) -> bool {
-        self.processes[process].scope != Scope::Items
+        let is_over_cells = |number: &&usize| self.processes[**number].scope != Scope::Items;
+        cells * processes.iter().filter(is_over_cells).count() as u64
     }
 
     /// For a pass the rows in which something is due, each with the number of tiles; nothing where a process needs all rows.
@@ -284,7 +279,7 @@ impl Activity {
         &mut self,
         substate: SubstateId,
         processes: &[usize],
-        rows: impl Iterator<Item = usize> + Clone,
+        rows: impl Iterator<Item = usize>,
     ) {
         self.time += 1;
         let changes = &mut self.substates[substate.group][substate.field];
@@ -337,24 +332,23 @@ impl Activity {
 
     /// A substate has been replaced in the cells with these linear indices.
     pub(crate) fn replaced_in(&mut self, substate: SubstateId, cells: &[usize]) {
-        if self.substates[substate.group][substate.field].users.is_empty() {
+        let is_used = !self.substates[substate.group][substate.field].users.is_empty();
+        let are_few = cells.len() < self.layout.rows() * self.tiles.count();
+        if !is_used || !are_few {
             self.replaced(substate);
             return;
         }
-        let mut rows: Vec<usize> = cells.iter().map(|cell| self.row_of(*cell)).collect();
+        let width = self.layout.width();
+        let [mut here, mut around] = [vec![0; self.tiles.words()], vec![0; self.tiles.words()]];
         for cell in cells {
-            let [mut here, mut around] = [vec![0; self.tiles.words()], vec![0; self.tiles.words()]];
-            let x = cell % self.layout.width();
+            here.fill(0);
+            around.fill(0);
+            let x = cell % width;
             self.tiles.mark_cell(&mut here, x);
             self.tiles.mark_around(&mut around, &Range { start: x, end: x + 1 });
-            self.change(substate, self.row_of(*cell), [&here, &around], std::iter::empty());
+            self.change(substate, cell / width, [&here, &around], std::iter::empty());
         }
-        rows.dedup();
-        self.spread(substate, &[], rows.into_iter());
-    }
-
-    fn row_of(&self, cell: usize) -> usize {
-        cell / self.layout.width()
+        self.spread(substate, &[], cells.iter().map(|cell| cell / width));
     }
 
     /// Of all cells of all steps, each counted once a process, the share that was worked on.

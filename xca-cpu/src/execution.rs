@@ -1,8 +1,8 @@
 //! The state of a model on this engine.
 
-use crate::Choices;
 use crate::activity::Activity;
 use crate::blocks::blocks;
+use crate::choices::Choices;
 use crate::dense::Dense;
 use crate::layout::Layout;
 use crate::migration;

@@ -8,6 +8,7 @@
 
 mod activity;
 mod blocks;
+mod choices;
 mod dense;
 mod execution;
 mod layout;
@@ -24,6 +25,7 @@ mod threads;
 mod tiles;
 mod upkeep;
 
+use choices::{Choices, LeaveOut};
 use execution::CpuExecution;
 use layout::Layout;
 use std::fmt;
@@ -36,24 +38,6 @@ use xca_core::{Model, Precision};
 pub struct Cpu {
     own: Threads,
     choices: Choices,
-}
-
-/// What is chosen instead of what the engine finds best.
-#[derive(Debug, Clone, Copy, Default)]
-struct Choices {
-    /// The skin of lists of what is near, in radii of a search.
-    skin: Option<f64>,
-    leave_out: LeaveOut,
-}
-
-/// When cells are left out in which nothing can change.
-#[derive(Debug, Clone, Copy, Default)]
-enum LeaveOut {
-    #[default]
-    WhereItPays,
-    /// In tiles of so many cells.
-    Always(usize),
-    Never,
 }
 
 impl Cpu {
