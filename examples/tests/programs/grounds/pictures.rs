@@ -1,6 +1,6 @@
 //! Pictures of a map: its coordinates, and the background where there is no ground.
 
-use super::island::{is_land, island, rows};
+use super::island::{is_land, island};
 use crate::running::{LANDSLIDE, Workplace};
 use std::fs;
 use std::path::Path;
