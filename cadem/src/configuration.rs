@@ -4,7 +4,7 @@ use crate::error::CademError;
 use crate::material::Material;
 use crate::time_step::{Integrator, TimeStep};
 use crate::walls::{Opening, Walls};
-use crate::{Case, Particle, initial};
+use crate::{Particle, initial};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use xca_core::{Parameters, Precision};
@@ -50,13 +50,6 @@ pub struct Configuration {
     pub time_step: TimeStep,
     /// Holes in the walls.
     pub openings: Vec<Opening>,
-}
-
-impl Default for Configuration {
-    /// [`Case::Illustration`].
-    fn default() -> Self {
-        Case::Illustration.configuration()
-    }
 }
 
 impl Configuration {

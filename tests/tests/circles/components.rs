@@ -2,16 +2,16 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// For each file, those that it uses.
-pub(crate) type Uses<F> = BTreeMap<F, BTreeSet<F>>;
+/// For each file, the names that it uses of others.
+pub(crate) type Uses<F> = BTreeMap<F, BTreeMap<F, BTreeSet<String>>>;
 
 /// All that is reached from a file by one use or more.
 fn reached<'a, F: Ord>(uses: &'a Uses<F>, from: &F) -> BTreeSet<&'a F> {
     let mut found = BTreeSet::new();
-    let mut left: Vec<&F> = uses.get(from).into_iter().flatten().collect();
+    let mut left: Vec<&F> = uses.get(from).into_iter().flat_map(BTreeMap::keys).collect();
     while let Some(file) = left.pop() {
         if found.insert(file) {
-            left.extend(uses.get(file).into_iter().flatten());
+            left.extend(uses.get(file).into_iter().flat_map(BTreeMap::keys));
         }
     }
     found
@@ -39,7 +39,7 @@ fn a_circle_is_found() {
     let uses = |pairs: &[(&'static str, &'static str)]| {
         let mut uses: Uses<&str> = Uses::new();
         for (from, to) in pairs {
-            uses.entry(from).or_default().insert(to);
+            uses.entry(from).or_default().entry(*to).or_default();
             uses.entry(to).or_default();
         }
         uses

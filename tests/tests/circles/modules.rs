@@ -1,5 +1,6 @@
 //! The modules of a crate, as its files declare them, and what each names of the others.
 
+use crate::components::Uses;
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
@@ -29,6 +30,9 @@ pub(crate) struct Module {
 pub(crate) struct Crate {
     modules: Vec<Module>,
 }
+
+/// A name is not handed on more often.
+const MOST_EXPORTS: usize = 8;
 
 /// Whether it is compiled for tests only.
 fn is_test(attributes: &[Attribute]) -> bool {
@@ -289,20 +293,21 @@ impl Crate {
         path.iter().try_fold(0, |at, name| self.modules[at].children.get(name).copied())
     }
 
-    /// For each file, the other files of the crate that it uses.
-    pub(crate) fn uses(&self) -> BTreeMap<PathBuf, BTreeSet<PathBuf>> {
-        let mut all: BTreeMap<PathBuf, BTreeSet<PathBuf>> = BTreeMap::new();
+    /// For each file, what it uses of the other files of the crate.
+    pub(crate) fn uses(&self) -> Uses<PathBuf> {
+        let mut all = Uses::new();
         for module in &self.modules {
-            let mut found = BTreeSet::new();
+            let of_file = all.entry(module.file.clone()).or_default();
             for path in &module.uses {
                 // All names of a module.
                 let globbed = module.globs.contains(path).then(|| self.module(path)).flatten();
-                if let Some(target) = globbed.or_else(|| self.definition(path, 8)) {
-                    found.insert(self.modules[target].file.clone());
+                let Some(target) = globbed.or_else(|| self.definition(path, MOST_EXPORTS)) else { continue };
+                let file = &self.modules[target].file;
+                if *file != module.file {
+                    let name = path.last().cloned().unwrap_or_default();
+                    of_file.entry(file.clone()).or_default().insert(name);
                 }
             }
-            found.remove(&module.file);
-            all.entry(module.file.clone()).or_default().extend(found);
         }
         all
     }

@@ -1,8 +1,8 @@
 //! What a state shows, as numbers: for a screen, which has other pixels than a picture.
 
-use super::drawing::Panel;
 use super::look::{Look, LookError};
 use super::painting::Field;
+use super::panel::Panel;
 use super::seen::{Seen, wider};
 use super::{Recorder, Shown};
 use crate::view::{AnyView, Quantity};
