@@ -48,6 +48,11 @@ impl Map {
         self.coordinate_system.as_ref()
     }
 
+    /// Whether its corner and side are in degrees of longitude and latitude; else they are taken for metres.
+    pub fn is_in_degrees(&self) -> bool {
+        self.coordinate_system.as_ref().is_some_and(|keys| keys.is_in_degrees())
+    }
+
     /// The mask of the cells without ground, x fastest, from the south; none where every cell has ground.
     pub fn missing(&self) -> Option<&[bool]> {
         self.missing.as_deref()

@@ -4,6 +4,9 @@ use super::island::{is_land, island};
 use crate::running::{LANDSLIDE, Workplace};
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
+use xca_run::io::geotiff::{self, GeoKeys, SampleType};
+use xca_run::io::raster::Raster;
 
 /// Width and pixels of a picture.
 fn pixels(path: &Path) -> (usize, Vec<[u8; 3]>) {
@@ -68,4 +71,30 @@ fn pictures_show_the_background_where_there_is_no_ground() {
     // 500 and 502 are the ends of the scale.
     let brightness = |colour: [u8; 3]| colour.iter().map(|lane| u32::from(*lane)).sum::<u32>();
     assert!(brightness(seen[8]) > brightness(seen[6]) + 100, "{seen:?}");
+}
+
+/// The same ground in metres and in degrees: only the names of the axes and their unit differ.
+#[test]
+fn axes_of_a_map_in_degrees_say_so() {
+    let picture = |keys: GeoKeys| {
+        let place = Workplace::new();
+        let raster = |values: Vec<f64>| {
+            let raster = Raster::new([5, 5], 10.0, values).unwrap().with_corner([10.0, 40.0]);
+            raster.with_coordinate_system(Some(Arc::new(keys.clone())))
+        };
+        geotiff::write(&place.path("g.tif"), &raster(vec![500.0; 25]), SampleType::F64).unwrap();
+        let debris = (0..25).map(|cell| if cell == 12 { 5.0 } else { 0.0 }).collect();
+        geotiff::write(&place.path("d.tif"), &raster(debris), SampleType::F64).unwrap();
+        place.succeed(LANDSLIDE, "--dem g.tif --debris d.tif --steps 0");
+        pixels(&place.path("out/landslide/final.png"))
+    };
+    let [(width, metres), (_, degrees)] =
+        [GeoKeys::projected(32_633), GeoKeys::geographic(4326)].map(picture);
+    let places = (0..metres.len()).filter(|place| metres[*place] != degrees[*place]);
+    let places: Vec<[usize; 2]> = places.map(|place| [place % width, place / width]).collect();
+    // The name of the vertical axis is above the drawing, that of the horizontal one below.
+    let is_above = |place: &[usize; 2]| place[1] < 120;
+    let is_below = |place: &[usize; 2]| place[1] > 120 + 765;
+    assert!(places.iter().any(is_above) && places.iter().any(is_below), "{}", places.len());
+    assert!(places.iter().all(|place| is_above(place) || is_below(place)));
 }
