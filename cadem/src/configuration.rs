@@ -143,12 +143,16 @@ impl Configuration {
     /// ```
     pub fn warnings(&self, precision: Precision) -> Vec<String> {
         let material = self.material();
-        let duration = material.contact_duration();
+        // The shorter one asks for the shorter time step.
+        let (of_pair, of_wall) =
+            (material.contact_duration(), material.wall_contact_duration(self.walls.pieces()));
+        let (contact, duration) =
+            if of_wall < of_pair { ("a contact with a wall", of_wall) } else { ("a contact", of_pair) };
         let steps = duration / material.time_step;
         let is_short = steps < STEPS_OF_A_CONTACT;
         let warning = || {
             format!(
-                "a contact takes {steps:.1} steps, and fewer than {STEPS_OF_A_CONTACT} give it a wrong energy; \
+                "{contact} takes {steps:.1} steps, and fewer than {STEPS_OF_A_CONTACT} give it a wrong energy; \
                  a time step of {:.3e} s would do",
                 duration / STEPS_OF_A_CONTACT
             )

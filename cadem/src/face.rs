@@ -25,7 +25,7 @@ impl Face {
     /// All faces, by number.
     pub const ALL: [Self; 6] = [Self::XLow, Self::XHigh, Self::YLow, Self::YHigh, Self::ZLow, Self::ZHigh];
 
-    /// The number in the substate [`Dem::face`].
+    /// The number in the substate [`crate::Dem::face`].
     pub const fn number(self) -> u8 {
         self as u8
     }

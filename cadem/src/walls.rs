@@ -37,6 +37,14 @@ impl Walls {
         }
     }
 
+    /// How many pieces of a wall act on a particle that touches it.
+    pub const fn pieces(self) -> u32 {
+        match self {
+            Self::Single => 1,
+            Self::PerSlot => 9,
+        }
+    }
+
     /// The boundary of the cellular space that the law needs.
     pub(crate) const fn boundary(self) -> Boundary {
         match self {
