@@ -180,7 +180,8 @@ impl Crate {
             match item {
                 Item::Mod(module) => {
                     let name = module.ident.to_string();
-                    let (path, below) = ([&path[..], &[name.clone()]].concat(), folder.join(&name));
+                    let (path, below) =
+                        ([&path[..], std::slice::from_ref(&name)].concat(), folder.join(&name));
                     let child = match module.content {
                         Some((_, items)) => self.read_items(path, file, &below, items)?,
                         None => {

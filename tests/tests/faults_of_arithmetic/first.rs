@@ -1,6 +1,6 @@
 //! Of several things that go wrong the first one is told, and what is right goes on.
 
-use super::model::{CELL, FIRST, Field, Plan, TABLE, base, beyond};
+use super::model::{CELL, FIRST, Field, Plan, TABLE, base};
 use std::error::Error;
 use xca_core::prelude::*;
 use xca_core::{Fault, ModelBuilder};
