@@ -13,9 +13,9 @@ use xca_core::{Parameters, Precision};
 /// at a wall (eq. 3), which are 7 to 35 for two particles.
 const STEPS_OF_A_CONTACT: f64 = 20.0;
 
-/// A CADEM system: space, material, walls, and how it is integrated. [`Case`] has ready-made ones.
+/// A CADEM system: space, material, walls, and how it is integrated. [`crate::Case`] has ready-made ones.
 ///
-/// Read from a file, what is not given is as in [`Case::Illustration`], and a name that is none of these is an error.
+/// Read from a file, what is not given is as in [`crate::Case::Illustration`], and a name that is none of these is an error.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Configuration {

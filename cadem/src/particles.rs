@@ -8,7 +8,7 @@ use xca_core::{State, StateError, Vector3};
 /// A particle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Particle {
-    /// Its label, which it keeps for its life; less than [`FIRST_BOUNDARY_LABEL`].
+    /// Its label, which it keeps for its life; less than [`crate::FIRST_BOUNDARY_LABEL`].
     pub label: u32,
     /// Its centre, x, y and z, in m.
     pub position: [f64; 3],
