@@ -70,6 +70,13 @@ impl Case {
     }
 }
 
+impl Default for Configuration {
+    /// [`Case::Illustration`].
+    fn default() -> Self {
+        Case::Illustration.configuration()
+    }
+}
+
 impl fmt::Display for Case {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())

@@ -4,7 +4,7 @@ use crate::error::CademError;
 use crate::material::Material;
 use crate::time_step::{Integrator, TimeStep};
 use crate::walls::{Opening, Walls};
-use crate::{Case, Particle, initial};
+use crate::{Particle, initial};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use xca_core::{Parameters, Precision};
@@ -13,9 +13,9 @@ use xca_core::{Parameters, Precision};
 /// at a wall (eq. 3), which are 7 to 35 for two particles.
 const STEPS_OF_A_CONTACT: f64 = 20.0;
 
-/// A CADEM system: space, material, walls, and how it is integrated. [`Case`] has ready-made ones.
+/// A CADEM system: space, material, walls, and how it is integrated. [`crate::Case`] has ready-made ones.
 ///
-/// Read from a file, what is not given is as in [`Case::Illustration`], and a name that is none of these is an error.
+/// Read from a file, what is not given is as in [`crate::Case::Illustration`], and a name that is none of these is an error.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Configuration {
@@ -50,13 +50,6 @@ pub struct Configuration {
     pub time_step: TimeStep,
     /// Holes in the walls.
     pub openings: Vec<Opening>,
-}
-
-impl Default for Configuration {
-    /// [`Case::Illustration`].
-    fn default() -> Self {
-        Case::Illustration.configuration()
-    }
 }
 
 impl Configuration {
@@ -150,12 +143,16 @@ impl Configuration {
     /// ```
     pub fn warnings(&self, precision: Precision) -> Vec<String> {
         let material = self.material();
-        let duration = material.contact_duration();
+        // The shorter one asks for the shorter time step.
+        let (of_pair, of_wall) =
+            (material.contact_duration(), material.wall_contact_duration(self.walls.pieces()));
+        let (contact, duration) =
+            if of_wall < of_pair { ("a contact with a wall", of_wall) } else { ("a contact", of_pair) };
         let steps = duration / material.time_step;
         let is_short = steps < STEPS_OF_A_CONTACT;
         let warning = || {
             format!(
-                "a contact takes {steps:.1} steps, and fewer than {STEPS_OF_A_CONTACT} give it a wrong energy; \
+                "{contact} takes {steps:.1} steps, and fewer than {STEPS_OF_A_CONTACT} give it a wrong energy; \
                  a time step of {:.3e} s would do",
                 duration / STEPS_OF_A_CONTACT
             )

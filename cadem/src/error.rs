@@ -1,8 +1,8 @@
 //! What can be wrong with a CADEM system.
 
+use crate::face::Face;
 use crate::initial::PlacementError;
 use crate::particles::ParticleError;
-use crate::walls::Face;
 use xca_core::{ModelError, ParameterError};
 
 /// A system that makes no sense; the message says what to change.

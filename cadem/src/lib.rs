@@ -66,11 +66,14 @@
 //! - Section II.C says von Neumann once. The figure, sigma: Q^27 -> Q and the authors' program are Moore.
 //! - The listing of sigma_1 reads with (x, y, z) and writes with (i, j, k).
 
+mod boundary_slots;
 mod case;
+mod check;
 mod configuration;
 pub mod contact;
 mod diagnostics;
 mod error;
+mod face;
 pub mod initial;
 mod material;
 mod near;
@@ -85,9 +88,10 @@ pub use case::Case;
 pub use configuration::Configuration;
 pub use diagnostics::Diagnostics;
 pub use error::CademError;
+pub use face::Face;
 pub use material::Material;
 pub use particles::{Particle, ParticleError, particles};
 pub use substates::{BOUNDARY, Dem, FIRST_BOUNDARY_LABEL, PARTICLE, VOID};
 pub use system::model;
 pub use time_step::{Integrator, TimeStep};
-pub use walls::{Face, Opening, Rectangle, Walls};
+pub use walls::{Opening, Rectangle, Walls};

@@ -102,6 +102,9 @@ const ENGINES: [&str; 2] = ["xca-cpu", "xca-gpu"];
 /// No member has more lines of source than this, without those of its tests.
 const MOST_LINES: usize = 7000;
 
+/// No file has more lines than this, those of tests included.
+const MOST_LINES_OF_A_FILE: usize = 450;
+
 /// The files that argue for unsafe code.
 const UNSAFE: [&str; 14] = [
     "xca-process/src/kernel.rs",
@@ -312,6 +315,20 @@ fn no_member_is_large() -> TestResult {
         let count: usize = own.map(|(_, text)| lines(text)).sum();
         assert!(count <= MOST_LINES, "`{}` has {count} lines", member.name);
     }
+    Ok(())
+}
+
+#[test]
+fn no_file_is_long() -> TestResult {
+    let mut count = 0;
+    for member in Member::all()? {
+        for (name, text) in member.sources("")? {
+            let lines = text.lines().count();
+            assert!(lines <= MOST_LINES_OF_A_FILE, "{name} has {lines} lines");
+            count += 1;
+        }
+    }
+    assert!(count > 500, "{count} files are not the workspace");
     Ok(())
 }
 

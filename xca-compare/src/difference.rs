@@ -12,6 +12,7 @@ use serde::Serialize;
 use std::fmt;
 use std::ops::Range;
 use xca_checkpoint::components::{state_names, text};
+use xca_core::engine::Population;
 use xca_core::model::Group;
 use xca_core::{GroupSnapshot, Model, Precision, ScalarType, Snapshot, ValueType};
 
@@ -265,7 +266,7 @@ impl Differences {
                     let place = |index: usize| Place::Item(a.labels[pairs.first(index)]);
                     let fields = Fields { group, precisions: [first.precision, other.precision] };
                     differences.fields(&fields, [&a.fields, &b.fields], &pairs, unmatched, &place);
-                    cells.push(pairs::cells(name, a, b, &pairs));
+                    cells.push(moved(name, a, b, &pairs));
                 }
                 _ => differences.remarks.push(format!("{} is of another kind", group.schema().name)),
             }
@@ -358,4 +359,26 @@ impl Differences {
 struct Fields<'a> {
     group: &'a Group,
     precisions: [Precision; 2],
+}
+
+/// Which items are in other cells.
+fn moved(name: &str, first: &Population, other: &Population, pairs: &Pairs) -> Difference {
+    let mut difference = Difference::none(format!("cells of {name}"), Kind::Cell);
+    difference.values = pairs.len();
+    if first.counts == other.counts && matches!(pairs, Pairs::Same(_)) {
+        return difference;
+    }
+    let [of_first, of_other] = [first, other].map(cell_of_each);
+    for (a, b) in pairs.iter().filter(|(a, b)| of_first[*a] != of_other[*b]) {
+        difference.different += 1;
+        let cells = [of_first[a] as f64, of_other[b] as f64];
+        difference.worst.get_or_insert_with(|| Worst::new(Place::Item(first.labels[a]), 0, cells));
+    }
+    difference
+}
+
+/// The cell of each item.
+fn cell_of_each(population: &Population) -> Vec<usize> {
+    let counts = population.counts.iter().enumerate();
+    counts.flat_map(|(cell, count)| std::iter::repeat_n(cell, *count as usize)).collect()
 }

@@ -1,8 +1,8 @@
 //! A contender with its simulation, and what has been found of it.
 
-use super::CompareError;
-use super::Contender;
+use super::contender::Contender;
 use super::difference::{Differences, Side, Worst};
+use super::error::CompareError;
 use super::verdict::Verdict;
 use serde::Serialize;
 use std::time::{Duration, Instant};

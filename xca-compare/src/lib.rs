@@ -5,25 +5,31 @@
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
+mod contender;
 mod difference;
+mod error;
 mod lane;
 mod lockstep;
+mod plan;
 mod result;
 mod timing;
 mod verdict;
 
+pub use contender::Contender;
 pub use difference::{Difference, Differences, Kind, Place, Worst};
+pub use error::CompareError;
 pub use lane::{Check, FirstDifference};
 pub use result::{ComparisonReport, EngineResult, ObservableResult, Subject};
 pub use timing::Spread;
 pub use verdict::Verdict;
 
 use lane::Lane;
+use plan::{Plan, Watch};
 use std::time::Duration;
-use xca_core::{Engine, Precision, RunError};
+use xca_core::{Engine, Precision};
 use xca_record::Monitor;
-use xca_record::machine::{NotEnoughMemory, check_memory};
-use xca_record::record::{RecordError, Recorder};
+use xca_record::machine::check_memory;
+use xca_record::record::Recorder;
 use xca_record::{SetUp, SetUpError};
 
 /// How many checks there are, unless it is said how often.
@@ -70,62 +76,6 @@ pub struct Comparison {
     every: Option<u64>,
     repeats: usize,
     tolerance: Option<f64>,
-}
-
-/// An engine that takes part.
-#[derive(Debug)]
-pub struct Contender {
-    /// What the report calls it.
-    pub name: String,
-    /// The engine.
-    pub engine: Box<dyn Engine>,
-    /// What `Real` is.
-    pub precision: Precision,
-    /// What it took to make the engine.
-    pub making: Duration,
-}
-
-/// A comparison that does not come to its end.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum CompareError {
-    /// An engine cannot run the model, or the first one fails.
-    #[error(transparent)]
-    Run(#[from] RunError),
-    /// The observables cannot be measured.
-    #[error(transparent)]
-    Record(#[from] RecordError),
-    /// The machine has no room for the model on all engines at once.
-    #[error(transparent)]
-    Memory(#[from] NotEnoughMemory),
-    /// Its monitor said so.
-    #[error("interrupted")]
-    Interrupted,
-}
-
-/// How engines are compared.
-#[derive(Debug, Clone, Copy)]
-struct Plan {
-    seed: u64,
-    steps: u64,
-    every: u64,
-    repeats: usize,
-    tolerance: f64,
-}
-
-/// Who watches a comparison, and how many steps all engines have done.
-struct Watch<'a> {
-    monitor: &'a mut dyn Monitor,
-    done: u64,
-}
-
-impl Watch<'_> {
-    /// So many steps more are done.
-    fn did(&mut self, steps: u64) -> Result<(), CompareError> {
-        self.done += steps;
-        self.monitor.at(self.done);
-        if self.monitor.is_interrupted() { Err(CompareError::Interrupted) } else { Ok(()) }
-    }
 }
 
 impl Comparison {

@@ -1,8 +1,9 @@
 //! All engines step by step beside the first, to see where they part.
 
 use super::difference::Differences;
+use super::error::CompareError;
 use super::lane::{Check, FirstDifference, Lane};
-use super::{CompareError, Plan, Watch};
+use super::plan::{Plan, Watch};
 use xca_core::{Model, Snapshot};
 
 /// Runs all engines to the end, with a check every so many steps; gives back the number of steps done.

@@ -1,8 +1,8 @@
 //! What a comparison has found.
 
-use super::Plan;
 use super::difference::Differences;
 use super::lane::{Check, FirstDifference, Lane, Times};
+use super::plan::Plan;
 use super::timing::Spread;
 use super::verdict::Verdict;
 use serde::Serialize;

@@ -1,7 +1,8 @@
 //! What engines take, apart from all checks.
 
+use super::error::CompareError;
 use super::lane::Lane;
-use super::{CompareError, Watch};
+use super::plan::Watch;
 use serde::Serialize;
 use std::time::Instant;
 

@@ -11,7 +11,6 @@ pub use table::{Summary, TableError};
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
-use std::collections::BTreeMap;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -347,18 +346,6 @@ impl Ensemble {
         })?;
         Ok(folder)
     }
-}
-
-/// The rows of one combination of parameters.
-fn grouped(finished: &BTreeMap<usize, Finished>) -> Vec<Vec<&Finished>> {
-    let mut groups: Vec<Vec<&Finished>> = Vec::new();
-    for row in finished.values() {
-        match groups.last_mut() {
-            Some(group) if group[0].member.parameters == row.member.parameters => group.push(row),
-            _ => groups.push(vec![row]),
-        }
-    }
-    groups
 }
 
 #[cfg(test)]

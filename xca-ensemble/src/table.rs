@@ -1,6 +1,5 @@
 //! The table of an ensemble, and its mean and spread.
 
-use super::grouped;
 use super::member::{End, Finished, Member};
 use std::collections::BTreeMap;
 use std::io;
@@ -250,4 +249,16 @@ fn statistics(values: &[f64]) -> [String; 4] {
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
     let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     [mean.to_string(), deviation, least.to_string(), largest.to_string()]
+}
+
+/// The rows of one combination of parameters.
+pub(super) fn grouped(finished: &BTreeMap<usize, Finished>) -> Vec<Vec<&Finished>> {
+    let mut groups: Vec<Vec<&Finished>> = Vec::new();
+    for row in finished.values() {
+        match groups.last_mut() {
+            Some(group) if group[0].member.parameters == row.member.parameters => group.push(row),
+            _ => groups.push(vec![row]),
+        }
+    }
+    groups
 }

@@ -208,3 +208,38 @@ fn a_row_of_the_table_has_an_end() {
     }
     assert!(said.contains("members.csv") && said.contains("a row is longer than 16 MiB"), "{said}");
 }
+
+/// Interrupts as soon as a member has done a step.
+struct AtOnce<'a>(&'a AtomicUsize);
+
+impl EnsembleMonitor for AtOnce<'_> {
+    fn is_interrupted(&self) -> bool {
+        self.0.load(Ordering::Relaxed) > 0
+    }
+}
+
+/// A member that is given up leaves no row.
+#[test]
+fn a_long_member_is_given_up() {
+    static STEPS: AtomicUsize = AtomicUsize::new(0);
+    const LONG: u64 = 5_000_000;
+    let counted = |_: &Member| -> Result<SetUp, Failure> {
+        let model = Model::builder("long")
+            .extents([4, 1, 1])
+            .substates::<Walker>()
+            .parameters(Walk { stride: 1.0, drift: 0.0 })
+            .process(walk)
+            .steer(Schedule::Every(1), |_| {
+                STEPS.fetch_add(1, Ordering::Relaxed);
+                Ok(())
+            })
+            .build()?;
+        Ok(SetUp::new(model, LONG))
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let one = Ensemble::new().seeds(1, 1).jobs(1);
+    let done = one.run(folder.path(), &engine, &mut { counted }, &mut AtOnce(&STEPS)).unwrap();
+    let steps = STEPS.swap(0, Ordering::Relaxed);
+    assert!(done.is_empty() && (1..LONG as usize).contains(&steps), "{steps} steps");
+    assert!(!fs::read_to_string(folder.path().join(MEMBERS)).is_ok_and(|table| table.lines().count() > 1));
+}

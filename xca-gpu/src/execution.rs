@@ -4,6 +4,7 @@ mod memory;
 
 pub(crate) use memory::least_memory;
 
+use crate::cause::Cause;
 use crate::device::{Binding, Buffer, Device, DeviceError, Landing, Recorder};
 use crate::error::NotOnDevice;
 use crate::groups::{Groups, JOURNAL, JOURNAL_WORDS};
@@ -14,7 +15,6 @@ use crate::plane::size_on_device;
 use crate::program::{Manner, Program, Texts};
 use crate::service::{ADVANCE, SEAL_AIM, SEAL_FULL, SEAL_REPORT, Services};
 use crate::space::Space;
-use crate::stop::Cause;
 use memory::{check_types, groups_of, looked_at, records, space_of};
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;

@@ -2,36 +2,10 @@
 
 use crate::device::DeviceError;
 use crate::execution::GpuExecution;
-use crate::program::Program;
 use xca_core::engine::Fault;
 use xca_core::kernel::{BEYOND_NEIGHBOURHOOD, NOWHERE, OUTSIDE, RowFault, StoppedAt};
 use xca_core::{Precision, ProcessKind};
 use xca_wgsl::{Content, Dispatch, FaultKind};
-
-/// How a process stopped a run; the number is what the device notes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) enum Cause {
-    /// It reported a fault, or Rust would have stopped it.
-    Reported = 0,
-    /// A migration sent an item where it cannot go.
-    Aimed = 1,
-    /// A migration sent more items into a cell than it has slots.
-    Full = 2,
-}
-
-impl Cause {
-    /// How this process may stop a run.
-    pub(crate) fn of(program: &Program) -> Vec<Self> {
-        let mut causes = Vec::new();
-        if program.may_fault() {
-            causes.push(Self::Reported);
-        }
-        if program.process.kind == ProcessKind::Migration {
-            causes.extend([Self::Aimed, Self::Full]);
-        }
-        causes
-    }
-}
 
 impl GpuExecution {
     /// The fault of a process, from the cause and the cell or item that the device noted; of a migration, the item's label, cell and

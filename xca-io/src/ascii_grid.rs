@@ -11,7 +11,7 @@ mod read;
 pub use error::ReadGridError;
 
 use super::atomic::{WriteError, write_atomically};
-use super::map::Placement;
+use super::placement::Placement;
 use super::raster::{Raster, stands_for_none};
 use std::io::Write;
 use std::path::Path;

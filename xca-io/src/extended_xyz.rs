@@ -30,9 +30,11 @@
 mod comment;
 mod error;
 mod read;
+mod space;
 
 pub use error::{ReadXyzError, WriteXyzError};
 pub use read::{ReadColumn, ReadFrame, ReadValues, read};
+pub use space::Space;
 
 use super::atomic::write_atomically;
 use std::io::{self, Write};
@@ -40,17 +42,6 @@ use std::path::Path;
 
 /// The column of the positions.
 const POSITIONS: &str = "pos";
-
-/// The space of the particles: a box.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Space {
-    /// Its lower corner.
-    pub origin: [f64; 3],
-    /// Its sides along x, y and z.
-    pub sides: [f64; 3],
-    /// The axes along which it is periodic.
-    pub periodic: [bool; 3],
-}
 
 /// A column beside the positions.
 #[derive(Debug, Clone, Copy)]

@@ -30,7 +30,7 @@ pub use keys::GeoKeys;
 pub use write::SampleType;
 
 use crate::atomic::WriteError;
-use crate::map::Placement;
+use crate::placement::Placement;
 use crate::raster::Raster;
 use crate::regular_file;
 use std::io::Read;

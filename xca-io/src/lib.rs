@@ -35,6 +35,7 @@ pub mod map;
 pub mod numbered;
 pub mod numbers;
 pub mod particle_csv;
+mod placement;
 pub mod raster;
 pub mod regular_file;
 pub mod table_csv;

@@ -1,71 +1,11 @@
 //! Where a layer of cells lies on a map, and which of its cells have no ground.
 
+pub use crate::placement::{Placement, PlacementDifference};
+
 use crate::geotiff::GeoKeys;
 use crate::raster::Raster;
-use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-
-/// Corners and sides that are this near, in sides of a cell, are the same.
-const TOLERANCE: f64 = 1e-6;
-
-/// The place of a layer of square cells.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Placement {
-    /// The number of columns and rows.
-    pub extents: [usize; 2],
-    /// The south-west corner of the south-west cell, in the units of the map.
-    pub corner: [f64; 2],
-    /// The side of a cell, in the units of the map.
-    pub side: f64,
-}
-
-impl Placement {
-    /// The first thing in which a place differs from another one: extents, side or corner. Sides and corners that are within
-    /// 1e-6 of a cell are the same, so it does not matter with how many digits they are written.
-    pub fn difference(&self, other: &Self) -> Option<PlacementDifference> {
-        let is_near = |one: f64, other: f64| (one - other).abs() <= TOLERANCE * self.side;
-        let corners = || self.corner.iter().zip(other.corner);
-        if self.extents != other.extents {
-            Some(PlacementDifference::Extents { found: self.extents, wanted: other.extents })
-        } else if !is_near(self.side, other.side) {
-            Some(PlacementDifference::Side { found: self.side, wanted: other.side })
-        } else if !corners().all(|(one, other)| is_near(*one, other)) {
-            Some(PlacementDifference::Corner { found: self.corner, wanted: other.corner })
-        } else {
-            None
-        }
-    }
-
-    /// Column and row of a cell as they are counted in a file: from 1, from the west and from the north.
-    pub fn place(&self, cell: usize) -> [usize; 2] {
-        let [columns, rows] = self.extents;
-        [cell % columns.max(1) + 1, rows.saturating_sub(cell / columns.max(1))]
-    }
-}
-
-/// How two places differ: the value of the one and of the other.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[expect(missing_docs, reason = "the names say it")]
-pub enum PlacementDifference {
-    Extents { found: [usize; 2], wanted: [usize; 2] },
-    Side { found: f64, wanted: f64 },
-    Corner { found: [f64; 2], wanted: [f64; 2] },
-}
-
-impl fmt::Display for PlacementDifference {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Extents { found: [x, y], wanted: [u, v] } => {
-                write!(f, "it has {x} x {y} cells, not {u} x {v}")
-            }
-            Self::Side { found, wanted } => write!(f, "its cells have a side of {found}, not {wanted}"),
-            Self::Corner { found: [x, y], wanted: [u, v] } => {
-                write!(f, "its south-west corner is {x}, {y}, not {u}, {v}")
-            }
-        }
-    }
-}
 
 /// The place of a layer of cells, with a mask of those that have no ground (NODATA).
 #[derive(Debug, Clone, PartialEq)]
@@ -106,6 +46,11 @@ impl Map {
     /// The coordinate system of its corner and side, if a file has named one.
     pub fn coordinate_system(&self) -> Option<&Arc<GeoKeys>> {
         self.coordinate_system.as_ref()
+    }
+
+    /// Whether its corner and side are in degrees of longitude and latitude; else they are taken for metres.
+    pub fn is_in_degrees(&self) -> bool {
+        self.coordinate_system.as_ref().is_some_and(|keys| keys.is_in_degrees())
     }
 
     /// The mask of the cells without ground, x fastest, from the south; none where every cell has ground.
@@ -159,6 +104,15 @@ impl Map {
             }
             None => Ok(()),
         }
+    }
+}
+
+impl From<&Raster> for Map {
+    /// The place of the raster and its coordinate system, with ground where it has a value.
+    fn from(raster: &Raster) -> Self {
+        let missing = raster.values().iter().map(|value| value.is_nan()).collect();
+        let map = Self::new(raster.placement()).with_coordinate_system(raster.coordinate_system().cloned());
+        map.clone().without(missing).unwrap_or(map)
     }
 }
 

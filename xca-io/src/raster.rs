@@ -1,12 +1,14 @@
 //! A layer of square cells with a number for each, as geographic information systems have it.
 //!
-//! [`Raster::read`] reads GeoTIFF and ESRI ASCII grids; [`geotiff::write`] and [`ascii_grid::write`] write
+//! [`Raster::read`] reads GeoTIFF and ESRI ASCII grids; [`crate::geotiff::write`] and [`crate::ascii_grid::write`] write
 //! them. Rows count from the south, as in a model: `[0, 0]` is the cell in the south-west.
 
-use crate::ascii_grid::{self, ReadGridError};
-use crate::geotiff::{self, GeoKeys, ReadGeoTiffError};
-use crate::map::{Map, Placement};
-use std::path::{Path, PathBuf};
+mod read;
+
+pub use read::{HIGHEST, ReadRasterError};
+
+use crate::geotiff::GeoKeys;
+use crate::placement::Placement;
 use std::sync::Arc;
 
 /// A layer of square cells, each with a number or without one.
@@ -87,61 +89,7 @@ impl Raster {
         self.values.iter_mut().filter(|own| own.is_nan()).for_each(|own| *own = value);
         self
     }
-
-    /// Reads a GeoTIFF, which its first bytes or its extension (`.tif`, `.tiff`) tell, or an ESRI ASCII grid.
-    ///
-    /// # Errors
-    /// [`ReadRasterError::GeoTiff`], [`ReadRasterError::AsciiGrid`].
-    pub fn read(path: &Path) -> Result<Self, ReadRasterError> {
-        Self::read_either(path, None)
-    }
-
-    /// As [`Raster::read`], of a file that may lack its place on the map: a GeoTIFF without georeference, a
-    /// grid without a header. It must have the columns and rows of this place.
-    ///
-    /// # Errors
-    /// As [`Raster::read`].
-    pub fn read_on(path: &Path, placement: Placement) -> Result<Self, ReadRasterError> {
-        Self::read_either(path, Some(placement))
-    }
-
-    fn read_either(path: &Path, on: Option<Placement>) -> Result<Self, ReadRasterError> {
-        if geotiff::is_geotiff(path) {
-            Ok(geotiff::read_placed(path, on)?)
-        } else {
-            Ok(ascii_grid::read_placed(path, on)?)
-        }
-    }
-
-    /// As [`Raster::read`], of altitudes in m. Altitudes beyond [`HIGHEST`] and rasters without any value are
-    /// refused.
-    ///
-    /// # Errors
-    /// As [`Raster::read`]; [`ReadRasterError::Height`] and [`ReadRasterError::Empty`].
-    pub fn read_heights(path: &Path) -> Result<Self, ReadRasterError> {
-        let raster = Self::read(path)?;
-        if let Some(cell) = raster.values.iter().position(|height| height.abs() > HIGHEST) {
-            let (place, height) = (raster.placement.place(cell), raster.values[cell]);
-            return Err(ReadRasterError::Height { path: path.to_owned(), place, height });
-        }
-        if raster.values.iter().all(|height| height.is_nan()) {
-            return Err(ReadRasterError::Empty { path: path.to_owned() });
-        }
-        Ok(raster)
-    }
 }
-
-impl From<&Raster> for Map {
-    /// The place of the raster and its coordinate system, with ground where it has a value.
-    fn from(raster: &Raster) -> Self {
-        let missing = raster.values.iter().map(|value| value.is_nan()).collect();
-        let map = Self::new(raster.placement).with_coordinate_system(raster.coordinate_system.clone());
-        map.clone().without(missing).unwrap_or(map)
-    }
-}
-
-/// The largest altitude, and depth, that the ground can have, in m.
-pub const HIGHEST: f64 = 1e5;
 
 /// Programs that write a NODATA value beyond this round it to few digits.
 const HUGE: f64 = 1e38;
@@ -165,36 +113,4 @@ pub(crate) fn from_the_south(mut values: Vec<f64>, columns: usize) -> Vec<f64> {
         before[row * columns..][..columns].swap_with_slice(&mut after[..columns]);
     }
     values
-}
-
-/// A raster that cannot be read.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum ReadRasterError {
-    /// An ESRI ASCII grid that cannot be read.
-    #[error(transparent)]
-    AsciiGrid(#[from] ReadGridError),
-    /// A GeoTIFF that cannot be read.
-    #[error(transparent)]
-    GeoTiff(#[from] ReadGeoTiffError),
-    /// An altitude that no ground has.
-    #[error(
-        "{}: {height} in column {}, row {} from the north is no altitude in m; if it stands for no value, name \
-         it in the line NODATA_value, or in the NODATA tag of a GeoTIFF",
-        path.display(), place[0], place[1]
-    )]
-    Height {
-        /// The file.
-        path: PathBuf,
-        /// Column and row of the cell, from 1, from the west and the north.
-        place: [usize; 2],
-        /// The altitude.
-        height: f64,
-    },
-    /// No cell has a value.
-    #[error("{}: no cell has a value", path.display())]
-    Empty {
-        /// The file.
-        path: PathBuf,
-    },
 }

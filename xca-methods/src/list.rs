@@ -1,6 +1,6 @@
 //! The list.
 
-use crate::{Meaning, Method, Operation, Outcome, Receiver};
+use crate::method::{Meaning, Method, Operation, Outcome, Receiver};
 
 const fn method(
     name: &'static str,
@@ -116,3 +116,22 @@ pub const METHODS: &[Method] = &[
     method("cross", &["b"], Receiver::ThreeLanes, Outcome::Same, Meaning::Operation(Operation::Cross)),
     method("len", &[], Receiver::Arrays, Outcome::Count, Meaning::Operation(Operation::Len)),
 ];
+
+impl Method {
+    /// The method with this name.
+    pub fn named(name: &str) -> Option<&'static Self> {
+        METHODS.iter().find(|method| method.name == name)
+    }
+
+    /// How it is written: `clamp(low, high)`.
+    pub fn usage(&self) -> String {
+        format!("{}({})", self.name, self.arguments.join(", "))
+    }
+}
+
+impl Operation {
+    /// The method that means it.
+    pub fn method(self) -> Option<&'static Method> {
+        METHODS.iter().find(|method| method.meaning == Meaning::Operation(self))
+    }
+}

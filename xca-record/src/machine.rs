@@ -1,10 +1,12 @@
 //! What is known of the machine and of the memory that this process has used.
 
 mod limits;
+mod table;
 
 use limits::Free;
 use std::fs;
 use std::path::Path;
+use table::kilobytes;
 
 /// Something that does not fit into the memory that there is.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -47,14 +49,6 @@ pub fn free_memory() -> Option<u64> {
 /// The most bytes that this process has had in memory.
 pub fn peak_memory() -> Option<u64> {
     kilobytes(Path::new("/proc/self/status"), "VmHWM:")
-}
-
-/// A number of bytes from one of Linux's tables; other systems have none.
-fn kilobytes(table: &Path, name: &str) -> Option<u64> {
-    let text = fs::read_to_string(table).ok()?;
-    let line = text.lines().find_map(|line| line.strip_prefix(name))?;
-    let number: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    number.checked_mul(1024)
 }
 
 /// The bytes of memory that the machine has.

@@ -8,6 +8,7 @@ pub(crate) mod layer;
 mod look;
 mod measure;
 mod painting;
+mod panel;
 mod recorded;
 mod saved;
 mod seen;

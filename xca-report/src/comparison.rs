@@ -1,12 +1,15 @@
 //! A comparison as people and programs read it.
 
 mod csv_files;
+mod error;
 mod markdown;
 mod page;
 mod plots;
 mod sheets;
 #[cfg(test)]
 mod tests;
+
+pub use error::ReportError;
 
 use crate::table::table;
 use sheets::Sheet;
@@ -17,23 +20,6 @@ use xca_compare::ComparisonReport;
 use xca_io::atomic::{WriteError, write_atomically};
 use xca_record::InputFile;
 use xca_record::record::{COMPARISON as JSON, Claim, FolderError, Kind, LockedFolder};
-
-/// A report that cannot be made.
-#[derive(Debug, thiserror::Error)]
-pub enum ReportError {
-    /// A file cannot be written.
-    #[error(transparent)]
-    Write(#[from] WriteError),
-    /// The library that draws says why.
-    #[error("a plot cannot be drawn: {0}")]
-    Plot(String),
-    /// JSON.
-    #[error("the result cannot be written as JSON")]
-    Json(#[from] serde_json::Error),
-    /// CSV.
-    #[error("a table cannot be written as CSV")]
-    Csv(#[from] csv::Error),
-}
 
 /// The folder of a comparison.
 #[derive(Debug)]

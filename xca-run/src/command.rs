@@ -1,15 +1,19 @@
 //! The command line of a model's program.
 
 mod arguments;
+mod choice;
 mod clashes;
 mod compare;
 mod config;
+mod definition;
 mod engine;
+mod help;
 mod initial;
 mod inspect;
 mod list;
 mod look;
 mod new;
+mod outcome;
 mod parse;
 mod prepare;
 mod render;
@@ -27,7 +31,9 @@ use crate::engines::{EngineKind, Engines};
 use crate::interrupt::EXIT_INTERRUPTED;
 use crate::program::{Given, Program};
 use crate::terminal;
-use clap::{ArgMatches, Command};
+use clap::Command;
+use definition::{Definition, SetUpModel};
+use outcome::{Ended, Unable};
 use parse::Invocation;
 use std::ffi::OsString;
 use std::fmt;
@@ -37,89 +43,12 @@ use std::sync::{Mutex, PoisonError};
 use xca_record::Failure;
 use xca_record::SetUp;
 
-/// What every program's `--help` says of its exit codes.
-const EXIT_CODES: &str = "\
-Exit codes:
-  0    what was asked for is done: of a run, all steps, or the model stopped it
-  1    the run failed: a fault of the model, or files or results that could not be
-       written
-  2    the command line, a file, a checkpoint or the model makes no sense, or does
-       not fit; nothing was run
-  3    of a comparison: an engine differs from the first one by more than rounding
-  130  interrupted: the first Ctrl-C (or SIGTERM) ends the run after its current
-       step with all files complete, a second one ends it at once";
-
 /// The exit code of a run that failed.
 const FAILED: u8 = 1;
 /// The exit code of a run that could not begin.
 const REFUSED: u8 = 2;
 /// The exit code of a comparison whose engines do not agree.
 const DIFFERENT: u8 = 3;
-
-/// How a command ended that did what it was asked to.
-enum Ended {
-    Done,
-    Interrupted,
-    /// Engines that are compared do not agree.
-    Different,
-}
-
-/// Why a command did not.
-#[derive(Debug)]
-enum Unable {
-    /// Nothing was run.
-    Refused(Failure),
-    /// Nothing was run, but this would do.
-    RefusedOffering(Failure, String),
-    /// The run failed.
-    Failed(Failure),
-    /// The run failed, and this is left of it.
-    FailedLeaving(Failure, String),
-    /// The parser of the command line says why, or shows the help that was asked for.
-    CommandLine(clap::Error),
-}
-
-impl Unable {
-    fn refused(error: impl Into<Failure>) -> Self {
-        Self::Refused(error.into())
-    }
-
-    /// What went wrong, where others tell it.
-    fn into_failure(self) -> Failure {
-        match self {
-            Self::Refused(error)
-            | Self::RefusedOffering(error, _)
-            | Self::Failed(error)
-            | Self::FailedLeaving(error, _) => error,
-            Self::CommandLine(error) => error.into(),
-        }
-    }
-
-    fn failed(error: impl Into<Failure>) -> Self {
-        Self::Failed(error.into())
-    }
-}
-
-/// A program as the command line needs it.
-struct Definition<'a> {
-    name: &'static str,
-    about: &'static str,
-    version: &'static str,
-    examples: &'static str,
-    /// Adds the options of the model.
-    options: fn(Command) -> Command,
-    set_up: &'a SetUpModel<'a>,
-    engines: &'a Engines,
-}
-
-impl Definition<'_> {
-    /// The version of the framework, the name of the program, and its version.
-    fn identity(&self) -> [&'static str; 3] {
-        [env!("CARGO_PKG_VERSION"), self.name, self.version]
-    }
-}
-
-type SetUpModel<'a> = dyn Fn(&ArgMatches, Given) -> Result<SetUp, Unable> + 'a;
 
 /// The whole of a program: reads the command line, runs the model, reports.
 ///

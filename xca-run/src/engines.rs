@@ -2,101 +2,18 @@
 
 mod cpu;
 mod gpu;
+mod kind;
 mod options;
 mod reference;
 
+pub use kind::{Devices, EngineKind, MissingFeature};
 pub use options::{EngineOption, EngineOptions};
 
 use cpu::CpuKind;
 use gpu::GpuKind;
 use reference::ReferenceKind;
-use std::fmt;
-use xca_core::{Engine, Model, Precision};
+use xca_core::Engine;
 use xca_record::Failure;
-
-/// A kind of engine, which a program offers by a name.
-///
-/// An engine from elsewhere takes part in every subcommand once its kind is added:
-///
-/// ```no_run
-/// use xca_run::prelude::*;
-/// use xca_run::{CommandLine, EngineKind, EngineOptions};
-/// use xca_run::record::Failure;
-///
-/// #[derive(Debug)]
-/// struct Plain;
-///
-/// impl EngineKind for Plain {
-///     fn name(&self) -> &'static str {
-///         "plain"
-///     }
-///
-///     fn about(&self) -> &'static str {
-///         "The reference engine under another name"
-///     }
-///
-///     fn make(&self, _options: &EngineOptions) -> Result<Box<dyn Engine>, Failure> {
-///         Ok(Box::new(Reference))
-///     }
-/// }
-///
-/// # #[derive(Args)]
-/// # struct Forest {}
-/// # impl Program for Forest {
-/// #     const NAME: &'static str = "forest";
-/// #     const ABOUT: &'static str = "A fire in a forest";
-/// #     fn set_up(&self, _given: Given) -> Result<SetUp, Failure> { Err("no model".into()) }
-/// # }
-/// fn main() -> ExitCode {
-///     CommandLine::of::<Forest>(env!("CARGO_PKG_VERSION")).engine(Plain).main()
-/// }
-/// ```
-pub trait EngineKind: fmt::Debug + Send + Sync {
-    /// What `--engine` calls it: the name of the engines that it makes.
-    fn name(&self) -> &'static str;
-
-    /// A line about it, for help and `list`.
-    fn about(&self) -> &'static str;
-
-    /// What can be chosen of it, each an option of the command line. A comparison takes the first after a
-    /// colon: `cpu:2`. Names of the frame's own options are refused when the program starts.
-    fn options(&self) -> &'static [EngineOption] {
-        &[]
-    }
-
-    /// What is chosen where many engines of this kind work side by side, unless the user chooses himself.
-    fn beside_others(&self) -> EngineOptions {
-        EngineOptions::default()
-    }
-
-    /// Makes an engine. The options have been checked one by one.
-    ///
-    /// # Errors
-    /// Where the machine does not have what was chosen.
-    fn make(&self, options: &EngineOptions) -> Result<Box<dyn Engine>, Failure>;
-
-    /// What it can run on, for `list`; nothing of an engine that only knows the processor.
-    fn devices(&self) -> Option<Devices> {
-        None
-    }
-
-    /// What it makes of the processes of a model, as text; nothing of an engine that makes no text of them.
-    ///
-    /// # Errors
-    /// Where it cannot run the model.
-    fn source(&self, _model: &Model, _precision: Precision) -> Option<Result<String, Failure>> {
-        None
-    }
-}
-
-/// What a kind of engine can run on.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Devices {
-    /// A table of at most 80 columns, or why there are none.
-    pub text: String,
-    /// An object for each.
-    pub data: Vec<serde_json::Value>,
-}
 
 /// The kinds of engines that a program offers, by name. The first is the one that runs a model unless the
 /// command line says otherwise.
@@ -202,22 +119,6 @@ impl Engines {
             if owners.is_empty() { "no option".to_owned() } else { format!("for {}", owners.join(" and ")) };
         EngineError::NoOption { option: option.to_owned(), of, engine: kind.name() }
     }
-}
-
-/// A part that the program was built without.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "this program was built without the feature `{feature}`; build it with \
-     `cargo run --release --features xca/{feature}`"
-)]
-pub struct MissingFeature {
-    feature: &'static str,
-}
-
-#[cfg(not(feature = "terminal"))]
-impl MissingFeature {
-    /// The subcommand `watch`.
-    pub(crate) const TERMINAL: Self = Self { feature: "terminal" };
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
 mod blocks;
+mod colours;
 mod full_screen;
 mod keyboard;
 mod keys;
@@ -19,7 +20,7 @@ mod worker;
 pub use full_screen::give_back;
 pub use session::Ended;
 
-use blocks::Colours;
+use colours::Colours;
 use pace::Pace;
 use screen::{Facts, Screen};
 use std::sync::atomic::AtomicBool;

@@ -1,6 +1,6 @@
 //! What a state looks like in so many pixels.
 
-use super::blocks::Colours;
+use super::colours::Colours;
 use super::window::Window;
 use xca_picture::{Category, DepthBuffer, Disc, Mosaic, Palette, Scalar, Scale};
 use xca_record::record::{Sight, Subject};

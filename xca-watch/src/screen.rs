@@ -1,6 +1,7 @@
 //! What is on the screen, and what keys do to it. Nothing here knows of a terminal, a clock or a simulation.
 
-use super::blocks::{self, Colours};
+use super::blocks;
+use super::colours::Colours;
 use super::pace::Pace;
 use super::pixels::{looked_along, pixels, plane};
 use super::window::{Place, Window};

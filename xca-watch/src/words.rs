@@ -1,6 +1,6 @@
 //! The words around the picture.
 
-use super::blocks::Colours;
+use super::colours::Colours;
 use super::pixels::{looked_along, scale};
 use super::screen::Screen;
 use super::worker::News;

@@ -1,5 +1,5 @@
 use crate::*;
-use xca_core::Precision;
+use xca_core::{Precision, Reference, RunOptions, Simulation};
 
 fn table1() -> Configuration {
     Case::Table1.configuration()
@@ -149,9 +149,12 @@ fn a_file_with_an_unknown_name_is_refused() {
 
 #[test]
 fn a_time_step_that_is_too_long_for_a_contact_is_warned_of() {
-    for case in Case::ALL {
+    for case in [Case::Illustration, Case::Table1] {
         assert_eq!(case.configuration().warnings(Precision::F64), Vec::<String>::new(), "{case}");
     }
+    // Nine pieces of a wall act at once in the program of the authors.
+    let published = Case::Published.configuration().warnings(Precision::F64);
+    assert!(published[0].starts_with("a contact with a wall takes 10.5 steps"), "{published:?}");
     // The numbers of the paper's benchmark, as docs/cadem.md has them.
     let duration = table1().material().contact_duration();
     assert!((duration / 2.483649e-4 - 1.0).abs() < 1e-6, "{duration}");
@@ -164,6 +167,44 @@ fn a_time_step_that_is_too_long_for_a_contact_is_warned_of() {
     );
     let advised = Configuration { time_step: TimeStep::Seconds(1.2415e-5), ..table1() };
     assert!(advised.warnings(Precision::F64).is_empty());
+}
+
+/// How long a particle that meets a wall has it within its radius, in s, in steps that are far shorter than a contact.
+fn bounce(walls: Walls) -> f64 {
+    let configuration = Configuration {
+        cells: [3; 3],
+        walls,
+        gravity: 0.0,
+        time_step: TimeStep::Seconds(1e-7),
+        ..Case::Illustration.configuration()
+    };
+    let wall = configuration.wall(Face::ZLow);
+    let radius = configuration.radius;
+    let middle = 1.5 * configuration.cell_side;
+    let particle =
+        Particle { label: 1, position: [middle, middle, wall + radius + 1e-8], velocity: [0.0, 0.0, -0.1] };
+    let model = model(&configuration, vec![particle]).unwrap();
+    let mut simulation = Simulation::new(&model, &Reference, RunOptions::default()).unwrap();
+    let mut steps = 0;
+    loop {
+        simulation.step().unwrap();
+        let here = particles(&simulation.state()).unwrap()[0];
+        let touches = here.position[2] - wall < radius;
+        steps += i32::from(touches);
+        if here.velocity[2] > 0.0 && !touches {
+            return f64::from(steps) * 1e-7;
+        }
+    }
+}
+
+/// The law that is written down, against a particle that bounces.
+#[test]
+fn a_wall_holds_a_particle_as_long_as_it_says() {
+    for walls in Walls::ALL {
+        let material = Case::Illustration.configuration().material();
+        let (found, wanted) = (bounce(walls), material.wall_contact_duration(walls.pieces()));
+        assert!((found / wanted - 1.0).abs() < 0.02, "{walls}: {found} {wanted}");
+    }
 }
 
 /// The warning names the speed at which `f32` begins to lose the motion, near the far end of the domain.

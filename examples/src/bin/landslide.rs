@@ -4,7 +4,7 @@
 //! adherence) can move. The minimisation of differences shares it with the four neighbours. A step moves a
 //! part of that (the rate). The volume of debris is conserved.
 use std::path::{Path, PathBuf};
-use xca_examples::models::flows::{WALL, shares};
+use xca_examples::models::flows::shares;
 use xca_run::prelude::*;
 
 /// The sides of a cell.
@@ -21,6 +21,8 @@ struct Slope {
     /// Thickness that leaves for each neighbour.
     #[substate(unit = "m")]
     outflow: [Real; SIDES],
+    /// False beyond the map, and where it has no value: nothing flows there.
+    is_ground: bool,
 }
 
 #[derive(Parameters, Clone, Copy, Debug)]
@@ -43,10 +45,12 @@ fn flow(cell: &mut Cell<Slope>, p: &Debris) {
         return;
     }
     let mut heights = [cell.altitude + p.adherence; SIDES + 1];
+    let mut takes_part = [true; SIDES + 1];
     for n in 1..cell.neighbour_count() {
         heights[n] = cell.neighbour(n).altitude + cell.neighbour(n).thickness;
+        takes_part[n] = cell.neighbour(n).is_ground;
     }
-    let out = shares::<{ SIDES + 1 }>(heights, [true; SIDES + 1], mobile);
+    let out = shares::<{ SIDES + 1 }>(heights, takes_part, mobile);
     for n in 1..cell.neighbour_count() {
         cell.outflow[n - 1] = p.rate * out[n];
     }
@@ -133,11 +137,12 @@ impl Terrain {
 
     fn state(&self, site: Site) -> Slope {
         let [x, y, _] = site.cell();
-        let rough = |altitude: f64| altitude + self.roughness * site.random(0);
+        let altitude = self.ground.value([x, y]);
         Slope {
-            altitude: self.ground.value([x, y]).map_or(WALL, rough),
+            altitude: altitude.map_or(0.0, |altitude| altitude + self.roughness * site.random(0)),
             thickness: self.debris.value([x, y]).unwrap_or(0.0),
             outflow: [0.0; SIDES],
+            is_ground: altitude.is_some(),
         }
     }
 }
@@ -179,14 +184,13 @@ impl Program for Landslide {
         let observed = self.observed.as_deref().map(|path| read_observed(path, &map)).transpose()?;
         let files = files.into_iter().chain(self.observed.clone());
         let edge = map.edge();
-        let outside = Slope { altitude: WALL, thickness: 0.0, outflow: [0.0; SIDES] };
         let debris = Debris { adherence: 1.0, rate: 0.5 };
         let model = Model::builder("landslide")
             .extents([columns, rows, 1])
             .cell_side(side)
             .neighbourhood(Neighbourhood::von_neumann_2d(1))
             .boundary(Boundary::Flat)
-            .substates_with_outside(outside)
+            .substates::<Slope>()
             .parameters(debris)
             .process((flow, settle))
             .fill(move |site| terrain.state(site))

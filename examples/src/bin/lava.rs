@@ -1,7 +1,6 @@
 //! Lava out of the vents of a volcano, made up or over a map.
 use std::path::PathBuf;
 use std::str::FromStr;
-use xca_examples::models::flows::WALL;
 use xca_examples::models::lava::{Lava, Rate, Vent, Volcano, model};
 use xca_run::prelude::*;
 
@@ -94,7 +93,7 @@ impl Program for Eruption {
         let roughness = if self.dem.is_some() { 0.0 } else { 2.0 };
         let altitude = move |site: Site| {
             let [x, y, _] = site.cell();
-            ground.value([x, y]).map_or(WALL, |altitude| altitude + roughness * site.random(0))
+            ground.value([x, y]).map(|altitude| altitude + roughness * site.random(0))
         };
         let model = model(extents, side, lava, vents, altitude)?;
         let area = side * side;

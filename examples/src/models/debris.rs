@@ -1,7 +1,7 @@
 //! A debris flow over hexagons that tears soil from its bed: SCIDDICA-S3hex (D'Ambrosio, Di Gregorio and
 //! Iovine, Natural Hazards and Earth System Sciences 3, 2003).
 
-use crate::models::flows::{WALL, shares};
+use crate::models::flows::shares;
 use xca_core::prelude::*;
 
 /// The sides of a hexagon.
@@ -30,6 +30,8 @@ pub struct Slope {
     /// Momentum that leaves for each neighbour.
     #[substate(unit = "m2")]
     pub carried: [Real; SIDES],
+    /// False beyond the map: nothing flows there.
+    pub is_ground: bool,
 }
 
 /// What debris is like.
@@ -108,7 +110,7 @@ pub fn flow(cell: &mut Cell<Slope>, p: &Debris) {
     let mut takes_part = [true; SIDES + 1];
     for n in 1..cell.neighbour_count() {
         heights[n] = cell.neighbour(n).altitude + cell.neighbour(n).thickness;
-        takes_part[n] = head - heights[n] >= p.friction;
+        takes_part[n] = cell.neighbour(n).is_ground && head - heights[n] >= p.friction;
     }
     let out = shares::<7>(heights, takes_part, run_up);
     for n in 1..cell.neighbour_count() {
@@ -142,7 +144,7 @@ pub fn lose(cell: &mut Cell<Slope>, p: &Debris) {
     }
 }
 
-/// A slope of hexagons with a corner up, which begins as the function says. Beyond the map lies a wall.
+/// A slope of hexagons with a corner up, which begins as the function says. Nothing leaves the map.
 ///
 /// # Errors
 /// Where a parameter is out of its range.
@@ -156,7 +158,7 @@ pub fn model(
         .extents([extents[0], extents[1], 1])
         .cell_side(side)
         .neighbourhood(Neighbourhood::hexagonal(Hexagons::CornerUp))
-        .substates_with_outside(Slope { altitude: WALL, ..Slope::bare() })
+        .substates::<Slope>()
         .parameters(debris)
         .process((erode, flow, settle, lose))
         .fill(begin)
@@ -174,6 +176,7 @@ impl Slope {
             momentum: 0.0,
             debris: [0.0; SIDES],
             carried: [0.0; SIDES],
+            is_ground: true,
         }
     }
 }

@@ -3,10 +3,6 @@
 
 use xca_core::prelude::*;
 
-/// The altitude, in m, of what nothing climbs: beyond the map, and where there is no ground. It is above every altitude that
-/// a grid of heights may have, and the files, pictures and statistics of a run leave it out.
-pub const WALL: f64 = 1e6;
-
 /// What goes to each place so that the heights of all that take part differ as little as possible.
 ///
 /// Place 0 is the cell itself; its height is that of what cannot move. A place above the common level takes

@@ -5,7 +5,7 @@
 //! what the yield strength holds back. Yield strength and flow rate follow from the temperature. Vents give
 //! lava at a rate that changes with time.
 
-use crate::models::flows::{WALL, shares};
+use crate::models::flows::shares;
 use xca_core::prelude::*;
 
 /// A side or a corner is shared with so many cells.
@@ -28,6 +28,8 @@ pub struct Volcano {
     pub solid: Real,
     /// Thickness that leaves for each neighbour, in m.
     pub outflow: [Real; NEIGHBOURS],
+    /// False beyond the map, and where it has no value: nothing flows there.
+    pub is_ground: bool,
 }
 
 /// What lava is like.
@@ -99,7 +101,7 @@ pub fn flow(cell: &mut Cell<Volcano>, lava: &Lava, space: &Space) {
         let distance = (cell.displacement(n).length_squared() as Real).sqrt();
         heights[n] = cell.altitude - (cell.altitude - other.altitude) / distance + other.thickness;
         let slope = (cell.altitude + cell.thickness - heights[n]) / space.side();
-        takes_part[n] = slope > 0.0;
+        takes_part[n] = other.is_ground && slope > 0.0;
         cosine[n] = 1.0 / (1.0 + slope * slope).sqrt();
     }
     let rate = power_law(lava.solid_rate, lava.vent_rate, cell.temperature, lava);
@@ -193,7 +195,7 @@ fn erupt(state: &mut State<'_>, vents: &[Vent]) -> Result<(), SteeringError> {
     Ok(())
 }
 
-/// A volcano of this ground, in m, with its vents. Beyond the map lies a wall.
+/// A volcano of this ground, in m, with its vents. Nothing leaves the map, nor flows to cells without ground.
 ///
 /// # Errors
 /// Where a parameter is out of its range.
@@ -202,13 +204,13 @@ pub fn model(
     side: f64,
     lava: Lava,
     vents: Vec<Vent>,
-    ground: impl Fn(Site) -> f64 + Send + Sync + 'static,
+    ground: impl Fn(Site) -> Option<f64> + Send + Sync + 'static,
 ) -> Result<Model, ModelError> {
     Model::builder("lava")
         .extents([extents[0], extents[1], 1])
         .cell_side(side)
         .neighbourhood(Neighbourhood::moore_2d(1))
-        .substates_with_outside(bare(WALL))
+        .substates::<Volcano>()
         .parameters(lava)
         .process((flow, mix, cool))
         .fill(move |site| bare(ground(site)))
@@ -216,7 +218,14 @@ pub fn model(
         .build()
 }
 
-/// Ground without lava.
-fn bare(altitude: f64) -> Volcano {
-    Volcano { altitude, thickness: 0.0, temperature: 0.0, solid: 0.0, outflow: [0.0; NEIGHBOURS] }
+/// Ground without lava, or no ground.
+fn bare(altitude: Option<f64>) -> Volcano {
+    Volcano {
+        altitude: altitude.unwrap_or(0.0),
+        thickness: 0.0,
+        temperature: 0.0,
+        solid: 0.0,
+        outflow: [0.0; NEIGHBOURS],
+        is_ground: altitude.is_some(),
+    }
 }

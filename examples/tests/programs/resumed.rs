@@ -6,6 +6,7 @@ use crate::running::{
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 /// Resumes a run, which must succeed; gives what it said.
 fn resume(place: &Workplace, program: &str, words: &str) -> String {
@@ -218,4 +219,38 @@ fn a_run_does_not_change_its_rounding_unawares() {
     }
     assert_eq!(said(older), (Some(0), String::new()));
     assert_eq!(said(&format!("{older} --engine cpu --allow-rounding")), (Some(0), String::new()));
+}
+
+/// While a resumed run is under way, its folder has no file of the end.
+#[test]
+fn a_resumed_run_leaves_no_earlier_end() {
+    let place = Workplace::new();
+    let ends = |run: &str| {
+        let entries = fs::read_dir(place.path(run)).unwrap().map(|entry| entry.unwrap().file_name());
+        entries.filter(|name| name.to_str().unwrap().starts_with("final")).count()
+    };
+    for (program, run) in [(LANDSLIDE, "slide"), (LIFE, "life")] {
+        let options = format!("--formats +asc --steps 200000 --every 5 --checkpoint-every 5 --out {run}");
+        let frames = || fs::read_dir(place.path(run).join("frames")).map_or(0, Iterator::count);
+        let wait = |count: usize| {
+            let begin = Instant::now();
+            while frames() < count {
+                assert!(begin.elapsed() < Duration::from_secs(60), "the run does not get on");
+                std::thread::sleep(Duration::from_millis(5));
+            }
+        };
+        let child = place.command(program, &options).arg("--quiet").spawn().unwrap();
+        wait(4);
+        let sent =
+            std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+        assert!(sent.success());
+        assert_eq!(child.wait_with_output().unwrap().status.code(), Some(130));
+        assert!(ends(run) > 1, "{program}");
+        let before = frames();
+        let mut child = place.invocation(program, &format!("resume {run} --quiet")).spawn().unwrap();
+        wait(before + 2);
+        child.kill().unwrap();
+        child.wait().unwrap();
+        assert_eq!(ends(run), 0, "{program}");
+    }
 }

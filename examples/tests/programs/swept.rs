@@ -79,6 +79,23 @@ fn a_sweep_that_was_killed_goes_on() {
     }
 }
 
+/// The member under way is given up: it would take days.
+#[test]
+#[cfg(unix)]
+fn ctrl_c_ends_a_sweep_within_a_long_member() {
+    let place = Workplace::new();
+    let words = "sweep --seeds 3 --size 24 --until 0 --steps 100000000000 --jobs 1 --out long";
+    let mut child = place.invocation(HEAT, words).stdout(Stdio::piped()).spawn().unwrap();
+    while !place.path("long/sweep.json").exists() {
+        assert!(child.try_wait().unwrap().is_none(), "it ended before it wrote its report");
+        std::thread::yield_now();
+    }
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let table = place.path("long/members.csv");
+    assert!(!table.exists() || rows(&place, "long/members.csv").len() < 2);
+}
+
 #[test]
 fn what_cannot_be_swept_is_refused_before_anything_runs() {
     let place = Workplace::new();

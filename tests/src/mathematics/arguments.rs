@@ -1,6 +1,6 @@
 //! Arguments on which the functions are tried.
 
-use super::Function;
+use super::function::Function;
 use std::f64::consts::{FRAC_PI_2, PI};
 use xca_core::{Precision, philox};
 

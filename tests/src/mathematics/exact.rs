@@ -1,6 +1,6 @@
 //! The exact values, from a library of numbers with many digits.
 
-use super::Function;
+use super::function::Function;
 use astro_float::{BigFloat, Consts, RoundingMode};
 use xca_core::Precision;
 

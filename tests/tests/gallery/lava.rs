@@ -21,7 +21,7 @@ fn cone(site: Site) -> f64 {
 }
 
 fn volcano(lava: Lava) -> Model {
-    model([32, 32], SIDE, lava, vents(), cone).unwrap()
+    model([32, 32], SIDE, lava, vents(), |site| Some(cone(site))).unwrap()
 }
 
 /// Fluid and solid lava together are what the vents gave.
@@ -60,7 +60,7 @@ fn lava_in_a_pit_cools_as_the_formula_says() {
     let rates = vec![Rate { from: 0.0, volume: 5.0 }, Rate { from: 60.0, volume: 0.0 }];
     let vent = Vent { cell: [1, 1, 0], rates };
     let pit = |site: Site| if site.cell() == [1, 1, 0] { 0.0 } else { 1000.0 };
-    let model = model([3, 3], SIDE, lava, vec![vent], pit).unwrap();
+    let model = model([3, 3], SIDE, lava, vec![vent], move |site| Some(pit(site))).unwrap();
     let mut simulation = run(&model, 0, 100);
     let thickness = 5.0 * 60.0 / (SIDE * SIDE);
     let wanted = (1360.0_f64.powi(-3) + 100.0 * lava.cooling / thickness).cbrt().recip();
@@ -136,6 +136,9 @@ fn outflows_level_the_heights() {
 fn same_bits() {
     let rates = vec![Rate { from: 0.0, volume: 40.0 }, Rate { from: 300.0, volume: 0.0 }];
     let slope = |site: Site| 100.0 - 4.0 * site.cell()[0] as f64 + 2.0 * site.random(0);
-    let model = model([9, 7], SIDE, Lava::default(), vec![Vent { cell: [2, 3, 0], rates }], slope).unwrap();
+    let model = model([9, 7], SIDE, Lava::default(), vec![Vent { cell: [2, 3, 0], rates }], move |site| {
+        Some(slope(site))
+    })
+    .unwrap();
     assert_same_bits(&model, 12);
 }

@@ -1,7 +1,7 @@
 //! The header of a grid: keys with their values, in any order.
 
 use super::ReadGridError;
-use crate::map::Placement;
+use crate::placement::Placement;
 use std::path::Path;
 
 /// Where the corner that a header gives lies.

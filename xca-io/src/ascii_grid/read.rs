@@ -3,7 +3,7 @@
 use super::ReadGridError;
 use super::header::{Header, Place, is_key};
 use crate::lines::read_line;
-use crate::map::Placement;
+use crate::placement::Placement;
 use crate::raster::{Raster, from_the_south, stands_for_none};
 use crate::regular_file;
 use std::fs::File;

@@ -23,6 +23,10 @@ const PIXEL_IS_POINT: u16 = 2;
 const PROJECTED: u16 = 3072;
 const GEODETIC: u16 = 2048;
 
+/// `GeogAngularUnitsGeoKey`, and the code of degrees.
+const ANGULAR_UNIT: u16 = 2054;
+const DEGREE: u16 = 9102;
+
 /// What stands in place of a code for a system that the file defines itself.
 const USER_DEFINED: u16 = 32_767;
 
@@ -67,6 +71,15 @@ impl GeoKeys {
         let codes = [PROJECTED, GEODETIC].into_iter().map(|key| self.short(key));
         // A projected system that the file defines has a code for its datum alone, which is another system.
         codes.flatten().next().filter(|code| ![0, USER_DEFINED].contains(code))
+    }
+
+    /// Whether coordinates are longitude and latitude in degrees.
+    pub fn is_in_degrees(&self) -> bool {
+        let is_geographic = match self.short(MODEL_TYPE) {
+            Some(model) => model == MODEL_IS_GEOGRAPHIC,
+            None => self.short(GEODETIC).is_some() && self.short(PROJECTED).is_none(),
+        };
+        is_geographic && self.short(ANGULAR_UNIT).is_none_or(|unit| unit == DEGREE)
     }
 
     /// Whether the keys name a coordinate system.

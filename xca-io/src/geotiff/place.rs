@@ -1,7 +1,7 @@
 //! Where the pixels of a GeoTIFF lie.
 
 use super::{GeoKeys, ReadGeoTiffError};
-use crate::map::Placement;
+use crate::placement::Placement;
 use std::path::Path;
 
 /// The tags of the georeference, empty where they are missing.

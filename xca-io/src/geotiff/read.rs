@@ -3,7 +3,7 @@
 use super::place::{Georeference, Pixels};
 use super::{GeoKeys, ReadGeoTiffError, directory};
 use crate::deflate;
-use crate::map::Placement;
+use crate::placement::Placement;
 use crate::raster::{Raster, are_huge, from_the_south};
 use crate::regular_file;
 use std::fs::File;

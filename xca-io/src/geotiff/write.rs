@@ -2,7 +2,7 @@
 
 use super::GeoKeys;
 use crate::atomic::{WriteError, write_atomically};
-use crate::map::Placement;
+use crate::placement::Placement;
 use crate::raster::{Raster, from_the_south};
 use std::io::{self, Seek, Write};
 use std::path::Path;

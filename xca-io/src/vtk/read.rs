@@ -16,13 +16,10 @@ use super::hexagons::{self, CORNER, CORNERS, EXTENTS, SIDE, STAGGER_AXIS};
 use super::{Grid, HexagonGrid};
 use crate::deflate::can_hold;
 use crate::regular_file;
-use element::{Element, attribute};
+use element::{Element, TIME, attribute};
 
 pub use collection::{ListedFile, read_collection};
 pub use found::{DenseFile, HexagonFile, NumberType, ParticleFile, PolyDataFile, ReadArray};
-
-/// The array that tells the time.
-const TIME: &str = "TimeValue";
 
 /// No file has longer lines of XML, in bytes.
 const LONGEST_HEAD: u64 = 1 << 24;

@@ -1,6 +1,6 @@
 //! How much memory is left, and what sets the limit. Linux tells; elsewhere nothing is known.
 
-use super::kilobytes;
+use super::table::kilobytes;
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -117,6 +117,24 @@ pub(crate) fn lattice(geometry: &Geometry) -> Lattice {
     }
 }
 
+/// The sides of the space in sides of a cell. Of hexagons it is the box around them.
+pub(super) fn sides_in_cells(geometry: &Geometry) -> [f64; 3] {
+    let [columns, rows, layers] = geometry.extents();
+    let [x, y] = lattice(geometry).size([columns, rows]);
+    [x, y, layers as f64]
+}
+
+/// The same in the unit of the side of a cell.
+pub(super) fn sides(geometry: &Geometry) -> [f64; 3] {
+    sides_in_cells(geometry).map(|cells| cells * geometry.side())
+}
+
+/// The centre of a cell, where the lattice has it.
+pub(super) fn centre(geometry: &Geometry, cell: [usize; 3]) -> [f64; 3] {
+    let [x, y] = lattice(geometry).centre([cell[0], cell[1]]);
+    [x, y, cell[2] as f64 + 0.5].map(|cells| cells * geometry.side())
+}
+
 /// The numbers that are drawn, one for each cell that is.
 #[derive(Debug, Default)]
 pub(super) struct DrawnValues {

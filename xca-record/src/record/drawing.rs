@@ -2,11 +2,10 @@
 
 use super::look::{Look, LookError};
 use super::painting::Frame;
+use super::panel::Panel;
 use super::saved::{SavedError, SavedRun};
 use super::seen::{Seen, wider};
-use super::shown::Shown;
 use super::{RecordError, Recorder};
-use crate::view::AnyView;
 use xca_core::{Model, Precision, Snapshot};
 use xca_picture::{PanelPicture, Picture};
 
@@ -17,14 +16,6 @@ pub struct Drawing<'a> {
     panels: Vec<Panel>,
     /// Width and height in pixels.
     size: Option<[usize; 2]>,
-}
-
-/// One view, drawn in one way.
-#[derive(Debug)]
-pub struct Panel {
-    pub(super) shown: Shown,
-    /// The scale that was asked for.
-    pub(super) range: Option<[f64; 2]>,
 }
 
 /// The ends of the scale of each panel, where they are known.
@@ -61,23 +52,6 @@ impl Recorder {
             }
         }
         Ok(Drawing { recorder: self, panels, size })
-    }
-}
-
-impl Panel {
-    /// The scale, if it does not depend on the states that are drawn.
-    fn fixed_range(&self, model: &Model) -> Option<[f64; 2]> {
-        let schema = model.groups()[self.shown.group].schema();
-        let (range, categories) = match &self.shown.view {
-            AnyView::Items(view) => (self.range, view.categories(schema)),
-            AnyView::Cells(view) => (view.range, view.categories(schema)),
-        };
-        // Kinds and states have no scale.
-        if categories.is_empty() { range } else { Some([0.0; 2]) }
-    }
-
-    fn is_slice(&self) -> bool {
-        matches!(&self.shown.view, AnyView::Cells(view) if !view.block)
     }
 }
 

@@ -1,7 +1,7 @@
 //! What is wanted of a drawing, and the view of the model that it comes to.
 
 use super::Recorder;
-use super::drawing::Panel;
+use super::panel::Panel;
 use super::shown::Shown;
 use crate::view::{AnyView, Drawn, Quantity};
 use xca_checkpoint::components::{DrawnPart, Part};

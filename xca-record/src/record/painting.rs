@@ -2,7 +2,7 @@
 
 use super::cells;
 use super::seen::{Seen, wider};
-use super::shown::Shown;
+use super::shown::{LengthScale, Shown};
 use crate::format::Subject;
 use crate::view::{AnyCellView, AnyItemView, AnyView, Drawn};
 use xca_core::model::Group;
@@ -37,6 +37,7 @@ pub(super) struct Field<'a> {
     pub(super) hidden: Option<&'a [bool]>,
     /// The corner of the cells, if they lie on a map.
     pub(super) corner: Option<[f64; 2]>,
+    pub(super) scale: LengthScale,
 }
 
 impl Shown {
@@ -75,15 +76,16 @@ impl Shown {
         Ok(match (&self.view, seen) {
             (AnyView::Items(view), Seen::Items { positions, values }) => {
                 let range = frame.range.or_else(|| seen.range());
-                Some(spheres(view, group, geometry, (positions, values), Frame { range, ..frame })?)
+                let spheres = Spheres { view, group, geometry, unit: self.scale(geometry).unit() };
+                Some(spheres.paint((positions, values), Frame { range, ..frame })?)
             }
             (AnyView::Cells(view), Seen::Cells { is_float, values, heights, hidden }) => {
                 let schema = group.schema();
                 let label = view.label(schema);
                 let (heights, hidden, is_float) = (heights.as_deref(), hidden.as_deref(), *is_float);
-                let (label, corner) = (label.as_str(), self.corner_on_map());
+                let (label, corner, scale) = (label.as_str(), self.corner_on_map(), self.scale(geometry));
                 let field =
-                    Field { view, schema, geometry, label, is_float, values, heights, hidden, corner };
+                    Field { view, schema, geometry, label, is_float, values, heights, hidden, corner, scale };
                 let range = seen.range();
                 let layer = Layer {
                     cells: field.plane().0,
@@ -116,7 +118,8 @@ impl Shown {
         let (schema, geometry) = (model.groups()[self.group].schema(), model.geometry());
         let (label, is_float) = (view.label(schema), *is_float);
         let (label, heights, hidden, corner) = (label.as_str(), None, None, None);
-        let field = Field { view, schema, geometry, label, is_float, values, heights, hidden, corner };
+        let scale = Self::new(self.group, self.view.clone(), None).scale(geometry);
+        let field = Field { view, schema, geometry, label, is_float, values, heights, hidden, corner, scale };
         let cells = [geometry.extents()[0], rows];
         let layer = Layer { cells, lattice: Lattice::Squares, has_axes: false };
         field.slice(frame, seen.range(), layer).map(Some)
@@ -138,27 +141,36 @@ struct SpaceAxis {
     begin: f64,
 }
 
-/// Draws items as spheres.
-fn spheres(
-    view: &AnyItemView,
-    group: &Group,
-    geometry: &Geometry,
-    (positions, values): (&[[f64; 3]], &[f64]),
-    frame: Frame<'_>,
-) -> Result<Picture, PictureError> {
-    let side = geometry.side();
-    let upper = geometry.extents().map(|extent| extent as f64 * side);
-    let colour = view.colour(group.schema());
-    let radius = view.radius.unwrap_or(side / 4.0);
-    let mut picture = ParticlePicture::new(positions, radius, Domain { lower: [0.0; 3], upper });
-    picture.colour = colour
-        .as_ref()
-        .map(|Drawn { label, .. }| Scalar { range: frame.range, ..Scalar::new(label, values) });
-    let categories = view.categories(group.schema());
-    picture.categories = &categories;
-    picture.size = frame.size.unwrap_or(picture.size);
-    (picture.title, picture.caption) = (frame.title, frame.caption);
-    picture.render()
+/// Items that are drawn as spheres.
+struct Spheres<'a> {
+    view: &'a AnyItemView,
+    group: &'a Group,
+    geometry: &'a Geometry,
+    /// That of lengths.
+    unit: &'a str,
+}
+
+impl Spheres<'_> {
+    fn paint(
+        &self,
+        (positions, values): (&[[f64; 3]], &[f64]),
+        frame: Frame<'_>,
+    ) -> Result<Picture, PictureError> {
+        let Self { view, group, geometry, unit } = *self;
+        let colour = view.colour(group.schema());
+        let radius = view.radius.unwrap_or(geometry.side() / 4.0);
+        let domain = Domain { lower: [0.0; 3], upper: cells::sides(geometry) };
+        let mut picture = ParticlePicture::new(positions, radius, domain);
+        picture.colour = colour
+            .as_ref()
+            .map(|Drawn { label, .. }| Scalar { range: frame.range, ..Scalar::new(label, values) });
+        let categories = view.categories(group.schema());
+        picture.categories = &categories;
+        picture.length_unit = unit;
+        picture.size = frame.size.unwrap_or(picture.size);
+        (picture.title, picture.caption) = (frame.title, frame.caption);
+        picture.render()
+    }
 }
 
 impl Field<'_> {
@@ -179,12 +191,9 @@ impl Field<'_> {
         picture.hidden = self.hidden;
         (picture.title, picture.caption) = (frame.title, frame.caption);
         picture.size = frame.size;
-        // A side that no one gave is no length.
-        let is_length = self.geometry.side() != 1.0 || self.corner.is_some();
-        if is_length {
-            picture.cell_side = self.geometry.side();
-            picture.length_unit = "m";
-        }
+        // A side of 1 is also that of a scale in cells.
+        picture.cell_side = self.geometry.side();
+        picture.length_unit = self.scale.unit();
         let unit = picture.length_unit;
         let names = self.axes().map(|axis| format!("{} ({unit})", axis.name));
         if layer.has_axes {
@@ -197,7 +206,11 @@ impl Field<'_> {
     /// The axes of a layer, across and up.
     fn axes(&self) -> [SpaceAxis; 2] {
         let [x, y] = self.corner.unwrap_or_default();
-        let names = if self.corner.is_some() { ["easting", "northing", "z"] } else { ["x", "y", "z"] };
+        let names = match self.corner {
+            None => ["x", "y", "z"],
+            Some(_) if self.scale == LengthScale::Degrees => ["longitude", "latitude", "z"],
+            Some(_) => ["easting", "northing", "z"],
+        };
         let begins = [x, y, 0.0];
         let across = match self.view.axis {
             0 => [1, 2],

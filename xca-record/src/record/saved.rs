@@ -209,7 +209,7 @@ fn items(
         }
         Some(Quantity::Part(Part { field, component })) => {
             let drawn = DrawnPart::of(schema.fields[field].value_type, component);
-            if schema.position == Some(field) {
+            if schema.position == Some(field) && !arrays.has(field) {
                 positions.drawn(drawn)
             } else {
                 Plane::of_array(arrays.of_field(field)?).drawn(drawn)
@@ -228,6 +228,12 @@ struct Arrays<'a> {
 }
 
 impl<'a> Arrays<'a> {
+    /// Whether the file has a substate, as it has the positions of items apart.
+    fn has(&self, field: usize) -> bool {
+        let name = self.group.schema().fields[field].name;
+        self.arrays.iter().any(|array| array.name == name)
+    }
+
     /// The array of a substate.
     fn of_field(&self, field: usize) -> Result<&'a ReadArray, SavedError> {
         let definition = &self.group.schema().fields[field];
@@ -262,7 +268,7 @@ impl Arrays<'_> {
         let mut precision = Precision::F64;
         let mut found = Vec::new();
         for (field, definition) in schema.fields.iter().enumerate() {
-            if positions.is_some() && schema.position == Some(field) {
+            if positions.is_some() && schema.position == Some(field) && !self.has(field) {
                 found.push(None);
                 continue;
             }

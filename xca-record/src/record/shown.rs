@@ -4,8 +4,27 @@ use super::cells::{CellState, Ground};
 use super::items::ItemState;
 use super::seen::Seen;
 use crate::view::AnyView;
-use xca_core::{GroupSnapshot, Model, Precision, Snapshot};
+use xca_core::{Geometry, GroupSnapshot, Model, Precision, Snapshot};
 use xca_io::map::Map;
+
+/// How lengths of a space are measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum LengthScale {
+    Metres,
+    /// Of longitude and latitude.
+    Degrees,
+    Cells,
+}
+
+impl LengthScale {
+    pub(super) fn unit(self) -> &'static str {
+        match self {
+            Self::Metres => "m",
+            Self::Degrees => "°",
+            Self::Cells => "cells",
+        }
+    }
+}
 
 /// A view of a model.
 #[derive(Debug)]
@@ -74,9 +93,62 @@ impl Shown {
         self.map.as_ref().map(|map| map.placement().corner)
     }
 
+    /// How lengths of the space are measured.
+    pub(super) fn scale(&self, geometry: &Geometry) -> LengthScale {
+        match &self.map {
+            Some(map) if map.is_in_degrees() => LengthScale::Degrees,
+            Some(_) => LengthScale::Metres,
+            // A side that no one gave is no length.
+            None if geometry.side() == 1.0 => LengthScale::Cells,
+            None => LengthScale::Metres,
+        }
+    }
+
     /// What it draws of a state.
     pub(crate) fn seen(&self, model: &Model, precision: Precision, snapshot: &Snapshot) -> Option<Seen> {
         let items = self.items(model, precision, snapshot).map(|items| items.seen());
         items.or_else(|| self.cells(model, precision, snapshot).map(|cells| cells.seen()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::SetUp;
+    use std::sync::Arc;
+    use xca_core::prelude::*;
+    use xca_io::geotiff::GeoKeys;
+    use xca_io::raster::Raster;
+
+    #[derive(Substates, Clone, Copy, Debug, PartialEq)]
+    struct Ground {
+        height: Real,
+    }
+
+    #[elementary_process]
+    fn rest(cell: &mut Cell<Ground>) {
+        cell.height += 0.0;
+    }
+
+    /// The unit of lengths of a model whose cells have this side, on a map with these keys.
+    fn unit(side: f64, keys: Option<Option<GeoKeys>>) -> &'static str {
+        let builder = Model::builder("ground").extents([2, 2, 1]).cell_side(side);
+        let mut set_up = SetUp::new(builder.substates::<Ground>().process(rest).build().unwrap(), 1);
+        if let Some(keys) = keys {
+            let raster = Raster::new([2, 2], side, vec![1.0; 4]).unwrap();
+            set_up = set_up.map(&raster.with_coordinate_system(keys.map(Arc::new)));
+        }
+        let recorder = crate::record::Recorder::new(set_up).unwrap();
+        recorder.shown[0].scale(recorder.model().geometry()).unit()
+    }
+
+    #[test]
+    fn lengths_are_in_degrees_where_the_map_is() {
+        assert_eq!(unit(0.01, Some(Some(GeoKeys::geographic(4326)))), "°");
+        assert_eq!(unit(1.0, Some(Some(GeoKeys::geographic(4258)))), "°");
+        assert_eq!(unit(30.0, Some(Some(GeoKeys::projected(32_633)))), "m");
+        assert_eq!(unit(1.0, Some(None)), "m");
+        assert_eq!(unit(30.0, None), "m");
+        assert_eq!(unit(1.0, None), "cells");
     }
 }

@@ -1,8 +1,9 @@
 //! What a state shows, as numbers: for a screen, which has other pixels than a picture.
 
-use super::drawing::Panel;
+use super::cells::sides_in_cells;
 use super::look::{Look, LookError};
 use super::painting::Field;
+use super::panel::Panel;
 use super::seen::{Seen, wider};
 use super::{Recorder, Shown};
 use crate::view::{AnyView, Quantity};
@@ -109,6 +110,7 @@ impl Panel {
                     heights: None,
                     hidden: hidden.as_deref(),
                     corner: None,
+                    scale: self.shown.scale(geometry),
                 };
                 let Scalar { map, range, .. } = field.scalar(range, None);
                 let kinds = field.kinds(earlier);
@@ -126,7 +128,7 @@ impl Panel {
                 let subject = Subject::Items {
                     positions: positions.into_iter().map(|position| position.map(|x| x / side)).collect(),
                     radius: view.radius.unwrap_or(side / 4.0) / side,
-                    extents: geometry.extents(),
+                    extents: sides_in_cells(geometry).map(|cells| cells.ceil() as usize),
                 };
                 let (substate, label) = colour
                     .map(|drawn| (name(&drawn.quantity, &drawn.label), drawn.label))

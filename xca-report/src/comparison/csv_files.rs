@@ -1,6 +1,6 @@
 //! The tables of a comparison with all digits, for other programs.
 
-use super::ReportError;
+use super::error::ReportError;
 use csv::Writer;
 use xca_compare::ComparisonReport;
 use xca_compare::Difference;

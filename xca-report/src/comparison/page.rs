@@ -1,6 +1,6 @@
 //! The report as one page for browsers, which needs nothing but itself.
 
-use super::ReportError;
+use super::error::ReportError;
 use super::plots::{self, Plot};
 use super::sheets::{self, Sheet};
 use maud::{DOCTYPE, Markup, PreEscaped, html};

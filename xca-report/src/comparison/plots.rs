@@ -1,6 +1,7 @@
 //! The plots of the page, as SVG.
 
-use super::{ReportError, sheets};
+use super::error::ReportError;
+use super::sheets;
 use plotters::prelude::*;
 use xca_compare::Check;
 use xca_compare::{ComparisonReport, EngineResult};

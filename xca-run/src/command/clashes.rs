@@ -1,6 +1,7 @@
 //! A model's own options, which must not have the names of the frame's.
 
-use super::{Definition, engine, parse};
+use super::definition::Definition;
+use super::{engine, parse};
 use crate::engines::Engines;
 use clap::{Arg, Command};
 use std::collections::BTreeSet;

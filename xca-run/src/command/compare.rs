@@ -1,11 +1,13 @@
 //! The subcommand `compare`.
 
 use super::arguments::{interval, steps};
+use super::choice::Choice as ModelChoice;
+use super::definition::Definition;
 use super::engine::with_shared_options;
-use super::parse::{Choice as ModelChoice, with_help, with_model};
+use super::help::{with_help, with_model};
+use super::outcome::{Ended, Unable};
 use super::prepare::warn;
 use super::voice::Voice;
-use super::{Definition, Ended, Unable};
 use crate::contender::Choice;
 use crate::engines::{EngineError, EngineOptions};
 use crate::interrupt::Interrupt;

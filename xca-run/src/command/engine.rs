@@ -1,6 +1,7 @@
 //! The options of the command line that choose an engine: those of all kinds that the program offers.
 
-use super::{Definition, Unable};
+use super::definition::Definition;
+use super::outcome::Unable;
 use crate::engines::{EngineKind, EngineOption, EngineOptions, Engines};
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Arg, ArgMatches, Command};

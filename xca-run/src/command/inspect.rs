@@ -5,8 +5,9 @@ mod numbers;
 mod state;
 mod words;
 
-use super::parse::with_help;
-use super::{Definition, Ended, Unable};
+use super::definition::Definition;
+use super::help::with_help;
+use super::outcome::{Ended, Unable};
 use crate::terminal::{self, short_lines};
 use clap::{Args, Command};
 use serde::Serialize;

@@ -1,19 +1,23 @@
 //! The subcommand `list`.
 
+mod accesses;
 mod text;
 
-use super::parse::{Choice, with_help, with_model};
+use super::choice::Choice;
+use super::definition::Definition;
+use super::help::{with_help, with_model};
+use super::outcome::{Ended, Unable};
 use super::prepare::warn;
-use super::{Definition, Ended, Unable};
 use crate::engines::Engines;
 use crate::terminal;
+use accesses::{accesses, subject};
 use clap::{Args, Command};
 use serde_json::{Map, Value, json};
 use text::as_text;
 use xca_checkpoint::ModelReport;
 use xca_checkpoint::components::state_names;
 use xca_core::model::GroupKind;
-use xca_core::{End, Model, Process, ProcessKind};
+use xca_core::{End, Model};
 use xca_record::SetUp;
 use xca_record::format::Formats;
 use xca_record::report;
@@ -125,36 +129,6 @@ fn as_json(model: &Model, engines: &Engines, formats: &Formats) -> serde_json::R
         "parameters": parameters(model),
         "processes": processes.collect::<Vec<_>>(),
     }))
-}
-
-fn subject(process: &Process) -> &'static str {
-    match process.kind {
-        ProcessKind::Cells => "cell",
-        ProcessKind::Items => "item",
-        ProcessKind::Migration => "item, to move it",
-    }
-}
-
-/// The substates that a process reads of its own cell or item, those that it reads elsewhere, and those that it writes.
-///
-/// Where it takes several structs, the names of these stand before those of the substates.
-fn accesses(model: &Model, number: usize) -> [Vec<String>; 3] {
-    let process = &model.processes()[number];
-    let mut names = [Vec::new(), Vec::new(), Vec::new()];
-    for (access, substate) in process.access.iter().zip(&model.plan().process(number).accesses) {
-        let schema = model.groups()[substate.group].schema();
-        let field = schema.fields[substate.field].name;
-        let name = match process.substates {
-            [_] => field.to_owned(),
-            _ => format!("{}.{field}", schema.name),
-        };
-        for (list, uses) in names.iter_mut().zip([access.centre, access.others, access.write]) {
-            if uses && !list.contains(&name) {
-                list.push(name.clone());
-            }
-        }
-    }
-    names
 }
 
 #[cfg(test)]

@@ -3,9 +3,10 @@
 mod crate_name;
 mod source;
 
-use super::parse::with_help;
+use super::definition::Definition;
+use super::help::with_help;
+use super::outcome::{Ended, Unable};
 use super::voice::Voice;
-use super::{Definition, Ended, Unable};
 use clap::{Args, Command};
 use crate_name::crate_name;
 use serde_json::json;

@@ -1,26 +1,25 @@
 //! From the words of a command line to what they mean.
 
-use super::arguments::{ModelArguments, ResumeArguments, RunArguments};
+use super::arguments::ResumeArguments;
+use super::choice::{Choice, RunInvocation, parsed};
 use super::compare::CompareArguments;
+use super::definition::Definition;
 use super::engine::{EngineChoice, given};
+use super::help::EXIT_CODES;
 use super::inspect::InspectArguments;
 use super::list::ListArguments;
 use super::new::NewArguments;
+use super::outcome::Unable;
 use super::render::RenderArguments;
 use super::sweep::SweepArguments;
 use super::watch::WatchArguments;
-use super::{
-    Definition, EXIT_CODES, Unable, clashes, compare, config, initial, inspect, list, new, render, resume,
-    run, sweep, watch,
-};
+use super::{clashes, compare, config, inspect, list, new, render, resume, run, sweep, watch};
 use crate::engines::EngineOptions;
-use crate::program::Given;
+use clap::ArgMatches;
+use clap::Command;
 use clap::error::ErrorKind;
-use clap::{ArgMatches, Args, Command, FromArgMatches};
-use serde_json::{Map, Value};
 use std::ffi::OsString;
 use std::path::PathBuf;
-use xca_record::SetUp;
 
 /// What a command line asks for.
 pub(super) enum Invocation<'a> {
@@ -37,47 +36,6 @@ pub(super) enum Invocation<'a> {
     Compare(Box<Choice<'a>>, Box<CompareArguments>, EngineOptions, Vec<String>),
     Sweep(Box<Choice<'a>>, EngineChoice, SweepArguments),
     New(NewArguments),
-}
-
-/// A model with the options that the command line gives it.
-pub(super) struct Choice<'a> {
-    pub(super) definition: &'a Definition<'a>,
-    pub(super) arguments: ModelArguments,
-    /// The model's own options, for the report.
-    pub(super) options: Map<String, Value>,
-    matches: ArgMatches,
-}
-
-/// A run.
-pub(super) struct RunInvocation<'a> {
-    pub(super) model: Choice<'a>,
-    pub(super) engine: EngineChoice,
-    pub(super) run: RunArguments,
-    /// The command line, with what a configuration file added to it.
-    pub(super) command_line: Vec<String>,
-}
-
-impl<'a> Choice<'a> {
-    fn new(definition: &'a Definition<'a>, matches: &ArgMatches) -> Result<Self, Unable> {
-        let (arguments, options) = (from(matches)?, options(definition, matches));
-        Ok(Self { definition, arguments, options, matches: matches.clone() })
-    }
-
-    /// Makes the model, with its parameters set.
-    pub(super) fn set_up(&self, given: &Given) -> Result<SetUp, Unable> {
-        let mut set_up = (self.definition.set_up)(&self.matches, given.clone())?;
-        set_up.check().map_err(Unable::refused)?;
-        if let (Some(parameter), 0) = (given.parameters.first(), set_up.model.parameters().count()) {
-            return Err(Unable::refused(format!(
-                "this model has no parameters; `{parameter}` cannot be set"
-            )));
-        }
-        for parameter in &given.parameters {
-            set_up.model.set_parameter(&parameter.name, &parameter.value).map_err(Unable::refused)?;
-        }
-        initial::apply(&mut set_up, &self.arguments.initial).map_err(Unable::refused)?;
-        Ok(set_up)
-    }
 }
 
 /// The whole command.
@@ -105,27 +63,6 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
             sweep::command(definition),
             new::command(definition),
         ])
-}
-
-/// Adds the options of the model, its own and those of every model.
-pub(super) fn with_model(command: Command, definition: &Definition<'_>) -> Command {
-    let command = (definition.options)(command.next_help_heading("Options of this model"));
-    ModelArguments::augment_args(command.next_help_heading("Options of every model"))
-}
-
-/// What is the same in the help of all subcommands.
-pub(super) fn with_help(command: Command, about: &'static str, examples: &[String]) -> Command {
-    let examples: String = examples.iter().map(|example| format!("\n  {example}")).collect();
-    command
-        // An option's text comes from its own description, never from that of the struct.
-        .about(about)
-        .long_about(None::<&str>)
-        .mut_args(|option| {
-            // `--steps -1` is a wrong number, not an unknown option.
-            let takes_values = option.get_action().takes_values();
-            if takes_values { option.allow_negative_numbers(true) } else { option }
-        })
-        .after_help(format!("Examples:{examples}\n\n{EXIT_CODES}"))
 }
 
 /// Reads the command line, and the configuration file that it names.
@@ -187,21 +124,21 @@ fn complete<'a>(
         Some((run::NAME, matches)) => Ok(Invocation::Run(Box::new(RunInvocation {
             model: Choice::new(definition, matches)?,
             engine: EngineChoice::of(definition.engines, matches),
-            run: from(matches)?,
+            run: parsed(matches)?,
             command_line: words(arguments),
         }))),
         Some((compare::NAME, matches)) => Ok(Invocation::Compare(
             Box::new(Choice::new(definition, matches)?),
-            Box::new(from(matches)?),
+            Box::new(parsed(matches)?),
             given(definition.engines, matches),
             words(arguments),
         )),
         Some((sweep::NAME, matches)) => {
             let on = EngineChoice::of(definition.engines, matches);
-            Ok(Invocation::Sweep(Box::new(Choice::new(definition, matches)?), on, from(matches)?))
+            Ok(Invocation::Sweep(Box::new(Choice::new(definition, matches)?), on, parsed(matches)?))
         }
         Some((render::NAME, matches)) => {
-            let render: RenderArguments = from(matches)?;
+            let render: RenderArguments = parsed(matches)?;
             if let Some(path) = render.saved() {
                 render::check_saved(command, matches, &path)?;
                 return Ok(Invocation::Draw(definition, path, render, words(arguments)));
@@ -215,7 +152,7 @@ fn complete<'a>(
             Ok(Invocation::Render(Box::new(run), render))
         }
         Some((watch::NAME, matches)) => {
-            let watch: WatchArguments = from(matches)?;
+            let watch: WatchArguments = parsed(matches)?;
             let run = RunInvocation {
                 model: Choice::new(definition, matches)?,
                 engine: EngineChoice::of(definition.engines, matches),
@@ -225,13 +162,13 @@ fn complete<'a>(
             Ok(Invocation::Watch(Box::new(run), watch))
         }
         Some((list::NAME, matches)) => {
-            Ok(Invocation::List(Box::new(Choice::new(definition, matches)?), from(matches)?))
+            Ok(Invocation::List(Box::new(Choice::new(definition, matches)?), parsed(matches)?))
         }
-        Some((inspect::NAME, matches)) => Ok(Invocation::Inspect(definition, from(matches)?)),
-        Some((new::NAME, matches)) => Ok(Invocation::New(from(matches)?)),
+        Some((inspect::NAME, matches)) => Ok(Invocation::Inspect(definition, parsed(matches)?)),
+        Some((new::NAME, matches)) => Ok(Invocation::New(parsed(matches)?)),
         Some((resume::NAME, matches)) => {
             let on = EngineChoice::of(definition.engines, matches);
-            Ok(Invocation::Resume(definition, from(matches)?, on))
+            Ok(Invocation::Resume(definition, parsed(matches)?, on))
         }
         _ => Err(Unable::refused("no command is given")),
     }
@@ -239,10 +176,6 @@ fn complete<'a>(
 
 fn words(arguments: &[OsString]) -> Vec<String> {
     arguments.iter().map(|argument| argument.to_string_lossy().into_owned()).collect()
-}
-
-fn from<A: FromArgMatches>(matches: &ArgMatches) -> Result<A, Unable> {
-    A::from_arg_matches(matches).map_err(Unable::CommandLine)
 }
 
 /// The configuration file that the command line names. Mistakes on the command line are found before the file is read; only what is missing may
@@ -257,28 +190,6 @@ fn config_file(command: &Command, arguments: &[OsString]) -> Result<Option<PathB
     let matches = matches.map_err(Unable::CommandLine)?;
     let config = |matches: &ArgMatches| matches.try_get_one::<PathBuf>("config").ok().flatten().cloned();
     Ok(matches.subcommand().and_then(|(_, matches)| config(matches)))
-}
-
-/// The values of a model's own options: numbers and truth values as such, all others as text.
-fn options(definition: &Definition<'_>, matches: &ArgMatches) -> Map<String, Value> {
-    let own = (definition.options)(Command::new(run::NAME));
-    let name = |option: &clap::Arg| option.get_long().unwrap_or(option.get_id().as_str()).to_owned();
-    own.get_arguments()
-        .map(|option| {
-            let is_list = matches!(option.get_action(), clap::ArgAction::Append);
-            let raw = matches.get_raw(option.get_id().as_str()).into_iter().flatten();
-            let mut values: Vec<Value> = raw.map(|text| value(&text.to_string_lossy())).collect();
-            let value = if is_list { Value::Array(values) } else { values.pop().unwrap_or(Value::Null) };
-            (name(option), value)
-        })
-        .collect()
-}
-
-fn value(text: &str) -> Value {
-    match serde_json::from_str(text) {
-        Ok(value @ (Value::Number(_) | Value::Bool(_))) => value,
-        _ => Value::String(text.to_owned()),
-    }
 }
 
 #[cfg(test)]

@@ -1,13 +1,13 @@
 //! What comes before a run, whether it begins or goes on: the engine, and the model with its parameters.
 
-use super::Unable;
+use super::choice::RunInvocation;
 use super::engine::EngineChoice;
-use super::parse::RunInvocation;
+use super::outcome::Unable;
 use super::working_directory::WorkingDirectory;
 use crate::program::Given;
 use crate::terminal;
 use xca_checkpoint::Identity;
-use xca_core::{Engine, Model, Precision, RunOptions};
+use xca_core::{Engine, Model, Precision, RunError, RunOptions};
 use xca_record::machine::check_memory;
 use xca_record::{BeginError, Run, SetUp};
 
@@ -99,7 +99,15 @@ pub(super) fn warn(set_up: &SetUp) {
 /// What cannot begin is a mistake in what was given.
 pub(super) fn not_begun(error: BeginError) -> Unable {
     match error {
-        BeginError::Start(error) => super::run::not_started(error),
+        BeginError::Start(error) => not_started(error),
+        other => Unable::refused(other),
+    }
+}
+
+/// An initial state that cannot be made is a mistake in what was given.
+pub(super) fn not_started(error: RunError) -> Unable {
+    match error {
+        RunError::Steering { step: 0, source } => Unable::Refused(source),
         other => Unable::refused(other),
     }
 }

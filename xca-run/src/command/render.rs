@@ -10,11 +10,14 @@ pub(super) use arguments::RenderArguments;
 pub(super) use kept::formats_of;
 pub(super) use saved::draw;
 
+use super::choice::RunInvocation;
+use super::definition::Definition;
 use super::engine::with_engine;
-use super::parse::{RunInvocation, with_help, with_model};
+use super::help::{with_help, with_model};
+use super::outcome::{Ended, Unable};
 use super::prepare::{Prepared, warn};
-use super::{Definition, Ended, Unable};
 use crate::interrupt::Interrupt;
+use arguments::SAVED;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command};
 use film::Film;
@@ -27,9 +30,6 @@ use xca_record::record::{Claim, Kind};
 use xca_record::{InputFile, Outputs};
 
 pub(super) const NAME: &str = "render";
-
-/// What has been run already: a name that no field of a model has.
-const SAVED: &str = "DIR|CHECKPOINT";
 
 const ABOUT: &str = "Draw a run: pictures of its states, and an animation of them";
 
@@ -47,15 +47,6 @@ panels side by side, each with its own scale; what is given once holds for all."
 
 /// How many pictures there are, unless the command line says how often.
 const PICTURES: u64 = 60;
-
-fn pixels(text: &str) -> Result<[usize; 2], &'static str> {
-    const WANTED: &str = "it must be width and height in pixels, from 320x280 to 4096x4096, such as 640x480";
-    let (width, height) = text.split_once('x').ok_or(WANTED)?;
-    match [width, height].map(str::parse) {
-        [Ok(width @ 320..=4096), Ok(height @ 280..=4096)] => Ok([width, height]),
-        _ => Err(WANTED),
-    }
-}
 
 pub(super) fn command(definition: &Definition<'_>) -> Command {
     let name = definition.name;

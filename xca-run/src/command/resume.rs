@@ -1,12 +1,14 @@
 //! The subcommand `resume`.
 
 use super::arguments::ResumeArguments;
+use super::definition::Definition;
 use super::engine::{EngineChoice, with_other_engine};
-use super::parse::{self, with_help};
+use super::help::with_help;
+use super::outcome::{Ended, Unable};
+use super::parse;
 use super::prepare::{Prepared, check_room};
 use super::under_way::UnderWay;
 use super::working_directory::WorkingDirectory;
-use super::{Definition, Ended, Unable};
 use clap::{Args, Command};
 use serde_json::json;
 use std::path::{Path, PathBuf};

@@ -1,15 +1,16 @@
 //! The subcommand `run`.
 
 use super::arguments::RunArguments;
+use super::choice::RunInvocation;
+use super::definition::Definition;
 use super::engine::with_engine;
-use super::parse::{RunInvocation, with_help, with_model};
+use super::help::{with_help, with_model};
+use super::outcome::{Ended, Unable};
 use super::prepare::{Prepared, not_begun};
 use super::under_way::UnderWay;
-use super::{Definition, Ended, Unable};
 use crate::terminal;
 use clap::{Args, Command};
 use std::path::PathBuf;
-use xca_core::RunError;
 
 pub(super) const NAME: &str = "run";
 
@@ -49,14 +50,6 @@ fn source(invocation: &RunInvocation<'_>) -> Result<String, Unable> {
         ))
     })?;
     source.map_err(Unable::Refused)
-}
-
-/// An initial state that cannot be made is a mistake in what was given.
-pub(super) fn not_started(error: RunError) -> Unable {
-    match error {
-        RunError::Steering { step: 0, source } => Unable::Refused(source),
-        other => Unable::refused(other),
-    }
 }
 
 #[cfg(test)]

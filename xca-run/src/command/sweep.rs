@@ -3,11 +3,13 @@
 mod values;
 
 use super::arguments::steps;
+use super::choice::Choice;
+use super::definition::Definition;
 use super::engine::{EngineChoice, with_engine};
-use super::parse::{Choice, with_help, with_model};
+use super::help::{with_help, with_model};
+use super::outcome::{Ended, Unable};
 use super::prepare::warn;
 use super::voice::Voice;
-use super::{Definition, Ended, Unable};
 use crate::interrupt::Interrupt;
 use crate::program::{Assignment, Given};
 use crate::progress::Progress;

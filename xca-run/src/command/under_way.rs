@@ -5,9 +5,9 @@ mod words;
 #[cfg(feature = "terminal")]
 pub(super) use words::engine_words;
 
+use super::outcome::{Ended, Unable};
 use super::prepare::warn;
 use super::voice::Voice;
-use super::{Ended, Unable};
 use crate::interrupt::Interrupt;
 use crate::progress::Progress;
 use xca_record::{Monitor, Outcome, Recording};

@@ -1,6 +1,6 @@
 //! How a command tells what it has done: as text, as JSON, or not at all.
 
-use super::Unable;
+use super::outcome::Unable;
 use crate::progress::Progress;
 use crate::terminal;
 use clap::Args;

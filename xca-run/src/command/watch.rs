@@ -4,11 +4,13 @@
 mod show;
 
 use super::arguments::{RunArguments, interval, steps};
+use super::choice::RunInvocation;
+use super::definition::Definition;
 use super::engine::with_engine;
+use super::help::{with_help, with_model};
 use super::look::LookArguments;
-use super::parse::{RunInvocation, with_help, with_model};
+use super::outcome::{Ended, Unable};
 use super::voice::Voice;
-use super::{Definition, Ended, Unable};
 use clap::{Args, Command};
 
 pub(super) const NAME: &str = "watch";

@@ -1,6 +1,6 @@
 //! The working directory that a run was begun in: the relative paths of its command line go from there.
 
-use super::Unable;
+use super::outcome::Unable;
 use std::env;
 use std::path::{Path, PathBuf};
 

@@ -1,6 +1,7 @@
 //! The engine for all cores.
 
-use super::{EngineKind, EngineOption, EngineOptions};
+use super::kind::EngineKind;
+use super::options::{EngineOption, EngineOptions};
 use xca_core::Engine;
 use xca_cpu::Cpu;
 use xca_record::Failure;

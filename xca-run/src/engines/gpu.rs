@@ -1,7 +1,8 @@
 //! The engine for graphics adapters. All that the command line knows of adapters is here, also of a program that
 //! was built without the engine.
 
-use super::{Devices, EngineKind, EngineOption, EngineOptions};
+use super::kind::{Devices, EngineKind};
+use super::options::{EngineOption, EngineOptions};
 use xca_core::{Engine, Model, Precision};
 use xca_record::Failure;
 

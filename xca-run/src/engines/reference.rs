@@ -1,6 +1,7 @@
 //! The reference engine.
 
-use super::{EngineKind, EngineOptions};
+use super::kind::EngineKind;
+use super::options::EngineOptions;
 use xca_core::{Engine, Reference};
 use xca_record::Failure;
 

@@ -7,6 +7,7 @@ mod large_files;
 mod measured;
 mod model;
 mod run_files;
+mod saved_states;
 mod set_up_files;
 
 #[global_allocator]

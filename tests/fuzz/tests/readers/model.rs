@@ -50,11 +50,16 @@ fn grow_old(me: &mut Slot<Grain>) {
     me.age += 1;
 }
 
-/// The model, with what is recorded of it.
+/// The model on squares, with what is recorded of it.
 pub(crate) fn set_up() -> Result<SetUp, Failure> {
+    set_up_on(Neighbourhood::von_neumann_2d(1))
+}
+
+/// The model with these neighbours.
+pub(crate) fn set_up_on(neighbourhood: Neighbourhood) -> Result<SetUp, Failure> {
     let model = Model::builder("plate")
         .extents([6, 5, 1])
-        .neighbourhood(Neighbourhood::von_neumann_2d(1))
+        .neighbourhood(neighbourhood)
         .substates::<Plate>()
         .population::<Grain>(2)
         .parameters(Metal { conductivity: 0.1 })
@@ -106,7 +111,12 @@ pub(crate) fn draw(frame: &Path, views: &[ViewKind]) -> Result<(), Failure> {
 
 /// Leaves the files of a run in a folder.
 pub(crate) fn run(folder: &Path) -> TestResult {
-    let run = Run::new(set_up()?)?.every(2).checkpoint_every(Interval::Steps(2));
+    run_of(set_up()?, folder)
+}
+
+/// Leaves the files of a run of this set-up in a folder.
+pub(crate) fn run_of(set_up: SetUp, folder: &Path) -> TestResult {
+    let run = Run::new(set_up)?.every(2).checkpoint_every(Interval::Steps(2));
     let mut recording = run.begin(folder, &Reference)?;
     recording.go(&mut ())?;
     Ok(())

@@ -1,7 +1,7 @@
 //! What a run leaves behind.
 
 use crate::measured::{BESIDES, Subject, TestResult, alone, container};
-use crate::model::{draw, read, run, set_up};
+use crate::model::{draw, read, run_of, set_up};
 use std::fs;
 use std::path::{Path, PathBuf};
 use xca_checkpoint::Checkpoint;
@@ -10,13 +10,13 @@ use xca_ensemble::{Ensemble, MEMBERS};
 use xca_io::table_csv::{SeriesWriter, Written};
 use xca_io::vtk::{read_dense, read_particles};
 use xca_picture::animation::write_gif;
-use xca_record::Failure;
 use xca_record::record::ViewKind;
 use xca_record::report::Earlier;
+use xca_record::{Failure, SetUp};
 use xca_tests_fuzz as fuzz;
 
 /// Words of VTK files.
-const VTK: &[&str] = &[
+pub(crate) const VTK: &[&str] = &[
     "UInt8",
     "Int32",
     "UInt32",
@@ -79,23 +79,28 @@ const JSON: &[&str] = &[
 ];
 
 /// A folder with the files of a run.
-struct Folder {
+pub(crate) struct Folder {
     folder: tempfile::TempDir,
 }
 
 impl Folder {
     fn new() -> Result<Self, Failure> {
+        Self::of(set_up()?)
+    }
+
+    /// The files of a run of this set-up.
+    pub(crate) fn of(set_up: SetUp) -> Result<Self, Failure> {
         let folder = tempfile::tempdir()?;
-        run(&folder.path().join("out"))?;
+        run_of(set_up, &folder.path().join("out"))?;
         Ok(Self { folder })
     }
 
-    fn path(&self) -> PathBuf {
+    pub(crate) fn path(&self) -> PathBuf {
         self.folder.path().join("out")
     }
 
     /// The files with this ending, below the folder, the last one by name first.
-    fn files(&self, below: &str, ending: &str) -> Vec<PathBuf> {
+    pub(crate) fn files(&self, below: &str, ending: &str) -> Vec<PathBuf> {
         let entries = fs::read_dir(self.path().join(below)).into_iter().flatten().flatten();
         let mut paths: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
         paths.retain(|path| path.extension().is_some_and(|extension| extension == ending));
@@ -105,13 +110,13 @@ impl Folder {
     }
 
     /// Has frames be all that there is to look into.
-    fn without_checkpoints(&self) -> std::io::Result<()> {
+    pub(crate) fn without_checkpoints(&self) -> std::io::Result<()> {
         fs::remove_dir_all(self.path().join("checkpoints"))
     }
 }
 
 /// Looks into a folder or a checkpoint in each way that there is.
-fn inspected(path: &Path) -> Result<(), Failure> {
+pub(crate) fn inspected(path: &Path) -> Result<(), Failure> {
     read(&["inspect", "--cell", "1,2,0", "--label", "3"], path).ok();
     read(&["inspect", "--json"], path).map(drop)
 }
@@ -145,7 +150,7 @@ fn frames_of_items() -> TestResult {
 }
 
 /// The memory of a picture while it is drawn, in bytes.
-const DRAWING: usize = 64 << 20;
+pub(crate) const DRAWING: usize = 64 << 20;
 
 fn check_drawing(name: &str, ending: &str, views: &[ViewKind]) -> TestResult {
     let _alone = alone();

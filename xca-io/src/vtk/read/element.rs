@@ -1,7 +1,10 @@
 //! What the head of a file says of an array.
 
 use super::super::appended::{COMPONENT_NAME, unescaped};
-use super::{NumberType, ReadArray, TIME};
+use super::found::{NumberType, ReadArray};
+
+/// The array that tells the time.
+pub(super) const TIME: &str = "TimeValue";
 
 /// No value has more components.
 const MOST_COMPONENTS: usize = 1 << 20;
@@ -86,13 +89,4 @@ fn component_names(element: &str, components: usize) -> Option<Vec<String>> {
         names.push(unescaped(rest.split_once('"')?.0));
     }
     Some(names)
-}
-
-/// What follows the name of an array for a component that the file does not name.
-pub(super) fn default_name(number: usize, components: usize) -> String {
-    match (components, [".x", ".y", ".z", ".w"].get(number)) {
-        (1, _) => String::new(),
-        (2..=4, Some(lane)) => (*lane).to_owned(),
-        _ => format!("[{number}]"),
-    }
 }

@@ -1,6 +1,5 @@
 //! What files hold.
 
-use super::element::default_name;
 use super::{Grid, HexagonGrid};
 
 /// What the numbers of an array are.
@@ -98,5 +97,14 @@ impl NumberType {
             bytes.chunks_exact_mut(size).for_each(<[u8]>::reverse);
         }
         bytes
+    }
+}
+
+/// What follows the name of an array for a component that the file does not name.
+pub(super) fn default_name(number: usize, components: usize) -> String {
+    match (components, [".x", ".y", ".z", ".w"].get(number)) {
+        (1, _) => String::new(),
+        (2..=4, Some(lane)) => (*lane).to_owned(),
+        _ => format!("[{number}]"),
     }
 }

@@ -1,6 +1,6 @@
 //! A model as tables of at most 80 columns, where its names allow it.
 
-use super::{accesses, subject};
+use super::accesses::{accesses, subject};
 use crate::engines::{EngineKind, Engines};
 use xca_checkpoint::components::state_names;
 use xca_core::model::GroupKind;

@@ -1,6 +1,7 @@
 use super::*;
 use crate::command::voice::Voice;
 use crate::engines::EngineOptions;
+use clap::{Args, FromArgMatches};
 use std::fs;
 use std::path::Path;
 use xca_core::Precision;

@@ -1,9 +1,8 @@
 //! What `render` is told.
 
-use super::{SAVED, pixels};
-use crate::command::Unable;
 use crate::command::arguments::{RunArguments, interval, steps};
 use crate::command::look::{axis, range};
+use crate::command::outcome::Unable;
 use crate::command::voice::Voice;
 use clap::builder::Resettable;
 use clap::{Args, ValueEnum};
@@ -11,6 +10,9 @@ use std::path::{Path, PathBuf};
 use xca_io::atomic::WriteError;
 use xca_picture::animation::{write_apng, write_gif};
 use xca_record::record::{Drawing, Look, Recorder, ViewKind};
+
+/// What has been run already: a name that no field of a model has.
+pub(super) const SAVED: &str = "DIR|CHECKPOINT";
 
 /// How a state is drawn.
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -187,5 +189,14 @@ impl Animation {
             Self::Gif => write_gif(path, pictures, fps),
             Self::None => Ok(()),
         }
+    }
+}
+
+fn pixels(text: &str) -> Result<[usize; 2], &'static str> {
+    const WANTED: &str = "it must be width and height in pixels, from 320x280 to 4096x4096, such as 640x480";
+    let (width, height) = text.split_once('x').ok_or(WANTED)?;
+    match [width, height].map(str::parse) {
+        [Ok(width @ 320..=4096), Ok(height @ 280..=4096)] => Ok([width, height]),
+        _ => Err(WANTED),
     }
 }

@@ -1,8 +1,10 @@
 //! What a run's folder, or a checkpoint, says of the run that it is of.
 
+use crate::command::definition::Definition;
+use crate::command::outcome::Unable;
+use crate::command::parse;
 use crate::command::prepare::described;
 use crate::command::working_directory::WorkingDirectory;
-use crate::command::{Definition, Unable, parse};
 use serde::Deserialize;
 use serde_json::{Map, Value};
 use std::path::Path;

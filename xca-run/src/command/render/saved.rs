@@ -3,8 +3,9 @@
 use super::film::{Film, Look, States};
 use super::kept::{Kept, KeptRun};
 use super::{RenderArguments, default_folder, pictures_folder};
+use crate::command::definition::Definition;
+use crate::command::outcome::{Ended, Unable};
 use crate::command::voice::Voice;
-use crate::command::{Definition, Ended, Unable};
 use crate::interrupt::Interrupt;
 use serde_json::{Value, json};
 use std::io::Write as _;

@@ -1,7 +1,8 @@
 //! Runs of a model with substates of cells and two populations, of which the frame is told nothing.
 
 use super::*;
-use crate::command::{Definition, execute, parse};
+use crate::command::definition::Definition;
+use crate::command::{execute, parse};
 use crate::engines::Engines;
 use crate::program::Given;
 use serde_json::Value;

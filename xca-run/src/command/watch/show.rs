@@ -1,10 +1,9 @@
 //! What shows a run in the terminal.
 
-use super::super::parse::RunInvocation;
-use super::super::prepare::{Prepared, warn};
-use super::super::run::not_started;
+use super::super::choice::RunInvocation;
+use super::super::outcome::{Ended, Unable};
+use super::super::prepare::{Prepared, not_started, warn};
 use super::super::under_way::engine_words;
-use super::super::{Ended, Unable};
 use super::WatchArguments;
 use crate::interrupt::Interrupt;
 use std::io::{IsTerminal, stdin, stdout};

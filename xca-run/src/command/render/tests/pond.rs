@@ -1,6 +1,8 @@
 //! A model with cells and two populations, and a program of it.
 
-use crate::command::{Definition, Ended, Unable, execute, parse};
+use crate::command::definition::Definition;
+use crate::command::outcome::{Ended, Unable};
+use crate::command::{execute, parse};
 use crate::engines::Engines;
 use crate::program::Given;
 use clap::{Args, FromArgMatches};

@@ -1,4 +1,5 @@
-use crate::walls::*;
+use crate::boundary_slots::*;
+use crate::walls::Walls;
 use crate::{Case, contact};
 
 fn box_of(cells: [usize; 3]) -> Configuration {

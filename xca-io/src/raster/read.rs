@@ -1,0 +1,86 @@
+//! Rasters out of files of any of their formats.
+
+use super::Raster;
+use crate::ascii_grid::{self, ReadGridError};
+use crate::geotiff::{self, ReadGeoTiffError};
+use crate::placement::Placement;
+use std::path::{Path, PathBuf};
+
+/// The largest altitude, and depth, that the ground can have, in m.
+pub const HIGHEST: f64 = 1e5;
+
+impl Raster {
+    /// Reads a GeoTIFF, which its first bytes or its extension (`.tif`, `.tiff`) tell, or an ESRI ASCII grid.
+    ///
+    /// # Errors
+    /// [`ReadRasterError::GeoTiff`], [`ReadRasterError::AsciiGrid`].
+    pub fn read(path: &Path) -> Result<Self, ReadRasterError> {
+        Self::read_either(path, None)
+    }
+
+    /// As [`Raster::read`], of a file that may lack its place on the map: a GeoTIFF without georeference, a
+    /// grid without a header. It must have the columns and rows of this place.
+    ///
+    /// # Errors
+    /// As [`Raster::read`].
+    pub fn read_on(path: &Path, placement: Placement) -> Result<Self, ReadRasterError> {
+        Self::read_either(path, Some(placement))
+    }
+
+    fn read_either(path: &Path, on: Option<Placement>) -> Result<Self, ReadRasterError> {
+        if geotiff::is_geotiff(path) {
+            Ok(geotiff::read_placed(path, on)?)
+        } else {
+            Ok(ascii_grid::read_placed(path, on)?)
+        }
+    }
+
+    /// As [`Raster::read`], of altitudes in m. Altitudes beyond [`HIGHEST`] and rasters without any value are
+    /// refused.
+    ///
+    /// # Errors
+    /// As [`Raster::read`]; [`ReadRasterError::Height`] and [`ReadRasterError::Empty`].
+    pub fn read_heights(path: &Path) -> Result<Self, ReadRasterError> {
+        let raster = Self::read(path)?;
+        if let Some(cell) = raster.values.iter().position(|height| height.abs() > HIGHEST) {
+            let (place, height) = (raster.placement.place(cell), raster.values[cell]);
+            return Err(ReadRasterError::Height { path: path.to_owned(), place, height });
+        }
+        if raster.values.iter().all(|height| height.is_nan()) {
+            return Err(ReadRasterError::Empty { path: path.to_owned() });
+        }
+        Ok(raster)
+    }
+}
+
+/// A raster that cannot be read.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReadRasterError {
+    /// An ESRI ASCII grid that cannot be read.
+    #[error(transparent)]
+    AsciiGrid(#[from] ReadGridError),
+    /// A GeoTIFF that cannot be read.
+    #[error(transparent)]
+    GeoTiff(#[from] ReadGeoTiffError),
+    /// An altitude that no ground has.
+    #[error(
+        "{}: {height} in column {}, row {} from the north is no altitude in m; if it stands for no value, name \
+         it in the line NODATA_value, or in the NODATA tag of a GeoTIFF",
+        path.display(), place[0], place[1]
+    )]
+    Height {
+        /// The file.
+        path: PathBuf,
+        /// Column and row of the cell, from 1, from the west and the north.
+        place: [usize; 2],
+        /// The altitude.
+        height: f64,
+    },
+    /// No cell has a value.
+    #[error("{}: no cell has a value", path.display())]
+    Empty {
+        /// The file.
+        path: PathBuf,
+    },
+}
