@@ -110,17 +110,9 @@ pub fn append_row(reduction: &Reduction, stored: StoredType, values: &[u8], resu
         results[first..].fill(none);
         return;
     }
-    let single = stored.components() == 1;
-    let fast = match (reduction, stored.scalar) {
-        (Reduction::Minimum, StoredScalar::F32) if single => Some(extreme::<f32>(values, |a, b| a < b)),
-        (Reduction::Minimum, StoredScalar::F64) if single => Some(extreme::<f64>(values, |a, b| a < b)),
-        (Reduction::Maximum, StoredScalar::F32) if single => Some(extreme::<f32>(values, |a, b| a > b)),
-        (Reduction::Maximum, StoredScalar::F64) if single => Some(extreme::<f64>(values, |a, b| a > b)),
-        (Reduction::Sum, StoredScalar::F32) if single => Some(sum(StoredScalar::F32, values)),
-        (Reduction::Sum, StoredScalar::F64) if single => Some(sum(StoredScalar::F64, values)),
-        _ => None,
-    };
-    if let Some(result) = fast {
+    if stored.components() == 1
+        && let Some(result) = reduce_floats(reduction, stored.scalar, values)
+    {
         results[first] = result;
         return;
     }
@@ -129,6 +121,20 @@ pub fn append_row(reduction: &Reduction, stored: StoredType, values: &[u8], resu
             *result = result.combine(one(reduction, stored.scalar, lane), reduction);
         }
     }
+}
+
+/// Reduces floating numbers of one lane by a way of their own, where there is one.
+fn reduce_floats(reduction: &Reduction, scalar: StoredScalar, values: &[u8]) -> Option<Reduced> {
+    let extreme = match (reduction, scalar) {
+        (Reduction::Minimum, StoredScalar::F32) => extreme::<f32>(values, |a, b| a < b),
+        (Reduction::Minimum, StoredScalar::F64) => extreme::<f64>(values, |a, b| a < b),
+        (Reduction::Maximum, StoredScalar::F32) => extreme::<f32>(values, |a, b| a > b),
+        (Reduction::Maximum, StoredScalar::F64) => extreme::<f64>(values, |a, b| a > b),
+        (Reduction::Sum, StoredScalar::F32) => return Some(sum(StoredScalar::F32, values)),
+        (Reduction::Sum, StoredScalar::F64) => return Some(sum(StoredScalar::F64, values)),
+        _ => return None,
+    };
+    Some(extreme.map_or(Reduced::Nothing, Reduced::Float))
 }
 
 /// Adds up numbers of one lane, in order. What is done is known to the compiler, so that no choice is left in the loop.

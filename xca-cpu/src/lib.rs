@@ -11,6 +11,7 @@ mod blocks;
 mod choices;
 mod dense;
 mod execution;
+mod group;
 mod layout;
 mod listing;
 mod lists;

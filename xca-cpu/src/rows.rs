@@ -4,6 +4,7 @@
 //! result: a row writes only what is its own, and faults are compared by process and cell.
 #![allow(unsafe_code)]
 
+mod found;
 mod now;
 mod pieces;
 mod prepare;
@@ -12,10 +13,12 @@ mod search;
 
 use crate::activity::{Activity, DueRow};
 use crate::blocks::{blocks, blocks_of_due};
-use crate::dense::Dense;
+use crate::group::{Group, population};
 use crate::layout::Layout;
 use crate::motion::Motion;
 use crate::population::Population;
+use found::Found;
+pub(crate) use found::Mover;
 use now::{Now, Report};
 use pieces::Pieces;
 use prepare::prepare_buffers;
@@ -28,50 +31,6 @@ use std::time::Instant;
 use xca_core::engine::{Fault, StepContext};
 use xca_core::kernel::{Entry, Frame, Row, RowItems, STAY, Scratch, StoppedAt};
 use xca_core::{Model, Parity, Precision, ProcessKind, Stream};
-
-/// The substates of one struct.
-#[allow(clippy::large_enum_variant, reason = "a model has a few of them")]
-pub(crate) enum Group {
-    Cells(Vec<Dense>),
-    Population(Population),
-}
-
-fn population(group: &Group) -> Option<&Population> {
-    match group {
-        Group::Population(population) => Some(population),
-        Group::Cells(_) => None,
-    }
-}
-
-/// What a pass over a block of rows found.
-#[derive(Default)]
-pub(crate) struct Found {
-    /// Items that a migration sends elsewhere: item, linear index of its cell, answer.
-    pub(crate) movers: Vec<Mover>,
-    /// Of the populations that are measured, in their order.
-    motions: Vec<Motion>,
-    /// For each process the largest radius of its searches.
-    widest: Vec<f64>,
-    /// The cells that were worked on, each counted once a process.
-    worked: u64,
-    fault: Option<(usize, u32, Fault)>,
-}
-
-/// An item on its way to another cell.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Mover {
-    pub(crate) item: u32,
-    pub(crate) from: u32,
-    pub(crate) answer: u32,
-}
-
-impl Found {
-    fn keep(&mut self, process: usize, cell: u32, fault: Fault) {
-        if self.fault.as_ref().is_none_or(|(first, at, _)| (process, cell) < (*first, *at)) {
-            self.fault = Some((process, cell, fault));
-        }
-    }
-}
 
 /// Runs processes together over all rows, or with `activity` where they are due. The result is what the migration among them, if there is one,
 /// moves, in the order of items.

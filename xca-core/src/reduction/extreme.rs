@@ -3,19 +3,18 @@
 //! One after the other, a number takes the place of the best so far where it is better, and a NaN always does. So what is left is the last
 //! NaN, or the first of the numbers that equal the best. Which one is first matters for zeros alone, whose signs may differ.
 
-use super::Reduced;
 use bytemuck::Pod;
 
 /// Numbers that are compared at a time.
 const LANES: usize = 8;
 
-/// The best of stored numbers, `is_better` than all others.
-pub(super) fn extreme<T>(values: &[u8], is_better: impl Fn(T, T) -> bool) -> Reduced
+/// The best of stored numbers, `is_better` than all others; nothing where there is none.
+pub(super) fn extreme<T>(values: &[u8], is_better: impl Fn(T, T) -> bool) -> Option<f64>
 where
     T: Pod + PartialEq + Into<f64>,
 {
     let numbers = || values.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned::<T>);
-    let Some(first) = numbers().next() else { return Reduced::Nothing };
+    let first = numbers().next()?;
     let mut best = [first; LANES];
     let mut is_nan = [false; LANES];
     let mut look = |lanes: &[u8]| {
@@ -36,7 +35,7 @@ where
         let zero: f64 = best.into();
         if zero == 0.0 { numbers().find(|number| *number == best) } else { Some(best) }
     };
-    Reduced::Float(found.unwrap_or(first).into())
+    found.map(Into::into)
 }
 
 #[allow(clippy::eq_op, reason = "a NaN equals nothing")]
@@ -46,16 +45,15 @@ fn is_no_number<T: PartialEq + Copy>(number: T) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Reduced, Reduction};
     use super::extreme;
 
-    /// One after the other, by the rule for two results.
-    fn in_turn(values: &[f64], reduction: &Reduction) -> Reduced {
-        values.iter().fold(Reduced::Nothing, |all, one| all.combine(Reduced::Float(*one), reduction))
+    /// One after the other: a better number takes the place of the one before, and a NaN always does.
+    fn in_turn(values: &[f64], is_better: impl Fn(f64, f64) -> bool) -> Option<f64> {
+        values.iter().copied().reduce(|all, one| if is_better(one, all) || one.is_nan() { one } else { all })
     }
 
-    fn bits(reduced: Reduced) -> Option<u64> {
-        reduced.number().map(f64::to_bits)
+    fn bits(number: Option<f64>) -> Option<u64> {
+        number.map(f64::to_bits)
     }
 
     /// All orders of zeros, NaN of two kinds and other numbers, in rows of many lengths.
@@ -76,9 +74,9 @@ mod tests {
                         (0..length).map(|_| pool[(start + draw(kinds)) % pool.len()]).collect();
                     let bytes: &[u8] = bytemuck::cast_slice(&values);
                     let largest = extreme::<f64>(bytes, |a, b| a > b);
-                    assert_eq!(bits(largest), bits(in_turn(&values, &Reduction::Maximum)), "{values:?}");
+                    assert_eq!(bits(largest), bits(in_turn(&values, |a, b| a > b)), "{values:?}");
                     let smallest = extreme::<f64>(bytes, |a, b| a < b);
-                    assert_eq!(bits(smallest), bits(in_turn(&values, &Reduction::Minimum)), "{values:?}");
+                    assert_eq!(bits(smallest), bits(in_turn(&values, |a, b| a < b)), "{values:?}");
                 }
             }
         }

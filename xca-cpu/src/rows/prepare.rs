@@ -1,6 +1,6 @@
 //! What a pass needs before its rows: halos and second buffers.
 
-use super::Group;
+use crate::group::Group;
 use crate::layout::Layout;
 use xca_core::Model;
 use xca_core::engine::SubstateId;

@@ -1,7 +1,7 @@
 //! Processes made ready for a pass: where the memory of their substates starts.
 #![allow(unsafe_code)]
 
-use super::Group;
+use crate::group::Group;
 use crate::layout::Layout;
 use xca_core::engine::SubstateId;
 use xca_core::kernel::{Access, Entry, Memory, MemoryOf, RowKernel};

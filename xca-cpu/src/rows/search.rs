@@ -1,7 +1,7 @@
 //! What searches of a pass need: which cells they leave out, and lists of what is near.
 #![allow(unsafe_code)]
 
-use super::{Group, population};
+use crate::group::{Group, population};
 use crate::layout::Layout;
 use crate::lists::Room;
 use crate::motion::{largest, measure};

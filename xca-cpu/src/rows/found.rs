@@ -1,0 +1,34 @@
+//! What a pass has found.
+
+use crate::motion::Motion;
+use xca_core::engine::Fault;
+
+/// What a pass over a block of rows found.
+#[derive(Default)]
+pub(super) struct Found {
+    /// Items that a migration sends elsewhere: item, linear index of its cell, answer.
+    pub(super) movers: Vec<Mover>,
+    /// Of the populations that are measured, in their order.
+    pub(super) motions: Vec<Motion>,
+    /// For each process the largest radius of its searches.
+    pub(super) widest: Vec<f64>,
+    /// The cells that were worked on, each counted once a process.
+    pub(super) worked: u64,
+    pub(super) fault: Option<(usize, u32, Fault)>,
+}
+
+/// An item on its way to another cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Mover {
+    pub(crate) item: u32,
+    pub(crate) from: u32,
+    pub(crate) answer: u32,
+}
+
+impl Found {
+    pub(super) fn keep(&mut self, process: usize, cell: u32, fault: Fault) {
+        if self.fault.as_ref().is_none_or(|(first, at, _)| (process, cell) < (*first, *at)) {
+            self.fault = Some((process, cell, fault));
+        }
+    }
+}
