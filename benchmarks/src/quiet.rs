@@ -126,7 +126,7 @@ fn eruption(size: usize) -> Result<Model, ModelError> {
     let middle = size as f64 * 5.0;
     lava::model([size; 2], 10.0, Lava::default(), vec![vent], move |site| {
         let [x, y] = [site.centre().x - middle, site.centre().y - middle];
-        2000.0 - 0.3 * (x * x + y * y).sqrt() + 2.0 * site.random(0)
+        Some(2000.0 - 0.3 * (x * x + y * y).sqrt() + 2.0 * site.random(0))
     })
 }
 
