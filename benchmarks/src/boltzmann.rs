@@ -58,5 +58,6 @@ fn fluid_of<T: Number>(
         return Err("the engine and the loop by hand differ".into());
     }
     let name = format!("D3Q19 {size}^3, {}", T::PRECISION);
-    Comparison::new(name, size.pow(3), steps, times)
+    let bytes = 2 * model::DIRECTIONS * size_of::<T>();
+    Comparison::new(name, size.pow(3), bytes, steps, times)
 }

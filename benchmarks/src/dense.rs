@@ -202,7 +202,7 @@ pub(crate) fn heat(
     if simulation.state().get(Heat::TEMPERATURE, [cell; 3])? != by_hand {
         return Err("the engine and the loop by hand differ".into());
     }
-    Comparison::new(format!("heat {size}^3, f64"), size * size * size, steps, times)
+    Comparison::new(format!("heat {size}^3, f64"), size * size * size, 2 * size_of::<f64>(), steps, times)
 }
 
 /// Life on a square torus of `size` cells along each side.
@@ -241,5 +241,5 @@ pub(crate) fn life(
     if simulation.state().sum(Life::ALIVE)? != alive {
         return Err("the engine and the loop by hand differ".into());
     }
-    Comparison::new(format!("life {size}^2"), size * size, steps, times)
+    Comparison::new(format!("life {size}^2"), size * size, 2, steps, times)
 }

@@ -1,5 +1,6 @@
 //! What the engines cost. `cargo run --release -p xca-benchmarks -- --help` lists the benchmarks.
 
+mod bandwidth;
 mod boltzmann;
 mod comparison;
 mod dense;
@@ -101,16 +102,21 @@ fn is_broken_pipe(error: &(dyn Error + 'static)) -> bool {
 fn run(arguments: Arguments) -> Result<(), Box<dyn Error>> {
     match arguments.benchmark {
         Benchmark::Dense => {
+            let bandwidth = bandwidth::bandwidth(arguments.threads)?;
+            say!("memory: {:.1} GB/s are read and written while a large array is copied", bandwidth / 1e9)?;
             for comparison in [
                 dense::heat(256, arguments.threads, arguments.rounds, 10)?,
                 dense::life(4096, arguments.threads, arguments.rounds, 20)?,
             ] {
-                say!("{comparison}")?;
+                say!("{}", comparison.line(bandwidth))?;
             }
         }
         Benchmark::Boltzmann { size, steps } => {
+            let bandwidth = bandwidth::bandwidth(arguments.threads)?;
+            say!("memory: {:.1} GB/s are read and written while a large array is copied", bandwidth / 1e9)?;
             for precision in [Precision::F32, Precision::F64] {
-                say!("{}", boltzmann::fluid(size, precision, arguments.threads, arguments.rounds, steps)?)?;
+                let fluid = boltzmann::fluid(size, precision, arguments.threads, arguments.rounds, steps)?;
+                say!("{}", fluid.line(bandwidth))?;
             }
         }
         Benchmark::Engines { steps } => {

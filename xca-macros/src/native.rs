@@ -4,6 +4,7 @@ mod blocks;
 mod body;
 mod check;
 mod expressions;
+mod fetches;
 mod helper;
 mod kernels;
 mod loops;

@@ -5,6 +5,7 @@
 
 use super::blocks::Blocks;
 use super::body::{Writer, own_name, read_name, write_name};
+use super::fetches::fetches;
 use super::work::{Argument, LIFE, Typed, Work};
 use super::{checked_value, hidden, native_parameters, native_type, parameters};
 use crate::access::{Access, GroupOf, Uses, structs};
@@ -141,12 +142,14 @@ fn cells(function: &Function, uses: &Uses, real: &TokenStream, shape: &Ident) ->
     });
     let mut writer = Writer::new(function, Some(uses), real.clone());
     let body = writer.block(&function.body);
+    let fetches = fetches(function);
     quote! {
         #space
         let #offsets = #row.offsets::<#shape>();
         #directions
         let #length = #columns.numbers().len();
         #shorten
+        #fetches
         let mut #place = #row.place();
         for #column in #columns {
             let (#x, #lane) = (#column.number(), #column.lane());

@@ -5,6 +5,7 @@
 
 use super::Row;
 use super::values::{KernelElement, KernelValue};
+use super::written::BLOCK_BYTES;
 use std::fmt;
 use std::marker::PhantomData;
 use std::ops::Range;
@@ -137,11 +138,43 @@ impl<'r, T: KernelElement, const N: usize> AroundRead<'r, [T; N]> {
         self.read(cell, offset, element)
     }
 
+    /// Asks for an element of the neighbours of the next cells, as many as these: they are read soon. Where they do not exist, nothing is
+    /// lost; nothing is read into the program.
+    #[inline(always)]
+    pub fn fetch(&self, columns: &Columns<'r>, offset: Offset<'r>, element: usize) {
+        let next = columns.numbers().end as isize + offset.distance + (element * self.stride) as isize;
+        let first = self.first.wrapping_offset(next).cast::<i8>();
+        let bytes = columns.lanes.len() * size_of::<T::Memory>();
+        // A row that is one block has no next one, and is long enough for the processor to foresee what follows.
+        if bytes <= BLOCK_BYTES {
+            (0..bytes).step_by(CACHE_LINE).for_each(|line| prefetch(first.wrapping_add(line)));
+        }
+    }
+
     /// An element of the value of the cell itself.
     #[inline(always)]
     pub fn element_here(&self, cell: Column<'r>, element: usize) -> T {
         self.element(cell, Offset { distance: 0, row: PhantomData }, element)
     }
+}
+
+/// The bytes that processors fetch at once.
+const CACHE_LINE: usize = 64;
+
+/// Has memory brought near, if it exists.
+#[inline(always)]
+fn prefetch(place: *const i8) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // SAFETY: a hint, which reads nothing and faults nowhere, whatever the address is.
+        #[allow(unsafe_code)]
+        unsafe {
+            _mm_prefetch::<_MM_HINT_T0>(place);
+        }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = place;
 }
 
 /// A substate of a row's cells.

@@ -38,6 +38,19 @@ impl<const SHAPE: ShapeNumber> Offsets<'_, SHAPE> {
         };
         Offset { distance, row: PhantomData }
     }
+
+    /// The offset of the neighbour that will be asked for, if there is one with this index.
+    #[inline(always)]
+    pub fn foreseen<'r>(&self, index: usize) -> Offset<'r> {
+        let distance = if index >= self.count() {
+            0
+        } else if SHAPE == ANY {
+            self.any[index]
+        } else {
+            self.fixed[index]
+        };
+        Offset { distance, row: PhantomData }
+    }
 }
 
 /// The neighbourhood of a row's cells as directions. An index beyond it is the same fault as for a neighbour's
@@ -70,6 +83,19 @@ impl<const SHAPE: ShapeNumber> Directions<'_, SHAPE> {
             0
         } else if SHAPE == ANY {
             // Building the model has excluded that an opposite is missing.
+            self.opposites[index].unwrap_or(0)
+        } else {
+            Self::KNOWN.opposite(index)
+        }
+    }
+
+    /// The index of the neighbour that will be asked for, if there is one in the opposite direction.
+    #[inline(always)]
+    pub fn opposite_foreseen(&self, index: usize) -> usize {
+        let known = if SHAPE == ANY { self.opposites.len() } else { Self::KNOWN.size };
+        if index >= known {
+            0
+        } else if SHAPE == ANY {
             self.opposites[index].unwrap_or(0)
         } else {
             Self::KNOWN.opposite(index)

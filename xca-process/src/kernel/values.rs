@@ -3,7 +3,7 @@
 //! An engine keeps each substate of cells as planes: one for a single value, one for each element of an array, a fixed stride apart. Of items
 //! it keeps whole values one after the other.
 
-use super::written::{Lanes, STAGED, Stage, Written, WrittenArrays};
+use super::written::{Lanes, Stage, Written, WrittenArrays, staged};
 use crate::states::States;
 use bytemuck::Pod;
 use xca_values::{Vector2, Vector3, Vector4};
@@ -153,7 +153,7 @@ impl<T: KernelElement, const N: usize> KernelValue for [T; N] {
     type Written<'r> = WrittenArrays<'r, T::Memory, N>;
     type Stage = Stage<T::Memory, N>;
     type Lanes<'b> = &'b mut Stage<T::Memory, N>;
-    const BLOCK: usize = STAGED;
+    const BLOCK: usize = staged::<T::Memory>();
 
     #[inline(always)]
     fn from_elements(element: impl FnMut(usize) -> T) -> Self {

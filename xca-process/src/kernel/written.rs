@@ -10,11 +10,21 @@ use std::fmt;
 use std::marker::PhantomData;
 use std::ops::Range;
 
-/// The cells of a block where arrays are staged.
-pub(super) const STAGED: usize = 4 * PART;
+/// The most cells of a block where arrays are staged.
+const STAGED: usize = 32;
 
-/// A part of a block.
-const PART: usize = 8;
+/// The most bytes of each plane in a block: two cache lines. With more of them the planes of an array crowd each other out of the cache.
+pub(super) const BLOCK_BYTES: usize = 128;
+
+/// The bytes that the widest instructions move.
+const WIDEST: usize = 32;
+
+/// The most cells of a block of arrays whose elements are so in memory.
+pub(super) const fn staged<M>() -> usize {
+    let size = if size_of::<M>() == 0 { 1 } else { size_of::<M>() };
+    let fitting = BLOCK_BYTES / size;
+    if fitting > STAGED { STAGED } else { fitting }
+}
 
 /// The planes of a row's cells, as their engine describes them.
 #[derive(Debug, Clone, Copy)]
@@ -123,13 +133,25 @@ impl<M: Pod, const N: usize> WrittenArrays<'_, M, N> {
     #[inline(always)]
     fn place(&self, block: &Range<usize>, element: usize) -> *mut M {
         let inside = block.start <= block.end && block.end <= self.planes.cells;
-        assert!(inside && block.len() <= STAGED && element < N, "no such block in the row");
+        assert!(inside && block.len() <= staged::<M>() && element < N, "no such block in the row");
         self.planes.first.wrapping_add(element * self.planes.stride + block.start)
     }
 }
 
-/// Arrays of a block of cells, by element and lane.
+/// Arrays of a block of cells, by element and lane, without room between the elements.
 pub struct Stage<M, const N: usize>([[M; STAGED]; N]);
+
+impl<M, const N: usize> Stage<M, N> {
+    #[inline(always)]
+    fn elements(&self) -> impl Iterator<Item = &[M]> {
+        self.0.as_flattened().chunks_exact(staged::<M>()).take(N)
+    }
+
+    #[inline(always)]
+    fn elements_mut(&mut self) -> impl Iterator<Item = &mut [M]> {
+        self.0.as_flattened_mut().chunks_exact_mut(staged::<M>()).take(N)
+    }
+}
 
 impl<M, const N: usize> fmt::Debug for Stage<M, N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -151,7 +173,7 @@ impl<'r, T: KernelElement, const N: usize> Written<'r, [T; N]> for WrittenArrays
 
     #[inline(always)]
     fn load(&self, stage: &mut Stage<T::Memory, N>, block: &Range<usize>) {
-        for (element, lanes) in stage.0.iter_mut().enumerate() {
+        for (element, lanes) in stage.elements_mut().enumerate() {
             let from = self.place(block, element).cast_const();
             // SAFETY: `new`: `N` planes, aligned, each with the cells that `place` lets through; a stage has as many lanes.
             #[allow(unsafe_code)]
@@ -172,7 +194,7 @@ impl<'r, T: KernelElement, const N: usize> Written<'r, [T; N]> for WrittenArrays
 
     #[inline(always)]
     fn store(&mut self, stage: &Stage<T::Memory, N>, block: &Range<usize>) {
-        for (element, lanes) in stage.0.iter().enumerate() {
+        for (element, lanes) in stage.elements().enumerate() {
             let to = self.place(block, element);
             // SAFETY: as above, and no one else reads or writes them.
             #[allow(unsafe_code)]
@@ -190,37 +212,36 @@ impl<'r, T: KernelElement, const N: usize> Written<'r, [T; N]> for WrittenArrays
 #[inline(always)]
 #[allow(unsafe_code)]
 unsafe fn copy<M: Copy>(from: *const M, to: *mut M, count: usize) {
-    if count < STAGED {
+    let bytes = staged::<M>() * size_of::<M>();
+    if count != staged::<M>() || !bytes.is_multiple_of(WIDEST) {
         // SAFETY: as the function.
         unsafe { std::ptr::copy_nonoverlapping(from, to, count) }
         return;
     }
     // Most blocks are whole. In parts this small the compiler copies them by itself, without a call.
-    let (from, to) = (from.cast::<[M; PART]>(), to.cast::<[M; PART]>());
-    // SAFETY: as the function; the parts make up a block, and an array has the alignment of its elements.
-    unsafe {
-        to.write(from.read());
-        to.add(1).write(from.add(1).read());
-        to.add(2).write(from.add(2).read());
-        to.add(3).write(from.add(3).read());
+    let (from, to) = (from.cast::<[u8; WIDEST]>(), to.cast::<[u8; WIDEST]>());
+    for part in 0..bytes / WIDEST {
+        // SAFETY: as the function; the parts make up a block, and bytes have no alignment.
+        unsafe { to.add(part).write(from.add(part).read()) }
     }
 }
 
 impl<T: KernelElement, const N: usize> Lanes<[T; N]> for &mut Stage<T::Memory, N> {
     #[inline(always)]
     fn first(self, lanes: usize) -> Self {
-        assert!(lanes <= STAGED, "no such block");
+        assert!(lanes <= staged::<T::Memory>(), "no such block");
         self
     }
 
     #[inline(always)]
     fn get(&self, lane: usize) -> [T; N] {
-        std::array::from_fn(|element| T::from_memory(self.0[element][lane]))
+        let lanes = self.0.as_flattened();
+        std::array::from_fn(|element| T::from_memory(lanes[element * staged::<T::Memory>() + lane]))
     }
 
     #[inline(always)]
     fn set(&mut self, lane: usize, value: [T; N]) {
-        for (lanes, value) in self.0.iter_mut().zip(&value) {
+        for (lanes, value) in self.elements_mut().zip(&value) {
             lanes[lane] = KernelElement::to_memory(*value);
         }
     }
