@@ -4,7 +4,7 @@
 //! than what that radius is larger, a search in the list finds what a search in the cells finds. Items are known to the lists by a number
 //! that they keep when they change their place.
 
-use super::search::{CellFilter, reach};
+use super::search::{CellFilter, announce, reach};
 use super::{Column, Row, RowItems};
 use crate::float::Float;
 use xca_values::Vector3;
@@ -41,6 +41,8 @@ pub(super) struct Walk {
     near: Vec<u32>,
     /// The number among the row's own items of the one that is near.
     owners: Vec<u32>,
+    /// Whether what is near an item is in the order of neighbour indices, and not of places.
+    ordered: bool,
 }
 
 /// Which searches have the same result.
@@ -134,6 +136,7 @@ impl Row<'_> {
                 super::search::length_squared(one - other) < square
             });
         }
+        walk.ordered = !plain;
         if plain {
             walk.sort();
         } else {
@@ -155,12 +158,17 @@ impl Row<'_> {
         }
         let near = &walk.near[start..end];
         let own = self.items(cell);
-        let here = |place: &u32| own.contains(&(*place as usize));
+        // What is in the own cell lies together: among the rest by its place, or before it.
+        let count = |wanted: &dyn Fn(usize) -> bool| near.iter().filter(|place| wanted(**place as usize)).count();
+        let before = if walk.ordered { 0 } else { count(&|place| place < own.start) };
+        let (before, rest) = near.split_at(before);
+        let (here, after) = rest.split_at(count(&|place| own.contains(&place)));
         if REACH != reach::NEIGHBOURS {
-            found.extend(near.iter().filter(|place| here(place)));
+            found.extend_from_slice(here);
         }
         if REACH != reach::CELL {
-            found.extend(near.iter().filter(|place| !here(place)));
+            found.extend_from_slice(before);
+            found.extend_from_slice(after);
         }
     }
 
@@ -284,10 +292,15 @@ fn keep<R: Float>(
     near_owners: &mut [u32],
     is_near: &impl Fn(Vector3<R>, Vector3<R>) -> bool,
 ) -> usize {
+    // Where all of them are comes first: so many places are waited for together.
+    for (place, candidate) in near.iter_mut().zip(candidates) {
+        *place = places[*candidate as usize];
+        announce(positions.as_ptr().wrapping_add(*place as usize).cast());
+    }
     let mut count = 0;
-    for (candidate, owner) in candidates.iter().zip(owners) {
+    for (number, owner) in owners.iter().enumerate() {
+        let place = near[number];
         let owner = owner - base;
-        let place = places[*candidate as usize];
         // One that has left the space has no place.
         let Some(other) = positions.get(place as usize) else { continue };
         near[count] = place;

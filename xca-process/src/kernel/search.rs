@@ -336,7 +336,9 @@ impl<'a> Row<'a> {
         let end = self.length.saturating_sub(1 + self.frame.geometry.neighbourhood().reach()[0]);
         // SAFETY: an offset of the neighbourhood.
         let [first, end] = [0, end].map(|number| unsafe { self.items_at(self.column(number), last) });
-        let Some(row) = positions.get(first.start..end.end) else { return };
+        // The next row's follow, and are read before the processor has brought them.
+        let next = end.end..(2 * end.end).saturating_sub(first.start);
+        let Some(row) = positions.get(next) else { return };
         let start = row.as_ptr().cast::<u8>();
         (0..size_of_val(row)).step_by(LINE).for_each(|at| announce(start.wrapping_add(at)));
     }
@@ -376,7 +378,7 @@ impl<'a> Row<'a> {
 
 /// Tells the processor that what lies there is wanted soon. It is no access: any address will do.
 #[inline(always)]
-fn announce(place: *const u8) {
+pub(super) fn announce(place: *const u8) {
     #[cfg(target_arch = "x86_64")]
     {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
