@@ -39,6 +39,7 @@ pub use neighbours::{Directions, Offsets};
 pub use search::{CellFilter, Found, Scratch, reach};
 pub use space::NativeSpace;
 pub use values::{ArrayValue, KernelElement, KernelValue, load, load_element, store};
+use work::announce;
 pub use work::{Work, run};
 pub use written::{Lanes, Planes, Stage, Written, WrittenArrays, block};
 
@@ -169,6 +170,8 @@ pub struct Row<'a> {
     destinations: Cell<Option<&'a mut [u32]>>,
     scratch: &'a Scratch,
     origin: [u32; 3],
+    /// The linear index of the first cell.
+    first_cell: u32,
     length: usize,
     /// The entries that the kernel has asked to write.
     taken: Cell<u128>,
@@ -214,6 +217,7 @@ impl<'a> Row<'a> {
         origin: [u32; 3],
         length: usize,
     ) -> Self {
+        let [width, height, _] = frame.extents;
         Self {
             frame,
             entries,
@@ -221,6 +225,7 @@ impl<'a> Row<'a> {
             destinations: Cell::new(destinations),
             scratch,
             origin,
+            first_cell: (origin[2] * height + origin[1]) * width + origin[0],
             length,
             taken: Cell::new(0),
             widest: Cell::new(0.0),
@@ -359,8 +364,7 @@ impl<'a> Row<'a> {
     /// The linear index of a cell of the row.
     #[inline(always)]
     pub fn cell(&self, x: usize) -> u32 {
-        let [width, height, _] = self.frame.extents;
-        (self.origin[2] * height + self.origin[1]) * width + self.origin[0] + x as u32
+        self.first_cell + x as u32
     }
 
     /// The indices of a cell of the row.

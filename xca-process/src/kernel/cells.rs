@@ -3,9 +3,9 @@
 //! What a kernel reads is had from a [`super::Row`] only. It is asked for by the tokens [`Column`] and [`Offset`], which come from the row too:
 //! so a kernel needs no unsafe code, and cannot reach memory that is not its own.
 
-use super::Row;
 use super::values::{KernelElement, KernelValue};
 use super::written::BLOCK_BYTES;
+use super::{Row, announce};
 use std::fmt;
 use std::marker::PhantomData;
 use std::ops::Range;
@@ -143,11 +143,11 @@ impl<'r, T: KernelElement, const N: usize> AroundRead<'r, [T; N]> {
     #[inline(always)]
     pub fn fetch(&self, columns: &Columns<'r>, offset: Offset<'r>, element: usize) {
         let next = columns.numbers().end as isize + offset.distance + (element * self.stride) as isize;
-        let first = self.first.wrapping_offset(next).cast::<i8>();
+        let first = self.first.wrapping_offset(next).cast::<u8>();
         let bytes = columns.lanes.len() * size_of::<T::Memory>();
         // A row that is one block has no next one, and is long enough for the processor to foresee what follows.
         if bytes <= BLOCK_BYTES {
-            (0..bytes).step_by(CACHE_LINE).for_each(|line| prefetch(first.wrapping_add(line)));
+            (0..bytes).step_by(CACHE_LINE).for_each(|line| announce(first.wrapping_add(line)));
         }
     }
 
@@ -160,22 +160,6 @@ impl<'r, T: KernelElement, const N: usize> AroundRead<'r, [T; N]> {
 
 /// The bytes that processors fetch at once.
 const CACHE_LINE: usize = 64;
-
-/// Has memory brought near, if it exists.
-#[inline(always)]
-fn prefetch(place: *const i8) {
-    #[cfg(target_arch = "x86_64")]
-    {
-        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        // SAFETY: a hint, which reads nothing and faults nowhere, whatever the address is.
-        #[allow(unsafe_code)]
-        unsafe {
-            _mm_prefetch::<_MM_HINT_T0>(place);
-        }
-    }
-    #[cfg(not(target_arch = "x86_64"))]
-    let _ = place;
-}
 
 /// A substate of a row's cells.
 #[derive(Clone, Copy)]

@@ -4,8 +4,8 @@
 //! than what that radius is larger, a search in the list finds what a search in the cells finds. Items are known to the lists by a number
 //! that they keep when they change their place.
 
-use super::search::{CellFilter, announce, reach};
-use super::{Column, Row, RowItems};
+use super::search::{CellFilter, reach};
+use super::{Column, Row, RowItems, announce};
 use crate::float::Float;
 use xca_values::Vector3;
 
@@ -159,7 +159,8 @@ impl Row<'_> {
         let near = &walk.near[start..end];
         let own = self.items(cell);
         // What is in the own cell lies together: among the rest by its place, or before it.
-        let count = |wanted: &dyn Fn(usize) -> bool| near.iter().filter(|place| wanted(**place as usize)).count();
+        let count =
+            |wanted: &dyn Fn(usize) -> bool| near.iter().filter(|place| wanted(**place as usize)).count();
         let before = if walk.ordered { 0 } else { count(&|place| place < own.start) };
         let (before, rest) = near.split_at(before);
         let (here, after) = rest.split_at(count(&|place| own.contains(&place)));

@@ -5,7 +5,7 @@
 
 use super::near::Walk;
 use super::wide::{self, Wide};
-use super::{Column, Memory, MemoryOf, Row, WRONG_RADIUS};
+use super::{Column, Memory, MemoryOf, Row, WRONG_RADIUS, announce};
 use crate::float::Float;
 use crate::geometry::Geometry;
 use crate::neighbourhood::Parity;
@@ -374,19 +374,6 @@ impl<'a> Row<'a> {
         }
         each(joined);
     }
-}
-
-/// Tells the processor that what lies there is wanted soon. It is no access: any address will do.
-#[inline(always)]
-pub(super) fn announce(place: *const u8) {
-    #[cfg(target_arch = "x86_64")]
-    {
-        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        // SAFETY: a hint, for any address.
-        unsafe { _mm_prefetch::<_MM_HINT_T0>(place.cast()) }
-    }
-    #[cfg(not(target_arch = "x86_64"))]
-    let _ = place;
 }
 
 #[inline(always)]

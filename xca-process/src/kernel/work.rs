@@ -1,4 +1,4 @@
-//! The work of a kernel, with the widest instructions of the processor.
+//! The work of a kernel, with the widest instructions of the processor, and hints for it.
 //!
 //! They change the time that a kernel takes and nothing else: each lane does the operations of the plain code in the same order, with the
 //! same rounding and no fused operation.
@@ -33,4 +33,20 @@ fn run_with_avx2(work: impl Work) {
 #[inline(never)]
 fn run_plain(work: impl Work) {
     work.run();
+}
+
+/// Tells the processor that what lies there is wanted soon. It is no access: any address will do.
+#[inline(always)]
+pub(super) fn announce(place: *const u8) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // SAFETY: a hint, for any address.
+        #[allow(unsafe_code)]
+        unsafe {
+            _mm_prefetch::<_MM_HINT_T0>(place.cast());
+        }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = place;
 }
