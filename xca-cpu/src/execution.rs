@@ -22,7 +22,7 @@ use xca_core::engine::{
     step_by_step,
 };
 use xca_core::model::{Group as Definition, GroupKind};
-use xca_core::reduction::{Reduced, Reduction, append_row, combine_rows};
+use xca_core::reduction::{Reduced, ReducedRows, Reduction, append_row};
 use xca_core::{Model, Precision, ProcessKind, StoredType};
 
 /// A model under way.
@@ -278,9 +278,10 @@ impl Execution for CpuExecution {
         })
     }
 
-    fn reduce(&self, substate: SubstateId, reduction: &Reduction) -> Result<Vec<Reduced>, EngineFailure> {
+    fn reduce_rows(&self, substate: SubstateId, reduction: &Reduction) -> Result<ReducedRows, EngineFailure> {
         check_substate(&self.model, substate)?;
         let stored = self.model.stored(substate, self.precision);
+        let components = stored.components();
         if let Group::Cells(planes) = &self.groups[substate.group]
             && let Some(activity) = self.activity.as_ref().filter(|activity| activity.is_on())
         {
@@ -295,7 +296,9 @@ impl Execution for CpuExecution {
             }
             // Most rows may be empty.
             Group::Population(population) => match population.row(row) {
-                (first, end) if first == end => {}
+                (first, end) if first == end => {
+                    results.extend(std::iter::repeat_n(Reduced::Nothing, components));
+                }
                 (first, end) => {
                     let values = population.items.fields[substate.field].bytes();
                     append_row(
@@ -319,8 +322,7 @@ impl Execution for CpuExecution {
             };
             blocks(&self.layout, &populations, rayon::current_num_threads()).par_iter().map(reduce).collect()
         });
-        let components = stored.components();
-        Ok(combine_rows(reduction, components, parts.iter().flat_map(|part| part.chunks_exact(components))))
+        Ok(ReducedRows { components, results: parts.concat() })
     }
 
     fn figures(&self) -> Vec<Figure> {

@@ -3,8 +3,9 @@
 //! Kernels trust the lengths and ranges that engines keep, and an engine's methods are open to everyone. So
 //! each engine calls these functions first, and unsafe code may rely on what they have checked.
 
-use super::{EngineFailure, Fault, Population, SubstateId};
+use super::{EngineFailure, Fault, Part, Population, SubstateId};
 use crate::model::{Group, GroupKind, Model};
+use std::ops::Range;
 use xca_values::Field;
 use xca_values::{Precision, ScalarType};
 
@@ -43,6 +44,16 @@ pub enum InputError {
         cell: usize,
         /// How many cells there are.
         cells: usize,
+    },
+    /// A cell that belongs to another part of the space.
+    #[error("cell number {cell} is not in the part of the space with y in {y:?} and z in {z:?}")]
+    NotInPart {
+        /// The linear index that was given.
+        cell: usize,
+        /// The indices of the part along y.
+        y: Range<usize>,
+        /// Its indices along z.
+        z: Range<usize>,
     },
     /// More or fewer bytes than the values take.
     #[error("the values of `{substates}.{substate}` take {wanted} bytes, but {given} are given")]
@@ -106,6 +117,32 @@ pub fn check_values(
         GroupKind::Population { .. } => items,
     };
     check_bytes(group, precision, substate.field, count, values)
+}
+
+/// Checks the values that are to replace those of a substate of cells in a part of the space.
+///
+/// # Errors
+/// Where the model does not have the substate, it is none of cells, or the values take another number of bytes.
+pub fn check_values_of_part(
+    model: &Model,
+    precision: Precision,
+    substate: SubstateId,
+    part: &Part,
+    values: &[u8],
+) -> Result<(), InputError> {
+    check_cells(model, substate, &[])?;
+    let count = part.cells(model.geometry());
+    check_bytes(&model.groups()[substate.group], precision, substate.field, count, values)
+}
+
+/// Checks that cells belong to a part of the space.
+///
+/// # Errors
+/// Where one does not.
+pub fn check_cells_of_part(model: &Model, part: &Part, cells: &[usize]) -> Result<(), InputError> {
+    let other = cells.iter().find(|cell| !part.holds(model.geometry(), **cell));
+    let Part { y, z } = part.clone();
+    other.map_or(Ok(()), |cell| Err(InputError::NotInPart { cell: *cell, y, z }))
 }
 
 /// Checks the cells whose values of a substate are to be read, by their linear indices.

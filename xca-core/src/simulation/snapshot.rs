@@ -73,11 +73,10 @@ impl Simulation {
                 execution.population(group).map(|items| GroupSnapshot::Population(items, left))
             }
         };
-        let bits = |value: ParameterValue| value.components().iter().map(|number| number.to_bits()).collect();
         Ok(Snapshot {
             step: self.step,
             groups: self.model.groups().iter().enumerate().map(of_group).collect::<Result<_, _>>()?,
-            parameters: self.parameters.values().map(bits).collect(),
+            parameters: self.parameters.bits(),
             stop: self.stop.clone(),
             broken: self.faulty.is_some_and(|step| step > self.step),
         })
@@ -152,13 +151,7 @@ impl Simulation {
                 }
             }
         }
-        let fields: Vec<&Field> = self.parameters.fields().collect();
-        for (number, (bits, field)) in snapshot.parameters.iter().zip(fields).enumerate() {
-            let components = bits.iter().map(|number| f64::from_bits(*number)).collect();
-            if let Some(value) = ParameterValue::from_components(field.value_type, components) {
-                self.parameters.set_value(number, &value);
-            }
-        }
+        self.parameters.set_bits(&snapshot.parameters);
         self.step = snapshot.step;
         self.stop.clone_from(&snapshot.stop);
         self.faulty = None;
