@@ -10,6 +10,7 @@ mod activity;
 mod blocks;
 mod choices;
 mod dense;
+mod edges;
 mod execution;
 mod group;
 mod layout;
@@ -27,11 +28,13 @@ mod tiles;
 mod upkeep;
 
 use choices::{Choices, LeaveOut};
+use edges::Edges;
 use execution::CpuExecution;
 use layout::Layout;
 use std::fmt;
 use threads::Threads;
-use xca_core::engine::{Engine, Execution, StartError};
+use xca_core::engine::{Border, Engine, Execution, Part, StartError};
+use xca_core::model::GroupKind;
 use xca_core::{Model, Precision};
 
 /// The engine for all cores.
@@ -147,7 +150,26 @@ impl Engine for Cpu {
     }
 
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {
-        Ok(Box::new(CpuExecution::new(model, precision, self.own.clone(), self.choices)?))
+        Ok(Box::new(CpuExecution::new(model, precision, self.own.clone(), self.choices, None)?))
+    }
+
+    fn start_part(
+        &self,
+        model: &Model,
+        precision: Precision,
+        part: &Part,
+        border: Box<dyn Border>,
+    ) -> Result<Box<dyn Execution>, StartError> {
+        part.check(model.geometry())?;
+        let is_population =
+            |group: &&xca_core::model::Group| matches!(group.kind(), GroupKind::Population { .. });
+        if let Some(group) = model.groups().iter().find(is_population) {
+            let reason =
+                format!("`{}` is a population; items cannot go from part to part", group.schema().name);
+            return Err(StartError::NoParts { engine: self.name().to_owned(), reason });
+        }
+        let edges = Some(Edges::new(model, part.clone(), border));
+        Ok(Box::new(CpuExecution::new(model, precision, self.own.clone(), self.choices, edges)?))
     }
 }
 

@@ -150,11 +150,7 @@ impl GpuExecution {
     }
 
     /// The results of all rows, made on the device.
-    fn reduce_here(
-        &self,
-        substate: SubstateId,
-        reduction: &Reduction,
-    ) -> Result<Vec<Reduced>, DeviceError> {
+    fn reduce_here(&self, substate: SubstateId, reduction: &Reduction) -> Result<Vec<Reduced>, DeviceError> {
         let stored = self.model.stored(substate, self.manner.precision);
         let plane = self.groups.plane(substate);
         let reduce = |values: Values<'_>, rows: Rows| {

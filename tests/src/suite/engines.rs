@@ -1,5 +1,8 @@
 //! The engines that every suite runs on, and how their runs are compared.
 
+mod in_parts;
+
+use in_parts::InParts;
 use std::error::Error;
 use std::fmt::Debug;
 use std::num::NonZeroUsize;
@@ -21,6 +24,9 @@ pub const SKINS: [Option<f64>; 4] = [None, Some(1e-3), Some(0.3), Some(1e9)];
 /// number, and more than most rows have.
 pub const TILES: [Option<NonZeroUsize>; 4] =
     [None, NonZeroUsize::new(1), NonZeroUsize::new(3), NonZeroUsize::new(1000)];
+
+/// Numbers of parts of the space that must make no difference; fewer where the space is too small.
+pub const PARTS: [usize; 3] = [2, 3, 7];
 
 /// Both precisions.
 pub const PRECISIONS: [Precision; 2] = [Precision::F32, Precision::F64];
@@ -84,6 +90,9 @@ pub fn all() -> Result<Vec<Box<dyn Engine>>, Box<dyn Error>> {
             engine = engine.with_tiles(cells);
         }
         engines.push(Box::new(engine));
+    }
+    for (number, (parts, tile)) in PARTS.into_iter().zip(TILES).enumerate() {
+        engines.push(Box::new(InParts::new(parts, 1 + number, tile)?));
     }
     engines.push(Box::new(gpu()?));
     Ok(engines)

@@ -57,7 +57,12 @@ impl Part {
         for (axis, name, rows) in [(1, 'y', &self.y), (2, 'z', &self.z)] {
             let (all, reach) = (geometry.extents()[axis], geometry.neighbourhood().reach()[axis]);
             if rows.is_empty() || rows.end > all {
-                return Err(PartError::NoSuchRows { axis: name, rows: all, start: rows.start, end: rows.end });
+                return Err(PartError::NoSuchRows {
+                    axis: name,
+                    rows: all,
+                    start: rows.start,
+                    end: rows.end,
+                });
             }
             if rows.len() < all && rows.len() < reach {
                 return Err(PartError::TooThin { axis: name, rows: rows.len(), reach });
