@@ -6,6 +6,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use xca_core::engine::{Border, EngineFailure};
 use xca_core::{Face, Faces, Geometry};
 
+/// The name of the engine.
+pub(crate) const NAME: &str = "parts";
+
 /// A transport that a part's engine and whoever gives it commands share. They never use it at the same time.
 #[derive(Clone)]
 pub(crate) struct Link(Arc<Mutex<Box<dyn Transport>>>);
@@ -72,5 +75,5 @@ impl Border for PartBorder {
 
 /// The failure of this engine.
 pub(crate) fn broken(reason: String) -> EngineFailure {
-    EngineFailure::Broken { engine: crate::NAME.to_owned(), reason }
+    EngineFailure::Broken { engine: NAME.to_owned(), reason }
 }

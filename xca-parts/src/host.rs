@@ -1,6 +1,6 @@
 //! The host: a state in parts as a simulation sees it.
 
-use crate::border::{Link, broken};
+use crate::border::{Link, NAME, broken};
 use crate::message::{Command, Moment, Reply, decode, encode};
 use crate::transport::{Tag, Transport, TransportError};
 use crate::worker::{Shared, Worker};
@@ -40,10 +40,9 @@ impl Host {
         let link = Link::new(transport);
         let own = Worker::start(engine, &shared, link.clone())?;
         let mut state = State { own, link, failure: None };
-        state.replies(Reply::Done).map_err(|failure| StartError::Other {
-            engine: crate::NAME.to_owned(),
-            reason: failure.to_string(),
-        })?;
+        state
+            .replies(Reply::Done)
+            .map_err(|failure| StartError::Other { engine: NAME.to_owned(), reason: failure.to_string() })?;
         Ok(Self { shared, state: Mutex::new(state), threads })
     }
 

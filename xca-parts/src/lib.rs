@@ -21,6 +21,7 @@ pub use channels::Channels;
 pub use cut::Cut;
 pub use transport::{Tag, Transport, TransportError};
 
+use border::NAME;
 use host::Host;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
@@ -29,13 +30,11 @@ use worker::Shared;
 use xca_core::engine::{Engine, Execution, StartError};
 use xca_core::{Geometry, Model, Precision};
 
-/// The name of the engine.
-const NAME: &str = "parts";
-
 /// An engine made of several, each of which runs a part of the space on a thread of its own.
 #[derive(Debug, Clone)]
 pub struct Parts {
-    engine: Arc<dyn Engine>,
+    /// What runs the parts, in turns.
+    engines: Vec<Arc<dyn Engine>>,
     number: Number,
 }
 
@@ -48,19 +47,32 @@ enum Number {
 }
 
 impl Parts {
-    /// So many parts, each run by this engine. A space that is too small for them is refused when a model is started.
+    /// So many parts, all run by one engine, whose threads they share. A space that is too small for them is refused when a model is
+    /// started.
     pub fn new(engine: impl Engine + 'static, parts: NonZeroUsize) -> Self {
-        Self { engine: Arc::new(engine), number: Number::Exactly(parts.get()) }
+        Self { engines: vec![Arc::new(engine)], number: Number::Exactly(parts.get()) }
     }
 
-    /// So many parts, or fewer where the space is too small for them.
+    /// As many parts as engines, each run by its own. There must be at least one.
+    pub fn with_engines(engines: Vec<Arc<dyn Engine>>) -> Self {
+        let number = Number::Exactly(engines.len());
+        Self { engines, number }
+    }
+
+    /// As [`Self::new`], but with fewer parts where the space is too small for so many.
     pub fn at_most(engine: impl Engine + 'static, parts: NonZeroUsize) -> Self {
-        Self { engine: Arc::new(engine), number: Number::AtMost(parts.get()) }
+        Self { engines: vec![Arc::new(engine)], number: Number::AtMost(parts.get()) }
     }
 
-    /// Parts along y and z.
+    /// As [`Self::new`], with parts along y and z.
     pub fn with_cut(engine: impl Engine + 'static, cut: Cut) -> Self {
-        Self { engine: Arc::new(engine), number: Number::Cut(cut) }
+        Self { engines: vec![Arc::new(engine)], number: Number::Cut(cut) }
+    }
+
+    /// What runs the part with this number.
+    fn engine(&self, number: usize) -> Result<Arc<dyn Engine>, StartError> {
+        let engine = self.engines.get(number % self.engines.len().max(1));
+        engine.cloned().ok_or_else(|| other("there is no engine to run a part"))
     }
 
     /// How the space of a model is cut.
@@ -97,7 +109,7 @@ impl Engine for Parts {
     }
 
     fn threads(&self) -> usize {
-        self.engine.threads()
+        self.engines.iter().map(|engine| engine.threads()).sum()
     }
 
     fn facts(&self) -> Vec<(&'static str, String)> {
@@ -106,16 +118,20 @@ impl Engine for Parts {
             Number::AtMost(parts) => format!("at most {parts}"),
             Number::Cut(Cut { y, z }) => format!("{y}x{z}"),
         };
-        let own = [("parts", parts), ("part_engine", self.engine.name().to_owned())];
-        own.into_iter().chain(self.engine.facts()).collect()
+        let mut facts = vec![("parts", parts)];
+        if let Some(engine) = self.engines.first() {
+            facts.push(("part_engine", engine.name().to_owned()));
+            facts.extend(engine.facts());
+        }
+        facts
     }
 
     fn note(&self) -> Option<String> {
-        self.engine.note()
+        self.engines.first()?.note()
     }
 
     fn least_memory(&self, model: &Model, precision: Precision) -> u128 {
-        self.engine.least_memory(model, precision)
+        self.engines.first().map_or(0, |engine| engine.least_memory(model, precision))
     }
 
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {
@@ -125,12 +141,12 @@ impl Engine for Parts {
         let own = ends.next().ok_or_else(|| other("there is no part"))?;
         let mut threads = Vec::new();
         for end in ends {
-            let (engine, shared) = (self.engine.clone(), shared.clone());
+            let (engine, shared) = (self.engine(end.number())?, shared.clone());
             let builder = Builder::new().name(format!("xca-part-{}", end.number()));
             let work = move || worker::serve(&*engine, &shared, Box::new(end));
             threads.push(builder.spawn(work).map_err(|error| other(&error.to_string()))?);
         }
-        Ok(Box::new(Host::start(&*self.engine, shared, Box::new(own), threads)?))
+        Ok(Box::new(Host::start(&*self.engine(0)?, shared, Box::new(own), threads)?))
     }
 }
 

@@ -38,9 +38,17 @@ pub const GPU_SHARE: usize = 9;
 /// The same where there are thousands of cases.
 pub const SMALL_GPU_SHARE: usize = 101;
 
-/// The engines for the case with this number: all, or those on processors.
+/// Of so many cases one runs in parts too: they start many threads. Odd, as above.
+const PARTS_SHARE: usize = 3;
+
+/// The engines for the case with this number: all, those on processors, or those that run the space as a whole.
 pub fn for_case(engines: &[Box<dyn Engine>], number: usize, share: usize) -> &[Box<dyn Engine>] {
-    if number.is_multiple_of(share) { engines } else { on_processors(engines) }
+    if number.is_multiple_of(share) {
+        return engines;
+    }
+    let on_processors = on_processors(engines);
+    let parts = if number.is_multiple_of(PARTS_SHARE) { 0 } else { PARTS.len() };
+    &on_processors[..on_processors.len() - parts]
 }
 
 /// The engines without the GPU's.
@@ -108,7 +116,9 @@ pub fn gpu() -> Result<Gpu, GpuError> {
 
 /// The name of an engine with its number of threads, for messages.
 pub fn describe(engine: &dyn Engine) -> String {
-    format!("{} with {} threads", engine.name(), engine.threads())
+    let parts = engine.facts().into_iter().find(|(name, _)| *name == "parts");
+    let parts = parts.map(|(_, parts)| format!(", parts: {parts}")).unwrap_or_default();
+    format!("{} with {} threads{parts}", engine.name(), engine.threads())
 }
 
 /// Runs a model on each engine and demands that all agree with the first to the last bit, after every step, in a run of all steps at

@@ -11,7 +11,6 @@ use xca_parts::Parts;
 /// The CPU engine on parts of a space that share its threads.
 #[derive(Debug)]
 pub(super) struct InParts {
-    name: String,
     whole: Cpu,
     parts: Parts,
 }
@@ -27,15 +26,18 @@ impl InParts {
         if let Some(cells) = tile {
             whole = whole.with_tiles(cells);
         }
-        let name = format!("up to {parts} parts");
         let parts = Parts::at_most(whole.clone(), NonZeroUsize::new(parts).ok_or("no parts")?);
-        Ok(Self { name, whole, parts })
+        Ok(Self { whole, parts })
     }
 }
 
 impl Engine for InParts {
     fn name(&self) -> &str {
-        &self.name
+        self.whole.name()
+    }
+
+    fn facts(&self) -> Vec<(&'static str, String)> {
+        self.parts.facts()
     }
 
     fn threads(&self) -> usize {
