@@ -14,8 +14,9 @@ pub struct Cut {
 }
 
 impl Cut {
-    /// A cut into so many parts, none thinner than what the model reaches: along the longer of y and z, along y if they are equal; where there
-    /// is no room, along the other one, or along both. Nothing where no such cut has that many parts.
+    /// A cut into so many parts, none thinner than what the model reaches: along the longer of y and z, along
+    /// y if they are equal; where there is no room, along the other one, or along both. Nothing where no such
+    /// cut has that many parts.
     pub fn even(geometry: &Geometry, parts: usize) -> Option<Self> {
         let [_, height, depth] = geometry.extents();
         let along_longer = |along: usize| {

@@ -1,9 +1,11 @@
 //! One model on several engines at once, each with a part of the space.
 //!
-//! Engines that can run a part of a space ([`Engine::start_part`]) work side by side: before a process reads neighbours, parts send each
-//! other the edges of their rows. The state after each step has the bits that one engine gives, however the space is cut.
+//! Engines that can run a part of a space ([`Engine::start_part`]) work side by side: before a process reads
+//! neighbours, parts send each other the edges of their rows. The state after each step has the bits that one
+//! engine gives, however the space is cut.
 //!
-//! [`Parts`] is an engine whose parts are threads of this process. What carries their messages is a [`Transport`]; [`serve`] and [`host`]
+//! [`Parts`] is an engine whose parts are threads of this process. What carries their messages is a
+//! [`Transport`]; [`serve`] and [`host`]
 //! work with any other one in the same way.
 //!
 //! Models of populations are refused: items cannot go from part to part yet.
@@ -47,8 +49,8 @@ enum Number {
 }
 
 impl Parts {
-    /// So many parts, all run by one engine, whose threads they share. A space that is too small for them is refused when a model is
-    /// started.
+    /// So many parts, all run by one engine, whose threads they share. A space that is too small for them is
+    /// refused when a model is started.
     pub fn new(engine: impl Engine + 'static, parts: NonZeroUsize) -> Self {
         Self { engines: vec![Arc::new(engine)], number: Number::Exactly(parts.get()) }
     }
@@ -154,8 +156,8 @@ fn other(reason: &str) -> StartError {
     StartError::Other { engine: NAME.to_owned(), reason: reason.to_owned() }
 }
 
-/// The state of a model in parts: the own part, which this engine runs, is that of number 0. Each other part has to [`serve`] the same model,
-/// precision and cut at the other end of the transport.
+/// The state of a model in parts: the own part, which this engine runs, is that of number 0. Each other part
+/// has to [`serve`] the same model, precision and cut at the other end of the transport.
 ///
 /// # Errors
 /// Where a part cannot be started.
@@ -170,7 +172,8 @@ pub fn host(
     Ok(Box::new(Host::start(engine, shared, transport, Vec::new())?))
 }
 
-/// Has an engine run the part with the transport's number as the [`host`] says, until that has ended. The host learns what goes wrong.
+/// Has an engine run the part with the transport's number as the [`host`] says, until that has ended. The
+/// host learns what goes wrong.
 pub fn serve(
     engine: &dyn Engine,
     model: &Model,

@@ -114,7 +114,8 @@ fn text(panic: &(dyn Any + Send)) -> String {
     format!("it panicked: {}", text.unwrap_or_else(|| "without a message".to_owned()))
 }
 
-/// Has an engine do what the host says with the part of the transport's number, until the host ends or the part cannot go on.
+/// Has an engine do what the host says with the part of the transport's number, until the host ends or the
+/// part cannot go on.
 pub(crate) fn serve(engine: &dyn Engine, shared: &Shared, transport: Box<dyn Transport>) {
     let link = Link::new(transport);
     let answer = |reply: &Reply| {

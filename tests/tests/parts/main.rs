@@ -143,8 +143,9 @@ fn a_glider_goes_through_all_parts() -> TestResult {
     for part in 0..3 {
         let name = format!("part_{part}_share_of_cells_worked_on");
         let figure = figures.iter().find(|figure| figure.name == name).ok_or("no share")?;
-        // Five rows, each of which is at most three tiles of 8 cells, in the 21 rows of 64 that a part has, and all cells in the first step. A
-        // glider is in a part for a third of the time, and some steps more.
+        // Five rows, each of which is at most three tiles of 8 cells, in the 21 rows of 64 that a part has,
+        // and all cells in the first step. A glider is in a part for a third of the time, and some steps
+        // more.
         let most = 1.0 / 256.0 + 5.0 * 24.0 / (21.0 * 64.0) * 0.5;
         assert!(figure.value < most && figure.value > 1.0 / 256.0, "{figure:?}, at most {most}");
     }
@@ -349,8 +350,12 @@ fn a_part_knows_its_cells() -> TestResult {
     let context = xca_core::engine::StepContext { step: 0, seed: 1, parameters: &[], values: &values };
     let fault = part.run(0..3, &context).expect_err("the edge is too short");
     assert!(matches!(&fault, Fault::Engine(EngineFailure::Broken { .. })), "{fault}");
-    assert!(
-        matches!(start(Part { y: 2..7, z: 0..1 }).err().and_then(|error| error.downcast().ok()), Some(error) if matches!(*error, StartError::Part(_)))
+    let beyond = cpu(1, 1)?.start_part(
+        &model,
+        Precision::F64,
+        &Part { y: 2..7, z: 0..1 },
+        Box::new(NoBorder),
     );
+    assert!(matches!(beyond, Err(StartError::Part(_))));
     Ok(())
 }

@@ -100,7 +100,8 @@ pub(crate) fn number(cell: [usize; 3], which: u32, below: u32) -> u32 {
     (mixed >> 8) % below
 }
 
-/// A fire here and there in a wood; in later steps more of them, and another rule. With `warms` all cells change in each step, else few.
+/// A fire here and there in a wood; in later steps more of them, and another rule. With `warms` all cells
+/// change in each step, else few.
 pub(crate) fn wood(
     extents: [usize; 3],
     neighbourhood: Neighbourhood,

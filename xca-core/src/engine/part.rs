@@ -87,7 +87,8 @@ impl Part {
         self.y.contains(&y) && self.z.contains(&z)
     }
 
-    /// The rows of the part by their numbers in the whole space, in order: those that follow each other together.
+    /// The rows of the part by their numbers in the whole space, in order: those that follow each other
+    /// together.
     pub fn runs(&self, geometry: &Geometry) -> impl Iterator<Item = Range<usize>> + use<> {
         let (height, y) = (geometry.extents()[1], self.y.clone());
         self.z.clone().map(move |z| z * height + y.start..z * height + y.end)
