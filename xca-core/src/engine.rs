@@ -6,8 +6,8 @@ mod part;
 
 pub use fault::{EngineFailure, Fault};
 pub use input::{
-    InputError, check_cells, check_cells_of_part, check_population, check_substate, check_values,
-    check_values_of_cells, check_values_of_part,
+    InputError, check_cells, check_cells_of_part, check_population, check_population_of_part, check_substate,
+    check_values, check_values_of_cells, check_values_of_part,
 };
 pub use part::{Part, PartError};
 

@@ -1,10 +1,12 @@
 //! What the parts of a space tell each other: the edges of planes, and which fault is the first.
 //!
-//! Each part does the same stages at the same time, so the same halos are stale on all parts, and each part knows what the next one sends.
-//! Nothing here waits on a thread of the engine: parts that share the threads would wait for each other.
+//! Each part does the same stages at the same time, so the same halos are stale on all parts, and each part
+//! knows what the next one sends. Nothing here waits on a thread of the engine: parts that share the threads
+//! would wait for each other.
 
 use crate::activity::Activity;
 use crate::dense::Dense;
+use crate::ghosts::{self, faces, mismatch};
 use crate::group::Group;
 use crate::layout::Layout;
 use crate::rows::FirstFault;
@@ -18,9 +20,9 @@ const NO_FAULT: u64 = u64::MAX;
 /// A part of a space with its way to the others.
 pub(crate) struct Edges {
     pub(crate) part: Part,
-    border: Box<dyn Border>,
-    /// What has come last across each face, by group and field. The halo itself is no measure of what has changed: planes with a second buffer
-    /// have two.
+    pub(crate) border: Box<dyn Border>,
+    /// What has come last across each face, by group and field. The halo itself is no measure of what has
+    /// changed: planes with a second buffer have two.
     received: Vec<Vec<Faces<Vec<u8>>>>,
 }
 
@@ -31,7 +33,8 @@ impl Edges {
         Self { part, border, received }
     }
 
-    /// Fills the halos that processes read; what has changed in them makes processes due.
+    /// Fills the halos that processes read; what has changed in them makes processes due. Of populations,
+    /// gets the items that are seen from here.
     pub(crate) fn exchange(
         &mut self,
         (model, processes): (&Model, &[usize]),
@@ -40,6 +43,11 @@ impl Edges {
         groups: &mut [Group],
         activity: Option<&Activity>,
     ) -> Result<(), EngineFailure> {
+        for group in seen(model, processes) {
+            if let Group::Population(population) = &mut groups[group] {
+                ghosts::exchange(population, layout, threads, &mut *self.border)?;
+            }
+        }
         let stale = stale(model, groups, processes);
         if stale.is_empty() {
             return Ok(());
@@ -68,9 +76,8 @@ impl Edges {
         stale: &[SubstateId],
         activity: Option<&Activity>,
     ) -> Result<(), EngineFailure> {
-        let borders = layout.borders();
-        let faces = Face::ALONG[axis].into_iter().filter(|face| borders[*face] && layout.reach()[axis] > 0);
-        for face in faces.clone() {
+        let faces = faces(layout, axis);
+        for &face in &faces {
             let mut bytes = Vec::new();
             for substate in stale {
                 if let Group::Cells(planes) = &groups[substate.group] {
@@ -107,19 +114,30 @@ impl Edges {
     }
 
     /// Tells all parts how a stage has ended here, and gives how it has ended in all of them.
-    pub(crate) fn agree(&mut self, result: Result<(), FirstFault>) -> Result<(), Fault> {
+    pub(crate) fn agree<T>(&mut self, result: Result<T, FirstFault>) -> Result<T, Fault> {
         let key = |first: &FirstFault| (first.process as u64) << 32 | u64::from(first.cell);
         let own = result.as_ref().err().map_or(NO_FAULT, key);
         let least = self.border.least(own)?;
         match result {
             Err(first) if own == least => Err(first.fault),
-            _ if least == NO_FAULT => Ok(()),
+            Ok(value) if least == NO_FAULT => Ok(value),
             _ => Err(EngineFailure::Elsewhere.into()),
         }
     }
 }
 
-/// The planes that processes read elsewhere and whose halos are not those of the cells; the same on all parts.
+/// The groups that processes read elsewhere, each once, in order.
+pub(crate) fn seen(model: &Model, processes: &[usize]) -> Vec<usize> {
+    let uses = processes.iter().flat_map(|&number| &model.plan().process(number).uses);
+    let mut groups: Vec<usize> =
+        uses.filter(|found| found.elsewhere).map(|found| found.substate.group).collect();
+    groups.sort_unstable();
+    groups.dedup();
+    groups
+}
+
+/// The planes that processes read elsewhere and whose halos are not those of the cells; the same on all
+/// parts.
 fn stale(model: &Model, groups: &[Group], processes: &[usize]) -> Vec<SubstateId> {
     let mut stale = Vec::new();
     for found in processes.iter().flat_map(|&number| &model.plan().process(number).uses) {
@@ -159,9 +177,4 @@ fn follow(
             before.is_none_or(|before| before[bytes.clone()] != cells[bytes])
         });
     }
-}
-
-fn mismatch() -> EngineFailure {
-    let reason = "another part of the space has sent an edge of another size".to_owned();
-    EngineFailure::Broken { engine: "cpu".to_owned(), reason }
 }

@@ -3,14 +3,16 @@
 use crate::activity::Activity;
 use crate::blocks::blocks;
 use crate::choices::Choices;
+use crate::crossing::{self, Migration};
 use crate::dense::Dense;
-use crate::edges::Edges;
+use crate::edges::{Edges, seen};
+use crate::ghosts;
 use crate::group::Group;
 use crate::layout::Layout;
 use crate::migration;
 use crate::population::Population;
 use crate::reductions::{Reductions, reduce_row};
-use crate::rows::{self, FirstFault};
+use crate::rows::{self, FirstFault, Mover};
 use crate::stages::{Stage, stages};
 use crate::threads::Threads;
 use rayon::prelude::*;
@@ -18,9 +20,9 @@ use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 use xca_core::engine::{
-    EngineFailure, Execution, Fault, Figure, InputError, Interruption, Population as Items, StartError,
-    StepContext, SubstateId, Workers, check_cells, check_cells_of_part, check_population, check_substate,
-    check_values, check_values_of_cells, check_values_of_part, step_by_step,
+    EngineFailure, Execution, Fault, Figure, InputError, Interruption, Part, Population as Items, StartError,
+    StepContext, SubstateId, Workers, check_cells, check_cells_of_part, check_population_of_part,
+    check_substate, check_values, check_values_of_cells, check_values_of_part, step_by_step,
 };
 use xca_core::model::{Group as Definition, GroupKind};
 use xca_core::reduction::{Reduced, ReducedRows, Reduction, append_row};
@@ -88,9 +90,7 @@ impl CpuExecution {
         let result = if self.edges.is_some() {
             stages.iter().try_for_each(|stage| self.run_stage_of_part(stage, leaves_out, context))
         } else {
-            threads
-                .run(|| stages.iter().try_for_each(|stage| self.run_stage(stage, leaves_out, context)))
-                .map_err(|first| first.fault)
+            threads.run(|| stages.iter().try_for_each(|stage| self.run_stage(stage, leaves_out, context)))
         };
         if let Some(activity) = &mut self.activity {
             activity.end_step(start.elapsed());
@@ -123,7 +123,12 @@ impl CpuExecution {
             let activity = self.activity.as_ref().filter(|_| leaves_out);
             edges.exchange((&self.model, stage), &self.layout, &threads, &mut self.groups, activity)?;
         }
-        let result = threads.run(|| self.run_stage(stage, leaves_out, context));
+        let result = threads.run(|| self.run_rows(stage, leaves_out, context));
+        for group in seen(&self.model, stage) {
+            if let Group::Population(population) = &mut self.groups[group] {
+                threads.run(|| ghosts::clear(population, &self.layout));
+            }
+        }
         for found in stage.iter().flat_map(|&number| &self.model.plan().process(number).uses) {
             if found.written
                 && let Group::Cells(planes) = &mut self.groups[found.substate.group]
@@ -131,10 +136,17 @@ impl CpuExecution {
                 planes[found.substate.field].others_wrote();
             }
         }
-        match &mut self.edges {
-            Some(edges) => edges.agree(result),
-            None => result.map_err(|first| first.fault),
+        let migration = self.migration(stage);
+        let Some(edges) = &mut self.edges else { return result.map(drop).map_err(|first| first.fault) };
+        let mut movers = edges.agree(result)?;
+        if let Some((number, group)) = migration
+            && let Group::Population(population) = &mut self.groups[group]
+        {
+            let process = &self.model.processes()[number];
+            let migration = Migration { geometry: self.model.geometry(), process, number };
+            crossing::migrate(migration, population, &self.layout, (edges, &threads), &mut movers)?;
         }
+        Ok(())
     }
 
     fn run_stage(
@@ -142,26 +154,38 @@ impl CpuExecution {
         stage: &[usize],
         leaves_out: bool,
         context: &StepContext<'_>,
-    ) -> Result<(), FirstFault> {
+    ) -> Result<(), Fault> {
+        let mut movers = self.run_rows(stage, leaves_out, context).map_err(|first| first.fault)?;
+        if let Some((number, group)) = self.migration(stage)
+            && let Group::Population(population) = &mut self.groups[group]
+        {
+            let process = &self.model.processes()[number];
+            migration::migrate(population, &self.layout, self.model.geometry(), process, &mut movers)?;
+        }
+        Ok(())
+    }
+
+    /// The migration of a stage, which is its last process, and the population that it moves.
+    fn migration(&self, stage: &[usize]) -> Option<(usize, usize)> {
+        let &last = stage.last()?;
+        let migrates = self.model.processes()[last].kind == ProcessKind::Migration;
+        Some((last, self.model.plan().process(last).population?)).filter(|_| migrates)
+    }
+
+    /// Runs the processes of a stage over all rows.
+    fn run_rows(
+        &mut self,
+        stage: &[usize],
+        leaves_out: bool,
+        context: &StepContext<'_>,
+    ) -> Result<Vec<Mover>, FirstFault> {
         if let Some(activity) = &mut self.activity
             && !leaves_out
         {
             activity.worked_on_all(stage);
         }
         let activity = self.activity.as_mut().filter(|_| leaves_out);
-        let mut movers =
-            rows::run(&self.model, &self.layout, self.precision, &mut self.groups, stage, activity, context)?;
-        // A migration is the last of its stage.
-        let Some(&last) = stage.last() else { return Ok(()) };
-        let process = &self.model.processes()[last];
-        if process.kind == ProcessKind::Migration
-            && let Some(number) = self.model.plan().process(last).population
-            && let Group::Population(population) = &mut self.groups[number]
-        {
-            migration::migrate(population, &self.layout, self.model.geometry(), process, &mut movers)
-                .map_err(|fault| FirstFault { process: last, cell: u32::MAX, fault })?;
-        }
-        Ok(())
+        rows::run(&self.model, &self.layout, self.precision, &mut self.groups, stage, activity, context)
     }
 }
 
@@ -241,13 +265,11 @@ impl Execution for CpuExecution {
     }
 
     fn write(&mut self, substate: SubstateId, values: &[u8]) -> Result<(), EngineFailure> {
-        match &self.edges {
-            Some(edges) => {
+        match (&self.edges, self.groups.get(substate.group)) {
+            (Some(edges), Some(Group::Cells(_))) => {
                 check_values_of_part(&self.model, self.precision, substate, &edges.part, values)?;
             }
-            None => {
-                check_values(&self.model, self.precision, substate, self.items(substate.group), values)?;
-            }
+            _ => check_values(&self.model, self.precision, substate, self.items(substate.group), values)?,
         }
         if let Some(activity) = &mut self.activity {
             activity.replaced(substate);
@@ -299,7 +321,9 @@ impl Execution for CpuExecution {
     }
 
     fn set_population(&mut self, group: usize, items: &Items) -> Result<(), Fault> {
-        check_population(&self.model, self.precision, group, items)?;
+        let geometry = self.model.geometry();
+        let part = self.edges.as_ref().map_or_else(|| Part::whole(geometry), |edges| edges.part.clone());
+        check_population_of_part(&self.model, self.precision, group, &part, items)?;
         if let Group::Population(population) = &mut self.groups[group] {
             self.threads.run(|| population.set(&self.layout, items));
         }

@@ -104,6 +104,12 @@ impl Layout {
         [0, self.start[0] + y, self.start[1] + z]
     }
 
+    /// The linear index in the whole space of the first cell of a row.
+    pub(crate) fn linear(&self, row: usize) -> usize {
+        let [x, y, z] = self.origin(row);
+        (z * self.height + y) * self.extents[0] + x
+    }
+
     /// The row of the cell with this linear index in the whole space.
     pub(crate) fn row_of(&self, cell: usize) -> usize {
         let row = cell / self.extents[0];
@@ -176,6 +182,18 @@ impl Layout {
         let [y, z] =
             if axis == 1 { [across, 0..extent[2]] } else { [-reach[1]..extent[1] + reach[1], across] };
         z.flat_map(move |z| y.clone().map(move |y| [y, z]))
+    }
+
+    /// The padded cells of a line without its halo along x.
+    pub(crate) fn cells_of_line(&self, line: [isize; 2]) -> Range<usize> {
+        let start = self.line(line).start + self.reach[0];
+        start..start + self.extents[0]
+    }
+
+    /// Fills the halo along x of a line.
+    pub(crate) fn fill_line<T: Copy>(&self, plane: &mut [T], line: [isize; 2], outside: &Faces<Vec<T>>) {
+        let cells = self.line(line);
+        self.fill_along(0, &mut plane[cells], 1, Some(outside));
     }
 
     /// The padded cells of a line, which may lie in the halo.

@@ -9,9 +9,11 @@
 mod activity;
 mod blocks;
 mod choices;
+mod crossing;
 mod dense;
 mod edges;
 mod execution;
+mod ghosts;
 mod group;
 mod layout;
 mod listing;
@@ -34,7 +36,6 @@ use layout::Layout;
 use std::fmt;
 use threads::Threads;
 use xca_core::engine::{Border, Engine, Execution, Part, StartError};
-use xca_core::model::GroupKind;
 use xca_core::{Model, Precision};
 
 /// The engine for all cores.
@@ -161,13 +162,6 @@ impl Engine for Cpu {
         border: Box<dyn Border>,
     ) -> Result<Box<dyn Execution>, StartError> {
         part.check(model.geometry())?;
-        let is_population =
-            |group: &&xca_core::model::Group| matches!(group.kind(), GroupKind::Population { .. });
-        if let Some(group) = model.groups().iter().find(is_population) {
-            let reason =
-                format!("`{}` is a population; items cannot go from part to part", group.schema().name);
-            return Err(StartError::NoParts { engine: self.name().to_owned(), reason });
-        }
         let edges = Some(Edges::new(model, part.clone(), border));
         Ok(Box::new(CpuExecution::new(model, precision, self.own.clone(), self.choices, edges)?))
     }

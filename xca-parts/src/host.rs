@@ -1,7 +1,8 @@
 //! The host: a state in parts as a simulation sees it.
 
 use crate::border::{Link, NAME, broken};
-use crate::message::{Command, Moment, Reply, decode, encode};
+use crate::message::{Census, Command, Moment, Reply, decode, encode};
+use crate::rows::{Lengths, Rows};
 use crate::transport::{Tag, Transport, TransportError};
 use crate::worker::{Shared, Worker};
 use std::ops::Range;
@@ -11,12 +12,14 @@ use xca_core::engine::{
     EngineFailure, Execution, Fault, Figure, Interruption, Population, StepContext, SubstateId, check_cells,
     check_population, check_substate, check_values, check_values_of_cells,
 };
+use xca_core::model::GroupKind;
 use xca_core::reduction::{Reduced, ReducedRows, Reduction};
 use xca_core::{Engine, StartError};
 
 /// A model in parts. The first part belongs to the host itself.
 pub(crate) struct Host {
     shared: Shared,
+    rows: Rows,
     state: Mutex<State>,
     /// The threads of other parts in this process. They end when the host has.
     threads: Vec<JoinHandle<()>>,
@@ -43,7 +46,8 @@ impl Host {
         state
             .replies(Reply::Done)
             .map_err(|failure| StartError::Other { engine: NAME.to_owned(), reason: failure.to_string() })?;
-        Ok(Self { shared, state: Mutex::new(state), threads })
+        let rows = Rows::new(shared.model.geometry(), shared.cut);
+        Ok(Self { shared, rows, state: Mutex::new(state), threads })
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
@@ -81,37 +85,6 @@ impl Host {
         })
     }
 
-    /// The runs of rows of each part, by the number of the part.
-    fn runs(&self) -> impl Iterator<Item = (usize, Range<usize>)> + '_ {
-        let (geometry, cut) = (self.shared.model.geometry(), self.shared.cut);
-        (0..cut.count())
-            .flat_map(move |number| cut.part(geometry, number).runs(geometry).map(move |rows| (number, rows)))
-    }
-
-    /// Puts together what the parts have of their rows: so many values a row.
-    fn gather<T: Clone>(&self, parts: Vec<Vec<T>>, per_row: usize, none: T) -> Result<Vec<T>, EngineFailure> {
-        let geometry = self.shared.model.geometry();
-        let mut whole = vec![none; geometry.cells() / geometry.extents()[0] * per_row];
-        let mut taken = vec![0; parts.len()];
-        for (number, rows) in self.runs() {
-            let length = rows.len() * per_row;
-            let values = parts.get(number).and_then(|part| part.get(taken[number]..taken[number] + length));
-            let values = values.ok_or_else(|| self.garbled())?;
-            whole[rows.start * per_row..rows.end * per_row].clone_from_slice(values);
-            taken[number] += length;
-        }
-        Ok(whole)
-    }
-
-    /// The values of each part's rows: so many bytes a row.
-    fn scatter(&self, whole: &[u8], per_row: usize) -> Vec<Vec<u8>> {
-        let mut parts = vec![Vec::new(); self.shared.cut.count()];
-        for (number, rows) in self.runs() {
-            parts[number].extend_from_slice(&whole[rows.start * per_row..rows.end * per_row]);
-        }
-        parts
-    }
-
     /// The cells of each part, with their places in the list.
     fn cells_of_parts(&self, cells: &[usize]) -> Vec<CellsOfPart> {
         let (geometry, cut) = (self.shared.model.geometry(), self.shared.cut);
@@ -132,6 +105,56 @@ impl Host {
     /// The bytes of a substate in a cell.
     fn size(&self, substate: SubstateId) -> usize {
         self.shared.model.stored(substate, self.shared.precision).size()
+    }
+
+    /// The bytes of each substate of a group in an item.
+    fn sizes(&self, group: usize) -> Vec<usize> {
+        let stored = self.shared.model.groups().get(group).map(|group| group.stored(self.shared.precision));
+        stored.into_iter().flatten().map(|stored| stored.size()).collect()
+    }
+
+    fn is_population(&self, group: usize) -> bool {
+        let group = self.shared.model.groups().get(group);
+        group.is_some_and(|group| matches!(group.kind(), GroupKind::Population { .. }))
+    }
+
+    /// The bytes that each row of a substate has: in each row as many, or as its items need.
+    fn items_of_rows(&self, group: usize) -> Result<Option<Vec<usize>>, EngineFailure> {
+        if !self.is_population(group) {
+            return Ok(None);
+        }
+        let items = |reply| match reply {
+            Reply::ItemsOfRows { items } => Some(items),
+            _ => None,
+        };
+        let replies = self.ask(&Command::ItemsOfRows { group })?;
+        let parts: Option<Vec<Vec<usize>>> = replies.into_iter().map(items).collect();
+        let items = parts.and_then(|parts| self.rows.gather(&parts, Lengths::Same(1)));
+        items.map(Some).ok_or_else(|| self.garbled())
+    }
+
+    /// How many bytes of a substate a row has.
+    fn lengths<'a>(&self, substate: SubstateId, items: &'a Option<Vec<usize>>) -> Lengths<'a> {
+        let size = self.size(substate);
+        match items {
+            Some(items) => Lengths::Each(items, size),
+            None => Lengths::Same(self.shared.model.geometry().extents()[0] * size),
+        }
+    }
+
+    /// What all parts count of a population together.
+    fn census(&self, group: usize) -> Result<Census, EngineFailure> {
+        if !self.is_population(group) {
+            return Ok(Census::default());
+        }
+        let mut all = Census::default();
+        for reply in self.ask(&Command::Census { group })? {
+            let Reply::Census { census } = reply else { return Err(self.garbled()) };
+            all.items += census.items;
+            all.left += census.left;
+            all.largest_occupancy = all.largest_occupancy.max(census.largest_occupancy);
+        }
+        Ok(all)
     }
 
     fn values(&self, replies: Vec<Reply>) -> Result<Vec<Vec<u8>>, EngineFailure> {
@@ -222,14 +245,19 @@ impl Execution for Host {
 
     fn read(&self, substate: SubstateId) -> Result<Vec<u8>, EngineFailure> {
         check_substate(&self.shared.model, substate)?;
+        let items = self.items_of_rows(substate.group)?;
         let parts = self.values(self.ask(&Command::Read { substate })?)?;
-        self.gather(parts, self.shared.model.geometry().extents()[0] * self.size(substate), 0)
+        let whole = self.rows.gather(&parts, self.lengths(substate, &items));
+        whole.ok_or_else(|| self.garbled())
     }
 
     fn write(&mut self, substate: SubstateId, values: &[u8]) -> Result<(), EngineFailure> {
         let Shared { model, precision, .. } = &self.shared;
-        check_values(model, *precision, substate, 0, values)?;
-        let parts = self.scatter(values, model.geometry().extents()[0] * self.size(substate));
+        check_substate(model, substate)?;
+        let items = self.items_of_rows(substate.group)?;
+        let count = items.iter().flatten().sum();
+        check_values(model, *precision, substate, count, values)?;
+        let parts = self.rows.scatter(values, self.lengths(substate, &items));
         self.change(parts.into_iter().map(|values| Command::Write { substate, values }).collect())
     }
 
@@ -266,24 +294,37 @@ impl Execution for Host {
         self.change(self.cells_of_parts(cells).into_iter().map(command).collect())
     }
 
-    fn population(&self, _group: usize) -> Result<Population, EngineFailure> {
-        Ok(Population::default())
+    fn population(&self, group: usize) -> Result<Population, EngineFailure> {
+        if !self.is_population(group) {
+            return Ok(Population::default());
+        }
+        let population = |reply| match reply {
+            Reply::Population { population } => Some(population),
+            _ => None,
+        };
+        let replies = self.ask(&Command::Population { group })?;
+        let parts: Option<Vec<Population>> = replies.into_iter().map(population).collect();
+        let whole = parts.and_then(|parts| self.rows.gather_items(parts, &self.sizes(group)));
+        whole.ok_or_else(|| self.garbled())
     }
 
     fn set_population(&mut self, group: usize, population: &Population) -> Result<(), Fault> {
-        check_population(&self.shared.model, self.shared.precision, group, population)
+        check_population(&self.shared.model, self.shared.precision, group, population)?;
+        let parts = self.rows.scatter_items(population, &self.sizes(group));
+        let command = |population| Command::SetPopulation { group, population };
+        Ok(self.change(parts.into_iter().map(command).collect())?)
     }
 
-    fn items(&self, _group: usize) -> usize {
-        0
+    fn items(&self, group: usize) -> usize {
+        self.census(group).unwrap_or_default().items
     }
 
-    fn left(&self, _group: usize) -> u64 {
-        0
+    fn left(&self, group: usize) -> u64 {
+        self.census(group).unwrap_or_default().left
     }
 
-    fn largest_occupancy(&self, _group: usize) -> Result<u32, EngineFailure> {
-        Ok(0)
+    fn largest_occupancy(&self, group: usize) -> Result<u32, EngineFailure> {
+        Ok(self.census(group)?.largest_occupancy)
     }
 
     fn reduce_rows(&self, substate: SubstateId, reduction: &Reduction) -> Result<ReducedRows, EngineFailure> {
@@ -294,8 +335,9 @@ impl Execution for Host {
             Reply::Rows { rows } => Some(rows.results),
             _ => None,
         };
-        let parts = replies.into_iter().map(rows).collect::<Option<_>>().ok_or_else(|| self.garbled())?;
-        Ok(ReducedRows { components, results: self.gather(parts, components, Reduced::Nothing)? })
+        let parts: Option<Vec<Vec<Reduced>>> = replies.into_iter().map(rows).collect();
+        let results = parts.and_then(|parts| self.rows.gather(&parts, Lengths::Same(components)));
+        Ok(ReducedRows { components, results: results.ok_or_else(|| self.garbled())? })
     }
 
     fn memory(&self) -> usize {

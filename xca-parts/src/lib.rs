@@ -5,10 +5,7 @@
 //! engine gives, however the space is cut.
 //!
 //! [`Parts`] is an engine whose parts are threads of this process. What carries their messages is a
-//! [`Transport`]; [`serve`] and [`host`]
-//! work with any other one in the same way.
-//!
-//! Models of populations are refused: items cannot go from part to part yet.
+//! [`Transport`]; [`serve`] and [`host`] work with any other one in the same way.
 
 mod border;
 mod channels;
@@ -16,6 +13,7 @@ mod cut;
 mod fault;
 mod host;
 mod message;
+mod rows;
 mod transport;
 mod worker;
 

@@ -4,7 +4,7 @@ use crate::fault::FaultMessage;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
-use xca_core::engine::{StepContext, SubstateId};
+use xca_core::engine::{Population, StepContext, SubstateId};
 use xca_core::reduction::{ReducedRows, Reduction};
 
 /// What a part is to do. All parts get the same commands, with what concerns their own cells.
@@ -39,6 +39,20 @@ pub(crate) enum Command {
     ReduceRows {
         substate: SubstateId,
         reduction: Reduction,
+    },
+    Population {
+        group: usize,
+    },
+    SetPopulation {
+        group: usize,
+        population: Population,
+    },
+    /// How many items each row has.
+    ItemsOfRows {
+        group: usize,
+    },
+    Census {
+        group: usize,
     },
     Memory,
     Figures,
@@ -83,12 +97,29 @@ pub(crate) enum Reply {
     Rows {
         rows: ReducedRows,
     },
+    Population {
+        population: Population,
+    },
+    ItemsOfRows {
+        items: Vec<usize>,
+    },
+    Census {
+        census: Census,
+    },
     Memory {
         bytes: usize,
     },
     Figures {
         figures: Vec<(String, f64)>,
     },
+}
+
+/// What there is to count of a population.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+pub(crate) struct Census {
+    pub(crate) items: usize,
+    pub(crate) left: u64,
+    pub(crate) largest_occupancy: u32,
 }
 
 /// A message as bytes.

@@ -3,7 +3,7 @@
 use crate::border::{Link, PartBorder};
 use crate::cut::Cut;
 use crate::fault::FaultMessage;
-use crate::message::{Command, Moment, Reply, decode, encode};
+use crate::message::{Census, Command, Moment, Reply, decode, encode};
 use crate::transport::{Tag, Transport, TransportError};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -75,6 +75,24 @@ impl Worker {
             }
             Command::ReduceRows { substate, reduction } => {
                 Reply::Rows { rows: self.execution.reduce_rows(substate, &reduction)? }
+            }
+            Command::Population { group } => {
+                Reply::Population { population: self.execution.population(group)? }
+            }
+            Command::SetPopulation { group, population } => {
+                let result = self.execution.set_population(group, &population);
+                self.ended(result.map_err(|fault| (0, fault)))
+            }
+            Command::ItemsOfRows { group } => {
+                let counts = self.execution.population(group)?.counts;
+                let rows = counts.chunks_exact(self.model.geometry().extents()[0]);
+                let items = |counts: &[u32]| counts.iter().map(|count| *count as usize).sum();
+                Reply::ItemsOfRows { items: rows.map(items).collect() }
+            }
+            Command::Census { group } => {
+                let (items, left) = (self.execution.items(group), self.execution.left(group));
+                let largest_occupancy = self.execution.largest_occupancy(group)?;
+                Reply::Census { census: Census { items, left, largest_occupancy } }
             }
             Command::Memory => Reply::Memory { bytes: self.execution.memory() },
             Command::Figures => {

@@ -1,8 +1,5 @@
 //! The engines that every suite runs on, and how their runs are compared.
 
-mod in_parts;
-
-use in_parts::InParts;
 use std::error::Error;
 use std::fmt::Debug;
 use std::num::NonZeroUsize;
@@ -12,6 +9,7 @@ use xca_core::{
 };
 use xca_cpu::Cpu;
 use xca_gpu::{Arithmetic, Gpu, GpuError, GpuOptions};
+use xca_parts::Parts;
 
 /// The thread counts of the parallel engine that must make no difference.
 pub const THREADS: [usize; 4] = [1, 2, 3, 8];
@@ -100,7 +98,11 @@ pub fn all() -> Result<Vec<Box<dyn Engine>>, Box<dyn Error>> {
         engines.push(Box::new(engine));
     }
     for (number, (parts, tile)) in PARTS.into_iter().zip(TILES).enumerate() {
-        engines.push(Box::new(InParts::new(parts, 1 + number, tile)?));
+        let mut engine = Cpu::with_threads(1 + number)?;
+        if let Some(cells) = tile {
+            engine = engine.with_tiles(cells);
+        }
+        engines.push(Box::new(Parts::at_most(engine, NonZeroUsize::new(parts).ok_or("no parts")?)));
     }
     engines.push(Box::new(gpu()?));
     Ok(engines)

@@ -1,6 +1,7 @@
 //! Models in parts of their space: the same bits, the same faults, and an end where a part cannot go on.
 
 mod borders;
+mod items;
 mod models;
 
 use borders::{Behind, Manner};
@@ -272,12 +273,6 @@ fn a_part_that_cannot_go_on_ends_all() -> TestResult {
     Ok(())
 }
 
-#[derive(Substates, Clone, Copy)]
-struct Grain {
-    #[position]
-    position: Vector3<Real>,
-}
-
 /// What cannot be cut is refused before anything runs.
 #[test]
 fn what_cannot_be_cut_is_refused() -> TestResult {
@@ -294,9 +289,6 @@ fn what_cannot_be_cut_is_refused() -> TestResult {
     assert!(message.contains("at least one part"), "{message}");
     let message = refused(&model, &Parts::new(Reference, count(2)?))?;
     assert!(message.contains("the reference engine cannot run a part of the space"), "{message}");
-    let grains = Model::builder("grains").extents([4, 4, 4]).population::<Grain>(2).build()?;
-    let message = refused(&grains, &Parts::new(cpu(1, 0)?, count(2)?))?;
-    assert!(message.contains("`Grain` is a population"), "{message}");
     Ok(())
 }
 
@@ -350,12 +342,8 @@ fn a_part_knows_its_cells() -> TestResult {
     let context = xca_core::engine::StepContext { step: 0, seed: 1, parameters: &[], values: &values };
     let fault = part.run(0..3, &context).expect_err("the edge is too short");
     assert!(matches!(&fault, Fault::Engine(EngineFailure::Broken { .. })), "{fault}");
-    let beyond = cpu(1, 1)?.start_part(
-        &model,
-        Precision::F64,
-        &Part { y: 2..7, z: 0..1 },
-        Box::new(NoBorder),
-    );
+    let beyond =
+        cpu(1, 1)?.start_part(&model, Precision::F64, &Part { y: 2..7, z: 0..1 }, Box::new(NoBorder));
     assert!(matches!(beyond, Err(StartError::Part(_))));
     Ok(())
 }

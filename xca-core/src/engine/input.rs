@@ -186,18 +186,32 @@ pub fn check_population(
     group: usize,
     population: &Population,
 ) -> Result<(), Fault> {
+    check_population_of_part(model, precision, group, &Part::whole(model.geometry()), population)
+}
+
+/// Checks the items that are to replace those of a population in a part of the space.
+///
+/// # Errors
+/// As [`check_population`].
+pub fn check_population_of_part(
+    model: &Model,
+    precision: Precision,
+    group: usize,
+    part: &Part,
+    population: &Population,
+) -> Result<(), Fault> {
     let groups = model.groups().len();
     let definition = model.groups().get(group).ok_or(InputError::NoSuchGroup { group, groups })?;
     let substates = definition.schema().name;
     let GroupKind::Population { slots, .. } = *definition.kind() else {
         return Err(InputError::NotAPopulation(substates).into());
     };
-    let cells = population.counts.iter().take(model.geometry().cells());
+    let cells = population.counts.iter().take(part.cells(model.geometry()));
     if let Some((cell, items)) = cells.enumerate().find(|(_, items)| **items as usize > slots) {
-        let cell = model.geometry().indices(cell);
+        let cell = part.indices(model.geometry(), cell);
         return Err(Fault::CellFull { process: None, cell, items: *items as usize, slots });
     }
-    let reason = wrong_items(population, definition, precision, slots, model);
+    let reason = wrong_items(population, definition, precision, slots, (model, part));
     reason.map_or(Ok(()), |reason| Err(InputError::Items { substates, reason }.into()))
 }
 
@@ -261,12 +275,12 @@ pub(crate) fn wrong_items(
     group: &Group,
     precision: Precision,
     slots: usize,
-    model: &Model,
+    (model, part): (&Model, &Part),
 ) -> Option<String> {
     if let Some(reason) = wrong_fields(&population.fields, group, precision, population.labels.len()) {
         return Some(reason);
     }
-    let cells = model.geometry().cells();
+    let cells = part.cells(model.geometry());
     if population.counts.len() != cells {
         return Some(format!("it has {} cells, not {cells}", population.counts.len()));
     }
@@ -278,7 +292,7 @@ pub(crate) fn wrong_items(
     for (cell, count) in population.counts.iter().enumerate() {
         let labels = &population.labels[first..first + *count as usize];
         first += labels.len();
-        let place = || format!("cell {:?}", model.geometry().indices(cell));
+        let place = || format!("cell {:?}", part.indices(model.geometry(), cell));
         if labels.len() > slots {
             return Some(format!("{} has {} items in {slots} slots", place(), labels.len()));
         }

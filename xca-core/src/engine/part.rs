@@ -81,6 +81,12 @@ impl Part {
         self.extents(geometry).iter().product()
     }
 
+    /// The indices in the whole space of the cell with this number among those of the part.
+    pub fn indices(&self, geometry: &Geometry, cell: usize) -> [usize; 3] {
+        let [width, height, _] = self.extents(geometry);
+        [cell % width, self.y.start + cell / width % height, self.z.start + cell / (width * height)]
+    }
+
     /// Whether the cell with this linear index belongs to the part.
     pub fn holds(&self, geometry: &Geometry, cell: usize) -> bool {
         let [_, y, z] = geometry.indices(cell);
@@ -127,6 +133,9 @@ mod tests {
         assert_eq!(part.runs(&geometry).collect::<Vec<_>>(), [8..10, 14..16]);
         let held: Vec<usize> = (0..72).filter(|cell| part.holds(&geometry, *cell)).collect();
         assert_eq!(held, (24..30).chain(42..48).collect::<Vec<_>>());
+        let indices: Vec<usize> =
+            (0..12).map(|cell| geometry.linear(part.indices(&geometry, cell))).collect();
+        assert_eq!(indices, held);
         assert_eq!((part.extents(&geometry), part.cells(&geometry)), ([3, 2, 2], 12));
     }
 

@@ -2,7 +2,7 @@
 
 use super::{RunError, RunOptions, Simulation};
 use crate::engine::input::{wrong_fields, wrong_items};
-use crate::engine::{Engine, Fault, Population, SubstateId};
+use crate::engine::{Engine, Fault, Part, Population, SubstateId};
 use crate::model::{Group, GroupKind, Model};
 use xca_process::ParameterValue;
 use xca_values::Field;
@@ -177,7 +177,7 @@ impl Snapshot {
         if self.groups.len() != groups.len() {
             return Some(format!("it has {} structs of substates, not {}", self.groups.len(), groups.len()));
         }
-        let cells = model.geometry().cells();
+        let (cells, whole) = (model.geometry().cells(), Part::whole(model.geometry()));
         let mut pairs = self.groups.iter().zip(groups);
         let of_groups = pairs.find_map(|(state, group)| {
             let name = group.schema().name;
@@ -186,7 +186,7 @@ impl Snapshot {
                     wrong_fields(fields, group, options.precision, cells)
                 }
                 (GroupSnapshot::Population(population, _), GroupKind::Population { slots, .. }) => {
-                    wrong_items(population, group, options.precision, *slots, model)
+                    wrong_items(population, group, options.precision, *slots, (model, &whole))
                 }
                 _ => Some("the one belong to cells, the other are a population".to_owned()),
             };
