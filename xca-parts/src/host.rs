@@ -110,7 +110,7 @@ impl Host {
     /// The bytes of each substate of a group in an item.
     fn sizes(&self, group: usize) -> Vec<usize> {
         let stored = self.shared.model.groups().get(group).map(|group| group.stored(self.shared.precision));
-        stored.into_iter().flatten().map(|stored| stored.size()).collect()
+        stored.into_iter().flatten().map(xca_core::StoredType::size).collect()
     }
 
     fn is_population(&self, group: usize) -> bool {

@@ -83,20 +83,30 @@ fn walkers(
 
 const STEPS: u64 = 12;
 
-/// What is seen after each step.
-fn run(model: &Model, engine: &dyn Engine) -> Result<Vec<(Snapshot, u64, u32)>, Box<dyn Error>> {
+/// What a simulation looks like after a step.
+#[derive(Debug, PartialEq)]
+struct Seen {
+    snapshot: Snapshot,
+    /// Sums of floats depend on their order.
+    heard: u64,
+    largest_occupancy: u32,
+}
+
+/// What is seen after each step, some of which are done twice.
+fn run(model: &Model, engine: &dyn Engine) -> Result<Vec<Seen>, Box<dyn Error>> {
     let options = RunOptions { precision: Precision::F64, seed: 3 };
     let mut simulation = Simulation::new(model, engine, options)?;
-    let mut seen: Vec<(Snapshot, u64, u32)> = Vec::new();
+    let mut seen: Vec<Seen> = Vec::new();
     for step in 0..STEPS {
         if step == 7 {
-            simulation.restore(&seen[2].0)?;
+            simulation.restore(&seen[2].snapshot)?;
         }
         simulation.step()?;
         let snapshot = simulation.snapshot()?;
         let state = simulation.state();
         let heard = state.sum(Walker::HEARD)?[1].to_bits();
-        seen.push((snapshot, heard, state.largest_occupancy::<Walker>()?));
+        let largest_occupancy = state.largest_occupancy::<Walker>()?;
+        seen.push(Seen { snapshot, heard, largest_occupancy });
     }
     Ok(seen)
 }

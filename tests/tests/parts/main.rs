@@ -62,10 +62,18 @@ fn run(model: &Model, engine: &dyn Engine) -> Result<Vec<Seen>, Box<dyn Error>> 
     Ok(seen)
 }
 
-/// Spaces with cuts of them, among them such whose parts are as thin as the model reaches.
-fn spaces() -> Result<Vec<([usize; 3], Neighbourhood, Vec<[usize; 2]>)>, NeighbourhoodError> {
+/// A space with cuts of it.
+struct Case {
+    extents: [usize; 3],
+    neighbourhood: Neighbourhood,
+    /// Parts along y and z.
+    cuts: Vec<[usize; 2]>,
+}
+
+/// Among them are such whose parts are as thin as the model reaches.
+fn cases() -> Result<Vec<Case>, NeighbourhoodError> {
     let far = Neighbourhood::custom(vec![[0, 0, 0], [3, 0, 0], [-1, 2, 0], [0, -1, 1]])?;
-    Ok(vec![
+    let cases = vec![
         ([40, 8, 1], Neighbourhood::von_neumann_2d(1), vec![[2, 1], [3, 1], [8, 1]]),
         ([23, 9, 1], Neighbourhood::moore_2d(2), vec![[2, 1], [4, 1]]),
         ([9, 4, 6], Neighbourhood::moore(1), vec![[2, 1], [1, 2], [2, 3], [4, 6]]),
@@ -73,7 +81,9 @@ fn spaces() -> Result<Vec<([usize; 3], Neighbourhood, Vec<[usize; 2]>)>, Neighbo
         ([17, 8, 1], Neighbourhood::hexagonal(Hexagons::CornerUp), vec![[2, 1], [5, 1]]),
         ([16, 7, 1], Neighbourhood::hexagonal(Hexagons::SideUp), vec![[2, 1], [7, 1]]),
         ([40, 5, 3], far, vec![[2, 1], [1, 3], [2, 2]]),
-    ])
+    ];
+    let case = |(extents, neighbourhood, cuts)| Case { extents, neighbourhood, cuts };
+    Ok(cases.into_iter().map(case).collect())
 }
 
 /// For each engine of a part its threads, and the cells of its tiles, 0 for none.
@@ -91,7 +101,7 @@ fn same_bits_in_any_parts() -> TestResult {
         Faces::from([Reflecting, Flat, Toroidal]),
         one_sided,
     ];
-    for (number, (extents, neighbourhood, cuts)) in spaces()?.into_iter().enumerate() {
+    for (number, Case { extents, neighbourhood, cuts }) in cases()?.into_iter().enumerate() {
         for (other, boundaries) in all.into_iter().enumerate() {
             let reflects = Face::ALL.iter().any(|face| boundaries[*face] == Reflecting);
             if reflects && neighbourhood.parity() != xca_core::Parity::None {
