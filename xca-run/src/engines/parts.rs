@@ -26,7 +26,7 @@ impl EngineKind for PartsKind {
     }
 
     fn about(&self) -> &'static str {
-        "Parts of the space that send each other their edges, each on the cpu engine"
+        "Parts of the space, each on a cpu engine of its own"
     }
 
     fn options(&self) -> &'static [EngineOption] {
