@@ -8,7 +8,7 @@ use toml::{Table, Value};
 type TestResult = Result<(), Box<dyn Error>>;
 
 /// For each member, the members that it may depend on. A new member finds its place here first.
-const DIRECTIONS: [(&str, &[&str]); 27] = [
+const DIRECTIONS: [(&str, &[&str]); 28] = [
     ("xca-methods", &[]),
     ("xca-macros", &["xca-methods"]),
     ("xca-values", &[]),
@@ -17,6 +17,7 @@ const DIRECTIONS: [(&str, &[&str]); 27] = [
     ("xca-wgsl", &["xca-core", "xca-methods"]),
     ("xca-cpu", &["xca-core"]),
     ("xca-gpu", &["xca-core", "xca-wgsl"]),
+    ("xca-parts", &["xca-core"]),
     ("xca-io", &[]),
     ("xca-picture", &["xca-io"]),
     ("xca-checkpoint", &["xca-core", "xca-io", "xca-wgsl"]),
@@ -31,6 +32,7 @@ const DIRECTIONS: [(&str, &[&str]); 27] = [
             "xca-core",
             "xca-cpu",
             "xca-gpu",
+            "xca-parts",
             "xca-io",
             "xca-checkpoint",
             "xca-picture",
@@ -47,6 +49,7 @@ const DIRECTIONS: [(&str, &[&str]); 27] = [
             "xca-core",
             "xca-cpu",
             "xca-gpu",
+            "xca-parts",
             "xca-io",
             "xca-picture",
             "xca-record",
@@ -72,6 +75,7 @@ const DIRECTIONS: [(&str, &[&str]); 27] = [
             "xca-core",
             "xca-cpu",
             "xca-gpu",
+            "xca-parts",
             "xca-run",
             "xca-wgsl",
             "xca",
@@ -97,7 +101,7 @@ const WITHOUT_ENGINES: [&str; 4] = ["xca-values", "xca-process", "xca-core", "ca
 const DRIVERS: [(&str, &[&str]); 2] = [("rayon", &["xca-cpu", "xca-benchmarks"]), ("wgpu", &["xca-gpu"])];
 
 /// The engines; none may know of another.
-const ENGINES: [&str; 2] = ["xca-cpu", "xca-gpu"];
+const ENGINES: [&str; 3] = ["xca-cpu", "xca-gpu", "xca-parts"];
 
 /// No member has more lines of source than this, without those of its tests.
 const MOST_LINES: usize = 7000;

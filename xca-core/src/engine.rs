@@ -2,18 +2,22 @@
 
 mod fault;
 pub(crate) mod input;
+mod part;
 
 pub use fault::{EngineFailure, Fault};
 pub use input::{
-    InputError, check_cells, check_population, check_substate, check_values, check_values_of_cells,
+    InputError, check_cells, check_cells_of_part, check_population, check_population_of_part, check_substate,
+    check_values, check_values_of_cells, check_values_of_part,
 };
+pub use part::{Part, PartError};
 
 use crate::model::Model;
 use crate::parameter_set::ParameterSet;
-use crate::reduction::{Reduced, Reduction};
+use crate::reduction::{Reduced, ReducedRows, Reduction};
 use std::any::Any;
 use std::fmt;
 use std::sync::Arc;
+use xca_process::Face;
 use xca_values::Precision;
 
 /// A way to run models: a value that a program chooses, and that a model never names.
@@ -45,6 +49,46 @@ pub trait Engine: fmt::Debug + Send + Sync {
     /// # Errors
     /// Where the engine cannot run this model at this precision.
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError>;
+
+    /// Makes room for a part of the state of a model; other executions have the other parts, and all do the same at the same time.
+    ///
+    /// The [`Execution`] knows the rows of its part alone. It reads and writes all values of these rows, and names cells by
+    /// their linear indices in the whole space. Steps, random numbers, positions and faults are those of the whole space too. Each change
+    /// of a state, such as [`Execution::write_cells`], is made of all parts, if only of no cell in some of them.
+    ///
+    /// # Errors
+    /// Where the engine cannot run this model at this precision, this part of it, or no part at all.
+    fn start_part(
+        &self,
+        _model: &Model,
+        _precision: Precision,
+        _part: &Part,
+        _border: Box<dyn Border>,
+    ) -> Result<Box<dyn Execution>, StartError> {
+        let (engine, reason) = (self.name().to_owned(), "it cannot share a space with others".to_owned());
+        Err(StartError::NoParts { engine, reason })
+    }
+}
+
+/// The way from a part of a space to the others. What is sent arrives, in order; what it means is between the engines.
+pub trait Border: Send {
+    /// Sends bytes to the part beyond this face of the own part. It does not wait until they arrive.
+    ///
+    /// # Errors
+    /// [`EngineFailure::Elsewhere`] where another part has ended, and where the way is broken.
+    fn send(&mut self, face: Face, bytes: Vec<u8>) -> Result<(), EngineFailure>;
+
+    /// Waits for the bytes that the part beyond this face has sent to the own part across the same face.
+    ///
+    /// # Errors
+    /// As [`Self::send`].
+    fn receive(&mut self, face: Face) -> Result<Vec<u8>, EngineFailure>;
+
+    /// The least of the numbers that all parts give.
+    ///
+    /// # Errors
+    /// As [`Self::send`].
+    fn least(&mut self, number: u64) -> Result<u64, EngineFailure>;
 }
 
 /// An engine that cannot run a model.
@@ -77,6 +121,17 @@ pub enum StartError {
         /// The precision of the run.
         precision: Precision,
     },
+    /// A part that the model cannot be run on.
+    #[error(transparent)]
+    Part(#[from] PartError),
+    /// An engine that cannot run a part of the model's space.
+    #[error("the {engine} engine cannot run a part of the space: {reason}")]
+    NoParts {
+        /// The engine.
+        engine: String,
+        /// Why.
+        reason: String,
+    },
     /// Anything else, such as threads that could not be started.
     #[error("the {engine} engine cannot start: {reason}")]
     Other {
@@ -96,7 +151,7 @@ pub trait Workers: Send + Sync {
 }
 
 /// A substate of a model: the number of its group, and of the field in the group.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 pub struct SubstateId {
     /// The number of the group in the order in which the model names them.
     pub group: usize,
@@ -218,11 +273,19 @@ pub trait Execution: Send {
     /// As [`Self::read`].
     fn largest_occupancy(&self, group: usize) -> Result<u32, EngineFailure>;
 
-    /// Reduces a substate, lane by lane, rows or blocks in order (see [`crate::reduction`]).
+    /// Reduces each row of a substate, component by component (see [`crate::reduction`]).
     ///
     /// # Errors
     /// As [`Self::read`].
-    fn reduce(&self, substate: SubstateId, reduction: &Reduction) -> Result<Vec<Reduced>, EngineFailure>;
+    fn reduce_rows(&self, substate: SubstateId, reduction: &Reduction) -> Result<ReducedRows, EngineFailure>;
+
+    /// Reduces a substate, component by component: the results of its rows in order.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    fn reduce(&self, substate: SubstateId, reduction: &Reduction) -> Result<Vec<Reduced>, EngineFailure> {
+        Ok(self.reduce_rows(substate, reduction)?.combined(reduction))
+    }
 
     /// The bytes that the state takes.
     fn memory(&self) -> usize;

@@ -172,10 +172,23 @@ impl ParameterSet {
         (0..self.count()).filter_map(|number| self.value(number))
     }
 
-    /// Sets the parameter with this number; the value is of its type.
-    pub(crate) fn set_value(&mut self, number: usize, value: &ParameterValue) {
-        if let Some(Place { struct_, field }) = self.place(number) {
-            self.structs[struct_].set_value_of(field, value);
+    /// The components of each parameter, as the bits of an `f64`, into which every scalar type fits exactly.
+    pub fn bits(&self) -> Vec<Vec<u64>> {
+        let bits = |value: ParameterValue| value.components().iter().map(|number| number.to_bits()).collect();
+        self.values().map(bits).collect()
+    }
+
+    /// Sets all parameters to what [`Self::bits`] of the same structs has given. Nothing is checked or computed; a parameter stays as it is
+    /// where its bits are none of its type.
+    pub fn set_bits(&mut self, bits: &[Vec<u64>]) {
+        let fields: Vec<&Field> = self.fields().collect();
+        for (number, (bits, field)) in bits.iter().zip(fields).enumerate() {
+            let components = bits.iter().map(|number| f64::from_bits(*number)).collect();
+            if let Some(value) = ParameterValue::from_components(field.value_type, components)
+                && let Some(Place { struct_, field }) = self.place(number)
+            {
+                self.structs[struct_].set_value_of(field, &value);
+            }
         }
     }
 
@@ -220,7 +233,7 @@ impl ParameterSet {
     }
 
     /// What kernels of this precision see of each struct.
-    pub(crate) fn kernel_views(&self, precision: Precision) -> Vec<Arc<dyn Any + Send + Sync>> {
+    pub fn kernel_views(&self, precision: Precision) -> Vec<Arc<dyn Any + Send + Sync>> {
         self.structs().map(|parameters| parameters.kernel_view(precision)).collect()
     }
 }

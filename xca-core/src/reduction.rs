@@ -16,7 +16,7 @@ use xca_process::HostValue;
 use xca_values::{StoredScalar, StoredType};
 
 /// What is made of the values.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum Reduction {
     /// The sum.
     Sum,
@@ -45,7 +45,7 @@ pub enum Reduction {
 }
 
 /// The result of a reduction of one lane.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum Reduced {
     /// There was no value.
     Nothing,
@@ -144,19 +144,26 @@ fn sum(scalar: StoredScalar, values: &[u8]) -> Reduced {
     lanes.fold(Reduced::Nothing, |all, one| all.combine(one, &Reduction::Sum))
 }
 
-/// Combines the results of rows in their order: for each lane one result.
-pub fn combine_rows<'a>(
-    reduction: &Reduction,
-    lanes: usize,
-    rows: impl IntoIterator<Item = &'a [Reduced]>,
-) -> Vec<Reduced> {
-    let mut results = vec![Reduced::Nothing; lanes];
-    for row in rows {
-        for (result, part) in results.iter_mut().zip(row) {
-            *result = result.combine(*part, reduction);
+/// The results of all rows, one row after the other.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct ReducedRows {
+    /// How many results a row has: those of its components.
+    pub components: usize,
+    /// The results. Those of a row without items are [`Reduced::Nothing`].
+    pub results: Vec<Reduced>,
+}
+
+impl ReducedRows {
+    /// Combines the results of rows in their order: for each component one result.
+    pub fn combined(&self, reduction: &Reduction) -> Vec<Reduced> {
+        let mut results = vec![Reduced::Nothing; self.components];
+        for row in self.results.chunks_exact(self.components.max(1)) {
+            for (result, part) in results.iter_mut().zip(row) {
+                *result = result.combine(*part, reduction);
+            }
         }
+        results
     }
-    results
 }
 
 /// Whether all numbers are finite, which they nearly always are: a loop over bits, for vector instructions. The exponent has all its bits in

@@ -338,7 +338,7 @@ impl Activity {
             self.replaced(substate);
             return;
         }
-        let width = self.layout.width();
+        let (width, layout) = (self.layout.width(), self.layout.clone());
         let [mut here, mut around] = [vec![0; self.tiles.words()], vec![0; self.tiles.words()]];
         for cell in cells {
             here.fill(0);
@@ -346,9 +346,32 @@ impl Activity {
             let x = cell % width;
             self.tiles.mark_cell(&mut here, x);
             self.tiles.mark_around(&mut around, &Range { start: x, end: x + 1 });
-            self.change(substate, cell / width, [&here, &around], std::iter::empty());
+            self.change(substate, layout.row_of(*cell), [&here, &around], std::iter::empty());
         }
-        self.spread(substate, &[], cells.iter().map(|cell| cell / width));
+        self.spread(substate, &[], cells.iter().map(|cell| layout.row_of(*cell)));
+    }
+
+    /// A substate has changed in a line of the halo that another part has sent, in those of its tiles that differ.
+    pub(crate) fn changed_beyond(
+        &self,
+        substate: SubstateId,
+        line: [isize; 2],
+        differs: impl Fn(Range<usize>) -> bool,
+    ) {
+        let mut around = vec![0; self.tiles.words()];
+        for tile in 0..self.tiles.count() {
+            let cells = self.tiles.cells(&(tile..tile + 1));
+            if differs(cells.clone()) {
+                self.tiles.mark_around(&mut around, &cells);
+            }
+        }
+        let users = &self.substates[substate.group][substate.field].users;
+        for user in users.iter().filter(|user| user.elsewhere) {
+            let process = &self.processes[user.process];
+            if process.scope == Scope::Due {
+                self.layout.rows_that_see(line).for_each(|row| process.due.add(row, around.iter().copied()));
+            }
+        }
     }
 
     /// Of all cells of all steps, each counted once a process, the share that was worked on.

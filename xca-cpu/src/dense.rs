@@ -4,7 +4,7 @@ use crate::layout::Layout;
 use std::borrow::Cow;
 use std::ops::Range;
 use xca_core::storage::Buffer;
-use xca_core::{Faces, StoredType};
+use xca_core::{Face, Faces, StoredType};
 
 /// One substate of cells: as many planes, one after the other, as a value has elements.
 pub(crate) struct Dense {
@@ -44,7 +44,9 @@ impl Dense {
             layout.fill_halo(plane, element, Some(&outside), false);
         }
         let next = doubled.then(|| current.clone());
-        Self { stored, current, next, read_elsewhere, halo: Halo::Whole }
+        let is_part = layout.borders() != Faces::all(false);
+        let halo = if is_part { Halo::Stale } else { Halo::Whole };
+        Self { stored, current, next, read_elsewhere, halo }
     }
 
     /// After cells were written, or while they are.
@@ -73,6 +75,63 @@ impl Dense {
             }
         }
         self.halo = Halo::Whole;
+    }
+
+    /// Whether the halo is not that of the cells.
+    pub(crate) fn is_stale(&self) -> bool {
+        self.halo != Halo::Whole
+    }
+
+    /// After a pass in which other parts may have written their cells, even if this one has not.
+    pub(crate) fn others_wrote(&mut self) {
+        if self.halo == Halo::Whole {
+            self.halo = Halo::Rows;
+        }
+    }
+
+    /// Fills the halo along x and y, but for what other parts send.
+    pub(crate) fn fill_rows(&mut self, layout: &Layout) {
+        let (element, continued) = (self.stored.element_size(), self.halo == Halo::Rows);
+        for plane in self.current.bytes_mut().chunks_exact_mut(layout.cells() * element) {
+            layout.fill_rows(plane, element, None, continued);
+        }
+    }
+
+    /// Fills the halo along z, but for what other parts send; with what they have sent it is that of the cells.
+    pub(crate) fn fill_layers(&mut self, layout: &Layout) {
+        let element = self.stored.element_size();
+        for plane in self.current.bytes_mut().chunks_exact_mut(layout.cells() * element) {
+            layout.fill_layers(plane, element, None);
+        }
+        self.halo = Halo::Whole;
+    }
+
+    /// The bytes that pass across a face.
+    pub(crate) fn edge(&self, layout: &Layout, face: Face) -> usize {
+        layout.lines_at(face, true).count() * layout.line([0; 2]).len() * self.stored.size()
+    }
+
+    /// Appends what another part sees across a face.
+    pub(crate) fn pack(&self, layout: &Layout, face: Face, bytes: &mut Vec<u8>) {
+        let element = self.stored.element_size();
+        for plane in self.current.bytes().chunks_exact(layout.cells() * element) {
+            for line in layout.lines_at(face, false) {
+                let cells = layout.line(line);
+                bytes.extend_from_slice(&plane[cells.start * element..cells.end * element]);
+            }
+        }
+    }
+
+    /// Fills the halo beyond a face with what the part beyond it has packed; [`Self::edge`] says how many bytes.
+    pub(crate) fn unpack(&mut self, layout: &Layout, face: Face, bytes: &[u8]) {
+        let element = self.stored.element_size();
+        let mut lines = bytes.chunks_exact(layout.line([0; 2]).len() * element);
+        for plane in self.current.bytes_mut().chunks_exact_mut(layout.cells() * element) {
+            for (line, bytes) in layout.lines_at(face, true).zip(&mut lines) {
+                let cells = layout.line(line);
+                plane[cells.start * element..cells.end * element].copy_from_slice(bytes);
+            }
+        }
     }
 
     /// The values of all cells, each with its elements one after the other.

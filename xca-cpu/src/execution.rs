@@ -3,13 +3,16 @@
 use crate::activity::Activity;
 use crate::blocks::blocks;
 use crate::choices::Choices;
+use crate::crossing::{self, Migration};
 use crate::dense::Dense;
+use crate::edges::{Edges, seen};
+use crate::ghosts;
 use crate::group::Group;
 use crate::layout::Layout;
 use crate::migration;
 use crate::population::Population;
 use crate::reductions::{Reductions, reduce_row};
-use crate::rows;
+use crate::rows::{self, FirstFault, Mover};
 use crate::stages::{Stage, stages};
 use crate::threads::Threads;
 use rayon::prelude::*;
@@ -17,12 +20,12 @@ use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 use xca_core::engine::{
-    EngineFailure, Execution, Fault, Figure, Interruption, Population as Items, StartError, StepContext,
-    SubstateId, Workers, check_cells, check_population, check_substate, check_values, check_values_of_cells,
-    step_by_step,
+    EngineFailure, Execution, Fault, Figure, InputError, Interruption, Part, Population as Items, StartError,
+    StepContext, SubstateId, Workers, check_cells, check_cells_of_part, check_population_of_part,
+    check_substate, check_values, check_values_of_cells, check_values_of_part, step_by_step,
 };
 use xca_core::model::{Group as Definition, GroupKind};
-use xca_core::reduction::{Reduced, Reduction, append_row, combine_rows};
+use xca_core::reduction::{Reduced, ReducedRows, Reduction, append_row};
 use xca_core::{Model, Precision, ProcessKind, StoredType};
 
 /// A model under way.
@@ -31,6 +34,8 @@ pub(crate) struct CpuExecution {
     precision: Precision,
     threads: Threads,
     layout: Layout,
+    /// The part of the space that this is; nothing for the whole.
+    edges: Option<Edges>,
     groups: Vec<Group>,
     /// Where processes over cells are due; nothing for a model that has none.
     activity: Option<Activity>,
@@ -45,8 +50,12 @@ impl CpuExecution {
         precision: Precision,
         threads: Threads,
         choices: Choices,
+        edges: Option<Edges>,
     ) -> Result<Self, StartError> {
-        let layout = Layout::new(model.geometry());
+        let geometry = model.geometry();
+        let layout = edges
+            .as_ref()
+            .map_or_else(|| Layout::new(geometry), |edges| Layout::of_part(geometry, &edges.part));
         check_size(model, &layout, precision)?;
         let groups = model.groups().iter().enumerate();
         let groups = threads.run(|| {
@@ -61,6 +70,7 @@ impl CpuExecution {
             precision,
             threads,
             layout,
+            edges,
             groups,
             activity,
             reductions: Mutex::default(),
@@ -77,8 +87,11 @@ impl CpuExecution {
         let threads = self.threads.clone();
         let start = Instant::now();
         let leaves_out = self.activity.as_ref().is_some_and(Activity::is_on);
-        let result =
-            threads.run(|| stages.iter().try_for_each(|stage| self.run_stage(stage, leaves_out, context)));
+        let result = if self.edges.is_some() {
+            stages.iter().try_for_each(|stage| self.run_stage_of_part(stage, leaves_out, context))
+        } else {
+            threads.run(|| stages.iter().try_for_each(|stage| self.run_stage(stage, leaves_out, context)))
+        };
         if let Some(activity) = &mut self.activity {
             activity.end_step(start.elapsed());
             if result.is_err() {
@@ -88,10 +101,52 @@ impl CpuExecution {
         result
     }
 
+    fn check_own(&self, cells: &[usize]) -> Result<(), InputError> {
+        self.edges.as_ref().map_or(Ok(()), |edges| check_cells_of_part(&self.model, &edges.part, cells))
+    }
+
     fn take_parameters(&mut self, context: &StepContext<'_>) {
         if let Some(activity) = &mut self.activity {
             activity.take_parameters(context.values);
         }
+    }
+
+    /// Runs a stage here and, at the same time, in all other parts of the space.
+    fn run_stage_of_part(
+        &mut self,
+        stage: &[usize],
+        leaves_out: bool,
+        context: &StepContext<'_>,
+    ) -> Result<(), Fault> {
+        let threads = self.threads.clone();
+        if let Some(edges) = &mut self.edges {
+            let activity = self.activity.as_ref().filter(|_| leaves_out);
+            edges.exchange((&self.model, stage), &self.layout, &threads, &mut self.groups, activity)?;
+        }
+        let result = threads.run(|| self.run_rows(stage, leaves_out, context));
+        for group in seen(&self.model, stage) {
+            if let Group::Population(population) = &mut self.groups[group] {
+                threads.run(|| ghosts::clear(population, &self.layout));
+            }
+        }
+        for found in stage.iter().flat_map(|&number| &self.model.plan().process(number).uses) {
+            if found.written
+                && let Group::Cells(planes) = &mut self.groups[found.substate.group]
+            {
+                planes[found.substate.field].others_wrote();
+            }
+        }
+        let migration = self.migration(stage);
+        let Some(edges) = &mut self.edges else { return result.map(drop).map_err(|first| first.fault) };
+        let mut movers = edges.agree(result)?;
+        if let Some((number, group)) = migration
+            && let Group::Population(population) = &mut self.groups[group]
+        {
+            let process = &self.model.processes()[number];
+            let migration = Migration { geometry: self.model.geometry(), process, number };
+            crossing::migrate(migration, population, &self.layout, (edges, &threads), &mut movers)?;
+        }
+        Ok(())
     }
 
     fn run_stage(
@@ -100,24 +155,37 @@ impl CpuExecution {
         leaves_out: bool,
         context: &StepContext<'_>,
     ) -> Result<(), Fault> {
+        let mut movers = self.run_rows(stage, leaves_out, context).map_err(|first| first.fault)?;
+        if let Some((number, group)) = self.migration(stage)
+            && let Group::Population(population) = &mut self.groups[group]
+        {
+            let process = &self.model.processes()[number];
+            migration::migrate(population, &self.layout, self.model.geometry(), process, &mut movers)?;
+        }
+        Ok(())
+    }
+
+    /// The migration of a stage, which is its last process, and the population that it moves.
+    fn migration(&self, stage: &[usize]) -> Option<(usize, usize)> {
+        let &last = stage.last()?;
+        let migrates = self.model.processes()[last].kind == ProcessKind::Migration;
+        Some((last, self.model.plan().process(last).population?)).filter(|_| migrates)
+    }
+
+    /// Runs the processes of a stage over all rows.
+    fn run_rows(
+        &mut self,
+        stage: &[usize],
+        leaves_out: bool,
+        context: &StepContext<'_>,
+    ) -> Result<Vec<Mover>, FirstFault> {
         if let Some(activity) = &mut self.activity
             && !leaves_out
         {
             activity.worked_on_all(stage);
         }
         let activity = self.activity.as_mut().filter(|_| leaves_out);
-        let mut movers =
-            rows::run(&self.model, &self.layout, self.precision, &mut self.groups, stage, activity, context)?;
-        // A migration is the last of its stage.
-        let Some(&last) = stage.last() else { return Ok(()) };
-        let process = &self.model.processes()[last];
-        if process.kind == ProcessKind::Migration
-            && let Some(number) = self.model.plan().process(last).population
-            && let Group::Population(population) = &mut self.groups[number]
-        {
-            migration::migrate(population, &self.layout, self.model.geometry(), process, &mut movers)?;
-        }
-        Ok(())
+        rows::run(&self.model, &self.layout, self.precision, &mut self.groups, stage, activity, context)
     }
 }
 
@@ -197,7 +265,12 @@ impl Execution for CpuExecution {
     }
 
     fn write(&mut self, substate: SubstateId, values: &[u8]) -> Result<(), EngineFailure> {
-        check_values(&self.model, self.precision, substate, self.items(substate.group), values)?;
+        match (&self.edges, self.groups.get(substate.group)) {
+            (Some(edges), Some(Group::Cells(_))) => {
+                check_values_of_part(&self.model, self.precision, substate, &edges.part, values)?;
+            }
+            _ => check_values(&self.model, self.precision, substate, self.items(substate.group), values)?,
+        }
         if let Some(activity) = &mut self.activity {
             activity.replaced(substate);
         }
@@ -210,6 +283,7 @@ impl Execution for CpuExecution {
 
     fn read_cells(&self, substate: SubstateId, cells: &[usize]) -> Result<Vec<u8>, EngineFailure> {
         check_cells(&self.model, substate, cells)?;
+        self.check_own(cells)?;
         Ok(match &self.groups[substate.group] {
             Group::Cells(planes) => planes[substate.field].read_cells(&self.layout, cells),
             Group::Population(_) => Vec::new(),
@@ -223,6 +297,7 @@ impl Execution for CpuExecution {
         values: &[u8],
     ) -> Result<(), EngineFailure> {
         check_values_of_cells(&self.model, self.precision, substate, cells, values)?;
+        self.check_own(cells)?;
         if let Group::Cells(planes) = &mut self.groups[substate.group] {
             planes[substate.field].write_cells(&self.layout, cells, values);
             if let Some(activity) = &mut self.activity {
@@ -246,7 +321,9 @@ impl Execution for CpuExecution {
     }
 
     fn set_population(&mut self, group: usize, items: &Items) -> Result<(), Fault> {
-        check_population(&self.model, self.precision, group, items)?;
+        let geometry = self.model.geometry();
+        let part = self.edges.as_ref().map_or_else(|| Part::whole(geometry), |edges| edges.part.clone());
+        check_population_of_part(&self.model, self.precision, group, &part, items)?;
         if let Group::Population(population) = &mut self.groups[group] {
             self.threads.run(|| population.set(&self.layout, items));
         }
@@ -278,34 +355,25 @@ impl Execution for CpuExecution {
         })
     }
 
-    fn reduce(&self, substate: SubstateId, reduction: &Reduction) -> Result<Vec<Reduced>, EngineFailure> {
+    fn reduce_rows(&self, substate: SubstateId, reduction: &Reduction) -> Result<ReducedRows, EngineFailure> {
         check_substate(&self.model, substate)?;
         let stored = self.model.stored(substate, self.precision);
-        if let Group::Cells(planes) = &self.groups[substate.group]
+        let (groups, layout) = (&self.groups, &self.layout);
+        if let Group::Cells(planes) = &groups[substate.group]
             && let Some(activity) = self.activity.as_ref().filter(|activity| activity.is_on())
         {
             let dense = (substate, &planes[substate.field]);
             let mut reductions = self.reductions.lock().unwrap_or_else(PoisonError::into_inner);
             let reductions = &mut *reductions;
-            return Ok(self.threads.run(|| reductions.reduce(dense, &self.layout, activity, reduction)));
+            return Ok(self.threads.run(|| reductions.reduce(dense, layout, activity, reduction)));
         }
-        let row = |row: usize, results: &mut Vec<Reduced>| match &self.groups[substate.group] {
-            Group::Cells(planes) => {
-                reduce_row(&planes[substate.field], &self.layout, row, reduction, results);
+        let row = |row: usize, results: &mut Vec<Reduced>| match &groups[substate.group] {
+            Group::Cells(planes) => reduce_row(&planes[substate.field], layout, row, reduction, results),
+            Group::Population(population) => {
+                let (first, end) = population.row(row);
+                let values = population.items.fields[substate.field].bytes();
+                append_row(reduction, stored, &values[first * stored.size()..end * stored.size()], results);
             }
-            // Most rows may be empty.
-            Group::Population(population) => match population.row(row) {
-                (first, end) if first == end => {}
-                (first, end) => {
-                    let values = population.items.fields[substate.field].bytes();
-                    append_row(
-                        reduction,
-                        stored,
-                        &values[first * stored.size()..end * stored.size()],
-                        results,
-                    );
-                }
-            },
         };
         let reduce = |rows: &Range<usize>| {
             let mut results = Vec::new();
@@ -313,14 +381,13 @@ impl Execution for CpuExecution {
             results
         };
         let parts: Vec<Vec<Reduced>> = self.threads.run(|| {
-            let populations: Vec<&Population> = match &self.groups[substate.group] {
+            let populations: Vec<&Population> = match &groups[substate.group] {
                 Group::Cells(_) => Vec::new(),
                 Group::Population(population) => vec![population],
             };
-            blocks(&self.layout, &populations, rayon::current_num_threads()).par_iter().map(reduce).collect()
+            blocks(layout, &populations, rayon::current_num_threads()).par_iter().map(reduce).collect()
         });
-        let components = stored.components();
-        Ok(combine_rows(reduction, components, parts.iter().flat_map(|part| part.chunks_exact(components))))
+        Ok(ReducedRows { components: stored.components(), results: parts.concat() })
     }
 
     fn figures(&self) -> Vec<Figure> {
@@ -335,7 +402,8 @@ impl Execution for CpuExecution {
     }
 
     fn workers(&self) -> Option<Arc<dyn Workers>> {
-        Some(Arc::new(self.threads.clone()))
+        // A part waits for others, which may share its threads.
+        self.edges.is_none().then(|| Arc::new(self.threads.clone()) as Arc<dyn Workers>)
     }
 
     fn memory(&self) -> usize {

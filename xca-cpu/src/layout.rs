@@ -1,22 +1,32 @@
-//! Where cells lie in memory: rows along x, with a halo around the space.
+//! Where cells lie in memory: rows along x, with a halo around the space, or around a part of it.
 
 use rayon::prelude::*;
+use std::ops::Range;
+use xca_core::engine::Part;
 use xca_core::{Boundary, Face, Faces, Geometry, Parity};
 
 /// The bytes that are worth a thread's start when a halo is filled.
 const BYTES_WORTH_A_START: usize = 1 << 15;
 
-/// The padded space.
+/// The padded space, or a padded part of it. Its rows are numbered from 0.
 #[derive(Debug, Clone)]
 pub(crate) struct Layout {
     extents: [usize; 3],
+    /// The indices y and z, in the whole space, of the first row.
+    start: [usize; 2],
+    /// The rows of the whole space along y.
+    height: usize,
     reach: [usize; 3],
     padded: [usize; 3],
     boundaries: Faces<Boundary>,
+    /// The faces beyond which the halo is filled by other parts.
+    borders: Faces<bool>,
 }
 
 /// What a halo cell shows along an axis.
 enum Source {
+    /// A cell of another part.
+    Part,
     /// The cell with this padded index.
     Cell(usize),
     /// What lies beyond a flat face.
@@ -25,9 +35,25 @@ enum Source {
 
 impl Layout {
     pub(crate) fn new(geometry: &Geometry) -> Self {
-        let (extents, reach) = (geometry.extents(), geometry.neighbourhood().reach());
-        let padded = std::array::from_fn(|axis| extents[axis] + 2 * reach[axis]);
-        Self { extents, reach, padded, boundaries: geometry.boundaries() }
+        Self::of_part(geometry, &Part::whole(geometry))
+    }
+
+    pub(crate) fn of_part(geometry: &Geometry, part: &Part) -> Self {
+        let (extents, reach) = (part.extents(geometry), geometry.neighbourhood().reach());
+        Self {
+            extents,
+            start: [part.y.start, part.z.start],
+            height: geometry.extents()[1],
+            reach,
+            padded: std::array::from_fn(|axis| extents[axis] + 2 * reach[axis]),
+            boundaries: geometry.boundaries(),
+            borders: part.borders(geometry),
+        }
+    }
+
+    /// The faces beyond which the halo is filled by other parts.
+    pub(crate) fn borders(&self) -> Faces<bool> {
+        self.borders
     }
 
     /// The number of padded cells, unless that overflows.
@@ -67,9 +93,28 @@ impl Layout {
         self.extents[0]
     }
 
-    /// The indices y and z of a row.
+    /// The indices y and z of a row in the part.
     pub(crate) fn row(&self, row: usize) -> [usize; 2] {
         [row % self.extents[1], row / self.extents[1]]
+    }
+
+    /// The indices of the first cell of a row in the whole space.
+    pub(crate) fn origin(&self, row: usize) -> [usize; 3] {
+        let [y, z] = self.row(row);
+        [0, self.start[0] + y, self.start[1] + z]
+    }
+
+    /// The linear index in the whole space of the first cell of a row.
+    pub(crate) fn linear(&self, row: usize) -> usize {
+        let [x, y, z] = self.origin(row);
+        (z * self.height + y) * self.extents[0] + x
+    }
+
+    /// The row of the cell with this linear index in the whole space.
+    pub(crate) fn row_of(&self, cell: usize) -> usize {
+        let row = cell / self.extents[0];
+        let (y, z) = (row % self.height - self.start[0], row / self.height - self.start[1]);
+        z * self.extents[1] + y
     }
 
     /// The rows from which an item that goes to the next cell comes into a row: itself, and those beside it along y and z, also round a torus.
@@ -84,13 +129,18 @@ impl Layout {
 
     /// The rows from which a row is seen: itself, and those within reach along y and z, also round a torus. A row may come twice.
     pub(crate) fn rows_around(&self, row: usize) -> impl Iterator<Item = usize> {
+        self.rows_that_see(self.row(row).map(|index| index as isize))
+    }
+
+    /// The rows from which the row with these indices y and z in the part, or in its halo, is seen. A row may come twice.
+    pub(crate) fn rows_that_see(&self, [y, z]: [isize; 2]) -> impl Iterator<Item = usize> {
         let height = self.extents[1];
-        let [y, z] = self.row(row);
-        let along = move |axis: usize, index: usize| {
+        let along = move |axis: usize, index: isize| {
             let (reach, extent) = (self.reach[axis] as isize, self.extents[axis] as isize);
-            let is_ring = self.boundaries[Face::ALONG[axis][0]] == Boundary::Toroidal;
+            let [low, _] = Face::ALONG[axis];
+            let is_ring = self.boundaries[low] == Boundary::Toroidal && !self.borders[low];
             (-reach..=reach).filter_map(move |step| {
-                let place = index as isize + step;
+                let place = index + step;
                 let inside = (0..extent).contains(&place);
                 (inside || is_ring).then(|| place.rem_euclid(extent) as usize)
             })
@@ -109,9 +159,48 @@ impl Layout {
         ((z + self.reach[2]) * self.padded[1] + y + self.reach[1]) * self.padded[0] + self.reach[0]
     }
 
-    /// The padded number of the cell with this linear index.
+    /// The padded number of the cell with this linear index in the whole space.
     pub(crate) fn padded(&self, cell: usize) -> usize {
-        self.first(cell / self.extents[0]) + cell % self.extents[0]
+        let row = cell / self.extents[0];
+        let (y, z) = (row % self.height - self.start[0], row / self.height - self.start[1]);
+        self.first_at(y, z) + cell % self.extents[0]
+    }
+
+    /// The padded lines that another part sees across a face, or with `beyond` those of the part beyond it that are seen from here. A line is
+    /// given by its indices y and z in the part. Along z lines of the halo along y are among them.
+    pub(crate) fn lines_at(&self, face: Face, beyond: bool) -> impl Iterator<Item = [isize; 2]> {
+        let axis = face.axis();
+        let (reach, extent) =
+            (self.reach.map(|reach| reach as isize), self.extents.map(|extent| extent as isize));
+        let is_low = face == Face::ALONG[axis][0];
+        let across: Range<isize> = match (is_low, beyond) {
+            (true, false) => 0..reach[axis],
+            (true, true) => -reach[axis]..0,
+            (false, false) => extent[axis] - reach[axis]..extent[axis],
+            (false, true) => extent[axis]..extent[axis] + reach[axis],
+        };
+        let [y, z] =
+            if axis == 1 { [across, 0..extent[2]] } else { [-reach[1]..extent[1] + reach[1], across] };
+        z.flat_map(move |z| y.clone().map(move |y| [y, z]))
+    }
+
+    /// The padded cells of a line without its halo along x.
+    pub(crate) fn cells_of_line(&self, line: [isize; 2]) -> Range<usize> {
+        let start = self.line(line).start + self.reach[0];
+        start..start + self.extents[0]
+    }
+
+    /// Fills the halo along x of a line.
+    pub(crate) fn fill_line<T: Copy>(&self, plane: &mut [T], line: [isize; 2], outside: &Faces<Vec<T>>) {
+        let cells = self.line(line);
+        self.fill_along(0, &mut plane[cells], 1, Some(outside));
+    }
+
+    /// The padded cells of a line, which may lie in the halo.
+    pub(crate) fn line(&self, [y, z]: [isize; 2]) -> Range<usize> {
+        let [y, z] = [(1, y), (2, z)].map(|(axis, index)| (index + self.reach[axis] as isize) as usize);
+        let start = (z * self.padded[1] + y) * self.padded[0];
+        start..start + self.padded[0]
     }
 
     /// The offsets of the neighbours for cells in even and odd rows or columns.
@@ -134,7 +223,7 @@ impl Layout {
 
     /// Whether what lies in the halo follows what lies in the space: along x, where it continues each row, and along y or z.
     pub(crate) fn halo_follows(&self) -> [bool; 2] {
-        let follows = |face| self.boundaries[face] != Boundary::Flat;
+        let follows = |face| self.boundaries[face] != Boundary::Flat || self.borders[face];
         let [x, y, z] =
             [0, 1, 2].map(|axis| self.reach[axis] > 0 && Face::ALONG[axis].into_iter().any(follows));
         [x, y || z]
@@ -146,14 +235,27 @@ impl Layout {
         let counted = |index: usize| index as isize - self.reach[0] as isize;
         let follows = |(target, source)| match source {
             Source::Cell(source) => Some((counted(target), counted(source))),
-            Source::Outside(_) => None,
+            Source::Outside(_) | Source::Part => None,
         };
         self.along(0).filter_map(follows).collect()
     }
 
     /// Fills the halo of a plane with so many values a cell: by the boundary rules, and beyond flat faces with their outside values,
     /// where these are given. Beyond several flat faces that of the last axis stands, as it is filled last. Along x it does so unless the rows are `continued` already.
+    /// What other parts fill is left as it is.
     pub(crate) fn fill_halo<T: Copy + Send + Sync>(
+        &self,
+        plane: &mut [T],
+        values: usize,
+        outside: Option<&Faces<Vec<T>>>,
+        continued: bool,
+    ) {
+        self.fill_rows(plane, values, outside, continued);
+        self.fill_layers(plane, values, outside);
+    }
+
+    /// Fills the halo along x, for the rows of the space, then whole rows along y.
+    pub(crate) fn fill_rows<T: Copy + Send + Sync>(
         &self,
         plane: &mut [T],
         values: usize,
@@ -162,13 +264,10 @@ impl Layout {
     ) {
         let line = self.padded[0] * values;
         let layer = line * self.padded[1];
-        let worth = |work: usize| (BYTES_WORTH_A_START / (work * size_of::<T>()).max(1)).max(1);
-        let (below, rest) = plane.split_at_mut(self.reach[2] * layer);
-        let (space, above) = rest.split_at_mut(self.extents[2] * layer);
-        // Along x, for the rows of the space; then whole rows along y; then whole layers along z.
+        let space = &mut plane[self.reach[2] * layer..][..self.extents[2] * layer];
         let across = if continued { 0 } else { self.extents[1] * 2 * self.reach[0] * values };
         let work = across + 2 * self.reach[1] * line;
-        space.par_chunks_mut(layer).with_min_len(worth(work)).for_each(|layer| {
+        space.par_chunks_mut(layer).with_min_len(worth::<T>(work)).for_each(|layer| {
             if !continued {
                 for row in layer.chunks_exact_mut(line).skip(self.reach[1]).take(self.extents[1]) {
                     self.fill_along(0, row, values, outside);
@@ -176,14 +275,27 @@ impl Layout {
             }
             self.fill_along(1, layer, line, outside);
         });
+    }
+
+    /// Fills the halo along z, whole layers with their halo along x and y.
+    pub(crate) fn fill_layers<T: Copy + Send + Sync>(
+        &self,
+        plane: &mut [T],
+        values: usize,
+        outside: Option<&Faces<Vec<T>>>,
+    ) {
+        let layer = self.padded[0] * values * self.padded[1];
+        let (below, rest) = plane.split_at_mut(self.reach[2] * layer);
+        let (space, above) = rest.split_at_mut(self.extents[2] * layer);
         let space = &*space;
         let layers = below.par_chunks_mut(layer).chain(above.par_chunks_mut(layer));
         let places: Vec<_> = self.along(2).collect();
-        layers.zip(places).with_min_len(worth(layer)).for_each(|(target, (_, source))| match source {
+        layers.zip(places).with_min_len(worth::<T>(layer)).for_each(|(target, (_, source))| match source {
             Source::Cell(source) => {
                 target.copy_from_slice(&space[(source - self.reach[2]) * layer..][..layer]);
             }
             Source::Outside(face) => fill_outside(target, outside.map(|outside| &*outside[face])),
+            Source::Part => {}
         });
     }
 
@@ -204,6 +316,7 @@ impl Layout {
                     let outside = outside.map(|outside| &*outside[face]);
                     fill_outside(&mut line[target * piece..(target + 1) * piece], outside);
                 }
+                Source::Part => {}
             }
         }
     }
@@ -215,6 +328,7 @@ impl Layout {
             let is_low = target < reach;
             let face = Face::ALONG[axis][usize::from(!is_low)];
             let source = match self.boundaries[face] {
+                _ if self.borders[face] => Source::Part,
                 Boundary::Flat => Source::Outside(face),
                 Boundary::Toroidal => Source::Cell(if is_low { target + extent } else { target - extent }),
                 Boundary::Reflecting if is_low => Source::Cell(2 * reach - 1 - target),
@@ -223,6 +337,11 @@ impl Layout {
             (target, source)
         })
     }
+}
+
+/// How many pieces of so much work are worth a thread's start.
+fn worth<T>(work: usize) -> usize {
+    (BYTES_WORTH_A_START / (work * size_of::<T>()).max(1)).max(1)
 }
 
 fn fill_outside<T: Copy>(cells: &mut [T], outside: Option<&[T]>) {

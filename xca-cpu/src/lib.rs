@@ -9,8 +9,11 @@
 mod activity;
 mod blocks;
 mod choices;
+mod crossing;
 mod dense;
+mod edges;
 mod execution;
+mod ghosts;
 mod group;
 mod layout;
 mod listing;
@@ -27,11 +30,12 @@ mod tiles;
 mod upkeep;
 
 use choices::{Choices, LeaveOut};
+use edges::Edges;
 use execution::CpuExecution;
 use layout::Layout;
 use std::fmt;
 use threads::Threads;
-use xca_core::engine::{Engine, Execution, StartError};
+use xca_core::engine::{Border, Engine, Execution, Part, StartError};
 use xca_core::{Model, Precision};
 
 /// The engine for all cores.
@@ -147,7 +151,19 @@ impl Engine for Cpu {
     }
 
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {
-        Ok(Box::new(CpuExecution::new(model, precision, self.own.clone(), self.choices)?))
+        Ok(Box::new(CpuExecution::new(model, precision, self.own.clone(), self.choices, None)?))
+    }
+
+    fn start_part(
+        &self,
+        model: &Model,
+        precision: Precision,
+        part: &Part,
+        border: Box<dyn Border>,
+    ) -> Result<Box<dyn Execution>, StartError> {
+        part.check(model.geometry())?;
+        let edges = Some(Edges::new(model, part.clone(), border));
+        Ok(Box::new(CpuExecution::new(model, precision, self.own.clone(), self.choices, edges)?))
     }
 }
 

@@ -17,12 +17,12 @@ const ROWS_WORTH_A_START: usize = 16;
 
 /// An item on its way into a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Arrival {
-    cell: u32,
-    label: u32,
+pub(crate) struct Arrival {
+    pub(crate) cell: u32,
+    pub(crate) label: u32,
     /// Its place before, in the row of the cell that it leaves.
-    item: u32,
-    from: u32,
+    pub(crate) item: u32,
+    pub(crate) from: u32,
 }
 
 /// Moves items; `movers` are in the order of items.
@@ -39,15 +39,28 @@ pub(crate) fn migrate(
     let (mut arrivals, left) = arrivals(population, geometry, process, movers)?;
     arrivals.par_sort_unstable();
     check_slots(population, layout, geometry, process, movers, &arrivals)?;
-    if let Some(counts) = counts_without_room(population, layout, movers, &arrivals) {
+    population.left += left;
+    settle(population, layout, geometry, movers, &arrivals);
+    Ok(())
+}
+
+/// Moves items that have been checked. What arrives from elsewhere stands after all places.
+pub(crate) fn settle(
+    population: &mut Population,
+    layout: &Layout,
+    geometry: &Geometry,
+    movers: &mut [Mover],
+    arrivals: &[Arrival],
+) {
+    let slack = slack(population, geometry, arrivals);
+    let carried = carried(population, arrivals);
+    population.truncate();
+    if let Some(counts) = counts_without_room(population, layout, movers, arrivals) {
         let shifts = population.make_room(layout, &counts);
-        let shift = |from: u32| shifts[from as usize / layout.width()];
+        let shift = |from: u32| shifts[layout.row_of(from as usize)];
         movers.iter_mut().for_each(|mover| mover.item = mover.item.wrapping_add(shift(mover.from)));
-        arrivals.iter_mut().for_each(|one| one.item = one.item.wrapping_add(shift(one.from)));
     }
-    let slack = slack(population, geometry, &arrivals);
-    let changes = changes(layout, movers, &arrivals);
-    let carried = carried(population, &arrivals);
+    let changes = changes(layout, movers, arrivals);
     if let Some(lists) = &mut population.lists {
         let left = movers.iter().filter(|mover| mover.answer == OUTSIDE);
         left.for_each(|mover| lists.left(population.items.numbers[mover.item as usize]));
@@ -58,13 +71,11 @@ pub(crate) fn migrate(
     }
     change(population, layout, &changes, &carried);
     changes.iter().for_each(|change| population.follow(change.row));
-    population.left += left;
     population.fill_halo(layout);
-    Ok(())
 }
 
 /// Checks where the movers go, and counts those that leave.
-fn arrivals(
+pub(crate) fn arrivals(
     population: &Population,
     geometry: &Geometry,
     process: &Process,
@@ -93,7 +104,7 @@ fn arrivals(
 }
 
 /// Whether all cells that items enter have slots for them.
-fn check_slots(
+pub(crate) fn check_slots(
     population: &Population,
     layout: &Layout,
     geometry: &Geometry,
@@ -132,16 +143,16 @@ fn counts_without_room(
     movers: &[Mover],
     arrivals: &[Arrival],
 ) -> Option<Vec<u32>> {
-    let width = layout.width() as u32;
+    let row_of = |cell: u32| layout.row_of(cell as usize);
     let (mut leaving, mut coming) = (movers, arrivals);
     let mut fits = true;
     while let Some(arrival) = coming.first() {
-        let row = arrival.cell / width;
-        let come = take_first(&mut coming, |arrival| arrival.cell / width == row).len();
-        take_first(&mut leaving, |mover| mover.from / width < row);
-        let leave = take_first(&mut leaving, |mover| mover.from / width == row).len();
-        let (first, end) = population.row(row as usize);
-        fits &= end - first + come - leave <= population.room(row as usize);
+        let row = row_of(arrival.cell);
+        let come = take_first(&mut coming, |arrival| row_of(arrival.cell) == row).len();
+        take_first(&mut leaving, |mover| row_of(mover.from) < row);
+        let leave = take_first(&mut leaving, |mover| row_of(mover.from) == row).len();
+        let (first, end) = population.row(row);
+        fits &= end - first + come - leave <= population.room(row);
     }
     if fits {
         return None;
@@ -149,10 +160,10 @@ fn counts_without_room(
     let before: Vec<u32> = population.places().map(|places| places.len() as u32).collect();
     let mut counts = before.clone();
     for arrival in arrivals {
-        counts[(arrival.cell / width) as usize] += 1;
+        counts[row_of(arrival.cell)] += 1;
     }
     for mover in movers {
-        counts[(mover.from / width) as usize] -= 1;
+        counts[row_of(mover.from)] -= 1;
     }
     counts.iter_mut().zip(before).for_each(|(count, before)| *count = before.max(*count));
     Some(counts)
@@ -169,17 +180,17 @@ struct Change<'a> {
 
 /// The rows that change, in order.
 fn changes<'a>(layout: &Layout, movers: &'a [Mover], arrivals: &'a [Arrival]) -> Vec<Change<'a>> {
-    let width = layout.width() as u32;
+    let row_of = |cell: u32| layout.row_of(cell as usize);
     let (mut leaving, mut coming) = (movers, arrivals);
     let mut changes = Vec::new();
     let mut carried = 0;
     loop {
         let firsts = [leaving.first().map(|mover| mover.from), coming.first().map(|arrival| arrival.cell)];
         let Some(cell) = firsts.into_iter().flatten().min() else { return changes };
-        let row = cell / width;
-        let leaving = take_first(&mut leaving, |mover| mover.from / width == row);
-        let coming = take_first(&mut coming, |arrival| arrival.cell / width == row);
-        changes.push(Change { row: row as usize, leaving, coming, carried });
+        let row = row_of(cell);
+        let leaving = take_first(&mut leaving, |mover| row_of(mover.from) == row);
+        let coming = take_first(&mut coming, |arrival| row_of(arrival.cell) == row);
+        changes.push(Change { row, leaving, coming, carried });
         carried += coming.len();
     }
 }
@@ -306,7 +317,7 @@ impl Part<'_> {
     fn merge(&mut self, change: &Change<'_>, spans: &mut Vec<Span>) -> u32 {
         let (mut leaving, mut coming) = (change.leaving, change.coming);
         let width = self.layout.width();
-        let first_of_row = (change.row * width) as u32;
+        let first_of_row = self.layout.linear(change.row) as u32;
         let padded = self.layout.first(change.row) - self.first_cell;
         let labels: &[u32] = bytemuck::cast_slice(&*self.values[Arrays::LABELS].bytes);
         let mut carried = change.carried as u32;

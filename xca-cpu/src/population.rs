@@ -207,7 +207,8 @@ impl Population {
             labels = after;
             for (x, count) in counts.iter().enumerate() {
                 self.starts[first + x] = place;
-                self.items.cells[place as usize..(place + count) as usize].fill((row * width + x) as u32);
+                self.items.cells[place as usize..(place + count) as usize]
+                    .fill((layout.linear(row) + x) as u32);
                 place += count;
                 self.ends[first + x] = place;
             }
@@ -294,6 +295,28 @@ impl Population {
             StoredScalar::F32 => bytemuck::cast_slice::<u8, [f32; 3]>(bytes)[place].map(f64::from),
             _ => bytemuck::cast_slice::<u8, [f64; 3]>(bytes)[place],
         })
+    }
+
+    /// Adds an item after all places; gives its place.
+    pub(crate) fn push(&mut self, label: u32, fields: &[&[u8]]) -> u32 {
+        let place = self.items.labels.len();
+        self.items.labels.push(label);
+        self.items.cells.push(0);
+        for (field, bytes) in self.items.fields.iter_mut().zip(fields) {
+            field.resize((place + 1) * bytes.len());
+            field.bytes_mut()[place * bytes.len()..].copy_from_slice(bytes);
+        }
+        place as u32
+    }
+
+    /// Takes away what stands after all places.
+    pub(crate) fn truncate(&mut self) {
+        let places = self.rows.last().map_or(0, |places| *places as usize);
+        self.items.labels.truncate(places);
+        self.items.cells.truncate(places);
+        for (field, stored) in self.items.fields.iter_mut().zip(&self.types) {
+            field.resize(places * stored.size());
+        }
     }
 
     /// Lets the halo cells stand for the cells that they repeat.

@@ -6,7 +6,7 @@ use crate::layout::Layout;
 use rayon::prelude::*;
 use xca_core::StoredType;
 use xca_core::engine::SubstateId;
-use xca_core::reduction::{Reduced, Reduction, append_row, combine_rows};
+use xca_core::reduction::{Reduced, ReducedRows, Reduction, append_row};
 
 /// How many reductions are kept: more than a model's steering asks for in turns.
 const MOST_KEPT: usize = 16;
@@ -31,14 +31,14 @@ struct Kept {
 }
 
 impl Reductions {
-    /// Reduces a substate of cells, component by component.
+    /// Reduces the rows of a substate of cells, component by component.
     pub(crate) fn reduce(
         &mut self,
         (substate, dense): (SubstateId, &Dense),
         layout: &Layout,
         activity: &Activity,
         reduction: &Reduction,
-    ) -> Vec<Reduced> {
+    ) -> ReducedRows {
         let components = dense.stored.components();
         let place =
             self.kept.iter().position(|kept| kept.substate == substate && kept.reduction == *reduction);
@@ -62,12 +62,12 @@ impl Reductions {
             kept.rows[row * components..(row + 1) * components].copy_from_slice(results);
         }
         kept.time = activity.time();
-        let result = combine_rows(reduction, components, kept.rows.chunks_exact(components));
+        let rows = ReducedRows { components, results: kept.rows.clone() };
         if self.kept.len() == MOST_KEPT {
             self.kept.remove(0);
         }
         self.kept.push(kept);
-        result
+        rows
     }
 }
 

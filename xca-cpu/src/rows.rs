@@ -18,7 +18,7 @@ use crate::layout::Layout;
 use crate::motion::Motion;
 use crate::population::Population;
 use found::Found;
-pub(crate) use found::Mover;
+pub(crate) use found::{FirstFault, Mover};
 use now::{Now, Report};
 use pieces::Pieces;
 use prepare::prepare_buffers;
@@ -42,7 +42,7 @@ pub(crate) fn run(
     processes: &[usize],
     mut activity: Option<&mut Activity>,
     context: &StepContext<'_>,
-) -> Result<Vec<Mover>, Fault> {
+) -> Result<Vec<Mover>, FirstFault> {
     let due = activity.as_ref().and_then(|activity| activity.rows(processes));
     if let (Some(activity), Some([])) = (&mut activity, due.as_deref()) {
         activity.worked(processes, 0);
@@ -100,11 +100,11 @@ pub(crate) fn run(
         movers.extend(block.movers);
         motions.iter_mut().zip(block.motions).for_each(|(all, one)| *all = all.and(one));
         widest.iter_mut().zip(block.widest).for_each(|(all, one)| *all = all.max(one));
-        if let Some((process, cell, fault)) = block.fault {
+        if let Some(FirstFault { process, cell, fault }) = block.fault {
             first.keep(process, cell, fault);
         }
     }
-    if let Some((.., fault)) = first.fault {
+    if let Some(fault) = first.fault {
         return Err(fault);
     }
     for &number in &searches.populations {
@@ -200,8 +200,8 @@ impl Pass<'_> {
                     found.keep(index, fault.cell, Fault::reported(process, fault, model.geometry()));
                 }
                 None => {
-                    let first = StoppedAt { cell: (row * self.layout.width()) as u32, label: None };
-                    let at = at.unwrap_or(first);
+                    let first = || model.geometry().linear(self.layout.origin(row)) as u32;
+                    let at = at.unwrap_or_else(|| StoppedAt { cell: first(), label: None });
                     found.keep(index, at.cell, Fault::panicked(process, at, &*panic, model.geometry()));
                 }
             }
@@ -224,8 +224,8 @@ impl Pass<'_> {
             self.prepared.iter().map(|prepared| self.population(prepared)).collect();
         for place in rows {
             let row = self.due.map_or(place, |due| due[place].row);
-            let [y, z] = self.layout.row(row);
-            let first = self.layout.first_at(y, z);
+            let first = self.layout.first(row);
+            let origin = self.layout.origin(row).map(|index| index as u32);
             let those = self.prepared[..processes].iter().zip(&populations);
             for (number, (prepared, population)) in those.enumerate() {
                 now.start(number, row, place);
@@ -237,8 +237,7 @@ impl Pass<'_> {
                     work.answers.clear();
                     work.answers.resize(own.1 - own.0, STAY);
                 }
-                let cells =
-                    Cells { first, origin: [0, y as u32, z as u32], length: self.layout.width(), own };
+                let cells = Cells { first, origin, length: self.layout.width(), own };
                 let widest = match self.activity {
                     Some(activity) if prepared.process.kind == ProcessKind::Cells => {
                         let done = self.run_pieces(activity, prepared, (row, &cells), *population, &mut work);

@@ -10,7 +10,7 @@ use xca_core::engine::{
     EngineFailure, Execution, Fault, Interruption, Population as Items, StepContext, SubstateId, check_cells,
     check_population, check_substate, check_values, check_values_of_cells,
 };
-use xca_core::reduction::{Reduced, Reduction, combine_rows, reduce_values};
+use xca_core::reduction::{Reduced, ReducedRows, Reduction, append_row};
 
 impl Execution for GpuExecution {
     fn run(&mut self, processes: Range<usize>, context: &StepContext<'_>) -> Result<(), Fault> {
@@ -87,10 +87,10 @@ impl Execution for GpuExecution {
         self.occupancy(group).map_err(|error| failure(&error))
     }
 
-    fn reduce(&self, substate: SubstateId, reduction: &Reduction) -> Result<Vec<Reduced>, EngineFailure> {
+    fn reduce_rows(&self, substate: SubstateId, reduction: &Reduction) -> Result<ReducedRows, EngineFailure> {
         check_substate(&self.model, substate)?;
         let stored = self.model.stored(substate, self.manner.precision);
-        let rows = if reduction::is_possible(&self.device, reduction, stored) {
+        let results = if reduction::is_possible(&self.device, reduction, stored) {
             self.reduce_here(substate, reduction).map_err(|error| failure(&error))?
         } else {
             let lengths = match self.groups.group(substate.group) {
@@ -101,14 +101,15 @@ impl Execution for GpuExecution {
             };
             let values = self.read(substate)?;
             let mut rest = values.as_slice();
-            let reduced = lengths.into_iter().map(|length| {
+            let mut results = Vec::new();
+            for length in lengths {
                 let (row, others) = rest.split_at(length * stored.size());
                 rest = others;
-                reduce_values(reduction, stored, row)
-            });
-            reduced.collect()
+                append_row(reduction, stored, row, &mut results);
+            }
+            results
         };
-        Ok(combine_rows(reduction, stored.components(), rows.iter().map(Vec::as_slice)))
+        Ok(ReducedRows { components: stored.components(), results })
     }
 
     fn memory(&self) -> usize {
@@ -148,12 +149,8 @@ impl GpuExecution {
         Ok(bytemuck::pod_collect_to_vec::<u8, u32>(&bytes).into_iter().max().unwrap_or(0))
     }
 
-    /// The reduced rows, made on the device.
-    fn reduce_here(
-        &self,
-        substate: SubstateId,
-        reduction: &Reduction,
-    ) -> Result<Vec<Vec<Reduced>>, DeviceError> {
+    /// The results of all rows, made on the device.
+    fn reduce_here(&self, substate: SubstateId, reduction: &Reduction) -> Result<Vec<Reduced>, DeviceError> {
         let stored = self.model.stored(substate, self.manner.precision);
         let plane = self.groups.plane(substate);
         let reduce = |values: Values<'_>, rows: Rows| {
@@ -161,7 +158,7 @@ impl GpuExecution {
         };
         if let Group::Population(population) = self.groups.group(substate.group) {
             if population.items == 0 {
-                return Ok(Vec::new());
+                return Ok(vec![Reduced::Nothing; self.space.rows() * stored.components()]);
             }
             let [width, height, depth] = self.space.geometry().extents();
             let whole = self.rows([width, height, depth], self.space.row_start(0));

@@ -58,14 +58,14 @@ pub(crate) fn is_possible(device: &Device, reduction: &Reduction, stored: Stored
     device.adapter().has_f64 || !(float && sum)
 }
 
-/// Reduces rows of values, component by component: the results of the rows that have values, in order.
+/// Reduces rows of values, component by component: the results of all rows, in order.
 pub(crate) fn reduce(
     device: &Device,
     strict: bool,
     (reduction, stored): (&Reduction, StoredType),
     values: Values<'_>,
     rows: Rows,
-) -> Result<Vec<Vec<Reduced>>, DeviceError> {
+) -> Result<Vec<Reduced>, DeviceError> {
     let components = stored.components();
     let of_items = matches!(values, Values::OfItems(..));
     let (source, kind) = text(reduction, stored, of_items);
@@ -110,14 +110,15 @@ pub(crate) fn reduce(
     recorder.run(&bindings, workgroups(device, (rows.rows as usize).div_ceil(WORKGROUP as usize)));
     device.submit(recorder)?;
     let bytes = device.download(&results, 0..length)?;
-    let numbers = |row: &[u8]| row.chunks_exact(size).map(|bytes| kind.number(bytes)).collect();
-    let all = bytes.chunks_exact(components * size);
+    let mut all: Vec<Reduced> = bytes.chunks_exact(size).map(|bytes| kind.number(bytes)).collect();
     if !of_items {
-        return Ok(all.map(numbers).collect());
+        return Ok(all);
     }
     let counts: Vec<u32> =
         bytemuck::pod_collect_to_vec(&device.download(&counts, 0..u64::from(rows.rows) * 4)?);
-    Ok(all.zip(counts).filter(|(_, count)| *count > 0).map(|(row, _)| numbers(row)).collect())
+    let empty = all.chunks_exact_mut(components).zip(counts).filter(|(_, count)| *count == 0);
+    empty.for_each(|(row, _)| row.fill(Reduced::Nothing));
+    Ok(all)
 }
 
 impl RowResult {

@@ -8,7 +8,7 @@ use xca_compare::{ComparisonReport, Contender, EngineResult, Subject, Verdict};
 use xca_compare::{Kind, Place};
 use xca_core::engine::{Execution, Interruption, Population, StepContext, SubstateId};
 use xca_core::prelude::*;
-use xca_core::reduction::{Reduced, Reduction};
+use xca_core::reduction::{ReducedRows, Reduction};
 use xca_core::{Engine, EngineFailure, Fault, Precision, StartError};
 use xca_cpu::Cpu;
 use xca_record::{Monitor, Observable, SetUp};
@@ -198,8 +198,8 @@ impl Execution for HarmedExecution {
         self.inner.largest_occupancy(group)
     }
 
-    fn reduce(&self, substate: SubstateId, reduction: &Reduction) -> Result<Vec<Reduced>, EngineFailure> {
-        self.inner.reduce(substate, reduction)
+    fn reduce_rows(&self, substate: SubstateId, reduction: &Reduction) -> Result<ReducedRows, EngineFailure> {
+        self.inner.reduce_rows(substate, reduction)
     }
 
     fn memory(&self) -> usize {

@@ -93,7 +93,7 @@ mod tests {
     fn what_is_no_engine_is_told() {
         let engines = Engines::default();
         for (text, wanted) in [
-            ("cup", "there is no engine `cup`; there are cpu, gpu, reference"),
+            ("cup", "there is no engine `cup`; there are cpu, gpu, parts, reference"),
             ("cpu@f16", "`f16` is not a precision"),
             ("reference:2", "nothing to choose of the reference engine"),
         ] {

@@ -4,6 +4,7 @@ mod cpu;
 mod gpu;
 mod kind;
 mod options;
+mod parts;
 mod reference;
 
 pub use kind::{Devices, EngineKind, MissingFeature};
@@ -11,6 +12,7 @@ pub use options::{EngineOption, EngineOptions};
 
 use cpu::CpuKind;
 use gpu::GpuKind;
+use parts::PartsKind;
 use reference::ReferenceKind;
 use xca_core::Engine;
 use xca_record::Failure;
@@ -23,9 +25,11 @@ pub struct Engines {
 }
 
 impl Default for Engines {
-    /// `cpu`, `gpu` and `reference`. Without the feature `gpu`, the second can be named but not made.
+    /// `cpu`, `gpu`, `parts` and `reference`. Without the feature `gpu`, the second can be named but not made.
     fn default() -> Self {
-        Self { kinds: vec![Box::new(CpuKind), Box::new(GpuKind), Box::new(ReferenceKind)] }
+        Self {
+            kinds: vec![Box::new(CpuKind), Box::new(GpuKind), Box::new(PartsKind), Box::new(ReferenceKind)],
+        }
     }
 }
 
@@ -133,10 +137,13 @@ mod tests {
         assert_eq!(of("cpu", &threads("3")).unwrap().threads(), 3);
         assert_eq!(of("reference", &EngineOptions::default()).unwrap().threads(), 1);
         let said = |name: &str, options: &EngineOptions| of(name, options).unwrap_err().to_string();
-        let wanted = "--threads is for --engine cpu, not for the reference engine";
+        let wanted = "--threads is for --engine cpu and --engine parts, not for the reference engine";
         assert!(said("reference", &threads("2")).starts_with(wanted));
         assert_eq!(said("cpu", &threads("0")), "--threads 0: 0 threads do nothing; give at least 1");
-        assert_eq!(said("cup", &threads("1")), "there is no engine `cup`; there are cpu, gpu, reference");
+        assert_eq!(
+            said("cup", &threads("1")),
+            "there is no engine `cup`; there are cpu, gpu, parts, reference"
+        );
         let hands = EngineOptions::default().with("hands", "2");
         assert!(said("cpu", &hands).starts_with("--hands is no option, not for the cpu engine"));
     }
@@ -188,7 +195,10 @@ mod tests {
     #[test]
     fn a_kind_takes_the_place_of_one_with_its_name() {
         let engines = Engines::default().with(Other);
-        assert_eq!(engines.kinds().map(EngineKind::name).collect::<Vec<_>>(), ["cpu", "gpu", "reference"]);
+        assert_eq!(
+            engines.kinds().map(EngineKind::name).collect::<Vec<_>>(),
+            ["cpu", "gpu", "parts", "reference"]
+        );
         assert_eq!(engines.kind("cpu").unwrap().about(), "another");
     }
 }

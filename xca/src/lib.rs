@@ -5,7 +5,7 @@
 //! | feature | adds | default |
 //! |---|---|---|
 //! | | [`prelude`], models, the serial reference engine | |
-//! | `cpu` | `xca::Cpu`, the engine for all cores | yes |
+//! | `cpu` | `xca::Cpu`, the engine for all cores, and `xca::parts`, an engine made of several | yes |
 //! | `gpu` | `xca::gpu`, the engine for graphics adapters; with `run` also `--engine gpu` | |
 //! | `record` | `xca::record`, `xca::compare`, `xca::ensemble`, `xca::picture` and `xca::io`: runs and their files without a command line | |
 //! | `run` | `xca::run`, the command line of a model's program, and its names in the prelude | |
@@ -74,6 +74,9 @@ pub use xca_gpu as gpu;
 #[cfg(feature = "record")]
 #[doc(no_inline)]
 pub use xca_io as io;
+#[cfg(feature = "cpu")]
+#[doc(no_inline)]
+pub use xca_parts as parts;
 #[cfg(feature = "record")]
 #[doc(no_inline)]
 pub use xca_picture as picture;

@@ -27,7 +27,7 @@ fn names_that_no_one_knows() {
         (CADEM, "--walls none", "possible values: single, per-slot"),
         (CADEM, "--integrator verlet", "possible values: semi-implicit, explicit"),
         (CADEM, "--open floor", "there is no face `floor`; the faces are x-low"),
-        (CADEM, "--engine abacus", "possible values: cpu, gpu, reference"),
+        (CADEM, "--engine abacus", "possible values: cpu, gpu, parts, reference"),
         (
             HEAT,
             "--set beta=1",
@@ -46,9 +46,13 @@ fn values_that_make_no_sense() {
         (
             CADEM,
             "--engine reference --threads 2",
-            "--threads is for --engine cpu, not for the reference engine",
+            "--threads is for --engine cpu and --engine parts, not for the reference engine",
         ),
-        (CADEM, "--engine gpu --threads 2", "--threads is for --engine cpu, not for the gpu engine"),
+        (
+            CADEM,
+            "--engine gpu --threads 2",
+            "--threads is for --engine cpu and --engine parts, not for the gpu engine",
+        ),
         (CADEM, "--engine gpu --adapter abacus", "no adapter is `abacus`; this machine has 0: "),
         (CADEM, "--engine gpu --arithmetic lax", "`lax` is no arithmetic; use best, strict or relaxed"),
         (CADEM, "--adapter 0", "--adapter is for --engine gpu, not for the cpu engine"),

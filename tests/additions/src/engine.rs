@@ -6,7 +6,7 @@ use xca::engine::{
 };
 use xca::prelude::*;
 use xca::record::Failure;
-use xca::reduction::{Reduced, Reduction};
+use xca::reduction::{ReducedRows, Reduction};
 use xca::run::{EngineKind, EngineOption, EngineOptions};
 use xca::{Engine, Precision};
 
@@ -148,8 +148,8 @@ impl Execution for State {
         self.agreed(|copy| copy.largest_occupancy(group))
     }
 
-    fn reduce(&self, substate: SubstateId, reduction: &Reduction) -> Result<Vec<Reduced>, EngineFailure> {
-        self.agreed(|copy| copy.reduce(substate, reduction))
+    fn reduce_rows(&self, substate: SubstateId, reduction: &Reduction) -> Result<ReducedRows, EngineFailure> {
+        self.agreed(|copy| copy.reduce_rows(substate, reduction))
     }
 
     fn memory(&self) -> usize {

@@ -9,6 +9,7 @@ use xca_core::{
 };
 use xca_cpu::Cpu;
 use xca_gpu::{Arithmetic, Gpu, GpuError, GpuOptions};
+use xca_parts::Parts;
 
 /// The thread counts of the parallel engine that must make no difference.
 pub const THREADS: [usize; 4] = [1, 2, 3, 8];
@@ -22,6 +23,9 @@ pub const SKINS: [Option<f64>; 4] = [None, Some(1e-3), Some(0.3), Some(1e9)];
 pub const TILES: [Option<NonZeroUsize>; 4] =
     [None, NonZeroUsize::new(1), NonZeroUsize::new(3), NonZeroUsize::new(1000)];
 
+/// Numbers of parts of the space that must make no difference; fewer where the space is too small.
+pub const PARTS: [usize; 3] = [2, 3, 7];
+
 /// Both precisions.
 pub const PRECISIONS: [Precision; 2] = [Precision::F32, Precision::F64];
 
@@ -32,9 +36,17 @@ pub const GPU_SHARE: usize = 9;
 /// The same where there are thousands of cases.
 pub const SMALL_GPU_SHARE: usize = 101;
 
-/// The engines for the case with this number: all, or those on processors.
+/// Of so many cases one runs in parts too: they start many threads. Odd, as above.
+const PARTS_SHARE: usize = 3;
+
+/// The engines for the case with this number: all, those on processors, or those that run the space as a whole.
 pub fn for_case(engines: &[Box<dyn Engine>], number: usize, share: usize) -> &[Box<dyn Engine>] {
-    if number.is_multiple_of(share) { engines } else { on_processors(engines) }
+    if number.is_multiple_of(share) {
+        return engines;
+    }
+    let on_processors = on_processors(engines);
+    let parts = if number.is_multiple_of(PARTS_SHARE) { 0 } else { PARTS.len() };
+    &on_processors[..on_processors.len() - parts]
 }
 
 /// The engines without the GPU's.
@@ -85,6 +97,13 @@ pub fn all() -> Result<Vec<Box<dyn Engine>>, Box<dyn Error>> {
         }
         engines.push(Box::new(engine));
     }
+    for (number, (parts, tile)) in PARTS.into_iter().zip(TILES).enumerate() {
+        let mut engine = Cpu::with_threads(1 + number)?;
+        if let Some(cells) = tile {
+            engine = engine.with_tiles(cells);
+        }
+        engines.push(Box::new(Parts::at_most(engine, NonZeroUsize::new(parts).ok_or("no parts")?)));
+    }
     engines.push(Box::new(gpu()?));
     Ok(engines)
 }
@@ -99,7 +118,9 @@ pub fn gpu() -> Result<Gpu, GpuError> {
 
 /// The name of an engine with its number of threads, for messages.
 pub fn describe(engine: &dyn Engine) -> String {
-    format!("{} with {} threads", engine.name(), engine.threads())
+    let parts = engine.facts().into_iter().find(|(name, _)| *name == "parts");
+    let parts = parts.map(|(_, parts)| format!(", parts: {parts}")).unwrap_or_default();
+    format!("{} with {} threads{parts}", engine.name(), engine.threads())
 }
 
 /// Runs a model on each engine and demands that all agree with the first to the last bit, after every step, in a run of all steps at

@@ -3,8 +3,9 @@
 //! Kernels trust the lengths and ranges that engines keep, and an engine's methods are open to everyone. So
 //! each engine calls these functions first, and unsafe code may rely on what they have checked.
 
-use super::{EngineFailure, Fault, Population, SubstateId};
+use super::{EngineFailure, Fault, Part, Population, SubstateId};
 use crate::model::{Group, GroupKind, Model};
+use std::ops::Range;
 use xca_values::Field;
 use xca_values::{Precision, ScalarType};
 
@@ -43,6 +44,16 @@ pub enum InputError {
         cell: usize,
         /// How many cells there are.
         cells: usize,
+    },
+    /// A cell that belongs to another part of the space.
+    #[error("cell number {cell} is not in the part of the space with y in {y:?} and z in {z:?}")]
+    NotInPart {
+        /// The linear index that was given.
+        cell: usize,
+        /// The indices of the part along y.
+        y: Range<usize>,
+        /// Its indices along z.
+        z: Range<usize>,
     },
     /// More or fewer bytes than the values take.
     #[error("the values of `{substates}.{substate}` take {wanted} bytes, but {given} are given")]
@@ -108,6 +119,32 @@ pub fn check_values(
     check_bytes(group, precision, substate.field, count, values)
 }
 
+/// Checks the values that are to replace those of a substate of cells in a part of the space.
+///
+/// # Errors
+/// Where the model does not have the substate, it is none of cells, or the values take another number of bytes.
+pub fn check_values_of_part(
+    model: &Model,
+    precision: Precision,
+    substate: SubstateId,
+    part: &Part,
+    values: &[u8],
+) -> Result<(), InputError> {
+    check_cells(model, substate, &[])?;
+    let count = part.cells(model.geometry());
+    check_bytes(&model.groups()[substate.group], precision, substate.field, count, values)
+}
+
+/// Checks that cells belong to a part of the space.
+///
+/// # Errors
+/// Where one does not.
+pub fn check_cells_of_part(model: &Model, part: &Part, cells: &[usize]) -> Result<(), InputError> {
+    let other = cells.iter().find(|cell| !part.holds(model.geometry(), **cell));
+    let Part { y, z } = part.clone();
+    other.map_or(Ok(()), |cell| Err(InputError::NotInPart { cell: *cell, y, z }))
+}
+
 /// Checks the cells whose values of a substate are to be read, by their linear indices.
 ///
 /// # Errors
@@ -149,18 +186,32 @@ pub fn check_population(
     group: usize,
     population: &Population,
 ) -> Result<(), Fault> {
+    check_population_of_part(model, precision, group, &Part::whole(model.geometry()), population)
+}
+
+/// Checks the items that are to replace those of a population in a part of the space.
+///
+/// # Errors
+/// As [`check_population`].
+pub fn check_population_of_part(
+    model: &Model,
+    precision: Precision,
+    group: usize,
+    part: &Part,
+    population: &Population,
+) -> Result<(), Fault> {
     let groups = model.groups().len();
     let definition = model.groups().get(group).ok_or(InputError::NoSuchGroup { group, groups })?;
     let substates = definition.schema().name;
     let GroupKind::Population { slots, .. } = *definition.kind() else {
         return Err(InputError::NotAPopulation(substates).into());
     };
-    let cells = population.counts.iter().take(model.geometry().cells());
+    let cells = population.counts.iter().take(part.cells(model.geometry()));
     if let Some((cell, items)) = cells.enumerate().find(|(_, items)| **items as usize > slots) {
-        let cell = model.geometry().indices(cell);
+        let cell = part.indices(model.geometry(), cell);
         return Err(Fault::CellFull { process: None, cell, items: *items as usize, slots });
     }
-    let reason = wrong_items(population, definition, precision, slots, model);
+    let reason = wrong_items(population, definition, precision, slots, (model, part));
     reason.map_or(Ok(()), |reason| Err(InputError::Items { substates, reason }.into()))
 }
 
@@ -224,12 +275,12 @@ pub(crate) fn wrong_items(
     group: &Group,
     precision: Precision,
     slots: usize,
-    model: &Model,
+    (model, part): (&Model, &Part),
 ) -> Option<String> {
     if let Some(reason) = wrong_fields(&population.fields, group, precision, population.labels.len()) {
         return Some(reason);
     }
-    let cells = model.geometry().cells();
+    let cells = part.cells(model.geometry());
     if population.counts.len() != cells {
         return Some(format!("it has {} cells, not {cells}", population.counts.len()));
     }
@@ -241,7 +292,7 @@ pub(crate) fn wrong_items(
     for (cell, count) in population.counts.iter().enumerate() {
         let labels = &population.labels[first..first + *count as usize];
         first += labels.len();
-        let place = || format!("cell {:?}", model.geometry().indices(cell));
+        let place = || format!("cell {:?}", part.indices(model.geometry(), cell));
         if labels.len() > slots {
             return Some(format!("{} has {} items in {slots} slots", place(), labels.len()));
         }

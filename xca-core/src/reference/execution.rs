@@ -5,7 +5,7 @@ use crate::engine::{
     EngineFailure, Execution, Fault, Interruption, Population, StepContext, SubstateId, check_cells,
     check_population, check_substate, check_values, check_values_of_cells, step_by_step,
 };
-use crate::reduction::{Reduced, Reduction, reduce_values};
+use crate::reduction::{ReducedRows, Reduction, append_row};
 use std::ops::Range;
 use xca_process::ProcessKind;
 use xca_process::Stream;
@@ -106,20 +106,18 @@ impl Execution for ReferenceExecution {
         Ok(self.groups[group].counts.iter().copied().max().unwrap_or(0))
     }
 
-    fn reduce(&self, substate: SubstateId, reduction: &Reduction) -> Result<Vec<Reduced>, EngineFailure> {
+    fn reduce_rows(&self, substate: SubstateId, reduction: &Reduction) -> Result<ReducedRows, EngineFailure> {
         check_substate(&self.model, substate)?;
         let group = &self.groups[substate.group];
         let stored = group.types[substate.field];
         let geometry = self.model.geometry();
         let width = geometry.extents()[0];
-        let mut results = vec![Reduced::Nothing; stored.components()];
+        let mut results = Vec::new();
         for row in 0..geometry.cells() / width {
             let values = group.values(substate.field, row * width..(row + 1) * width);
-            for (result, part) in results.iter_mut().zip(reduce_values(reduction, stored, &values)) {
-                *result = result.combine(part, reduction);
-            }
+            append_row(reduction, stored, &values, &mut results);
         }
-        Ok(results)
+        Ok(ReducedRows { components: stored.components(), results })
     }
 
     fn memory(&self) -> usize {

@@ -2,7 +2,7 @@
 
 use super::{RunError, RunOptions, Simulation};
 use crate::engine::input::{wrong_fields, wrong_items};
-use crate::engine::{Engine, Fault, Population, SubstateId};
+use crate::engine::{Engine, Fault, Part, Population, SubstateId};
 use crate::model::{Group, GroupKind, Model};
 use xca_process::ParameterValue;
 use xca_values::Field;
@@ -73,11 +73,10 @@ impl Simulation {
                 execution.population(group).map(|items| GroupSnapshot::Population(items, left))
             }
         };
-        let bits = |value: ParameterValue| value.components().iter().map(|number| number.to_bits()).collect();
         Ok(Snapshot {
             step: self.step,
             groups: self.model.groups().iter().enumerate().map(of_group).collect::<Result<_, _>>()?,
-            parameters: self.parameters.values().map(bits).collect(),
+            parameters: self.parameters.bits(),
             stop: self.stop.clone(),
             broken: self.faulty.is_some_and(|step| step > self.step),
         })
@@ -152,13 +151,7 @@ impl Simulation {
                 }
             }
         }
-        let fields: Vec<&Field> = self.parameters.fields().collect();
-        for (number, (bits, field)) in snapshot.parameters.iter().zip(fields).enumerate() {
-            let components = bits.iter().map(|number| f64::from_bits(*number)).collect();
-            if let Some(value) = ParameterValue::from_components(field.value_type, components) {
-                self.parameters.set_value(number, &value);
-            }
-        }
+        self.parameters.set_bits(&snapshot.parameters);
         self.step = snapshot.step;
         self.stop.clone_from(&snapshot.stop);
         self.faulty = None;
@@ -184,7 +177,7 @@ impl Snapshot {
         if self.groups.len() != groups.len() {
             return Some(format!("it has {} structs of substates, not {}", self.groups.len(), groups.len()));
         }
-        let cells = model.geometry().cells();
+        let (cells, whole) = (model.geometry().cells(), Part::whole(model.geometry()));
         let mut pairs = self.groups.iter().zip(groups);
         let of_groups = pairs.find_map(|(state, group)| {
             let name = group.schema().name;
@@ -193,7 +186,7 @@ impl Snapshot {
                     wrong_fields(fields, group, options.precision, cells)
                 }
                 (GroupSnapshot::Population(population, _), GroupKind::Population { slots, .. }) => {
-                    wrong_items(population, group, options.precision, *slots, model)
+                    wrong_items(population, group, options.precision, *slots, (model, &whole))
                 }
                 _ => Some("the one belong to cells, the other are a population".to_owned()),
             };

@@ -2,7 +2,7 @@
 
 use super::{State, StateError};
 use crate::engine::{Population, SubstateId};
-use crate::reduction::{Reduced, Reducible, Reduction, combine_rows};
+use crate::reduction::{Reduced, ReducedRows, Reducible, Reduction};
 use xca_process::Substates;
 
 impl State<'_> {
@@ -42,16 +42,16 @@ impl State<'_> {
     /// # Errors
     /// Where the model does not have these substates.
     pub fn sum_of<S: Substates, V: Reducible>(&self, value: impl Fn(&S) -> V) -> Result<V::Sum, StateError> {
-        let mut rows: Vec<Reduced> = Vec::new();
+        let mut results: Vec<Reduced> = Vec::new();
         self.for_each(|row, state: &S| {
             let value = value(state);
-            rows.resize((row + 1) * V::COMPONENTS, Reduced::Nothing);
-            for (lane, result) in rows[row * V::COMPONENTS..].iter_mut().enumerate() {
+            results.resize((row + 1) * V::COMPONENTS, Reduced::Nothing);
+            for (lane, result) in results[row * V::COMPONENTS..].iter_mut().enumerate() {
                 *result = result.combine(value.reduced(lane), &Reduction::Sum);
             }
         })?;
-        let rows = rows.chunks_exact(V::COMPONENTS);
-        Ok(V::total(&self.noted(combine_rows(&Reduction::Sum, V::COMPONENTS, rows)), 0))
+        let rows = ReducedRows { components: V::COMPONENTS, results };
+        Ok(V::total(&self.noted(rows.combined(&Reduction::Sum)), 0))
     }
 
     /// Visits the cells, or the items of a population, row after row, each with the number of its row.

@@ -14,7 +14,17 @@ pub(super) struct Found {
     pub(super) widest: Vec<f64>,
     /// The cells that were worked on, each counted once a process.
     pub(super) worked: u64,
-    pub(super) fault: Option<(usize, u32, Fault)>,
+    pub(super) fault: Option<FirstFault>,
+}
+
+/// The first fault by process and cell.
+#[derive(Debug)]
+pub(crate) struct FirstFault {
+    /// The number of the process in the model.
+    pub(crate) process: usize,
+    /// The linear index of the cell.
+    pub(crate) cell: u32,
+    pub(crate) fault: Fault,
 }
 
 /// An item on its way to another cell.
@@ -27,8 +37,8 @@ pub(crate) struct Mover {
 
 impl Found {
     pub(super) fn keep(&mut self, process: usize, cell: u32, fault: Fault) {
-        if self.fault.as_ref().is_none_or(|(first, at, _)| (process, cell) < (*first, *at)) {
-            self.fault = Some((process, cell, fault));
+        if self.fault.as_ref().is_none_or(|first| (process, cell) < (first.process, first.cell)) {
+            self.fault = Some(FirstFault { process, cell, fault });
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::lists::Room;
 use crate::motion::{largest, measure};
 use crate::upkeep::keep_lists;
 use xca_core::kernel::CellFilter;
-use xca_core::{Model, Precision, Process, ProcessKind};
+use xca_core::{Faces, Model, Precision, Process, ProcessKind};
 
 /// What the searches of a pass go by.
 pub(super) struct Searches {
@@ -45,7 +45,8 @@ pub(super) fn prepare(
 ) -> Searches {
     let populations = searched(model, processes);
     let mut searches = Searches { populations, filter: None, listed: vec![None; groups.len()] };
-    if searches.populations.is_empty() {
+    // In a part the places of items that are seen across its borders are of a stage alone: lists do not know them.
+    if searches.populations.is_empty() || layout.borders() != Faces::all(false) {
         return searches;
     }
     let geometry = model.geometry();

@@ -10,10 +10,10 @@ use xca_record::Failure;
 #[derive(Debug)]
 pub(super) struct CpuKind;
 
-const THREADS: EngineOption = EngineOption {
+pub(super) const THREADS: EngineOption = EngineOption {
     name: "threads",
     value_name: "N",
-    about: "How many threads the cpu engine uses; one for each core unless it is given",
+    about: "How many threads the cpu engine uses, or each part of the parts engine; one for each core unless it is given",
     check: |text| threads(text).map(drop),
 };
 
@@ -35,11 +35,16 @@ impl EngineKind for CpuKind {
     }
 
     fn make(&self, options: &EngineOptions) -> Result<Box<dyn Engine>, Failure> {
-        Ok(match options.get(THREADS.name) {
-            None => Box::new(Cpu::new()?),
-            Some(number) => Box::new(Cpu::with_threads(threads(number)?)?),
-        })
+        Ok(Box::new(engine(options.get(THREADS.name))?))
     }
+}
+
+/// The engine with the threads that are chosen.
+pub(super) fn engine(chosen: Option<&str>) -> Result<Cpu, Failure> {
+    Ok(match chosen {
+        None => Cpu::new()?,
+        Some(number) => Cpu::with_threads(threads(number)?)?,
+    })
 }
 
 fn threads(text: &str) -> Result<usize, String> {

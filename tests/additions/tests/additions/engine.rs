@@ -38,8 +38,11 @@ fn help_and_list_tell_of_it() -> TestResult {
     for (words, wanted) in [
         ("run --copies 2", "--copies is for --engine twins, not for the cpu engine"),
         ("run --engine twins --copies 10", "it must be a whole number from 1 to 9"),
-        ("run --engine twins --threads 2", "--threads is for --engine cpu, not for the twins engine"),
-        ("run --engine twin", "[possible values: cpu, gpu, reference, twins]"),
+        (
+            "run --engine twins --threads 2",
+            "--threads is for --engine cpu and --engine parts, not for the twins engine",
+        ),
+        ("run --engine twin", "[possible values: cpu, gpu, parts, reference, twins]"),
         ("run --engine twins --print-source", "the twins engine makes no text of the processes"),
     ] {
         let output = plate(folder.path(), words)?;

@@ -1,0 +1,133 @@
+//! Migration in a part of a space: items that go to other parts, and items that come from them.
+
+use crate::edges::Edges;
+use crate::ghosts::{faces, mismatch, number, pack_item, take, unpack_item};
+use crate::layout::Layout;
+use crate::migration::{Arrival, arrivals, check_slots, settle};
+use crate::population::Population;
+use crate::rows::{FirstFault, Mover};
+use crate::threads::Threads;
+use xca_core::engine::{EngineFailure, Fault};
+use xca_core::{Face, Geometry, Process};
+
+/// A migration as all parts know it.
+#[derive(Clone, Copy)]
+pub(crate) struct Migration<'a> {
+    pub(crate) geometry: &'a Geometry,
+    pub(crate) process: &'a Process,
+    /// The number of the process in the model.
+    pub(crate) number: usize,
+}
+
+/// An item on its way to another part: its cells, and its label and fields.
+struct Traveller {
+    cell: u32,
+    from: u32,
+    item: Vec<u8>,
+}
+
+/// Moves items, in this part and at the same time in all others.
+pub(crate) fn migrate(
+    migration: Migration<'_>,
+    population: &mut Population,
+    layout: &Layout,
+    (edges, threads): (&mut Edges, &Threads),
+    movers: &mut [Mover],
+) -> Result<(), Fault> {
+    let Migration { geometry, process, number } = migration;
+    let first = |fault: Fault| FirstFault { process: number, cell: cell(&fault, geometry), fault };
+    let (all, left) = edges.agree(arrivals(population, geometry, process, movers).map_err(first))?;
+    let is_own = |arrival: &Arrival| edges.part.holds(geometry, arrival.cell as usize);
+    let (mut own, leaving): (Vec<Arrival>, Vec<Arrival>) = all.into_iter().partition(is_own);
+    let travellers = leaving.iter().map(|arrival| {
+        let mut item = Vec::new();
+        pack_item(population, arrival.item as usize, &mut item);
+        Traveller { cell: arrival.cell, from: arrival.from, item }
+    });
+    own.extend(exchange(migration, population, layout, edges, travellers.collect())?);
+    own.sort_unstable();
+    let full = check_slots(population, layout, geometry, process, movers, &own);
+    edges.agree(full.map_err(first))?;
+    population.left += left;
+    if !movers.is_empty() || !own.is_empty() {
+        threads.run(|| settle(population, layout, geometry, movers, &own));
+    }
+    Ok(())
+}
+
+/// Sends travellers along y, then along z. Gives those that arrive here; they stand after all places.
+fn exchange(
+    Migration { geometry, .. }: Migration<'_>,
+    population: &mut Population,
+    layout: &Layout,
+    edges: &mut Edges,
+    mut travellers: Vec<Traveller>,
+) -> Result<Vec<Arrival>, EngineFailure> {
+    let mut arrived = Vec::new();
+    for axis in [1, 2] {
+        let faces = faces(layout, axis);
+        for &face in &faces {
+            let goes = |one: &Traveller| beyond(edges, geometry, axis, one) == Some(face);
+            let (going, staying): (Vec<_>, Vec<_>) = travellers.into_iter().partition(goes);
+            travellers = staying;
+            let mut bytes = Vec::new();
+            for Traveller { cell, from, item } in going {
+                bytes.extend_from_slice(&cell.to_ne_bytes());
+                bytes.extend_from_slice(&from.to_ne_bytes());
+                bytes.extend_from_slice(&item);
+            }
+            edges.border.send(face, bytes)?;
+        }
+        for &face in &faces {
+            let bytes = edges.border.receive(face)?;
+            let mut rest = &bytes[..];
+            while !rest.is_empty() {
+                let (cell, from) = (number(&mut rest)?, number(&mut rest)?);
+                if edges.part.holds(geometry, cell as usize) {
+                    let (item, label) = unpack_item(population, &mut rest)?;
+                    arrived.push(Arrival { cell, label, item, from });
+                } else {
+                    let size = population.types.iter().map(|stored| stored.size()).sum::<usize>();
+                    let item = take(&mut rest, size_of::<u32>() + size)?.to_vec();
+                    travellers.push(Traveller { cell, from, item });
+                }
+            }
+        }
+    }
+    if travellers.is_empty() { Ok(arrived) } else { Err(mismatch()) }
+}
+
+/// The face of the part beyond which a traveller goes along an axis. It goes no further than the
+/// neighbourhood reaches.
+fn beyond(edges: &Edges, geometry: &Geometry, axis: usize, traveller: &Traveller) -> Option<Face> {
+    let at = |cell: u32| geometry.indices(cell as usize)[axis] as isize;
+    let (from, to) = (at(traveller.from), at(traveller.cell));
+    let reach = geometry.neighbourhood().reach()[axis] as isize;
+    let extent = geometry.extents()[axis] as isize;
+    // Round a torus the shorter way is the one.
+    let place = match to - from {
+        step if step > reach => to - extent,
+        step if step < -reach => to + extent,
+        _ => to,
+    };
+    let own = if axis == 1 { &edges.part.y } else { &edges.part.z };
+    let [low, high] = Face::ALONG[axis];
+    if place < own.start as isize {
+        Some(low)
+    } else if place >= own.end as isize {
+        Some(high)
+    } else {
+        None
+    }
+}
+
+/// The linear index of the cell that a fault of a migration names.
+fn cell(fault: &Fault, geometry: &Geometry) -> u32 {
+    match fault {
+        Fault::Nowhere { cell, .. }
+        | Fault::Left { cell, .. }
+        | Fault::TooFar { from: cell, .. }
+        | Fault::CellFull { cell, .. } => geometry.linear(*cell) as u32,
+        _ => 0,
+    }
+}

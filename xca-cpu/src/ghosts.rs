@@ -1,0 +1,138 @@
+//! Items of other parts that are seen from a part: copies after all places of a population, while a stage
+//! runs.
+
+use crate::layout::Layout;
+use crate::population::Population;
+use crate::threads::Threads;
+use xca_core::engine::{Border, EngineFailure};
+use xca_core::{Face, Faces};
+
+/// Gets the items that are seen across the borders of the part.
+pub(crate) fn exchange(
+    population: &mut Population,
+    layout: &Layout,
+    threads: &Threads,
+    border: &mut dyn Border,
+) -> Result<(), EngineFailure> {
+    let none = Faces::all(vec![0]);
+    threads.run(|| {
+        layout.fill_rows(&mut population.starts, 1, Some(&none), false);
+        layout.fill_rows(&mut population.ends, 1, Some(&none), false);
+    });
+    exchange_along(1, population, layout, border)?;
+    // Layers take along what is seen beyond y, so that corners need no message of their own.
+    threads.run(|| {
+        layout.fill_layers(&mut population.starts, 1, Some(&none));
+        layout.fill_layers(&mut population.ends, 1, Some(&none));
+    });
+    exchange_along(2, population, layout, border)
+}
+
+fn exchange_along(
+    axis: usize,
+    population: &mut Population,
+    layout: &Layout,
+    border: &mut dyn Border,
+) -> Result<(), EngineFailure> {
+    let faces = faces(layout, axis);
+    for &face in &faces {
+        border.send(face, pack(population, layout, face))?;
+    }
+    for &face in &faces {
+        let bytes = border.receive(face)?;
+        unpack(population, layout, face, &bytes)?;
+    }
+    Ok(())
+}
+
+/// The faces across an axis beyond which the part sees another one.
+pub(crate) fn faces(layout: &Layout, axis: usize) -> Vec<Face> {
+    let borders = layout.borders();
+    let seen = |face: &Face| borders[*face] && layout.reach()[axis] > 0;
+    Face::ALONG[axis].into_iter().filter(seen).collect()
+}
+
+/// For each cell that another part sees how many items it has, and each with its label and its fields.
+fn pack(population: &Population, layout: &Layout, face: Face) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    for cell in layout.lines_at(face, false).flat_map(|line| layout.cells_of_line(line)) {
+        let places = population.starts[cell]..population.ends[cell];
+        bytes.extend_from_slice(&(places.len() as u32).to_ne_bytes());
+        places.for_each(|place| pack_item(population, place as usize, &mut bytes));
+    }
+    bytes
+}
+
+fn unpack(
+    population: &mut Population,
+    layout: &Layout,
+    face: Face,
+    bytes: &[u8],
+) -> Result<(), EngineFailure> {
+    let none = Faces::all(vec![0]);
+    let mut rest = bytes;
+    for line in layout.lines_at(face, true) {
+        for cell in layout.cells_of_line(line) {
+            let first = population.items.labels.len() as u32;
+            let count = number(&mut rest)?;
+            for _ in 0..count {
+                unpack_item(population, &mut rest)?;
+            }
+            population.starts[cell] = first;
+            population.ends[cell] = first + count;
+        }
+        layout.fill_line(&mut population.starts, line, &none);
+        layout.fill_line(&mut population.ends, line, &none);
+    }
+    if rest.is_empty() { Ok(()) } else { Err(mismatch()) }
+}
+
+/// Takes the items of other parts away. Nothing that moves items knows of them.
+pub(crate) fn clear(population: &mut Population, layout: &Layout) {
+    population.truncate();
+    for face in [1, 2].into_iter().flat_map(|axis| faces(layout, axis)) {
+        for line in layout.lines_at(face, true) {
+            population.starts[layout.line(line)].fill(0);
+            population.ends[layout.line(line)].fill(0);
+        }
+    }
+    population.fill_halo(layout);
+}
+
+/// Appends the label and the fields of an item.
+pub(crate) fn pack_item(population: &Population, place: usize, bytes: &mut Vec<u8>) {
+    bytes.extend_from_slice(&population.items.labels[place].to_ne_bytes());
+    for (field, stored) in population.items.fields.iter().zip(&population.types) {
+        bytes.extend_from_slice(&field.bytes()[place * stored.size()..(place + 1) * stored.size()]);
+    }
+}
+
+/// Adds an item after all places of a population. Gives its place and its label.
+pub(crate) fn unpack_item(
+    population: &mut Population,
+    rest: &mut &[u8],
+) -> Result<(u32, u32), EngineFailure> {
+    let label = number(rest)?;
+    let sizes: Vec<usize> = population.types.iter().map(|stored| stored.size()).collect();
+    let fields: Vec<&[u8]> = sizes.into_iter().map(|size| take(rest, size)).collect::<Result<_, _>>()?;
+    Ok((population.push(label, &fields), label))
+}
+
+/// Takes a number from the front.
+pub(crate) fn number(rest: &mut &[u8]) -> Result<u32, EngineFailure> {
+    let bytes = take(rest, size_of::<u32>())?;
+    Ok(bytemuck::pod_read_unaligned(bytes))
+}
+
+/// Takes so many bytes from the front.
+pub(crate) fn take<'a>(rest: &mut &'a [u8], size: usize) -> Result<&'a [u8], EngineFailure> {
+    let (bytes, after) = rest.split_at_checked(size).ok_or_else(mismatch)?;
+    *rest = after;
+    Ok(bytes)
+}
+
+/// A message of another length than this part expects.
+pub(crate) fn mismatch() -> EngineFailure {
+    let reason = "another part of the space has sent an edge of another size".to_owned();
+    EngineFailure::Broken { engine: "cpu".to_owned(), reason }
+}

@@ -1,0 +1,79 @@
+//! The way of a part's engine to the others.
+
+use crate::cut::Cut;
+use crate::transport::{Tag, Transport, TransportError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use xca_core::engine::{Border, EngineFailure};
+use xca_core::{Face, Faces, Geometry};
+
+/// The name of the engine.
+pub(crate) const NAME: &str = "parts";
+
+/// A transport that a part's engine and whoever gives it commands share. They never use it at the same time.
+#[derive(Clone)]
+pub(crate) struct Link(Arc<Mutex<Box<dyn Transport>>>);
+
+impl Link {
+    pub(crate) fn new(transport: Box<dyn Transport>) -> Self {
+        Self(Arc::new(Mutex::new(transport)))
+    }
+
+    pub(crate) fn lock(&self) -> MutexGuard<'_, Box<dyn Transport>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// The border of a part. Where a message does not arrive the part ends, so that none waits for it.
+pub(crate) struct PartBorder {
+    link: Link,
+    /// The number of the part beyond each face; nothing where no part lies beyond it.
+    beyond: Faces<Option<usize>>,
+}
+
+impl PartBorder {
+    pub(crate) fn new(link: Link, geometry: &Geometry, cut: Cut, number: usize) -> Self {
+        let borders = cut.part(geometry, number).borders(geometry);
+        let beyond = Faces::from_fn(|face| borders[face].then(|| cut.beyond(number, face)));
+        Self { link, beyond }
+    }
+
+    fn beyond(&self, face: Face) -> Result<usize, EngineFailure> {
+        self.beyond[face].ok_or_else(|| broken(format!("no part lies beyond the {face} face of this one")))
+    }
+
+    /// Has the transport do something.
+    fn with<T>(
+        &self,
+        work: impl FnOnce(&mut dyn Transport) -> Result<T, TransportError>,
+    ) -> Result<T, EngineFailure> {
+        let mut transport = self.link.lock();
+        work(&mut **transport).map_err(|error| {
+            transport.end();
+            match error {
+                TransportError::Ended { .. } => EngineFailure::Elsewhere,
+                other => broken(other.to_string()),
+            }
+        })
+    }
+}
+
+impl Border for PartBorder {
+    fn send(&mut self, face: Face, bytes: Vec<u8>) -> Result<(), EngineFailure> {
+        let to = self.beyond(face)?;
+        self.with(|transport| transport.send(to, Tag::Edge(face), bytes))
+    }
+
+    fn receive(&mut self, face: Face) -> Result<Vec<u8>, EngineFailure> {
+        let from = self.beyond(face)?;
+        self.with(|transport| transport.receive(from, Tag::Edge(face.opposite())))
+    }
+
+    fn least(&mut self, number: u64) -> Result<u64, EngineFailure> {
+        self.with(|transport| transport.least(number))
+    }
+}
+
+/// The failure of this engine.
+pub(crate) fn broken(reason: String) -> EngineFailure {
+    EngineFailure::Broken { engine: NAME.to_owned(), reason }
+}

@@ -1,0 +1,369 @@
+//! The host: a state in parts as a simulation sees it.
+
+use crate::border::{Link, NAME, broken};
+use crate::message::{Census, Command, Moment, Reply, decode, encode};
+use crate::rows::{Lengths, Rows};
+use crate::transport::{Tag, Transport, TransportError};
+use crate::worker::{Shared, Worker};
+use std::ops::Range;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+use xca_core::engine::{
+    EngineFailure, Execution, Fault, Figure, Interruption, Population, StepContext, SubstateId, check_cells,
+    check_population, check_substate, check_values, check_values_of_cells,
+};
+use xca_core::model::GroupKind;
+use xca_core::reduction::{Reduced, ReducedRows, Reduction};
+use xca_core::{Engine, StartError};
+
+/// A model in parts. The first part belongs to the host itself.
+pub(crate) struct Host {
+    shared: Shared,
+    rows: Rows,
+    state: Mutex<State>,
+    /// The threads of other parts in this process. They end when the host has.
+    threads: Vec<JoinHandle<()>>,
+}
+
+struct State {
+    own: Worker,
+    link: Link,
+    /// Why no part goes on.
+    failure: Option<EngineFailure>,
+}
+
+impl Host {
+    /// Starts the own part, and waits until the others have started.
+    pub(crate) fn start(
+        engine: &dyn Engine,
+        shared: Shared,
+        transport: Box<dyn Transport>,
+        threads: Vec<JoinHandle<()>>,
+    ) -> Result<Self, StartError> {
+        let link = Link::new(transport);
+        let own = Worker::start(engine, &shared, link.clone())?;
+        let mut state = State { own, link, failure: None };
+        state
+            .replies(Reply::Done)
+            .map_err(|failure| StartError::Other { engine: NAME.to_owned(), reason: failure.to_string() })?;
+        let rows = Rows::new(shared.model.geometry(), shared.cut);
+        Ok(Self { shared, rows, state: Mutex::new(state), threads })
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Has all parts do the same.
+    fn ask(&self, command: &Command) -> Result<Vec<Reply>, EngineFailure> {
+        self.state().ask(vec![command.clone(); self.shared.cut.count()])
+    }
+
+    /// Has all parts change something.
+    fn change(&self, commands: Vec<Command>) -> Result<(), EngineFailure> {
+        self.state().ask(commands).map(drop)
+    }
+
+    /// Has all parts run processes. A fault comes with the number of steps done before it.
+    fn run_all(&self, command: &Command) -> Result<(), Interruption> {
+        let interruption = |failure| Interruption { done: 0, fault: Fault::Engine(failure) };
+        let replies = self.ask(command).map_err(interruption)?;
+        let mut stopped = None;
+        for reply in replies {
+            match reply {
+                Reply::Fault { done, fault } => {
+                    return Err(Interruption { done, fault: fault.fault(&self.shared.model) });
+                }
+                Reply::Elsewhere { done } => stopped = Some(done),
+                Reply::Done => {}
+                _ => return Err(interruption(self.garbled())),
+            }
+        }
+        stopped.map_or(Ok(()), |done| {
+            let failure = self.state().fail("a part has stopped, and none tells why".to_owned());
+            Err(Interruption { done, fault: Fault::Engine(failure) })
+        })
+    }
+
+    /// The cells of each part, with their places in the list.
+    fn cells_of_parts(&self, cells: &[usize]) -> Vec<CellsOfPart> {
+        let (geometry, cut) = (self.shared.model.geometry(), self.shared.cut);
+        let mut parts = vec![CellsOfPart::default(); cut.count()];
+        for (place, cell) in cells.iter().enumerate() {
+            let [_, y, z] = geometry.indices(*cell);
+            let part = &mut parts[cut.part_of(geometry, [y, z])];
+            part.cells.push(*cell);
+            part.places.push(place);
+        }
+        parts
+    }
+
+    fn garbled(&self) -> EngineFailure {
+        self.state().fail("the parts answer what was not asked".to_owned())
+    }
+
+    /// The bytes of a substate in a cell.
+    fn size(&self, substate: SubstateId) -> usize {
+        self.shared.model.stored(substate, self.shared.precision).size()
+    }
+
+    /// The bytes of each substate of a group in an item.
+    fn sizes(&self, group: usize) -> Vec<usize> {
+        let stored = self.shared.model.groups().get(group).map(|group| group.stored(self.shared.precision));
+        stored.into_iter().flatten().map(xca_core::StoredType::size).collect()
+    }
+
+    fn is_population(&self, group: usize) -> bool {
+        let group = self.shared.model.groups().get(group);
+        group.is_some_and(|group| matches!(group.kind(), GroupKind::Population { .. }))
+    }
+
+    /// The bytes that each row of a substate has: in each row as many, or as its items need.
+    fn items_of_rows(&self, group: usize) -> Result<Option<Vec<usize>>, EngineFailure> {
+        if !self.is_population(group) {
+            return Ok(None);
+        }
+        let items = |reply| match reply {
+            Reply::ItemsOfRows { items } => Some(items),
+            _ => None,
+        };
+        let replies = self.ask(&Command::ItemsOfRows { group })?;
+        let parts: Option<Vec<Vec<usize>>> = replies.into_iter().map(items).collect();
+        let items = parts.and_then(|parts| self.rows.gather(&parts, Lengths::Same(1)));
+        items.map(Some).ok_or_else(|| self.garbled())
+    }
+
+    /// How many bytes of a substate a row has.
+    fn lengths<'a>(&self, substate: SubstateId, items: &'a Option<Vec<usize>>) -> Lengths<'a> {
+        let size = self.size(substate);
+        match items {
+            Some(items) => Lengths::Each(items, size),
+            None => Lengths::Same(self.shared.model.geometry().extents()[0] * size),
+        }
+    }
+
+    /// What all parts count of a population together.
+    fn census(&self, group: usize) -> Result<Census, EngineFailure> {
+        if !self.is_population(group) {
+            return Ok(Census::default());
+        }
+        let mut all = Census::default();
+        for reply in self.ask(&Command::Census { group })? {
+            let Reply::Census { census } = reply else { return Err(self.garbled()) };
+            all.items += census.items;
+            all.left += census.left;
+            all.largest_occupancy = all.largest_occupancy.max(census.largest_occupancy);
+        }
+        Ok(all)
+    }
+
+    fn values(&self, replies: Vec<Reply>) -> Result<Vec<Vec<u8>>, EngineFailure> {
+        let values = |reply| match reply {
+            Reply::Values { values } => Some(values),
+            _ => None,
+        };
+        replies.into_iter().map(values).collect::<Option<_>>().ok_or_else(|| self.garbled())
+    }
+}
+
+/// Those of some cells that belong to a part.
+#[derive(Debug, Clone, Default)]
+struct CellsOfPart {
+    /// Their linear indices.
+    cells: Vec<usize>,
+    /// Where they stand among all.
+    places: Vec<usize>,
+}
+
+impl State {
+    /// No part goes on: all that wait for this one learn it.
+    fn fail(&mut self, reason: String) -> EngineFailure {
+        self.link.lock().end();
+        self.failure.get_or_insert(broken(reason)).clone()
+    }
+
+    /// Gives each part its command, and the replies of all.
+    fn ask(&mut self, commands: Vec<Command>) -> Result<Vec<Reply>, EngineFailure> {
+        if let Some(failure) = &self.failure {
+            return Err(failure.clone());
+        }
+        let mut commands = commands.into_iter().enumerate();
+        let Some((_, own)) = commands.next() else { return Ok(Vec::new()) };
+        for (part, command) in commands {
+            let sent = encode(&command).and_then(|bytes| {
+                self.link.lock().send(part, Tag::Command, bytes).map_err(|error| error.to_string())
+            });
+            if let Err(reason) = sent {
+                return Err(self.fail(reason));
+            }
+        }
+        let own = self.own.perform(own);
+        self.replies(own)
+    }
+
+    /// The replies of all parts, the own one first. Where a part cannot go on, none does.
+    fn replies(&mut self, own: Reply) -> Result<Vec<Reply>, EngineFailure> {
+        if matches!(own, Reply::Failed { .. }) {
+            // Other parts may wait for this one.
+            self.link.lock().end();
+        }
+        let count = self.link.lock().count();
+        let mut replies = vec![own];
+        let mut lost = None;
+        for part in 1..count {
+            let received: Result<Vec<u8>, TransportError> = self.link.lock().receive(part, Tag::Reply);
+            let reply = received.map_err(|error| error.to_string()).and_then(|bytes| decode(&bytes));
+            match reply {
+                Ok(reply) => replies.push(reply),
+                // A part that says why is heard before one that has lost another.
+                Err(reason) => {
+                    lost.get_or_insert(reason);
+                    replies.push(Reply::Elsewhere { done: 0 });
+                }
+            }
+        }
+        let failed = replies.iter().enumerate().find_map(|(part, reply)| match reply {
+            Reply::Failed { reason } => Some(format!("part {part}: {reason}")),
+            _ => None,
+        });
+        match failed.or(lost) {
+            Some(reason) => Err(self.fail(reason)),
+            None => Ok(replies),
+        }
+    }
+}
+
+impl Execution for Host {
+    fn run(&mut self, processes: Range<usize>, context: &StepContext<'_>) -> Result<(), Fault> {
+        let command = Command::Run { processes, moment: Moment::new(context) };
+        self.run_all(&command).map_err(|interruption| interruption.fault)
+    }
+
+    fn run_steps(&mut self, steps: u64, context: &StepContext<'_>) -> Result<(), Interruption> {
+        self.run_all(&Command::RunSteps { steps, moment: Moment::new(context) })
+    }
+
+    fn read(&self, substate: SubstateId) -> Result<Vec<u8>, EngineFailure> {
+        check_substate(&self.shared.model, substate)?;
+        let items = self.items_of_rows(substate.group)?;
+        let parts = self.values(self.ask(&Command::Read { substate })?)?;
+        let whole = self.rows.gather(&parts, self.lengths(substate, &items));
+        whole.ok_or_else(|| self.garbled())
+    }
+
+    fn write(&mut self, substate: SubstateId, values: &[u8]) -> Result<(), EngineFailure> {
+        let Shared { model, precision, .. } = &self.shared;
+        check_substate(model, substate)?;
+        let items = self.items_of_rows(substate.group)?;
+        let count = items.iter().flatten().sum();
+        check_values(model, *precision, substate, count, values)?;
+        let parts = self.rows.scatter(values, self.lengths(substate, &items));
+        self.change(parts.into_iter().map(|values| Command::Write { substate, values }).collect())
+    }
+
+    fn read_cells(&self, substate: SubstateId, cells: &[usize]) -> Result<Vec<u8>, EngineFailure> {
+        check_cells(&self.shared.model, substate, cells)?;
+        let parts = self.cells_of_parts(cells);
+        let command = |part: &CellsOfPart| Command::ReadCells { substate, cells: part.cells.clone() };
+        let replies = self.state().ask(parts.iter().map(command).collect())?;
+        let size = self.size(substate);
+        let mut all = vec![0; cells.len() * size];
+        for (part, values) in parts.iter().zip(self.values(replies)?) {
+            if values.len() != part.places.len() * size {
+                return Err(self.garbled());
+            }
+            for (place, value) in part.places.iter().zip(values.chunks_exact(size)) {
+                all[place * size..(place + 1) * size].copy_from_slice(value);
+            }
+        }
+        Ok(all)
+    }
+
+    fn write_cells(
+        &mut self,
+        substate: SubstateId,
+        cells: &[usize],
+        values: &[u8],
+    ) -> Result<(), EngineFailure> {
+        check_values_of_cells(&self.shared.model, self.shared.precision, substate, cells, values)?;
+        let size = self.size(substate);
+        let command = |part: CellsOfPart| {
+            let values = part.places.iter().flat_map(|place| &values[place * size..(place + 1) * size]);
+            Command::WriteCells { substate, values: values.copied().collect(), cells: part.cells }
+        };
+        self.change(self.cells_of_parts(cells).into_iter().map(command).collect())
+    }
+
+    fn population(&self, group: usize) -> Result<Population, EngineFailure> {
+        if !self.is_population(group) {
+            return Ok(Population::default());
+        }
+        let population = |reply| match reply {
+            Reply::Population { population } => Some(population),
+            _ => None,
+        };
+        let replies = self.ask(&Command::Population { group })?;
+        let parts: Option<Vec<Population>> = replies.into_iter().map(population).collect();
+        let whole = parts.and_then(|parts| self.rows.gather_items(parts, &self.sizes(group)));
+        whole.ok_or_else(|| self.garbled())
+    }
+
+    fn set_population(&mut self, group: usize, population: &Population) -> Result<(), Fault> {
+        check_population(&self.shared.model, self.shared.precision, group, population)?;
+        let parts = self.rows.scatter_items(population, &self.sizes(group));
+        let command = |population| Command::SetPopulation { group, population };
+        Ok(self.change(parts.into_iter().map(command).collect())?)
+    }
+
+    fn items(&self, group: usize) -> usize {
+        self.census(group).unwrap_or_default().items
+    }
+
+    fn left(&self, group: usize) -> u64 {
+        self.census(group).unwrap_or_default().left
+    }
+
+    fn largest_occupancy(&self, group: usize) -> Result<u32, EngineFailure> {
+        Ok(self.census(group)?.largest_occupancy)
+    }
+
+    fn reduce_rows(&self, substate: SubstateId, reduction: &Reduction) -> Result<ReducedRows, EngineFailure> {
+        check_substate(&self.shared.model, substate)?;
+        let components = self.shared.model.stored(substate, self.shared.precision).components();
+        let replies = self.ask(&Command::ReduceRows { substate, reduction: reduction.clone() })?;
+        let rows = |reply| match reply {
+            Reply::Rows { rows } => Some(rows.results),
+            _ => None,
+        };
+        let parts: Option<Vec<Vec<Reduced>>> = replies.into_iter().map(rows).collect();
+        let results = parts.and_then(|parts| self.rows.gather(&parts, Lengths::Same(components)));
+        Ok(ReducedRows { components, results: results.ok_or_else(|| self.garbled())? })
+    }
+
+    fn memory(&self) -> usize {
+        let bytes = |reply| if let Reply::Memory { bytes } = reply { bytes } else { 0 };
+        self.ask(&Command::Memory).unwrap_or_default().into_iter().map(bytes).sum()
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        let replies = self.ask(&Command::Figures).unwrap_or_default();
+        let of_part = |(part, reply): (usize, Reply)| match reply {
+            Reply::Figures { figures } => {
+                let figure = |(name, value)| Figure { name: format!("part_{part}_{name}"), value };
+                figures.into_iter().map(figure).collect()
+            }
+            _ => Vec::new(),
+        };
+        replies.into_iter().enumerate().flat_map(of_part).collect()
+    }
+}
+
+impl Drop for Host {
+    fn drop(&mut self) {
+        self.state().link.lock().end();
+        for thread in self.threads.drain(..) {
+            // A part that has panicked has told it by its end.
+            let _ = thread.join();
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! Which part has which row, and how what belongs to rows is put together and shared.
+
+use crate::cut::Cut;
+use xca_core::Geometry;
+use xca_core::engine::Population;
+
+/// The part of each row of the whole space.
+pub(crate) struct Rows {
+    owners: Vec<usize>,
+    parts: usize,
+    width: usize,
+}
+
+/// How many values a row has.
+#[derive(Clone, Copy)]
+pub(crate) enum Lengths<'a> {
+    /// All rows have as many.
+    Same(usize),
+    /// For each row how many times so many.
+    Each(&'a [usize], usize),
+}
+
+impl Lengths<'_> {
+    fn of(self, row: usize) -> usize {
+        match self {
+            Self::Same(length) => length,
+            Self::Each(counts, size) => counts.get(row).map_or(0, |count| count * size),
+        }
+    }
+}
+
+impl Rows {
+    pub(crate) fn new(geometry: &Geometry, cut: Cut) -> Self {
+        let [width, height, depth] = geometry.extents();
+        let owner = |row: usize| cut.part_of(geometry, [row % height, row / height]);
+        Self { owners: (0..height * depth).map(owner).collect(), parts: cut.count(), width }
+    }
+
+    /// Puts together what parts have of their rows; nothing where they have something else.
+    pub(crate) fn gather<T: Clone>(&self, parts: &[Vec<T>], lengths: Lengths<'_>) -> Option<Vec<T>> {
+        let mut rest: Vec<&[T]> = parts.iter().map(Vec::as_slice).collect();
+        let mut whole = Vec::with_capacity(parts.iter().map(Vec::len).sum());
+        for (row, owner) in self.owners.iter().enumerate() {
+            let (values, after) = rest.get(*owner)?.split_at_checked(lengths.of(row))?;
+            whole.extend_from_slice(values);
+            rest[*owner] = after;
+        }
+        rest.iter().all(|rest| rest.is_empty()).then_some(whole)
+    }
+
+    /// What each part has of the values of all rows.
+    pub(crate) fn scatter<T: Clone>(&self, mut whole: &[T], lengths: Lengths<'_>) -> Vec<Vec<T>> {
+        let mut parts = vec![Vec::new(); self.parts];
+        for (row, owner) in self.owners.iter().enumerate() {
+            let (values, after) = whole.split_at(lengths.of(row).min(whole.len()));
+            parts[*owner].extend_from_slice(values);
+            whole = after;
+        }
+        parts
+    }
+
+    /// How many items rows have whose cells have so many.
+    pub(crate) fn items(&self, counts: &[u32]) -> Vec<usize> {
+        let items = |counts: &[u32]| counts.iter().map(|count| *count as usize).sum();
+        counts.chunks_exact(self.width).map(items).collect()
+    }
+
+    /// A population out of those of the parts, whose fields have values of these sizes; nothing where they do
+    /// not fit.
+    pub(crate) fn gather_items(&self, parts: Vec<Population>, sizes: &[usize]) -> Option<Population> {
+        let counts: Vec<Vec<u32>> = parts.iter().map(|part| part.counts.clone()).collect();
+        let counts = self.gather(&counts, Lengths::Same(self.width))?;
+        let items = self.items(&counts);
+        let labels: Vec<Vec<u32>> = parts.iter().map(|part| part.labels.clone()).collect();
+        let field = |(number, size): (usize, &usize)| {
+            let values = parts.iter().map(|part| part.fields.get(number).cloned());
+            self.gather(&values.collect::<Option<Vec<_>>>()?, Lengths::Each(&items, *size))
+        };
+        let fields = sizes.iter().enumerate().map(field).collect::<Option<_>>()?;
+        Some(Population { labels: self.gather(&labels, Lengths::Each(&items, 1))?, counts, fields })
+    }
+
+    /// The items of each part.
+    pub(crate) fn scatter_items(&self, whole: &Population, sizes: &[usize]) -> Vec<Population> {
+        let items = self.items(&whole.counts);
+        let counts = self.scatter(&whole.counts, Lengths::Same(self.width));
+        let labels = self.scatter(&whole.labels, Lengths::Each(&items, 1));
+        let population = |(counts, labels)| Population { counts, labels, fields: Vec::new() };
+        let mut parts: Vec<Population> = counts.into_iter().zip(labels).map(population).collect();
+        for (values, size) in whole.fields.iter().zip(sizes) {
+            let shared = self.scatter(values, Lengths::Each(&items, *size));
+            parts.iter_mut().zip(shared).for_each(|(part, values)| part.fields.push(values));
+        }
+        parts
+    }
+}

@@ -1,0 +1,164 @@
+//! A part of the space at work: it does what the host says.
+
+use crate::border::{Link, PartBorder};
+use crate::cut::Cut;
+use crate::fault::FaultMessage;
+use crate::message::{Census, Command, Moment, Reply, decode, encode};
+use crate::transport::{Tag, Transport, TransportError};
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use xca_core::engine::{EngineFailure, Execution, Fault, StepContext};
+use xca_core::{Engine, Model, ParameterSet, Precision, StartError};
+
+/// A model with its cut, as all parts know it.
+#[derive(Clone)]
+pub(crate) struct Shared {
+    pub(crate) model: Model,
+    pub(crate) precision: Precision,
+    pub(crate) cut: Cut,
+}
+
+/// One part.
+pub(crate) struct Worker {
+    model: Model,
+    precision: Precision,
+    parameters: ParameterSet,
+    execution: Box<dyn Execution>,
+}
+
+impl Worker {
+    pub(crate) fn start(engine: &dyn Engine, shared: &Shared, link: Link) -> Result<Self, StartError> {
+        let Shared { model, precision, cut } = shared.clone();
+        let number = link.lock().number();
+        let part = cut.part(model.geometry(), number);
+        let border = PartBorder::new(link, model.geometry(), cut, number);
+        let start = || engine.start_part(&model, precision, &part, Box::new(border));
+        let execution = catch_unwind(AssertUnwindSafe(start)).unwrap_or_else(|panic| {
+            Err(StartError::Other { engine: engine.name().to_owned(), reason: text(&*panic) })
+        })?;
+        let parameters = model.parameters().clone();
+        Ok(Self { model, precision, parameters, execution })
+    }
+
+    /// Does what the host says. A panic is a failure.
+    pub(crate) fn perform(&mut self, command: Command) -> Reply {
+        let work = AssertUnwindSafe(|| self.answer(command));
+        match catch_unwind(work) {
+            Ok(Ok(reply)) => reply,
+            Ok(Err(EngineFailure::Elsewhere)) => Reply::Elsewhere { done: 0 },
+            Ok(Err(failure)) => Reply::Failed { reason: failure.to_string() },
+            Err(panic) => Reply::Failed { reason: text(&*panic) },
+        }
+    }
+
+    fn answer(&mut self, command: Command) -> Result<Reply, EngineFailure> {
+        Ok(match command {
+            Command::Run { processes, moment } => {
+                let result = self.run(&moment, |execution, context| execution.run(processes, context));
+                self.ended(result.map_err(|fault| (0, fault)))
+            }
+            Command::RunSteps { steps, moment } => {
+                let result = self.run(&moment, |execution, context| execution.run_steps(steps, context));
+                self.ended(result.map_err(|interruption| (interruption.done, interruption.fault)))
+            }
+            Command::Read { substate } => Reply::Values { values: self.execution.read(substate)? },
+            Command::Write { substate, values } => {
+                self.execution.write(substate, &values)?;
+                Reply::Done
+            }
+            Command::ReadCells { substate, cells } => {
+                Reply::Values { values: self.execution.read_cells(substate, &cells)? }
+            }
+            Command::WriteCells { substate, cells, values } => {
+                self.execution.write_cells(substate, &cells, &values)?;
+                Reply::Done
+            }
+            Command::ReduceRows { substate, reduction } => {
+                Reply::Rows { rows: self.execution.reduce_rows(substate, &reduction)? }
+            }
+            Command::Population { group } => {
+                Reply::Population { population: self.execution.population(group)? }
+            }
+            Command::SetPopulation { group, population } => {
+                let result = self.execution.set_population(group, &population);
+                self.ended(result.map_err(|fault| (0, fault)))
+            }
+            Command::ItemsOfRows { group } => {
+                let counts = self.execution.population(group)?.counts;
+                let rows = counts.chunks_exact(self.model.geometry().extents()[0]);
+                let items = |counts: &[u32]| counts.iter().map(|count| *count as usize).sum();
+                Reply::ItemsOfRows { items: rows.map(items).collect() }
+            }
+            Command::Census { group } => {
+                let (items, left) = (self.execution.items(group), self.execution.left(group));
+                let largest_occupancy = self.execution.largest_occupancy(group)?;
+                Reply::Census { census: Census { items, left, largest_occupancy } }
+            }
+            Command::Memory => Reply::Memory { bytes: self.execution.memory() },
+            Command::Figures => {
+                let figures = self.execution.figures().into_iter();
+                Reply::Figures { figures: figures.map(|figure| (figure.name, figure.value)).collect() }
+            }
+        })
+    }
+
+    /// Runs processes with the parameters that the host has.
+    fn run<T>(&mut self, moment: &Moment, work: impl FnOnce(&mut dyn Execution, &StepContext<'_>) -> T) -> T {
+        self.parameters.set_bits(&moment.parameters);
+        let views = self.parameters.kernel_views(self.precision);
+        let context = StepContext {
+            step: moment.step,
+            seed: moment.seed,
+            parameters: &views,
+            values: &self.parameters,
+        };
+        work(&mut *self.execution, &context)
+    }
+
+    fn ended(&self, result: Result<(), (u64, Fault)>) -> Reply {
+        match result {
+            Ok(()) => Reply::Done,
+            Err((done, Fault::Engine(EngineFailure::Elsewhere))) => Reply::Elsewhere { done },
+            Err((_, Fault::Engine(failure))) => Reply::Failed { reason: failure.to_string() },
+            Err((done, fault)) => Reply::Fault { done, fault: FaultMessage::new(&self.model, fault) },
+        }
+    }
+}
+
+/// What a panic says.
+fn text(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    let text = text.or_else(|| panic.downcast_ref::<String>().cloned());
+    format!("it panicked: {}", text.unwrap_or_else(|| "without a message".to_owned()))
+}
+
+/// Has an engine do what the host says with the part of the transport's number, until the host ends or the
+/// part cannot go on.
+pub(crate) fn serve(engine: &dyn Engine, shared: &Shared, transport: Box<dyn Transport>) {
+    let link = Link::new(transport);
+    let answer = |reply: &Reply| {
+        let bytes = encode(reply).or_else(|reason| encode(&Reply::Failed { reason })).unwrap_or_default();
+        link.lock().send(0, Tag::Reply, bytes)
+    };
+    let mut worker = match Worker::start(engine, shared, link.clone()) {
+        Ok(worker) => worker,
+        Err(error) => {
+            // The host has gone, or learns it now; there is nothing left to do here.
+            let _ = answer(&Reply::Failed { reason: error.to_string() });
+            return;
+        }
+    };
+    let mut reply = Reply::Done;
+    loop {
+        let is_last = matches!(reply, Reply::Failed { .. });
+        if answer(&reply).is_err() || is_last {
+            return;
+        }
+        let received: Result<Vec<u8>, TransportError> = link.lock().receive(0, Tag::Command);
+        let Ok(bytes) = received else { return };
+        reply = match decode(&bytes) {
+            Ok(command) => worker.perform(command),
+            Err(reason) => Reply::Failed { reason },
+        };
+    }
+}
