@@ -4,8 +4,6 @@
 //! of them. So a kernel asks for what the next block of cells will need. Nothing depends on it but time: what is not foreseen here is read
 //! when it is needed, and what is foreseen wrongly is not read.
 
-use super::body::read_name;
-use super::hidden;
 use crate::access::GroupOf;
 use crate::ast::{ArgumentNumber, Block, Builtin, Expression, Function, LoopKind, Range, Statement};
 use proc_macro2::{Ident, TokenStream};
@@ -15,14 +13,23 @@ use syn::BinOp;
 /// The most turns of a loop that are foreseen: as many as Moore's neighbourhood has cells.
 const MOST: usize = 27;
 
+/// What a kernel calls things.
+pub(super) struct Names {
+    pub(super) columns: Ident,
+    pub(super) offsets: Ident,
+    pub(super) directions: Ident,
+    /// The argument from which a substate is read.
+    pub(super) read: fn(GroupOf, &Ident) -> Ident,
+}
+
 /// What every cell reads, wherever it is.
-pub(super) fn fetches(function: &Function) -> TokenStream {
-    let mut fetches = Fetches { function, neighbours: Vec::new(), turns: None };
+pub(super) fn fetches(function: &Function, names: &Names) -> TokenStream {
+    let mut fetches = Fetches { names, neighbours: Vec::new(), turns: None };
     fetches.block(&function.body)
 }
 
 struct Fetches<'a> {
-    function: &'a Function,
+    names: &'a Names,
     /// The neighbours with names.
     neighbours: Vec<(&'a Ident, &'a Expression)>,
     /// The variable of the loop.
@@ -114,9 +121,8 @@ impl<'a> Fetches<'a> {
         neighbour: &Expression,
         element: &Expression,
     ) -> TokenStream {
-        let span = self.function.name.span();
-        let [columns, offsets] = ["columns", "offsets"].map(|name| hidden(name, span));
-        let read = read_name(GroupOf::Argument(argument), field);
+        let Names { columns, offsets, read, .. } = self.names;
+        let read = read(GroupOf::Argument(argument), field);
         let known = self.number(neighbour).zip(self.number(element));
         known.map_or_else(
             TokenStream::new,
@@ -140,7 +146,7 @@ impl<'a> Fetches<'a> {
                 }
             }
             Expression::Builtin(Builtin::Opposite, arguments, _) => {
-                let directions = hidden("directions", self.function.name.span());
+                let directions = &self.names.directions;
                 let [index] = &**arguments else { return None };
                 self.number(index).map(|index| quote!(#directions.opposite_foreseen(#index)))
             }

@@ -5,7 +5,7 @@
 
 use super::blocks::Blocks;
 use super::body::{Writer, own_name, read_name, write_name};
-use super::fetches::fetches;
+use super::fetches::{Names, fetches};
 use super::work::{Argument, LIFE, Typed, Work};
 use super::{checked_value, hidden, native_parameters, native_type, parameters};
 use crate::access::{Access, GroupOf, Uses, structs};
@@ -142,7 +142,13 @@ fn cells(function: &Function, uses: &Uses, real: &TokenStream, shape: &Ident) ->
     });
     let mut writer = Writer::new(function, Some(uses), real.clone());
     let body = writer.block(&function.body);
-    let fetches = fetches(function);
+    let names = Names {
+        columns: columns.clone(),
+        offsets: offsets.clone(),
+        directions: hidden("directions", span),
+        read: read_name,
+    };
+    let fetches = fetches(function, &names);
     quote! {
         #space
         let #offsets = #row.offsets::<#shape>();
