@@ -19,7 +19,8 @@ pub(crate) struct Comparison {
 }
 
 impl Comparison {
-    /// Of the times of so many steps: first the engine's, then those of the loop by hand. A step reads and writes `bytes` of each cell.
+    /// Of the times of so many steps: first the engine's, then those of the loop by hand. A step reads and
+    /// writes `bytes` of each cell.
     pub(crate) fn new(
         name: String,
         cells: usize,
@@ -42,7 +43,9 @@ impl Comparison {
         let (low, high) = self.engine.spread();
         let (hand_low, hand_high) = self.by_hand.spread();
         format!(
-            "{}: engine {:.2} ms a step ({:.2} to {:.2}), {:.0} % of the bandwidth; by hand {:.2} ms ({:.2} to {:.2}), {:.0} %; ratio {:.3}; {:.1} million cells a second",
+            "{}: engine {:.2} ms a step ({:.2} to {:.2}), {:.0} % of the bandwidth; \
+             by hand {:.2} ms ({:.2} to {:.2}), {:.0} %; \
+             ratio {:.3}; {:.1} million cells a second",
             self.name,
             self.engine.median() * 1e3,
             low * 1e3,

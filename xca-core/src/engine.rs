@@ -50,11 +50,13 @@ pub trait Engine: fmt::Debug + Send + Sync {
     /// Where the engine cannot run this model at this precision.
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError>;
 
-    /// Makes room for a part of the state of a model; other executions have the other parts, and all do the same at the same time.
+    /// Makes room for a part of the state of a model; other executions have the other parts, and all do the
+    /// same at the same time.
     ///
-    /// The [`Execution`] knows the rows of its part alone. It reads and writes all values of these rows, and names cells by
-    /// their linear indices in the whole space. Steps, random numbers, positions and faults are those of the whole space too. Each change
-    /// of a state, such as [`Execution::write_cells`], is made of all parts, if only of no cell in some of them.
+    /// The [`Execution`] knows the rows of its part alone. It reads and writes all values of these rows, and
+    /// names cells by their linear indices in the whole space. Steps, random numbers, positions and faults
+    /// are those of the whole space too. Each change of a state, such as [`Execution::write_cells`], is made
+    /// of all parts, if only of no cell in some of them.
     ///
     /// # Errors
     /// Where the engine cannot run this model at this precision, this part of it, or no part at all.

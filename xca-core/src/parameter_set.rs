@@ -178,8 +178,8 @@ impl ParameterSet {
         self.values().map(bits).collect()
     }
 
-    /// Sets all parameters to what [`Self::bits`] of the same structs has given. Nothing is checked or computed; a parameter stays as it is
-    /// where its bits are none of its type.
+    /// Sets all parameters to what [`Self::bits`] of the same structs has given. Nothing is checked or
+    /// computed; a parameter stays as it is where its bits are none of its type.
     pub fn set_bits(&mut self, bits: &[Vec<u64>]) {
         let fields: Vec<&Field> = self.fields().collect();
         for (number, (bits, field)) in bits.iter().zip(fields).enumerate() {

@@ -132,7 +132,8 @@ impl Layout {
         self.rows_that_see(self.row(row).map(|index| index as isize))
     }
 
-    /// The rows from which the row with these indices y and z in the part, or in its halo, is seen. A row may come twice.
+    /// The rows from which the row with these indices y and z in the part, or in its halo, is seen. A row may
+    /// come twice.
     pub(crate) fn rows_that_see(&self, [y, z]: [isize; 2]) -> impl Iterator<Item = usize> {
         let height = self.extents[1];
         let along = move |axis: usize, index: isize| {
@@ -166,8 +167,9 @@ impl Layout {
         self.first_at(y, z) + cell % self.extents[0]
     }
 
-    /// The padded lines that another part sees across a face, or with `beyond` those of the part beyond it that are seen from here. A line is
-    /// given by its indices y and z in the part. Along z lines of the halo along y are among them.
+    /// The padded lines that another part sees across a face, or with `beyond` those of the part beyond it
+    /// that are seen from here. A line is given by its indices y and z in the part. Along z lines of the halo
+    /// along y are among them.
     pub(crate) fn lines_at(&self, face: Face, beyond: bool) -> impl Iterator<Item = [isize; 2]> {
         let axis = face.axis();
         let (reach, extent) =

@@ -182,7 +182,8 @@ mod tests {
 
         #[test]
         fn the_first_signal_raises_the_flag_and_the_second_ends_the_program() {
-            // What these tests are started with the program is too: after `nohup` a terminal that hangs up is no signal.
+            // What these tests are started with the program is too: after `nohup` a terminal that hangs up is
+            // no signal.
             let hangup = (!is_ignored(signal_hook::consts::SIGHUP)).then_some("-HUP");
             for signal in ["-INT", "-TERM"].into_iter().chain(hangup) {
                 let mut child = Command::new(std::env::current_exe().unwrap())

@@ -20,7 +20,8 @@ pub enum EngineFailure {
         /// Why.
         reason: String,
     },
-    /// It works on a part of a space, and another part has a fault or cannot go on: the execution of that part tells it.
+    /// It works on a part of a space, and another part has a fault or cannot go on: the execution of that
+    /// part tells it.
     #[error("another part of the space has stopped")]
     Elsewhere,
     /// What it is given does not fit the model. The state is what it was.

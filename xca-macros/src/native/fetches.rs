@@ -1,8 +1,9 @@
 //! What a process will read of its neighbours' arrays, asked for before it is needed.
 //!
-//! A process that streams reads one element of each neighbour, from as many places in memory as there are elements. A processor foresees a few
-//! of them. So a kernel asks for what the next block of cells will need. Nothing depends on it but time: what is not foreseen here is read
-//! when it is needed, and what is foreseen wrongly is not read.
+//! A process that streams reads one element of each neighbour, from as many places in memory as there are
+//! elements. A processor foresees a few of them. So a kernel asks for what the next block of cells will need.
+//! Nothing depends on it but time: what is not foreseen here is read when it is needed, and what is foreseen
+//! wrongly is not read.
 
 use crate::access::GroupOf;
 use crate::ast::{ArgumentNumber, Block, Builtin, Expression, Function, LoopKind, Range, Statement};

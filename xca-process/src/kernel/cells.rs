@@ -138,8 +138,8 @@ impl<'r, T: KernelElement, const N: usize> AroundRead<'r, [T; N]> {
         self.read(cell, offset, element)
     }
 
-    /// Asks for an element of the neighbours of the next cells, as many as these: they are read soon. Where they do not exist, nothing is
-    /// lost; nothing is read into the program.
+    /// Asks for an element of the neighbours of the next cells, as many as these: they are read soon. Where
+    /// they do not exist, nothing is lost; nothing is read into the program.
     #[inline(always)]
     pub fn fetch(&self, columns: &Columns<'r>, offset: Offset<'r>, element: usize) {
         let next = columns.numbers().end as isize + offset.distance + (element * self.stride) as isize;

@@ -13,7 +13,8 @@ use std::ops::Range;
 /// The most cells of a block where arrays are staged.
 const STAGED: usize = 32;
 
-/// The most bytes of each plane in a block: two cache lines. With more of them the planes of an array crowd each other out of the cache.
+/// The most bytes of each plane in a block: two cache lines. With more of them the planes of an array crowd
+/// each other out of the cache.
 pub(super) const BLOCK_BYTES: usize = 128;
 
 /// The bytes that the widest instructions move.

@@ -13,7 +13,8 @@ pub(super) struct CpuKind;
 pub(super) const THREADS: EngineOption = EngineOption {
     name: "threads",
     value_name: "N",
-    about: "How many threads the cpu engine uses, or each part of the parts engine; one for each core unless it is given",
+    about: "How many threads the cpu engine uses, or each part of the parts engine; one for each core unless it \
+            is given",
     check: |text| threads(text).map(drop),
 };
 
