@@ -11,7 +11,7 @@ use std::error::Error;
 use xca_core::Precision;
 use xca_core::prelude::*;
 use xca_cpu::Cpu;
-use xca_examples::models::boltzmann::neighbourhood;
+use xca_examples::models::boltzmann::{DIRECTIONS, neighbourhood};
 
 /// Of a kinematic viscosity of 0.1 cells squared a step.
 const OMEGA: f64 = 1.0 / (3.0 * 0.1 + 0.5);
@@ -58,6 +58,6 @@ fn fluid_of<T: Number>(
         return Err("the engine and the loop by hand differ".into());
     }
     let name = format!("D3Q19 {size}^3, {}", T::PRECISION);
-    let bytes = 2 * model::DIRECTIONS * size_of::<T>();
+    let bytes = 2 * DIRECTIONS * size_of::<T>();
     Comparison::new(name, size.pow(3), bytes, steps, times)
 }

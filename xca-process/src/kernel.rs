@@ -39,8 +39,8 @@ pub use neighbours::{Directions, Offsets};
 pub use search::{CellFilter, Found, Scratch, reach};
 pub use space::NativeSpace;
 pub use values::{ArrayValue, KernelElement, KernelValue, load, load_element, store};
-use work::announce;
 pub use work::{Work, run};
+use work::{announce, announce_bytes};
 pub use written::{Lanes, Planes, Stage, Written, WrittenArrays, block};
 
 /// A migration's answer: the item stays where it is.

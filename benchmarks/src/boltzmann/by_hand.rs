@@ -1,10 +1,10 @@
 //! A fused loop: stream and collide in one pass, in opposite directions together.
 
-use super::model::DIRECTIONS;
 use rayon::prelude::*;
 use std::ops::{Div, Neg};
 use xca_core::Float;
 use xca_core::kernel::{Work, run};
+use xca_examples::models::boltzmann::DIRECTIONS;
 
 /// Cells that are computed side by side.
 const LANES: usize = 16;

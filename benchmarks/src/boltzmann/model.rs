@@ -1,11 +1,9 @@
-//! The fluid as its equations are: arrays, and loops over 19 directions.
+//! The fluid of the gallery without its velocity, which the loop by hand does not keep.
 
 use std::error::Error;
 use std::f64::consts::TAU;
 use xca_core::prelude::*;
-
-/// Particles at rest and in 18 directions.
-pub(crate) const DIRECTIONS: usize = 19;
+use xca_examples::models::boltzmann::{DIRECTIONS, equilibrium};
 
 /// A fluid.
 #[derive(Substates, Clone, Copy, Debug)]
@@ -19,26 +17,6 @@ pub(crate) struct Fluid {
 pub(crate) struct Flow {
     /// Relaxation rate.
     pub(crate) omega: Real,
-}
-
-/// The share of particles at rest that move in a direction.
-#[helper]
-fn weight(direction: Vector3<i32>) -> Real {
-    match direction.length_squared() {
-        0 => 1.0 / 3.0,
-        1 => 1.0 / 18.0,
-        _ => 1.0 / 36.0,
-    }
-}
-
-/// The particles in a direction at equilibrium.
-#[helper]
-fn equilibrium(direction: Vector3<i32>, density: Real, velocity: Vector3<Real>) -> Real {
-    let along = 3.0
-        * (direction.x as Real * velocity.x
-            + direction.y as Real * velocity.y
-            + direction.z as Real * velocity.z);
-    weight(direction) * density * (1.0 + along + 0.5 * along * along - 1.5 * velocity.dot(velocity))
 }
 
 /// What moves in a direction comes from the opposite neighbour, and relaxes towards equilibrium.

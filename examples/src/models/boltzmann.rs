@@ -5,7 +5,7 @@ use xca_core::NeighbourhoodError;
 use xca_core::prelude::*;
 
 /// Particles at rest and in 18 directions.
-const DIRECTIONS: usize = 19;
+pub const DIRECTIONS: usize = 19;
 
 /// A fluid.
 #[derive(Substates, Clone, Copy, Debug)]
@@ -39,7 +39,7 @@ fn weight(direction: Vector3<i32>) -> Real {
 
 /// The particles in a direction at equilibrium.
 #[helper]
-fn equilibrium(direction: Vector3<i32>, density: Real, velocity: Vector3<Real>) -> Real {
+pub fn equilibrium(direction: Vector3<i32>, density: Real, velocity: Vector3<Real>) -> Real {
     let along = 3.0
         * (direction.x as Real * velocity.x
             + direction.y as Real * velocity.y

@@ -5,7 +5,7 @@
 
 use super::values::{KernelElement, KernelValue};
 use super::written::BLOCK_BYTES;
-use super::{Row, announce};
+use super::{Row, announce_bytes};
 use std::fmt;
 use std::marker::PhantomData;
 use std::ops::Range;
@@ -147,7 +147,7 @@ impl<'r, T: KernelElement, const N: usize> AroundRead<'r, [T; N]> {
         let bytes = columns.lanes.len() * size_of::<T::Memory>();
         // A row that is one block has no next one, and is long enough for the processor to foresee what follows.
         if bytes <= BLOCK_BYTES {
-            (0..bytes).step_by(CACHE_LINE).for_each(|line| announce(first.wrapping_add(line)));
+            announce_bytes(first, bytes);
         }
     }
 
@@ -157,9 +157,6 @@ impl<'r, T: KernelElement, const N: usize> AroundRead<'r, [T; N]> {
         self.element(cell, Offset { distance: 0, row: PhantomData }, element)
     }
 }
-
-/// The bytes that processors fetch at once.
-const CACHE_LINE: usize = 64;
 
 /// A substate of a row's cells.
 #[derive(Clone, Copy)]

@@ -5,7 +5,7 @@
 
 use super::near::Walk;
 use super::wide::{self, Wide};
-use super::{Column, Memory, MemoryOf, Row, WRONG_RADIUS, announce};
+use super::{Column, Memory, MemoryOf, Row, WRONG_RADIUS, announce, announce_bytes};
 use crate::float::Float;
 use crate::geometry::Geometry;
 use crate::neighbourhood::Parity;
@@ -328,19 +328,17 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// Tells the processor what the row's searches are the first to read: the positions in the last row of the neighbourhood. Searches
-    /// jump, so the processor does not see it coming.
+    /// Tells the processor what the next row's searches are the first to read: the positions after those of the
+    /// last row of the neighbourhood. Searches jump, so the processor does not see it coming.
     pub(super) fn fetch<R: Float>(&self, positions: &[Vector3<R>]) {
-        const LINE: usize = 64;
         let Some(&last) = self.frame.offsets.last() else { return };
         let end = self.length.saturating_sub(1 + self.frame.geometry.neighbourhood().reach()[0]);
         // SAFETY: an offset of the neighbourhood.
         let [first, end] = [0, end].map(|number| unsafe { self.items_at(self.column(number), last) });
-        // The next row's follow, and are read before the processor has brought them.
+        // A row earlier than they are read, so that there is time to bring them.
         let next = end.end..(2 * end.end).saturating_sub(first.start);
         let Some(row) = positions.get(next) else { return };
-        let start = row.as_ptr().cast::<u8>();
-        (0..size_of_val(row)).step_by(LINE).for_each(|at| announce(start.wrapping_add(at)));
+        announce_bytes(row.as_ptr().cast(), size_of_val(row));
     }
 
     /// Tells the processor that what the process reads of these items is wanted soon: they are far apart.

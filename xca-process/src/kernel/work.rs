@@ -50,3 +50,12 @@ pub(super) fn announce(place: *const u8) {
     #[cfg(not(target_arch = "x86_64"))]
     let _ = place;
 }
+
+/// The same of so many bytes from there on.
+#[inline(always)]
+pub(super) fn announce_bytes(first: *const u8, bytes: usize) {
+    (0..bytes).step_by(CACHE_LINE).for_each(|line| announce(first.wrapping_add(line)));
+}
+
+/// The bytes that processors fetch at once.
+const CACHE_LINE: usize = 64;
