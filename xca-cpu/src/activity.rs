@@ -143,6 +143,11 @@ impl Activity {
         self.pace.is_on()
     }
 
+    /// How many steps will work on all cells before the next one that leaves some out.
+    pub(crate) fn steps_without(&self) -> u64 {
+        self.pace.pause()
+    }
+
     /// The present time.
     pub(crate) fn time(&self) -> u64 {
         self.time
@@ -177,13 +182,16 @@ impl Activity {
         }
     }
 
-    /// A step has ended, after so much time.
-    pub(crate) fn end_step(&mut self, time: Duration) {
+    /// So many steps have ended, after so much time.
+    pub(crate) fn end_steps(&mut self, steps: u64, time: Duration) {
         let work = std::mem::take(&mut self.work);
         self.past.done += work.done;
         self.past.all += work.all;
-        if work.all > 0 && self.pace.ended(Step { cells: work.all, time }) {
-            self.pace.judge_share(self.due_share());
+        let step = Step { cells: work.all / steps.max(1), time: time.div_f64(steps.max(1) as f64) };
+        for _ in 0..steps {
+            if work.all > 0 && self.pace.ended(step) {
+                self.pace.judge_share(self.due_share());
+            }
         }
         // No one has seen what changed in a pause.
         if self.pace.is_first() {

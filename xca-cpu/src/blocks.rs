@@ -3,6 +3,7 @@
 use crate::activity::DueRow;
 use crate::layout::Layout;
 use crate::population::Population;
+use crate::wavefront::Depth;
 use std::ops::Range;
 
 /// Blocks a thread: enough that the last one is not waited for long, few enough that a block is worth its start.
@@ -13,13 +14,32 @@ const CELLS_PER_ITEM: usize = 16;
 
 /// Blocks of consecutive rows, which have about the same work: the items of the populations may all be in a few of the rows.
 pub(crate) fn blocks(layout: &Layout, populations: &[&Population], threads: usize) -> Vec<Range<usize>> {
+    blocks_of_same_work(layout, populations, threads * BLOCKS_PER_THREAD)
+}
+
+/// How much longer blocks are than they have to be at least, where there are enough rows: what is done in the gaps
+/// between blocks meets memory once more.
+const LONGER_THAN_LEAST: usize = 4;
+
+/// Blocks of rows without items that are long enough for passes of this depth.
+pub(crate) fn long_blocks(layout: &Layout, threads: usize, depth: Depth) -> Vec<Range<usize>> {
+    let (rows, least) = (layout.rows(), depth.least_block());
+    let of_thread = rows / (least * LONGER_THAN_LEAST * threads);
+    let count = match of_thread {
+        0 => (rows / least).clamp(1, threads),
+        of_thread => of_thread.min(BLOCKS_PER_THREAD) * threads,
+    };
+    (0..count).map(|number| number * rows / count..(number + 1) * rows / count).collect()
+}
+
+fn blocks_of_same_work(layout: &Layout, populations: &[&Population], count: usize) -> Vec<Range<usize>> {
     let rows = layout.rows();
     let work_before = |row: usize| {
         let items: usize = populations.iter().map(|population| population.rows[row] as usize).sum();
         row * layout.width() + items * CELLS_PER_ITEM
     };
     let work = work_before(rows) as u128;
-    let count = (threads * BLOCKS_PER_THREAD).min(rows) as u128;
+    let count = count.min(rows) as u128;
     let mut blocks = Vec::with_capacity(count as usize);
     let mut start = 0;
     for number in 1..=count {

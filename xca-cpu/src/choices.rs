@@ -6,6 +6,8 @@ pub(crate) struct Choices {
     /// The skin of lists of what is near, in radii of a search.
     pub(crate) skin: Option<f64>,
     pub(crate) leave_out: LeaveOut,
+    /// How many steps are done together.
+    pub(crate) stride: Option<u64>,
 }
 
 /// When cells are left out in which nothing can change.

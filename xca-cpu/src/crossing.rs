@@ -35,7 +35,7 @@ pub(crate) fn migrate(
     movers: &mut [Mover],
 ) -> Result<(), Fault> {
     let Migration { geometry, process, number } = migration;
-    let first = |fault: Fault| FirstFault { process: number, cell: cell(&fault, geometry), fault };
+    let first = |fault: Fault| FirstFault { pass: 0, process: number, cell: cell(&fault, geometry), fault };
     let (all, left) = edges.agree(arrivals(population, geometry, process, movers).map_err(first))?;
     let is_own = |arrival: &Arrival| edges.part.holds(geometry, arrival.cell as usize);
     let (mut own, leaving): (Vec<Arrival>, Vec<Arrival>) = all.into_iter().partition(is_own);

@@ -54,14 +54,19 @@ impl Dense {
         self.halo = Halo::Stale;
     }
 
-    /// After a pass in which all rows were written, and continued into the halo if anyone reads it there.
-    pub(crate) fn written(&mut self, second: bool) {
+    /// After a pass in which all rows were written, and continued into the halo if anyone reads it there: along
+    /// x, or with `whole` beyond all faces.
+    pub(crate) fn written(&mut self, second: bool, whole: bool) {
         if let Some(next) = &mut self.next
             && second
         {
             std::mem::swap(&mut self.current, next);
         }
-        self.halo = if self.read_elsewhere { Halo::Rows } else { Halo::Stale };
+        self.halo = match (self.read_elsewhere, whole) {
+            (false, _) => Halo::Stale,
+            (true, false) => Halo::Rows,
+            (true, true) => Halo::Whole,
+        };
     }
 
     /// Makes the halo that of the cells. What lies beyond flat faces never changes.

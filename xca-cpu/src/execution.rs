@@ -7,26 +7,27 @@ use crate::crossing::{self, Migration};
 use crate::dense::Dense;
 use crate::edges::{Edges, seen};
 use crate::ghosts;
-use crate::group::Group;
+use crate::group::{Group, groups};
 use crate::layout::Layout;
+use crate::memory::check_size;
 use crate::migration;
 use crate::population::Population;
 use crate::reductions::{Reductions, reduce_row};
-use crate::rows::{self, FirstFault, Mover};
+use crate::rows::{self, FirstFault, Ground, Mover, StageOfStep};
 use crate::stages::{Stage, stages};
+use crate::stride::Stride;
 use crate::threads::Threads;
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use xca_core::engine::{
     EngineFailure, Execution, Fault, Figure, InputError, Interruption, Part, Population as Items, StartError,
     StepContext, SubstateId, Workers, check_cells, check_cells_of_part, check_population_of_part,
-    check_substate, check_values, check_values_of_cells, check_values_of_part, step_by_step,
+    check_substate, check_values, check_values_of_cells, check_values_of_part,
 };
-use xca_core::model::{Group as Definition, GroupKind};
 use xca_core::reduction::{Reduced, ReducedRows, Reduction, append_row};
-use xca_core::{Model, Precision, ProcessKind, StoredType};
+use xca_core::{Model, Precision, ProcessKind};
 
 /// A model under way.
 pub(crate) struct CpuExecution {
@@ -39,6 +40,7 @@ pub(crate) struct CpuExecution {
     groups: Vec<Group>,
     /// Where processes over cells are due; nothing for a model that has none.
     activity: Option<Activity>,
+    stride: Stride,
     reductions: Mutex<Reductions>,
     /// The stages of a step in which every process is due.
     stages: Vec<Stage>,
@@ -57,13 +59,9 @@ impl CpuExecution {
             .as_ref()
             .map_or_else(|| Layout::new(geometry), |edges| Layout::of_part(geometry, &edges.part));
         check_size(model, &layout, precision)?;
-        let groups = model.groups().iter().enumerate();
-        let groups = threads.run(|| {
-            groups
-                .map(|(number, group)| state(model, number, group, (&layout, precision, choices.skin)))
-                .collect()
-        });
+        let groups = threads.run(|| groups(model, &layout, precision, choices.skin));
         let stages = stages(model, 0..model.processes().len());
+        let stride = Stride::new((model, &layout, precision), stages.len(), threads.count(), choices.stride);
         let activity = Activity::new(model, &layout, choices.leave_out);
         Ok(Self {
             model: model.clone(),
@@ -73,6 +71,7 @@ impl CpuExecution {
             edges,
             groups,
             activity,
+            stride,
             reductions: Mutex::default(),
             stages,
         })
@@ -85,20 +84,27 @@ impl CpuExecution {
         let due = processes.filter(|number| all[*number].is_due(context.step));
         let stages = if whole { self.stages.clone() } else { stages(&self.model, due) };
         let threads = self.threads.clone();
-        let start = Instant::now();
-        let leaves_out = self.activity.as_ref().is_some_and(Activity::is_on);
-        let result = if self.edges.is_some() {
+        let leaves_out = self.leaves_out();
+        if self.edges.is_some() {
             stages.iter().try_for_each(|stage| self.run_stage_of_part(stage, leaves_out, context))
         } else {
             threads.run(|| stages.iter().try_for_each(|stage| self.run_stage(stage, leaves_out, context)))
-        };
+        }
+    }
+
+    /// So many steps have ended, or one of them with a fault.
+    fn end_steps(&mut self, steps: u64, time: Duration, is_faulty: bool) {
         if let Some(activity) = &mut self.activity {
-            activity.end_step(start.elapsed());
-            if result.is_err() {
+            activity.end_steps(steps, time);
+            if is_faulty {
                 activity.wake();
             }
         }
-        result
+    }
+
+    /// Whether processes run only where they are due.
+    fn leaves_out(&self) -> bool {
+        self.activity.as_ref().is_some_and(Activity::is_on)
     }
 
     fn check_own(&self, cells: &[usize]) -> Result<(), InputError> {
@@ -155,7 +161,11 @@ impl CpuExecution {
         leaves_out: bool,
         context: &StepContext<'_>,
     ) -> Result<(), Fault> {
-        let mut movers = self.run_rows(stage, leaves_out, context).map_err(|first| first.fault)?;
+        let movers = self.run_rows(stage, leaves_out, context).map_err(|first| first.fault)?;
+        self.migrate(stage, movers)
+    }
+
+    fn migrate(&mut self, stage: &[usize], mut movers: Vec<Mover>) -> Result<(), Fault> {
         if let Some((number, group)) = self.migration(stage)
             && let Group::Population(population) = &mut self.groups[group]
         {
@@ -185,75 +195,73 @@ impl CpuExecution {
             activity.worked_on_all(stage);
         }
         let activity = self.activity.as_mut().filter(|_| leaves_out);
-        rows::run(&self.model, &self.layout, self.precision, &mut self.groups, stage, activity, context)
+        let ground = Ground { model: &self.model, layout: &self.layout, precision: self.precision };
+        let stage = StageOfStep { processes: stage, context: *context };
+        rows::run(ground, &mut self.groups, stage, activity)
     }
-}
 
-fn check_size(model: &Model, layout: &Layout, precision: Precision) -> Result<(), StartError> {
-    let too_large = |what: &str, wanted: u128, limit: u128| StartError::TooLarge {
-        engine: "cpu".to_owned(),
-        what: what.to_owned(),
-        wanted,
-        limit,
-    };
-    let cells = layout.checked_cells().unwrap_or(usize::MAX) as u128;
-    let bytes = least_memory(model, layout, precision).max(cells);
-    if bytes > 1 << 45 { Err(too_large("the bytes of the state", bytes, 1 << 45)) } else { Ok(()) }
-}
+    /// How many of so many steps are done together next.
+    fn together(&self, left: u64) -> u64 {
+        let free = self.activity.as_ref().map_or(u64::MAX, Activity::steps_without);
+        self.stride.steps(left.min(free)).max(1)
+    }
 
-/// The bytes of a model without items: planes, some of them twice, and the ranges of the cells' and rows' items.
-pub(crate) fn least_memory(model: &Model, layout: &Layout, precision: Precision) -> u128 {
-    let of_field = |group: usize, (field, stored): (usize, StoredType)| {
-        let planes = if model.plan().is_doubled(SubstateId { group, field }) { 2 } else { 1 };
-        planes * stored.size()
-    };
-    let of_group = |(number, group): (usize, &Definition)| match group.kind() {
-        GroupKind::Cells { .. } => {
-            group.stored(precision).into_iter().enumerate().map(|field| of_field(number, field)).sum()
+    /// Does so many steps together, all processes in all cells.
+    fn run_together(&mut self, steps: u64, context: &StepContext<'_>) -> Result<(), Interruption> {
+        let contexts = (0..steps).map(|done| StepContext { step: context.step + done, ..*context });
+        let all = 0..self.model.processes().len();
+        let due = contexts.flat_map(|context| {
+            let is_due = |number: &usize| self.model.processes()[*number].is_due(context.step);
+            stages(&self.model, all.clone().filter(is_due)).into_iter().map(move |stage| (context, stage))
+        });
+        let due: Vec<(StepContext<'_>, Stage)> = due.collect();
+        if let Some(activity) = &mut self.activity {
+            due.iter().for_each(|(_, stage)| activity.worked_on_all(stage));
         }
-        GroupKind::Population { .. } => 2 * size_of::<u32>(),
-    };
-    let size: usize = model.groups().iter().enumerate().map(of_group).sum();
-    let is_population = |group: &&Definition| matches!(group.kind(), GroupKind::Population { .. });
-    let rows = model.groups().iter().filter(is_population).count() * layout.rows() * 2 * size_of::<u32>();
-    layout.checked_cells().unwrap_or(usize::MAX) as u128 * size as u128 + rows as u128
-}
-
-fn state(
-    model: &Model,
-    number: usize,
-    group: &Definition,
-    (layout, precision, skin): (&Layout, Precision, Option<f64>),
-) -> Group {
-    let types = group.stored(precision);
-    match group.kind() {
-        GroupKind::Cells { .. } => Group::Cells(
-            types
-                .into_iter()
-                .enumerate()
-                .map(|(field, stored)| {
-                    let outside = group.outside(field, precision).unwrap_or_default();
-                    let substate = SubstateId { group: number, field };
-                    let plan = model.plan();
-                    let (doubled, elsewhere) = (plan.is_doubled(substate), plan.is_read_elsewhere(substate));
-                    Dense::new(stored, layout, &outside, doubled, elsewhere)
-                })
-                .collect(),
-        ),
-        GroupKind::Population { .. } => Group::Population(Population::new(group, precision, layout, skin)),
+        let stages = due.iter().map(|(context, processes)| StageOfStep { processes, context: *context });
+        let stages: Vec<StageOfStep<'_>> = stages.collect();
+        let ground = Ground { model: &self.model, layout: &self.layout, precision: self.precision };
+        let groups = &mut self.groups;
+        let depth = self.stride.depth(stages.len());
+        let result = self.threads.run(|| rows::run_in_wake(ground, groups, &stages, depth));
+        result.map_err(|first| Interruption {
+            done: stages[first.pass].context.step - context.step,
+            fault: first.fault,
+        })
     }
 }
 
 impl Execution for CpuExecution {
     fn run(&mut self, processes: Range<usize>, context: &StepContext<'_>) -> Result<(), Fault> {
         self.take_parameters(context);
-        self.run_step(processes, context)
+        let start = Instant::now();
+        let result = self.run_step(processes, context);
+        self.end_steps(1, start.elapsed(), result.is_err());
+        result
     }
 
     fn run_steps(&mut self, steps: u64, context: &StepContext<'_>) -> Result<(), Interruption> {
         let processes = self.model.processes().len();
         self.take_parameters(context);
-        step_by_step(steps, context, |context| self.run_step(0..processes, context))
+        let mut done = 0;
+        while done < steps {
+            let context = StepContext { step: context.step + done, ..*context };
+            let together = self.together(steps - done);
+            let leaves_out = self.leaves_out();
+            let start = Instant::now();
+            let result = match together {
+                1 => self.run_step(0..processes, &context).map_err(|fault| Interruption { done: 0, fault }),
+                _ => self.run_together(together, &context),
+            };
+            let time = start.elapsed();
+            if !leaves_out {
+                self.stride.took(together, time);
+            }
+            self.end_steps(together, time, result.is_err());
+            result.map_err(|stopped| Interruption { done: done + stopped.done, ..stopped })?;
+            done += together;
+        }
+        Ok(())
     }
 
     fn read(&self, substate: SubstateId) -> Result<Vec<u8>, EngineFailure> {
@@ -398,7 +406,9 @@ impl Execution for CpuExecution {
             }
             Group::Cells(_) => None,
         });
-        figures.flatten().chain(self.activity.as_ref().and_then(Activity::figure)).collect()
+        let of_cells =
+            self.activity.as_ref().and_then(Activity::figure).into_iter().chain(self.stride.figure());
+        figures.flatten().chain(of_cells).collect()
     }
 
     fn workers(&self) -> Option<Arc<dyn Workers>> {

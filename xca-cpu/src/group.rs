@@ -1,7 +1,11 @@
 //! The substates of a struct.
 
 use crate::dense::Dense;
+use crate::layout::Layout;
 use crate::population::Population;
+use xca_core::engine::SubstateId;
+use xca_core::model::{Group as Definition, GroupKind};
+use xca_core::{Model, Precision, StoredType};
 
 /// The substates of one struct.
 #[allow(clippy::large_enum_variant, reason = "a model has a few of them")]
@@ -16,4 +20,22 @@ pub(crate) fn population(group: &Group) -> Option<&Population> {
         Group::Population(population) => Some(population),
         Group::Cells(_) => None,
     }
+}
+
+/// The groups of a model, before they have any values.
+pub(crate) fn groups(model: &Model, layout: &Layout, precision: Precision, skin: Option<f64>) -> Vec<Group> {
+    let group = |(number, group): (usize, &Definition)| {
+        let GroupKind::Cells { .. } = group.kind() else {
+            return Group::Population(Population::new(group, precision, layout, skin));
+        };
+        let plane = |(field, stored): (usize, StoredType)| {
+            let outside = group.outside(field, precision).unwrap_or_default();
+            let substate = SubstateId { group: number, field };
+            let (doubled, elsewhere) =
+                (model.plan().is_doubled(substate), model.plan().is_read_elsewhere(substate));
+            Dense::new(stored, layout, &outside, doubled, elsewhere)
+        };
+        Group::Cells(group.stored(precision).into_iter().enumerate().map(plane).collect())
+    };
+    model.groups().iter().enumerate().map(group).collect()
 }

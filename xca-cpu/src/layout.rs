@@ -1,5 +1,6 @@
 //! Where cells lie in memory: rows along x, with a halo around the space, or around a part of it.
 
+use crate::wavefront::Lag;
 use rayon::prelude::*;
 use std::ops::Range;
 use xca_core::engine::Part;
@@ -147,6 +148,36 @@ impl Layout {
             })
         };
         along(2, z).flat_map(move |z| along(1, y).map(move |y| z * height + y))
+    }
+
+    /// How far a pass has to be behind the one before; nothing where the halo is wider than the space.
+    pub(crate) fn lag(&self) -> Option<Lag> {
+        let [_, height, depth] = self.extents;
+        let [_, along, up] = self.reach;
+        let is_ring = |axis: usize| self.boundaries[Face::ALONG[axis][0]] == Boundary::Toroidal;
+        if along > height || up > depth || self.borders != Faces::all(false) {
+            return None;
+        }
+        if depth == 1 {
+            return Some(Lag { rows: along, is_ring: along > 0 && is_ring(1) });
+        }
+        // Round a torus along y the first rows of a layer see its last ones.
+        let in_layer = if along > 0 && is_ring(1) { height - 1 } else { along };
+        Some(Lag { rows: up * height + in_layer, is_ring: up > 0 && is_ring(2) })
+    }
+
+    /// The indices y and z in the part of those lines of the halo that show a row.
+    pub(crate) fn images(&self, row: usize) -> impl Iterator<Item = [isize; 2]> {
+        let [y, z] = self.row(row);
+        let images = move |axis: usize, index: usize| {
+            let reach = self.reach[axis];
+            let of_index = move |(target, source): (usize, Source)| match source {
+                Source::Cell(source) if source == index + reach => Some(target as isize - reach as isize),
+                Source::Cell(_) | Source::Outside(_) | Source::Part => None,
+            };
+            std::iter::once(index as isize).chain(self.along(axis).filter_map(of_index))
+        };
+        images(2, z).flat_map(move |z| images(1, y).map(move |y| [y, z])).skip(1)
     }
 
     /// The padded number of a row's first cell.
@@ -350,6 +381,89 @@ fn fill_outside<T: Copy>(cells: &mut [T], outside: Option<&[T]>) {
     if let Some(outside) = outside {
         for value in cells.chunks_exact_mut(outside.len()) {
             value.copy_from_slice(outside);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Layout;
+    use xca_core::prelude::*;
+
+    #[derive(Substates, Clone, Copy)]
+    struct Site {
+        value: u32,
+    }
+
+    fn layouts() -> Vec<Layout> {
+        const FLAT: Boundary = Boundary::Flat;
+        const RING: Boundary = Boundary::Toroidal;
+        const MIRROR: Boundary = Boundary::Reflecting;
+        let spaces = [
+            ([5, 7, 6], Neighbourhood::moore(1)),
+            ([5, 6, 9], Neighbourhood::moore(2)),
+            ([5, 9, 1], Neighbourhood::moore_2d(2)),
+            ([9, 1, 1], Neighbourhood::custom(vec![[0; 3], [1, 0, 0]]).unwrap()),
+            ([5, 5, 8], Neighbourhood::custom(vec![[0; 3], [0, 0, 2]]).unwrap()),
+        ];
+        let boundaries = [
+            [FLAT; 3],
+            [RING; 3],
+            [MIRROR; 3],
+            [FLAT, RING, MIRROR],
+            [RING, MIRROR, FLAT],
+            [MIRROR, FLAT, RING],
+        ];
+        let of_space = |(extents, neighbourhood): ([usize; 3], Neighbourhood)| {
+            boundaries.map(|boundaries| {
+                let builder = Model::builder("site").extents(extents).neighbourhood(neighbourhood.clone());
+                let model = builder.boundaries(boundaries).substates::<Site>().build().unwrap();
+                Layout::new(model.geometry())
+            })
+        };
+        spaces.into_iter().flat_map(of_space).collect()
+    }
+
+    /// The halo, filled by the rules, is the oracle.
+    #[test]
+    fn images_of_a_row_are_the_lines_of_the_halo_that_show_it() {
+        for layout in layouts() {
+            let mut plane = vec![usize::MAX; layout.cells()];
+            for row in 0..layout.rows() {
+                let first = layout.first(row);
+                plane[first..first + layout.width()].fill(row);
+            }
+            layout.fill_halo(&mut plane, 1, None, false);
+            let [_, along, up] = layout.reach().map(|reach| reach as isize);
+            let [_, height, depth] = layout.extents.map(|extent| extent as isize);
+            for row in 0..layout.rows() {
+                let mut images: Vec<_> = layout.images(row).collect();
+                images.sort_unstable_by_key(|[y, z]| (*z, *y));
+                let lines = (-up..depth + up).flat_map(|z| (-along..height + along).map(move |y| [y, z]));
+                let is_inside = |[y, z]: &[isize; 2]| (0..height).contains(y) && (0..depth).contains(z);
+                let shown: Vec<_> = lines
+                    .filter(|line| !is_inside(line) && plane[layout.cells_of_line(*line).start] == row)
+                    .collect();
+                assert_eq!(images, shown, "{layout:?} {row}");
+            }
+        }
+    }
+
+    #[test]
+    fn rows_that_see_each_other_are_no_further_apart_than_the_lag() {
+        for layout in layouts() {
+            let lag = layout.lag().unwrap();
+            let rows = layout.rows();
+            let mut most = 0;
+            for row in 0..rows {
+                for other in layout.rows_around(row) {
+                    let apart = row.abs_diff(other);
+                    most = most.max(if lag.is_ring { apart.min(rows - apart) } else { apart });
+                }
+            }
+            // Round a torus along y the lag counts whole layers, which no row of a small space needs.
+            assert!(most <= lag.rows, "{layout:?} {lag:?} {most}");
+            assert!(lag.rows < 2 * most.max(1), "{layout:?} {lag:?} {most}");
         }
     }
 }

@@ -18,6 +18,7 @@ mod group;
 mod layout;
 mod listing;
 mod lists;
+mod memory;
 mod migration;
 mod motion;
 mod pace;
@@ -25,9 +26,11 @@ mod population;
 mod reductions;
 mod rows;
 mod stages;
+mod stride;
 mod threads;
 mod tiles;
 mod upkeep;
+mod wavefront;
 
 use choices::{Choices, LeaveOut};
 use edges::Edges;
@@ -101,6 +104,14 @@ impl Cpu {
         Self { choices: Choices { leave_out, ..self.choices }, ..self }
     }
 
+    /// With so many steps done together, at least one, where the space has room for them, instead of as many as the engine finds best. For
+    /// tests: it changes the time that a step takes, and no result.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn with_stride(self, steps: std::num::NonZeroU64) -> Self {
+        Self { choices: Choices { stride: Some(steps.get()), ..self.choices }, ..self }
+    }
+
     /// Works on all cells in each step. For benchmarks: it changes the time that a step takes, and no result.
     #[doc(hidden)]
     #[must_use]
@@ -147,7 +158,7 @@ impl Engine for Cpu {
     }
 
     fn least_memory(&self, model: &Model, precision: Precision) -> u128 {
-        execution::least_memory(model, &Layout::new(model.geometry()), precision)
+        memory::least_memory(model, &Layout::new(model.geometry()), precision)
     }
 
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {

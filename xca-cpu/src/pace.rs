@@ -49,6 +49,11 @@ impl Pace {
         self.pause == 0
     }
 
+    /// How many steps follow that leave out nothing.
+    pub(crate) fn pause(&self) -> u64 {
+        self.pause
+    }
+
     /// Whether the step is the first one after a pause, in which no one has seen what changed.
     pub(crate) fn is_first(&self) -> bool {
         self.is_on() && self.tried == 0

@@ -1,6 +1,7 @@
 //! What a pass has found.
 
 use crate::motion::Motion;
+use std::time::Duration;
 use xca_core::engine::Fault;
 
 /// What a pass over a block of rows found.
@@ -15,11 +16,15 @@ pub(super) struct Found {
     /// The cells that were worked on, each counted once a process.
     pub(super) worked: u64,
     pub(super) fault: Option<FirstFault>,
+    /// How long the rows took.
+    pub(super) time: Duration,
 }
 
-/// The first fault by process and cell.
+/// The first fault by pass, process and cell.
 #[derive(Debug)]
 pub(crate) struct FirstFault {
+    /// The number of the pass among those that ran in each other's wake.
+    pub(crate) pass: usize,
     /// The number of the process in the model.
     pub(crate) process: usize,
     /// The linear index of the cell.
@@ -36,9 +41,20 @@ pub(crate) struct Mover {
 }
 
 impl Found {
+    /// Adds what was found in other rows by the same pass.
+    pub(super) fn add(&mut self, other: Self) {
+        self.worked += other.worked;
+        self.movers.extend(other.movers);
+        self.motions.iter_mut().zip(other.motions).for_each(|(all, one)| *all = all.and(one));
+        self.widest.iter_mut().zip(other.widest).for_each(|(all, one)| *all = all.max(one));
+        if let Some(FirstFault { process, cell, fault, .. }) = other.fault {
+            self.keep(process, cell, fault);
+        }
+    }
+
     pub(super) fn keep(&mut self, process: usize, cell: u32, fault: Fault) {
         if self.fault.as_ref().is_none_or(|first| (process, cell) < (first.process, first.cell)) {
-            self.fault = Some(FirstFault { process, cell, fault });
+            self.fault = Some(FirstFault { pass: 0, process, cell, fault });
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Processes over cells, in those pieces of a row in which they are due, and what they have changed there.
 #![allow(unsafe_code)]
 
+use super::pass::{Cells, Pass, Work};
 use super::prepared::{Prepared, Shared};
-use super::{Cells, Pass, Work};
 use crate::activity::Activity;
 use crate::population::Population;
 use crate::tiles::Tiles;
@@ -75,7 +75,7 @@ impl Pass<'_> {
             }
         }
         if done.cells > 0 {
-            self.continue_row(prepared, cells.first);
+            self.continue_row(prepared, row);
         }
         for (shared, [here, around]) in prepared.substates.iter().zip(&pieces.changes) {
             if here.iter().any(|word| *word != 0) {

@@ -1,12 +1,66 @@
-//! What a pass needs before its rows: halos and second buffers.
+//! What a pass needs before its rows: halos and second buffers, and where everything lies in memory.
 
+use super::prepared::{Prepared, prepare};
+use super::search::{self, Measured, Searches};
+use super::{Ground, StageOfStep};
 use crate::group::Group;
 use crate::layout::Layout;
 use xca_core::Model;
-use xca_core::engine::SubstateId;
+use xca_core::engine::{StepContext, SubstateId};
+
+/// A pass that is ready to run.
+pub(super) struct Ready<'a> {
+    pub(super) processes: Vec<Prepared<'a>>,
+    pub(super) context: StepContext<'a>,
+    /// The substates that it writes, and whether to a second buffer.
+    pub(super) written: Vec<(SubstateId, bool)>,
+    pub(super) searches: Searches,
+    pub(super) measured: Vec<Measured>,
+    /// Whether rows are continued beyond the faces along y and z, too, as passes that follow in the wake see them there.
+    pub(super) continues_lines: bool,
+}
+
+impl<'a> Ready<'a> {
+    /// After this the groups are as the pass will leave them: what it writes to second buffers is read from now
+    /// on, by passes that are made ready after it. `in_wake` says that there are such.
+    pub(super) fn new(
+        Ground { model, layout, precision }: Ground<'a>,
+        groups: &mut [Group],
+        stage: StageOfStep<'a>,
+        in_wake: bool,
+    ) -> Self {
+        let written = prepare_buffers(model, layout, groups, stage.processes);
+        let searches = search::prepare(model, layout, precision, groups, stage.processes);
+        let processes = stage.processes.iter().enumerate();
+        let processes = processes
+            .map(|(number, &index)| prepare(model, layout, groups, (number, index), precision, &written))
+            .collect();
+        let measured = Measured::all(model, groups, stage.processes, &written);
+        for &(substate, second) in &written {
+            match &mut groups[substate.group] {
+                Group::Cells(planes) => planes[substate.field].written(second, in_wake),
+                Group::Population(population) if second => {
+                    std::mem::swap(
+                        &mut population.items.fields[substate.field],
+                        &mut population.next[substate.field],
+                    );
+                }
+                Group::Population(_) => {}
+            }
+        }
+        Self {
+            processes,
+            context: stage.context,
+            written,
+            searches,
+            measured,
+            continues_lines: in_wake && layout.halo_follows()[1],
+        }
+    }
+}
 
 /// Fills halos that will be read and makes second buffers; gives the substates that the pass writes, and whether to a second buffer.
-pub(super) fn prepare_buffers(
+fn prepare_buffers(
     model: &Model,
     layout: &Layout,
     groups: &mut [Group],
@@ -29,12 +83,6 @@ pub(super) fn prepare_buffers(
                 Some((_, second)) => *second |= found.elsewhere,
                 None => written.push((substate, found.elsewhere)),
             }
-        }
-    }
-    // A plane that is written no longer has the halo of its cells.
-    for (substate, _) in &written {
-        if let Group::Cells(planes) = &mut groups[substate.group] {
-            planes[substate.field].touch();
         }
     }
     written

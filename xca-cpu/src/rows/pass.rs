@@ -1,0 +1,296 @@
+//! The rows of a pass: its processes, one after the other, in each row.
+#![allow(unsafe_code)]
+
+use super::Ground;
+use super::found::{Found, Mover};
+use super::now::{Now, Report};
+use super::pieces::Pieces;
+use super::prepare::Ready;
+use super::prepared::Prepared;
+use super::search::{Measured, Searches};
+use crate::activity::{Activity, DueRow};
+use crate::group::{Group, population};
+use crate::layout::Layout;
+use crate::motion::Motion;
+use crate::population::Population;
+use std::ops::Range;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use xca_core::engine::Fault;
+use xca_core::kernel::{Entry, Frame, Row, RowItems, STAY, Scratch, StoppedAt};
+use xca_core::{Model, Parity, ProcessKind, Stream};
+
+/// What is known of where processes are due.
+#[derive(Clone, Copy)]
+pub(super) struct Followed<'a> {
+    pub(super) activity: &'a Activity,
+    /// The rows in which they are, where not all rows are needed.
+    pub(super) due: Option<&'a [DueRow]>,
+}
+
+/// Everything that the rows of a pass share.
+pub(super) struct Pass<'a> {
+    pub(super) model: &'a Model,
+    pub(super) layout: &'a Layout,
+    parity: Parity,
+    /// For each process those of even and odd rows or columns.
+    frames: Vec<[Frame<'a>; 2]>,
+    pub(super) prepared: &'a [Prepared<'a>],
+    /// The cells of the halo that continue a row, with their sources.
+    pub(super) continuation: Vec<(isize, isize)>,
+    /// Whether rows are continued beyond the faces along y and z, too.
+    pub(super) continues_lines: bool,
+    groups: &'a [Group],
+    searches: &'a Searches,
+    measured: &'a [Measured],
+    /// Nothing where all rows are worked on.
+    followed: Option<Followed<'a>>,
+}
+
+impl<'a> Pass<'a> {
+    pub(super) fn new(
+        Ground { model, layout, .. }: Ground<'a>,
+        groups: &'a [Group],
+        ready: &'a Ready<'a>,
+        offsets: &'a [Vec<isize>; 2],
+        followed: Option<Followed<'a>>,
+    ) -> Self {
+        let geometry = model.geometry();
+        let frame = |index: usize, odd: usize| Frame {
+            geometry,
+            extents: geometry.extents().map(|extent| extent as u32),
+            side: geometry.side(),
+            toroidal: geometry.toroidal(),
+            step: ready.context.step,
+            seed: ready.context.seed,
+            stream: Stream::process(index),
+            parameters: ready.context.parameters,
+            offsets: &offsets[odd],
+            filter: ready.searches.filter.as_ref(),
+        };
+        let processes = ready.processes.iter();
+        Self {
+            model,
+            layout,
+            parity: geometry.neighbourhood().parity(),
+            frames: processes.map(|prepared| [0, 1].map(|odd| frame(prepared.index, odd))).collect(),
+            prepared: &ready.processes,
+            continuation: layout.continuation(),
+            continues_lines: ready.continues_lines,
+            groups,
+            searches: &ready.searches,
+            measured: &ready.measured,
+            followed,
+        }
+    }
+
+    /// What is found in no row.
+    pub(super) fn nothing(&self) -> Found {
+        Found {
+            motions: vec![Motion::NONE; self.measured.len()],
+            widest: vec![0.0; self.prepared.len()],
+            ..Found::default()
+        }
+    }
+
+    /// Runs all processes over some rows, one row after the other: ranges of rows, or of those that are due.
+    pub(super) fn work(&self, rows: Range<usize>, found: &mut Found) {
+        let model = self.model;
+        let now = Now::default();
+        // Numbers in the list of those that are due, if there is one.
+        let (mut rows, mut processes) = (rows, self.prepared.len());
+        while let Err(panic) = catch_unwind(AssertUnwindSafe(|| {
+            self.rows(rows.clone(), processes, &now, found);
+        })) {
+            let (number, row, at) = (now.process.get(), now.row.get(), now.stopped.get());
+            let Prepared { process, index, .. } = self.prepared[number];
+            // What the row had reported before comes first.
+            match now.reported.get() {
+                Some(fault) => {
+                    found.keep(index, fault.cell, Fault::reported(process, fault, model.geometry()));
+                }
+                None => {
+                    let first = || model.geometry().linear(self.layout.origin(row)) as u32;
+                    let at = at.unwrap_or_else(|| StoppedAt { cell: first(), label: None });
+                    found.keep(index, at.cell, Fault::panicked(process, at, &*panic, model.geometry()));
+                }
+            }
+            // The fault of an earlier process comes first, in whatever row.
+            (rows, processes) = (now.place.get() + 1..rows.end, number);
+        }
+    }
+
+    /// Runs the first processes over rows.
+    fn rows(&self, rows: Range<usize>, processes: usize, now: &Now, found: &mut Found) {
+        let model = self.model;
+        let mut work = Work {
+            entries: Vec::new(),
+            answers: Vec::new(),
+            scratch: Scratch::default(),
+            pieces: Pieces::default(),
+            now,
+        };
+        let populations: Vec<Option<&Population>> =
+            self.prepared.iter().map(|prepared| self.population(prepared)).collect();
+        let due = self.followed.and_then(|followed| followed.due);
+        for place in rows {
+            let row = due.map_or(place, |due| due[place].row);
+            let first = self.layout.first(row);
+            let origin = self.layout.origin(row).map(|index| index as u32);
+            let those = self.prepared[..processes].iter().zip(&populations);
+            for (number, (prepared, population)) in those.enumerate() {
+                now.start(number, row, place);
+                let own = population.map_or((0, 0), |population| population.row(row));
+                if prepared.process.kind != ProcessKind::Cells && own.0 == own.1 {
+                    continue;
+                }
+                if prepared.process.kind == ProcessKind::Migration {
+                    work.answers.clear();
+                    work.answers.resize(own.1 - own.0, STAY);
+                }
+                let cells = Cells { first, origin, length: self.layout.width(), own };
+                let widest = match self.followed {
+                    Some(Followed { activity, .. }) if prepared.process.kind == ProcessKind::Cells => {
+                        let done = self.run_pieces(activity, prepared, (row, &cells), *population, &mut work);
+                        found.worked += done.cells as u64;
+                        done.widest
+                    }
+                    _ => {
+                        let outcome = self.run_row(prepared, &cells, *population, &mut work);
+                        self.continue_row(prepared, row);
+                        outcome.widest
+                    }
+                };
+                found.widest[number] = found.widest[number].max(widest);
+                if let Some(fault) = now.reported.get() {
+                    found.keep(
+                        prepared.index,
+                        fault.cell,
+                        Fault::reported(prepared.process, fault, model.geometry()),
+                    );
+                }
+                if let (ProcessKind::Migration, Some(population)) = (prepared.process.kind, population) {
+                    self.collect_movers(population, row, &work.answers, &mut found.movers);
+                }
+            }
+            for (measured, motion) in self.measured.iter().zip(&mut found.motions) {
+                let now = measured.measure_row(model, self.layout, self.groups, row, &work.answers);
+                *motion = motion.and(now);
+            }
+        }
+    }
+
+    fn population(&self, prepared: &Prepared<'_>) -> Option<&Population> {
+        population(&self.groups[prepared.population?])
+    }
+
+    pub(super) fn run_row(
+        &self,
+        prepared: &Prepared<'_>,
+        cells: &Cells,
+        population: Option<&Population>,
+        work: &mut Work<'_>,
+    ) -> Outcome {
+        let frames = &self.frames[prepared.number];
+        if self.parity != Parity::Column || !prepared.process.local_interaction {
+            let frame = &frames[if self.parity == Parity::Row { cells.origin[1] as usize % 2 } else { 0 }];
+            return self.run_cells(prepared, frame, cells, population, 0, work);
+        }
+        // The neighbourhood changes from cell to cell: each is a row of its own.
+        let mut outcome = Outcome::default();
+        for number in 0..cells.length {
+            let (first, x) = (cells.first + number, cells.origin[0] as usize + number);
+            let own = population.map_or((0, 0), |population| {
+                (population.starts[first] as usize, population.ends[first] as usize)
+            });
+            let cell = Cells { first, origin: [x as u32, cells.origin[1], cells.origin[2]], length: 1, own };
+            // In a row without items the ranges of cells are empty, but may start anywhere.
+            let first_answer = own.0.saturating_sub(cells.own.0);
+            let one = self.run_cells(prepared, &frames[x % 2], &cell, population, first_answer, work);
+            outcome.widest = outcome.widest.max(one.widest);
+            outcome.asked_for_step |= one.asked_for_step;
+        }
+        outcome
+    }
+
+    fn run_cells(
+        &self,
+        prepared: &Prepared<'_>,
+        frame: &Frame<'_>,
+        cells: &Cells,
+        population: Option<&Population>,
+        first_answer: usize,
+        work: &mut Work<'_>,
+    ) -> Outcome {
+        work.entries.clear();
+        work.entries.extend(prepared.substates.iter().map(|shared| shared.entry(cells.first, cells.own.0)));
+        let near = population.and_then(|population| {
+            let radius = self.searches.listed[prepared.population?]?;
+            Some(population.lists.as_ref()?.view(population, radius))
+        });
+        let items = population.map(|population| RowItems {
+            // Not of a part of the list: neighbours lie before the row too.
+            starts: population.starts.as_ptr().wrapping_add(cells.first),
+            ends: population.ends.as_ptr().wrapping_add(cells.first),
+            labels: &population.items.labels,
+            own: cells.own,
+            cells: &population.items.cells[cells.own.0..cells.own.1],
+            near: near.as_ref(),
+        });
+        let migrates = prepared.process.kind == ProcessKind::Migration;
+        let destinations =
+            migrates.then(|| &mut work.answers[first_answer..first_answer + cells.own.1 - cells.own.0]);
+        // SAFETY:
+        // - `entries` follow the process's accesses, in buffers that are aligned for every scalar and hold values of the schema's types.
+        // - Planes have a halo as wide as the neighbourhood, and the offsets are made from the same layout, so that all of them can be
+        //   read from every cell of the row. Planes of items hold as many values as labels.
+        // - What is written belongs to the row's own cells or items. Rows are disjoint, and each is run by one thread.
+        // - A process that reads a substate elsewhere and writes it writes to the second buffer; no process of a stage writes what another of
+        //   it reads elsewhere (`stages`). So nothing readable is written meanwhile, by this row or by another.
+        // - `starts` and `ends` are padded like planes and hold ranges of items; those of a row's cells are the row's own items.
+        let row = unsafe {
+            Row::new(frame, &work.entries, items, destinations, &work.scratch, cells.origin, cells.length)
+        };
+        let report = Report { row: &row, now: work.now };
+        (prepared.kernel)(report.row);
+        Outcome { widest: row.widest_search(), asked_for_step: row.has_asked_for_step() }
+    }
+
+    fn collect_movers(&self, population: &Population, row: usize, answers: &[u32], movers: &mut Vec<Mover>) {
+        let (first, end) = population.row(row);
+        let cells = &population.items.cells[first..end];
+        for ((item, from), answer) in (first as u32..).zip(cells).zip(answers) {
+            if *answer != STAY && answer != from {
+                movers.push(Mover { item, from: *from, answer: *answer });
+            }
+        }
+    }
+}
+
+/// What a kernel has done in some cells.
+#[derive(Default)]
+pub(super) struct Outcome {
+    /// The largest radius of a search.
+    pub(super) widest: f64,
+    /// Whether the result may be another one in another step.
+    pub(super) asked_for_step: bool,
+}
+
+/// Lists that are kept from row to row.
+pub(super) struct Work<'a> {
+    pub(super) entries: Vec<Entry>,
+    /// A migration's answers for the items of a row.
+    pub(super) answers: Vec<u32>,
+    pub(super) scratch: Scratch,
+    pub(super) pieces: Pieces,
+    pub(super) now: &'a Now,
+}
+
+/// The cells that a kernel is given.
+pub(super) struct Cells {
+    /// The padded number of the first.
+    pub(super) first: usize,
+    pub(super) origin: [u32; 3],
+    pub(super) length: usize,
+    /// Their items.
+    pub(super) own: (usize, usize),
+}
