@@ -16,11 +16,14 @@ pub(crate) struct Comparison {
     engine: Times,
     /// Seconds a step of the loop by hand.
     by_hand: Times,
+    /// Seconds a step of the engine when it does one after the other.
+    step_by_step: Option<Times>,
 }
 
 impl Comparison {
-    /// Of the times of so many steps: first the engine's, then those of the loop by hand. A step reads and
-    /// writes `bytes` of each cell.
+    /// Of the times of so many steps: first the engine's, then those of the loop by hand, and then, if they were
+    /// taken, those of the engine that does one step after the other. A step reads and writes `bytes` of each
+    /// cell.
     pub(crate) fn new(
         name: String,
         cells: usize,
@@ -28,9 +31,10 @@ impl Comparison {
         steps: usize,
         times: Vec<Times>,
     ) -> Result<Self, Box<dyn Error>> {
-        let [engine, by_hand] = <[Times; 2]>::try_from(times).map_err(|_| "two contenders")?;
-        let (engine, by_hand) = (engine.per(steps), by_hand.per(steps));
-        Ok(Self { name, cells, bytes, engine, by_hand })
+        let mut times = times.iter().map(|times| times.per(steps));
+        let engine = times.next().ok_or("the engine is not there")?;
+        let by_hand = times.next().ok_or("the loop by hand is not there")?;
+        Ok(Self { name, cells, bytes, engine, by_hand, step_by_step: times.next() })
     }
 
     /// The share of the memory's bandwidth, in bytes a second, that these times reach, in per cent.
@@ -42,10 +46,16 @@ impl Comparison {
     pub(crate) fn line(&self, bandwidth: f64) -> String {
         let (low, high) = self.engine.spread();
         let (hand_low, hand_high) = self.by_hand.spread();
+        let step_by_step = self.step_by_step.as_ref().map(|times| {
+            let (low, high) = times.spread();
+            let ratio = self.engine.median() / times.median();
+            let [median, low, high] = [times.median(), low, high].map(|seconds| seconds * 1e3);
+            format!("; step by step {median:.2} ms ({low:.2} to {high:.2}), ratio {ratio:.3}")
+        });
         format!(
             "{}: engine {:.2} ms a step ({:.2} to {:.2}), {:.0} % of the bandwidth; \
              by hand {:.2} ms ({:.2} to {:.2}), {:.0} %; \
-             ratio {:.3}; {:.1} million cells a second",
+             ratio {:.3}; {:.1} million cells a second{}",
             self.name,
             self.engine.median() * 1e3,
             low * 1e3,
@@ -57,6 +67,7 @@ impl Comparison {
             self.share(&self.by_hand, bandwidth),
             self.engine.median() / self.by_hand.median(),
             self.cells as f64 / self.engine.median() / 1e6,
+            step_by_step.unwrap_or_default(),
         )
     }
 }

@@ -4,8 +4,10 @@ use crate::comparison::Comparison;
 use crate::timing::interleaved;
 use rayon::prelude::*;
 use std::error::Error;
+use std::num::NonZeroU64;
 use xca_core::kernel::{Work, run};
 use xca_core::prelude::*;
+use xca_core::{Outcome, RunError};
 use xca_cpu::Cpu;
 
 #[derive(Substates, Clone, Copy)]
@@ -172,7 +174,10 @@ pub(crate) fn heat(
     steps: usize,
 ) -> Result<Comparison, Box<dyn Error>> {
     let model = heat_model(size)?;
-    let mut simulation = Simulation::new(&model, &Cpu::with_threads(threads)?, RunOptions::default())?;
+    let engine = Cpu::with_threads(threads)?;
+    let mut simulation = Simulation::new(&model, &engine, RunOptions::default())?;
+    let mut step_by_step =
+        Simulation::new(&model, &engine.with_stride(NonZeroU64::MIN), RunOptions::default())?;
     let line = size + 2;
     let mut old = vec![0.0; line * line * line];
     for z in 0..size {
@@ -184,19 +189,24 @@ pub(crate) fn heat(
     }
     let mut new = old.clone();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-    let mut failure = None;
+    let failure = std::cell::Cell::new(None);
+    let ended = |result: Result<Outcome, RunError>| failure.set(result.err().or(failure.take()));
     let times = interleaved(
         rounds,
-        &mut [&mut || failure = simulation.run(steps as u64).err().or(failure.take()), &mut || {
-            pool.install(|| {
-                for _ in 0..steps {
-                    heat_by_hand(size, &old, &mut new);
-                    std::mem::swap(&mut old, &mut new);
-                }
-            });
-        }],
+        &mut [
+            &mut || ended(simulation.run(steps as u64)),
+            &mut || {
+                pool.install(|| {
+                    for _ in 0..steps {
+                        heat_by_hand(size, &old, &mut new);
+                        std::mem::swap(&mut old, &mut new);
+                    }
+                });
+            },
+            &mut || ended(step_by_step.run(steps as u64)),
+        ],
     );
-    failure.map_or(Ok(()), Err)?;
+    failure.take().map_or(Ok(()), Err)?;
     let cell = size / 2;
     let by_hand = old[((cell + 1) * line + cell + 1) * line + cell + 1];
     if simulation.state().get(Heat::TEMPERATURE, [cell; 3])? != by_hand {
@@ -213,7 +223,10 @@ pub(crate) fn life(
     steps: usize,
 ) -> Result<Comparison, Box<dyn Error>> {
     let model = life_model(size)?;
-    let mut simulation = Simulation::new(&model, &Cpu::with_threads(threads)?, RunOptions::default())?;
+    let engine = Cpu::with_threads(threads)?;
+    let mut simulation = Simulation::new(&model, &engine, RunOptions::default())?;
+    let mut step_by_step =
+        Simulation::new(&model, &engine.with_stride(NonZeroU64::MIN), RunOptions::default())?;
     let line = size + 2;
     let mut old = vec![0_u8; line * line];
     for y in 0..size {
@@ -223,19 +236,24 @@ pub(crate) fn life(
     }
     let mut new = old.clone();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-    let mut failure = None;
+    let failure = std::cell::Cell::new(None);
+    let ended = |result: Result<Outcome, RunError>| failure.set(result.err().or(failure.take()));
     let times = interleaved(
         rounds,
-        &mut [&mut || failure = simulation.run(steps as u64).err().or(failure.take()), &mut || {
-            pool.install(|| {
-                for _ in 0..steps {
-                    life_by_hand(size, &mut old, &mut new);
-                    std::mem::swap(&mut old, &mut new);
-                }
-            });
-        }],
+        &mut [
+            &mut || ended(simulation.run(steps as u64)),
+            &mut || {
+                pool.install(|| {
+                    for _ in 0..steps {
+                        life_by_hand(size, &mut old, &mut new);
+                        std::mem::swap(&mut old, &mut new);
+                    }
+                });
+            },
+            &mut || ended(step_by_step.run(steps as u64)),
+        ],
     );
-    failure.map_or(Ok(()), Err)?;
+    failure.take().map_or(Ok(()), Err)?;
     let alive: i64 =
         old.chunks(line).skip(1).take(size).flat_map(|row| &row[1..=size]).map(|&cell| i64::from(cell)).sum();
     if simulation.state().sum(Life::ALIVE)? != alive {

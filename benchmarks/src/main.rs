@@ -105,8 +105,8 @@ fn run(arguments: Arguments) -> Result<(), Box<dyn Error>> {
             let bandwidth = bandwidth::bandwidth(arguments.threads)?;
             say!("memory: {:.1} GB/s are read and written while a large array is copied", bandwidth / 1e9)?;
             for comparison in [
-                dense::heat(256, arguments.threads, arguments.rounds, 10)?,
-                dense::life(4096, arguments.threads, arguments.rounds, 20)?,
+                dense::heat(256, arguments.threads, arguments.rounds, 32)?,
+                dense::life(4096, arguments.threads, arguments.rounds, 128)?,
             ] {
                 say!("{}", comparison.line(bandwidth))?;
             }
