@@ -218,7 +218,8 @@ pub trait Execution: Send {
     /// Runs so many whole steps, with nothing to do between them; the context is that of the first.
     ///
     /// # Errors
-    /// The first fault, with the number of steps done before it.
+    /// The first fault, with the number of steps done before it. The state is then of no use: steps after the
+    /// one with the fault may have begun.
     fn run_steps(&mut self, steps: u64, context: &StepContext<'_>) -> Result<(), Interruption>;
 
     /// All values of a substate.

@@ -4,6 +4,7 @@
 //! - substates of cells are planes with a halo as wide as the neighbourhood, so that a neighbour is a constant offset;
 //! - populations are compact: items are stored cell after cell, and empty rows cost nothing;
 //! - processes that do not disturb each other run together, row by row, while a row is in the processor's cache;
+//! - steps with nothing between them follow each other at a distance of some rows, if that is faster;
 //! - a substate that is read at the centre only is written in place, any other is written to a second buffer.
 
 mod activity;

@@ -2,6 +2,7 @@
 //! opens a file, and each model takes a few steps of a few cells.
 
 use std::error::Error;
+use std::num::NonZeroU64;
 use xca_core::prelude::*;
 use xca_core::{Fault, ModelBuilder};
 use xca_cpu::Cpu;
@@ -197,14 +198,14 @@ fn items(extents: [usize; 3], boundary: Boundary) -> ModelBuilder {
 
 /// The state after some steps, with all that a host asks for meanwhile, is that of the reference engine.
 fn agrees(builder: ModelBuilder, precision: Precision) -> TestResult {
-    let model = builder.watch_finite(Schedule::EveryFromStart(1)).build()?;
+    let model = builder.watch_finite(Schedule::EveryFromStart(2)).build()?;
     let options = RunOptions { precision, seed: 4 };
     let mut reference = Simulation::new(&model, &Reference, options)?;
     let start = reference.snapshot()?;
     reference.run(3)?;
     let wanted = reference.snapshot()?;
     for threads in [1, 2, 3] {
-        let engine = Cpu::with_threads(threads)?;
+        let engine = Cpu::with_threads(threads)?.with_stride(NonZeroU64::MIN.saturating_add(1));
         let mut simulation = Simulation::new(&model, &engine, options)?;
         assert!(simulation.snapshot()? == start, "{threads} threads");
         for _ in 0..3 {

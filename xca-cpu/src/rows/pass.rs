@@ -245,7 +245,8 @@ impl<'a> Pass<'a> {
         //   read from every cell of the row. Planes of items hold as many values as labels.
         // - What is written belongs to the row's own cells or items. Rows are disjoint, and each is run by one thread.
         // - A process that reads a substate elsewhere and writes it writes to the second buffer; no process of a stage writes what another of
-        //   it reads elsewhere (`stages`). So nothing readable is written meanwhile, by this row or by another.
+        //   it reads elsewhere (`stages`). A pass in the wake of another is at no row that sees this one (`Wavefront`). So nothing readable is
+        //   written meanwhile, by this row or by another.
         // - `starts` and `ends` are padded like planes and hold ranges of items; those of a row's cells are the row's own items.
         let row = unsafe {
             Row::new(frame, &work.entries, items, destinations, &work.scratch, cells.origin, cells.length)
