@@ -4,11 +4,14 @@
 mod adapter;
 mod code;
 mod exact;
+mod handicap;
+mod instance;
 mod recorder;
 mod transfer;
 
 pub use adapter::{Adapter, AdapterChoice, AdapterKind};
 pub(crate) use code::{Access, Code, Pipeline};
+pub use handicap::Handicap;
 pub(crate) use recorder::{Binding, Bindings, Recorder};
 pub(crate) use transfer::Landing;
 
@@ -26,6 +29,7 @@ pub fn adapters() -> Vec<Adapter> {
 /// An open adapter.
 pub(crate) struct Device {
     adapter: Adapter,
+    handicap: Handicap,
     device: wgpu::Device,
     queue: wgpu::Queue,
     /// Why the device is lost, once it is.
@@ -83,7 +87,7 @@ impl Buffer {
 
 impl Device {
     /// Opens an adapter.
-    pub(crate) fn open(choice: &AdapterChoice) -> Result<Self, GpuError> {
+    pub(crate) fn open(choice: &AdapterChoice, handicap: Handicap) -> Result<Self, GpuError> {
         let all = adapter::all();
         let known: Vec<Adapter> = all.iter().map(|(_, description)| description.clone()).collect();
         if known.is_empty() {
@@ -118,6 +122,7 @@ impl Device {
         }));
         Ok(Self {
             adapter: description,
+            handicap,
             device,
             queue,
             lost,
@@ -133,7 +138,7 @@ impl Device {
 
     /// The largest number of workgroups along an axis.
     pub(crate) fn most_workgroups(&self) -> u32 {
-        self.device.limits().max_compute_workgroups_per_dimension
+        handicap::lower(self.device.limits().max_compute_workgroups_per_dimension, self.handicap.workgroups)
     }
 
     /// The invocations of a workgroup that suit it. A graphics card fills its units with few; a processor that plays one does a whole
@@ -141,7 +146,13 @@ impl Device {
     pub(crate) fn workgroup(&self) -> u32 {
         let most = self.device.limits().max_compute_invocations_per_workgroup;
         let wanted = if self.adapter.kind == AdapterKind::Processor { 1024 } else { 64 };
+        let most = handicap::lower(most, self.handicap.workgroup);
         wanted.min(1 << most.max(1).ilog2())
+    }
+
+    /// The most bytes of a substate of cells that code is to reach at once.
+    pub(crate) fn reach(&self) -> u64 {
+        handicap::lower(self.adapter.largest_binding, self.handicap.reach)
     }
 
     /// Memory full of zeros.

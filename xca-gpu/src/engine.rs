@@ -1,6 +1,6 @@
 //! The engine as a program chooses it.
 
-use crate::device::{Adapter, AdapterChoice, AdapterKind, Device, DeviceError};
+use crate::device::{Adapter, AdapterChoice, AdapterKind, Device, DeviceError, Handicap};
 use crate::error::{GpuError, NotOnDevice};
 use crate::execution::{GpuExecution, least_memory};
 use crate::program::{Manner, Texts, shader_of};
@@ -9,6 +9,7 @@ use std::fmt;
 use std::sync::Arc;
 use xca_core::engine::{Engine, Execution, StartError};
 use xca_core::{Model, Precision};
+use xca_wgsl::Numbering;
 
 /// How float arithmetic is done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -48,7 +49,9 @@ pub struct UnknownArithmetic(String);
 pub fn wgsl(model: &Model, precision: Precision) -> Result<String, xca_wgsl::Error> {
     let manner = Manner { precision, strict: true, workgroup: 64, reach: u64::MAX };
     let known = Texts::default();
-    let of = |process| shader_of(&known, model, process, manner, None).map(|shader| shader.source);
+    let of = |process| {
+        shader_of(&known, model, process, manner, (None, Numbering::Axes)).map(|shader| shader.source)
+    };
     let texts = model.processes().iter().map(of);
     Ok(texts.collect::<Result<Vec<_>, _>>()?.join("\n"))
 }
@@ -70,9 +73,8 @@ pub struct GpuOptions {
     pub adapter: AdapterChoice,
     /// How float arithmetic is done.
     pub arithmetic: Arithmetic,
-    /// The most bytes of a substate that a process is to reach at once, where that is less than the adapter allows. Larger substates of
-    /// cells are worked on in parts; so it can be tried how, without a model that fills an adapter.
-    pub reach: Option<u64>,
+    /// Limits below those of the adapter, for tests.
+    pub handicap: Handicap,
 }
 
 /// The GPU engine: an open adapter.
@@ -82,8 +84,6 @@ pub struct Gpu {
     texts: Arc<Texts>,
     /// Why arithmetic is relaxed, where it is.
     relaxed: Option<String>,
-    /// The most bytes of a substate of cells that a process reaches at once.
-    reach: u64,
 }
 
 impl Gpu {
@@ -92,7 +92,7 @@ impl Gpu {
     /// # Errors
     /// Where no adapter is found or none is meant, where it cannot be opened, or cannot do what is asked.
     pub fn new(options: &GpuOptions) -> Result<Self, GpuError> {
-        let device = Arc::new(Device::open(&options.adapter)?);
+        let device = Arc::new(Device::open(&options.adapter, options.handicap)?);
         let relaxed = match options.arithmetic {
             Arithmetic::Relaxed => Some("it was asked for".to_owned()),
             Arithmetic::Best | Arithmetic::Strict => proof::of_strictness(&device).err(),
@@ -101,11 +101,7 @@ impl Gpu {
             (Some(reason), Arithmetic::Strict) => {
                 Err(GpuError::NotStrict { adapter: device.adapter().to_string(), reason: reason.clone() })
             }
-            _ => {
-                let most = device.adapter().largest_binding;
-                let reach = options.reach.unwrap_or(most).min(most);
-                Ok(Self { device, texts: Arc::default(), relaxed, reach })
-            }
+            _ => Ok(Self { device, texts: Arc::default(), relaxed }),
         }
     }
 
@@ -185,7 +181,7 @@ impl Engine for Gpu {
     }
 
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {
-        let (strict, workgroup, reach) = (self.is_strict(), self.device.workgroup(), self.reach);
+        let (strict, workgroup, reach) = (self.is_strict(), self.device.workgroup(), self.device.reach());
         let manner = Manner { precision, strict, workgroup, reach };
         match GpuExecution::new(model, manner, Arc::clone(&self.device), &self.texts) {
             Ok(execution) => Ok(Box::new(execution)),

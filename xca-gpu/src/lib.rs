@@ -48,6 +48,6 @@ mod space;
 mod stop;
 mod values;
 
-pub use device::{Adapter, AdapterChoice, AdapterKind, DeviceError, adapters};
+pub use device::{Adapter, AdapterChoice, AdapterKind, DeviceError, Handicap, adapters};
 pub use engine::{Arithmetic, Gpu, GpuOptions, UnknownArithmetic, wgsl};
 pub use error::GpuError;

@@ -10,7 +10,7 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 use xca_core::engine::SubstateId;
 use xca_core::{Model, ParameterSet, Parity, Precision, Process, ProcessKind, Stream};
-use xca_wgsl::{BindingAccess, Content, Dispatch, Layout, Options, Shader, State};
+use xca_wgsl::{BindingAccess, Content, Dispatch, Layout, Numbering, Options, Shader, State};
 
 /// How processes are compiled.
 #[derive(Debug, Clone, Copy)]
@@ -73,23 +73,34 @@ pub(crate) fn shader_of(
     model: &Model,
     process: &Process,
     manner: Manner,
-    neighbour_offsets: Option<Vec<i32>>,
+    (neighbour_offsets, numbering): (Option<Vec<i32>>, Numbering),
 ) -> Result<Shader, xca_wgsl::Error> {
     let geometry = model.geometry();
-    let [width, height, _] = geometry.extents();
-    // Workgroups as long along x as the space allows.
-    let x = width.next_power_of_two().min(manner.workgroup as usize) as u32;
-    let y = height.next_power_of_two().min((manner.workgroup / x) as usize) as u32;
     let options = Options {
         precision: manner.precision,
         neighbourhood_size: u32::try_from(geometry.neighbourhood().size()).ok(),
         neighbour_offsets,
-        workgroup_size: [x, y, (manner.workgroup / (x * y)).min(64)],
+        workgroup_size: workgroup_size(geometry.extents(), manner.workgroup),
+        numbering,
         boundaries: geometry.boundaries(),
         parity: geometry.neighbourhood().parity(),
         opaque_zero: manner.strict,
     };
     texts.of(process, options)
+}
+
+/// The size of a workgroup over cells: as long along x as the space allows.
+fn workgroup_size([width, height, _]: [usize; 3], workgroup: u32) -> [u32; 3] {
+    let x = width.next_power_of_two().min(workgroup as usize) as u32;
+    let y = height.next_power_of_two().min((workgroup / x) as usize) as u32;
+    [x, y, (workgroup / (x * y)).min(64)]
+}
+
+/// Along the axes, unless one of them has too many workgroups for a dispatch.
+fn numbering(device: &Device, space: &Space, manner: Manner) -> Numbering {
+    let size = workgroup_size(space.geometry().extents(), manner.workgroup);
+    let longest = space.parts().iter().flat_map(|part| part.workgroups(size)).max();
+    if longest > Some(device.most_workgroups()) { Numbering::Row } else { Numbering::Axes }
 }
 
 impl Program {
@@ -105,7 +116,8 @@ impl Program {
         let size = geometry.neighbourhood().size();
         let same = geometry.neighbourhood().parity() == Parity::None;
         let offsets = same.then(|| space.offsets()[..size].to_vec());
-        let shader = shader_of(texts, model, &process, manner, offsets)?;
+        let numbering = numbering(device, space, manner);
+        let shader = shader_of(texts, model, &process, manner, (offsets, numbering))?;
         if shader.needs_f64 && !device.adapter().has_f64 {
             return Err(NotOnDevice::NoF64 { what: format!("the process `{}`", process.name) });
         }
@@ -261,8 +273,13 @@ impl Program {
             Dispatch::Cells(size) => (0..space.parts().len())
                 .map(|number| {
                     let part = &space.parts()[number];
-                    let workgroups =
-                        std::array::from_fn(|axis| (part.count[axis] as u32).div_ceil(size[axis]));
+                    let along = part.workgroups(size);
+                    let workgroups = match self.shader.numbering {
+                        Numbering::Axes => along,
+                        Numbering::Row => {
+                            service::workgroups(device, along.iter().map(|count| *count as usize).product())
+                        }
+                    };
                     let parts = self.buffers(model, groups, number, Some(part));
                     Ok((self.bind(device, parts)?, workgroups))
                 })

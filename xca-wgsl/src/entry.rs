@@ -3,7 +3,7 @@
 use crate::access::Uses;
 use crate::glossary::Glossary;
 use crate::names;
-use crate::shader::Options;
+use crate::shader::{Numbering, Options};
 use std::fmt::Write as _;
 use xca_core::ir::FunctionKind;
 
@@ -22,12 +22,20 @@ impl Entry<'_> {
             FunctionKind::Cells => (format!("{x}, {y}, {z}"), "all(id < space.count)".to_owned()),
             _ => ((x * y * z).to_string(), "item < moment.items".to_owned()),
         };
-        let mut arguments = vec!["@builtin(global_invocation_id) id: vec3<u32>"];
-        if self.kind != FunctionKind::Cells || self.uses.faults {
+        let cells = self.kind == FunctionKind::Cells;
+        let numbered = cells && self.options.numbering == Numbering::Row;
+        let mut arguments = if numbered {
+            vec!["@builtin(local_invocation_id) place: vec3<u32>"]
+        } else {
+            vec!["@builtin(global_invocation_id) id: vec3<u32>"]
+        };
+        if !cells || numbered || self.uses.faults {
             arguments.push("@builtin(num_workgroups) workgroups: vec3<u32>");
         }
-        if self.uses.faults {
+        if numbered || self.uses.faults {
             arguments.push("@builtin(workgroup_id) workgroup_id: vec3<u32>");
+        }
+        if self.uses.faults {
             arguments.push("@builtin(local_invocation_index) local: u32");
         }
         let mut out = String::new();
@@ -35,8 +43,11 @@ impl Entry<'_> {
         let _ = writeln!(out, "{}", self.one(over));
         let _ = writeln!(out, "@compute @workgroup_size({size})");
         let _ = writeln!(out, "fn main(\n    {},\n) {{", arguments.join(",\n    "));
-        if self.kind != FunctionKind::Cells {
+        if !cells {
             let _ = writeln!(out, "    let item: u32 = id.x + id.y * workgroups.x * {size}u;");
+        }
+        if numbered {
+            out.push_str(&cells_of_number([x, y, z]));
         }
         let argument = if self.kind == FunctionKind::Cells { "space.first + id" } else { "item" };
         if self.uses.faults {
@@ -125,4 +136,17 @@ impl Entry<'_> {
 "
         )
     }
+}
+
+/// The indices of an invocation's cell, from the number of its workgroup.
+fn cells_of_number([x, y, z]: [u32; 3]) -> String {
+    let [x_more, y_more, z_more] = [x - 1, y - 1, z - 1];
+    format!(
+        "    let workgroup: u32 = workgroup_id.x + workgroup_id.y * workgroups.x;
+    let size = vec3<u32>({x}u, {y}u, {z}u);
+    let along: vec3<u32> = (space.count + vec3<u32>({x_more}u, {y_more}u, {z_more}u)) / size;
+    let row: u32 = workgroup / along.x;
+    let id: vec3<u32> = vec3<u32>(workgroup % along.x, row % along.y, row / along.y) * size + place;
+"
+    )
 }

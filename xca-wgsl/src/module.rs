@@ -74,6 +74,7 @@ pub(crate) fn write(program: &Program, options: &Options) -> Result<Shader, Erro
         entry_point: "main".to_owned(),
         bindings: declarations.bindings,
         dispatch: if over_cells { Dispatch::Cells([x, y, z]) } else { Dispatch::Items(x * y * z) },
+        numbering: options.numbering,
     })
 }
 

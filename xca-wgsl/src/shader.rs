@@ -20,6 +20,8 @@ pub struct Options {
     pub neighbour_offsets: Option<Vec<i32>>,
     /// The size of a workgroup along x, y and z; of a process over items the product.
     pub workgroup_size: [u32; 3],
+    /// How a workgroup of a process over cells finds its cells.
+    pub numbering: Numbering,
     /// What lies beyond the faces: round toroidal axes searches for near items go the shorter way, beyond
     /// flat faces no neighbour exists.
     pub boundaries: Faces<Boundary>,
@@ -37,6 +39,7 @@ impl Default for Options {
             neighbourhood_size: None,
             neighbour_offsets: None,
             workgroup_size: [64, 1, 1],
+            numbering: Numbering::Axes,
             boundaries: Faces::all(Boundary::Flat),
             parity: Parity::None,
             opaque_zero: false,
@@ -55,8 +58,20 @@ pub struct Shader {
     pub bindings: Vec<Binding>,
     /// What one invocation works on.
     pub dispatch: Dispatch,
+    /// How its workgroups find their cells, where it runs over cells.
+    pub numbering: Numbering,
     /// Whether the module uses 64-bit floats.
     pub needs_f64: bool,
+}
+
+/// How a workgroup of a process over cells finds its cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Numbering {
+    /// Workgroups lie along x, y and z as the cells do.
+    Axes,
+    /// Workgroups are numbered, x running fastest, and workgroup `(x, y)` of the dispatch is number
+    /// `x + y * (workgroups along x)`: for more workgroups along an axis than a device has room for.
+    Row,
 }
 
 /// What the invocations of a shader run over. Invocations beyond the end do nothing.
