@@ -90,7 +90,11 @@ impl Execution for GpuExecution {
     fn reduce_rows(&self, substate: SubstateId, reduction: &Reduction) -> Result<ReducedRows, EngineFailure> {
         check_substate(&self.model, substate)?;
         let stored = self.model.stored(substate, self.manner.precision);
-        let results = if reduction::is_possible(&self.device, reduction, stored) {
+        let longest_row = match self.groups.group(substate.group) {
+            Group::Cells(_) => self.space.geometry().extents()[0],
+            Group::Population(population) => population.items,
+        };
+        let results = if reduction::is_possible(&self.device, (reduction, stored), longest_row) {
             self.reduce_here(substate, reduction).map_err(|error| failure(&error))?
         } else {
             let lengths = match self.groups.group(substate.group) {
@@ -136,6 +140,9 @@ impl GpuExecution {
     fn occupancy(&self, group: usize) -> Result<u32, DeviceError> {
         let Some(population) = self.groups.population(group) else { return Ok(0) };
         let (device, rows) = (&self.device, self.space.rows());
+        if !device.finishes(self.space.geometry().extents()[0] + 2) {
+            return population.largest_occupancy(device);
+        }
         let description = crate::migration::description(&self.space, population);
         let space = device.uniform("space", bytemuck::cast_slice(&description))?;
         let length = (rows * size_of::<u32>()) as u64;

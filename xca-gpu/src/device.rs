@@ -7,12 +7,15 @@ mod exact;
 mod handicap;
 mod instance;
 mod recorder;
+mod rewrite;
 mod transfer;
+mod turns;
 
 pub use adapter::{Adapter, AdapterChoice, AdapterKind};
-pub(crate) use code::{Access, Code, Pipeline};
+pub(crate) use code::{Access, Code, Corrections, Pipeline};
 pub use handicap::Handicap;
 pub(crate) use recorder::{Binding, Bindings, Recorder};
+pub(crate) use rewrite::UNTOUCHED;
 pub(crate) use transfer::Landing;
 
 use crate::error::GpuError;
@@ -30,6 +33,8 @@ pub fn adapters() -> Vec<Adapter> {
 pub(crate) struct Device {
     adapter: Adapter,
     handicap: Handicap,
+    /// The most turns of loops, where the device ends them early.
+    turns: Option<u32>,
     device: wgpu::Device,
     queue: wgpu::Queue,
     /// Why the device is lost, once it is.
@@ -59,6 +64,17 @@ pub enum DeviceError {
         wanted: u64,
         /// The limit.
         most: u64,
+    },
+    /// Loops that the device does not bring to their end.
+    #[error(
+        "{what} has loops that take more turns than this adapter does: it ends the loops of a cell or an item after about {turns} \
+         turns together; spread the work over several steps, or take the cpu engine or another adapter"
+    )]
+    EndedEarly {
+        /// Whose loops.
+        what: String,
+        /// How many turns it does.
+        turns: u32,
     },
     /// Anything else: code that does not compile, a limit that is passed.
     #[error("the device refused {what}: {reason}")]
@@ -120,15 +136,21 @@ impl Device {
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
             note.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error.to_string());
         }));
-        Ok(Self {
+        let mut device = Self {
             adapter: description,
             handicap,
+            turns: None,
             device,
             queue,
             lost,
             pipelines: Mutex::new(HashMap::new()),
             buffers: AtomicU64::new(0),
-        })
+        };
+        device.turns = turns::limit(&device).map_err(|error| GpuError::CannotOpen {
+            adapter: device.adapter.to_string(),
+            reason: error.to_string(),
+        })?;
+        Ok(device)
     }
 
     /// What is known of it.
@@ -148,6 +170,22 @@ impl Device {
         let wanted = if self.adapter.kind == AdapterKind::Processor { 1024 } else { 64 };
         let most = handicap::lower(most, self.handicap.workgroup);
         wanted.min(1 << most.max(1).ilog2())
+    }
+
+    /// The most storage buffers that code uses.
+    pub(crate) fn buffers(&self) -> u32 {
+        handicap::lower(self.adapter.buffers, self.handicap.buffers)
+    }
+
+    /// How many turns the loops of an invocation may take together, where the device ends them early and says
+    /// nothing.
+    pub(crate) fn turns(&self) -> Option<u32> {
+        self.turns
+    }
+
+    /// Whether the device finishes loops of so many turns.
+    pub(crate) fn finishes(&self, turns: usize) -> bool {
+        self.turns.is_none_or(|most| turns <= most as usize)
     }
 
     /// The most bytes of a substate of cells that code is to reach at once.

@@ -1,6 +1,6 @@
 //! The engine as a program chooses it.
 
-use crate::device::{Adapter, AdapterChoice, AdapterKind, Device, DeviceError, Handicap};
+use crate::device::{Adapter, AdapterChoice, AdapterKind, Corrections, Device, DeviceError, Handicap};
 use crate::error::{GpuError, NotOnDevice};
 use crate::execution::{GpuExecution, least_memory};
 use crate::program::{Manner, Texts, shader_of};
@@ -47,7 +47,7 @@ pub struct UnknownArithmetic(String);
 /// # Errors
 /// Where a process cannot be written in WGSL.
 pub fn wgsl(model: &Model, precision: Precision) -> Result<String, xca_wgsl::Error> {
-    let manner = Manner { precision, strict: true, workgroup: 64, reach: u64::MAX };
+    let manner = Manner { precision, strict: Some(Corrections::default()), workgroup: 64, reach: u64::MAX };
     let known = Texts::default();
     let of = |process| {
         shader_of(&known, model, process, manner, (None, Numbering::Axes)).map(|shader| shader.source)
@@ -82,8 +82,8 @@ pub struct GpuOptions {
 pub struct Gpu {
     device: Arc<Device>,
     texts: Arc<Texts>,
-    /// Why arithmetic is relaxed, where it is.
-    relaxed: Option<String>,
+    /// How arithmetic is strict, or why it is relaxed.
+    strict: Result<Corrections, String>,
 }
 
 impl Gpu {
@@ -93,15 +93,15 @@ impl Gpu {
     /// Where no adapter is found or none is meant, where it cannot be opened, or cannot do what is asked.
     pub fn new(options: &GpuOptions) -> Result<Self, GpuError> {
         let device = Arc::new(Device::open(&options.adapter, options.handicap)?);
-        let relaxed = match options.arithmetic {
-            Arithmetic::Relaxed => Some("it was asked for".to_owned()),
-            Arithmetic::Best | Arithmetic::Strict => proof::of_strictness(&device).err(),
+        let strict = match options.arithmetic {
+            Arithmetic::Relaxed => Err("it was asked for".to_owned()),
+            Arithmetic::Best | Arithmetic::Strict => proof::of_strictness(&device),
         };
-        match (&relaxed, options.arithmetic) {
-            (Some(reason), Arithmetic::Strict) => {
+        match (&strict, options.arithmetic) {
+            (Err(reason), Arithmetic::Strict) => {
                 Err(GpuError::NotStrict { adapter: device.adapter().to_string(), reason: reason.clone() })
             }
-            _ => Ok(Self { device, texts: Arc::default(), relaxed }),
+            _ => Ok(Self { device, texts: Arc::default(), strict }),
         }
     }
 
@@ -112,12 +112,29 @@ impl Gpu {
 
     /// Whether float arithmetic has the bits of the reference engine.
     pub fn is_strict(&self) -> bool {
-        self.relaxed.is_none()
+        self.strict.is_ok()
     }
 
     /// Why arithmetic is relaxed, where it is.
     pub fn why_relaxed(&self) -> Option<&str> {
-        self.relaxed.as_deref()
+        self.strict.as_ref().err().map(String::as_str)
+    }
+
+    /// The operations that the driver rounds wrongly and that are corrected, such as `division in f32`: they take
+    /// longer.
+    pub fn corrected(&self) -> Vec<String> {
+        let Ok(Corrections { divisions, roots }) = self.strict else { return Vec::new() };
+        let words = |word: &'static str, of: [bool; 2]| {
+            let types = ["f32", "f64"].into_iter().zip(of).filter(|(_, corrected)| *corrected);
+            types.map(move |(type_, _)| format!("{word} in {type_}"))
+        };
+        words("division", divisions).chain(words("square root", roots)).collect()
+    }
+
+    /// How many turns the loops of a cell or item may take together, where the adapter ends them early (Mesa's
+    /// lavapipe does). A process that needs more stops the run with an error.
+    pub fn turns(&self) -> Option<u32> {
+        self.device.turns()
     }
 }
 
@@ -158,6 +175,8 @@ impl Engine for Gpu {
             ("kind", kind.to_string()),
             ("arithmetic", if self.is_strict() { "strict" } else { "relaxed" }.to_owned()),
         ];
+        let corrected = self.corrected();
+        facts.extend((!corrected.is_empty()).then(|| ("corrected", corrected.join(", "))));
         facts.extend(self.why_relaxed().map(|reason| ("relaxed_because", reason.to_owned())));
         facts
     }
@@ -181,7 +200,8 @@ impl Engine for Gpu {
     }
 
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {
-        let (strict, workgroup, reach) = (self.is_strict(), self.device.workgroup(), self.device.reach());
+        let strict = self.strict.as_ref().ok().copied();
+        let (workgroup, reach) = (self.device.workgroup(), self.device.reach());
         let manner = Manner { precision, strict, workgroup, reach };
         match GpuExecution::new(model, manner, Arc::clone(&self.device), &self.texts) {
             Ok(execution) => Ok(Box::new(execution)),

@@ -7,13 +7,13 @@ pub(crate) use memory::least_memory;
 use crate::cause::Cause;
 use crate::device::{Binding, Buffer, Device, DeviceError, Landing, Recorder};
 use crate::error::NotOnDevice;
-use crate::groups::{Groups, JOURNAL, JOURNAL_WORDS};
+use crate::groups::{ENDED_EARLY, Groups, JOURNAL, JOURNAL_WORDS};
 use crate::halo::Halo;
 use crate::migration::Migration;
 use crate::pace::Pace;
 use crate::plane::size_on_device;
 use crate::program::{Manner, Program, Texts};
-use crate::service::{ADVANCE, SEAL_AIM, SEAL_FULL, SEAL_REPORT, Services};
+use crate::service::{ADVANCE, SEAL_AIM, SEAL_FULL, SEAL_REPORT, SORTING, Services};
 use crate::space::Space;
 use memory::{check_types, groups_of, looked_at, records, space_of};
 use std::collections::{HashMap, HashSet};
@@ -40,6 +40,8 @@ pub(crate) struct GpuExecution {
     looked_at: HashSet<SubstateId>,
     /// Where the journals land after each submission.
     landing: Landing,
+    /// Where the note about loops that were ended early lands, if the device ends any.
+    ended_early: Option<Landing>,
     pace: Pace,
     /// What the device was told last.
     parameters: Option<Vec<ParameterValue>>,
@@ -83,6 +85,7 @@ impl GpuExecution {
             }
         }
         let landing = device.landing(groups.journals().size())?;
+        let ended_early = groups.ended_early().map(|_| device.landing(ENDED_EARLY)).transpose()?;
         let execution = Self {
             model: model.clone(),
             manner,
@@ -96,6 +99,7 @@ impl GpuExecution {
             stamps,
             looked_at: looked_at(model),
             landing,
+            ended_early,
             pace: Pace::new(),
             parameters: None,
             seed: None,
@@ -303,7 +307,11 @@ impl GpuExecution {
     /// Submits what was recorded, waits for it, and reads the journals. What stopped the run comes with the number of its step.
     fn finish(&mut self, mut recorder: Recorder) -> Result<Option<(u64, Fault)>, DeviceError> {
         recorder.land(self.groups.journals(), 0, &self.landing);
+        if let (Some(note), Some(landing)) = (self.groups.ended_early(), &self.ended_early) {
+            recorder.land(note, 0, landing);
+        }
         self.device.submit(recorder)?;
+        self.look_for_early_ends()?;
         let bytes = self.device.landed(&self.landing)?;
         let words: Vec<u32> = bytemuck::pod_collect_to_vec(&bytes);
         let journals: Vec<&[u32]> =
@@ -324,6 +332,20 @@ impl GpuExecution {
         let details = [journal[11], journal[12], journal[13], journal[14]];
         let fault = self.fault(process, journal[7], journal[10], details)?;
         Ok(Some((long(journal[8], journal[9]), fault)))
+    }
+
+    /// An error where the device has ended a loop early.
+    fn look_for_early_ends(&self) -> Result<(), DeviceError> {
+        let (Some(landing), Some(turns)) = (&self.ended_early, self.device.turns()) else { return Ok(()) };
+        let words: Vec<u32> = bytemuck::pod_collect_to_vec(&self.device.landed(landing)?);
+        let number = words.first().copied().unwrap_or(0);
+        if number == 0 {
+            return Ok(());
+        }
+        let program = self.programs.get(number as usize - 1).filter(|_| number != SORTING.get());
+        let what = program.map(|program| format!("the process `{}`", program.process.name));
+        let what = what.unwrap_or_else(|| "the sort of the items of a cell".to_owned());
+        Err(DeviceError::EndedEarly { what, turns })
     }
 
     /// Tells the device and all that is bound how many items a population has now.

@@ -1,12 +1,13 @@
 //! A process on the device: its shader, compiled, and what it is bound to.
 
-use crate::device::{Access, Binding, Bindings, Buffer, Code, Device, DeviceError, Pipeline};
+use crate::device::{Access, Binding, Bindings, Buffer, Code, Corrections, Device, DeviceError, Pipeline};
 use crate::error::NotOnDevice;
 use crate::groups::{Group, Groups};
 use crate::service;
 use crate::space::{Part, Space};
 use crate::values;
 use std::collections::HashMap;
+use std::num::NonZeroU32;
 use std::sync::{Arc, Mutex, PoisonError};
 use xca_core::engine::SubstateId;
 use xca_core::{Model, ParameterSet, Parity, Precision, Process, ProcessKind, Stream};
@@ -16,8 +17,8 @@ use xca_wgsl::{BindingAccess, Content, Dispatch, Layout, Numbering, Options, Sha
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Manner {
     pub(crate) precision: Precision,
-    /// Whether the driver must not change float arithmetic.
-    pub(crate) strict: bool,
+    /// Where the driver must not change float arithmetic: which operations are corrected.
+    pub(crate) strict: Option<Corrections>,
     /// The invocations of a workgroup, a power of two.
     pub(crate) workgroup: u32,
     /// The most bytes of a substate of cells that a process reaches at once.
@@ -84,7 +85,7 @@ pub(crate) fn shader_of(
         numbering,
         boundaries: geometry.boundaries(),
         parity: geometry.neighbourhood().parity(),
-        opaque_zero: manner.strict,
+        opaque_zero: manner.strict.is_some(),
     };
     texts.of(process, options)
 }
@@ -101,6 +102,11 @@ fn numbering(device: &Device, space: &Space, manner: Manner) -> Numbering {
     let size = workgroup_size(space.geometry().extents(), manner.workgroup);
     let longest = space.parts().iter().flat_map(|part| part.workgroups(size)).max();
     if longest > Some(device.most_workgroups()) { Numbering::Row } else { Numbering::Axes }
+}
+
+/// The number by which a process is known whose loops are ended early: its place in the step, from 1.
+fn watch_number(stream: Stream) -> Option<NonZeroU32> {
+    NonZeroU32::new(u32::from(stream.number()) + 1)
 }
 
 impl Program {
@@ -121,9 +127,10 @@ impl Program {
         if shader.needs_f64 && !device.adapter().has_f64 {
             return Err(NotOnDevice::NoF64 { what: format!("the process `{}`", process.name) });
         }
-        let most = device.adapter().buffers as usize;
-        let storage =
-            shader.bindings.iter().filter(|binding| binding.access != BindingAccess::Uniform).count();
+        let most = device.buffers() as usize;
+        let bindings = shader.bindings.iter();
+        let storage = bindings.filter(|binding| binding.access != BindingAccess::Uniform).count()
+            + usize::from(device.turns().is_some());
         if storage > most {
             let process = process.name;
             return Err(NotOnDevice::TooManyBuffers { process, wanted: storage, most });
@@ -138,6 +145,7 @@ impl Program {
             workgroup,
             buffers: shader.bindings.iter().map(|binding| access(binding.access)).collect(),
             strict: manner.strict,
+            watched: device.turns().and_then(|_| watch_number(stream)),
         };
         let pipeline = device.pipeline(&code)?;
         let mut parameters = Vec::new();
@@ -328,6 +336,7 @@ impl Program {
                     Group::Population(population) => population.binding(content, part),
                 },
             })
+            .chain(groups.ended_early().map(Binding::from))
             .collect()
     }
 }

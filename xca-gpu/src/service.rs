@@ -4,6 +4,7 @@ use crate::device::{Access, Binding, Bindings, Code, Device, DeviceError, Record
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::fmt::Write as _;
+use std::num::NonZeroU32;
 
 const COMMON: &str = include_str!("shaders/common.wgsl");
 
@@ -14,6 +15,8 @@ pub(crate) struct Service {
     source: &'static str,
     workgroup: u32,
     buffers: &'static [Access],
+    /// Whether it has loops that may be long: one more buffer is bound, where the device ends loops early.
+    long: bool,
 }
 
 use Access::{Read, Uniform, Write};
@@ -28,6 +31,7 @@ macro_rules! services {
             ),
             workgroup: $workgroup,
             buffers: &[$($access),+],
+            long: matches!($file.as_bytes(), b"sort"),
         };
     )*
 
@@ -52,6 +56,9 @@ services! {
     SPREAD_BLOCKS = "spread_blocks" after "blocks", 64, [Read, Read, Write];
     SUM_BLOCKS = "sum_blocks" after "blocks", 64, [Read, Write];
 }
+
+/// The number by which [`SORT`] is known where its loops are ended early.
+pub(crate) const SORTING: NonZeroU32 = NonZeroU32::MAX;
 
 /// What [`SUM_BLOCKS`] and [`SPREAD_BLOCKS`] work on in one workgroup.
 pub(crate) const BLOCK: usize = 1024;
@@ -103,7 +110,8 @@ impl Service {
             source: self.text(constants),
             workgroup: [self.workgroup, 1, 1],
             buffers: self.buffers.to_vec(),
-            strict: false,
+            strict: None,
+            watched: device.turns().filter(|_| self.long).map(|_| SORTING),
         };
         device.bind(&device.pipeline(&code)?, parts)
     }

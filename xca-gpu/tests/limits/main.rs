@@ -1,4 +1,7 @@
 //! What the engine does at the limits of adapters, which handicaps bring within reach of small models.
 
+mod buffers;
 mod common;
+mod division;
+mod turns;
 mod workgroups;
