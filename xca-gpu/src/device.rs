@@ -172,6 +172,11 @@ impl Device {
         wanted.min(1 << most.max(1).ilog2())
     }
 
+    /// From how many tiles on it is looked for those where something can change, where it is told.
+    pub(crate) fn few_tiles(&self) -> Option<usize> {
+        self.handicap.tiles
+    }
+
     /// The most storage buffers that code uses.
     pub(crate) fn buffers(&self) -> u32 {
         handicap::lower(self.adapter.buffers, self.handicap.buffers)
@@ -196,6 +201,12 @@ impl Device {
     /// Memory full of zeros.
     pub(crate) fn buffer(&self, name: &str, size: u64) -> Result<Buffer, DeviceError> {
         self.allocate(name, size, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC)
+    }
+
+    /// Memory for the sizes of so many dispatches, which the device writes.
+    pub(crate) fn dispatches(&self, name: &str, number: usize) -> Result<Buffer, DeviceError> {
+        let size = number * 3 * size_of::<u32>();
+        self.allocate(name, size as u64, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDIRECT)
     }
 
     /// Memory for what all invocations read alike.

@@ -29,6 +29,7 @@
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 mod access;
+mod activity;
 mod cause;
 mod device;
 mod engine;

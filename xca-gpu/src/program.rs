@@ -38,6 +38,8 @@ pub(crate) struct Program {
     spaces: Option<(Layout, Vec<Buffer>)>,
     offsets: Option<Buffer>,
     directions: Option<Buffer>,
+    /// Where it notes what it changes, if it does.
+    notes: Option<Binding>,
     /// Bound pipelines by the buffers that they are bound to.
     bound: HashMap<Vec<(u64, u64)>, Bindings>,
 }
@@ -91,7 +93,7 @@ pub(crate) fn shader_of(
 }
 
 /// The size of a workgroup over cells: as long along x as the space allows.
-fn workgroup_size([width, height, _]: [usize; 3], workgroup: u32) -> [u32; 3] {
+pub(crate) fn workgroup_size([width, height, _]: [usize; 3], workgroup: u32) -> [u32; 3] {
     let x = width.next_power_of_two().min(workgroup as usize) as u32;
     let y = height.next_power_of_two().min((workgroup / x) as usize) as u32;
     [x, y, (workgroup / (x * y)).min(64)]
@@ -117,12 +119,13 @@ impl Program {
         space: &Space,
         (process, stream): (Process, Stream),
         (manner, texts): (Manner, &Texts),
+        is_selected: bool,
     ) -> Result<Self, NotOnDevice> {
         let geometry = model.geometry();
         let size = geometry.neighbourhood().size();
         let same = geometry.neighbourhood().parity() == Parity::None;
         let offsets = same.then(|| space.offsets()[..size].to_vec());
-        let numbering = numbering(device, space, manner);
+        let numbering = if is_selected { Numbering::List } else { numbering(device, space, manner) };
         let shader = shader_of(texts, model, &process, manner, (offsets, numbering))?;
         if shader.needs_f64 && !device.adapter().has_f64 {
             return Err(NotOnDevice::NoF64 { what: format!("the process `{}`", process.name) });
@@ -189,6 +192,7 @@ impl Program {
             spaces,
             offsets,
             directions,
+            notes: None,
             bound: HashMap::new(),
         })
     }
@@ -284,7 +288,7 @@ impl Program {
                     let along = part.workgroups(size);
                     let workgroups = match self.shader.numbering {
                         Numbering::Axes => along,
-                        Numbering::Row => {
+                        Numbering::Row | Numbering::List => {
                             service::workgroups(device, along.iter().map(|count| *count as usize).product())
                         }
                     };
@@ -293,6 +297,23 @@ impl Program {
                 })
                 .collect(),
         }
+    }
+
+    /// Has it note in which tiles it changes something.
+    pub(crate) fn note_in(&mut self, notes: Binding) {
+        self.notes = Some(notes);
+    }
+
+    /// The process with all cells in reach.
+    pub(crate) fn bound(
+        &mut self,
+        device: &Device,
+        model: &Model,
+        space: &Space,
+        groups: &Groups,
+    ) -> Result<Bindings, DeviceError> {
+        let parts = self.buffers(model, groups, 0, space.parts().first());
+        self.bind(device, parts)
     }
 
     fn bind(&mut self, device: &Device, parts: Vec<Binding>) -> Result<Bindings, DeviceError> {
@@ -327,6 +348,7 @@ impl Program {
                 Content::NeighbourDirections => self.directions.as_ref().map(Binding::from),
                 Content::Moment(_) => Some(groups.journal(population)),
                 Content::Faults(_) => Some(groups.faults().into()),
+                Content::Activity => self.notes.clone(),
                 Content::Substate { argument, field, state, .. } => {
                     let id = self.substate(model, *argument, *field)?;
                     groups.substate(id, *state == State::After, part)

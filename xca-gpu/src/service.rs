@@ -52,6 +52,7 @@ services! {
     SEAL_REPORT = "seal_report" after "seal", 1, [Uniform, Write, Write];
     SEAL_AIM = "seal_aim" after "seal", 1, [Uniform, Write, Write, Read, Read, Read];
     SEAL_FULL = "seal_full" after "seal", 1, [Uniform, Write, Write, Read, Read];
+    SELECT = "select", 256, [Read, Write, Write];
     SORT = "sort", 256, [Uniform, Write, Write, Read, Write, Read, Write];
     SPREAD_BLOCKS = "spread_blocks" after "blocks", 64, [Read, Read, Write];
     SUM_BLOCKS = "sum_blocks" after "blocks", 64, [Read, Write];
@@ -142,6 +143,11 @@ mod tests {
     #[test]
     fn all_are_valid_wgsl() {
         let constants = [("WORDS", 2), ("PAIRS", 3), ("CROSSINGS", 3), ("FIRST", 1), ("PICK_UP", 1)];
+        let names =
+            ["TILES", "ALONG_X", "ALONG_Y", "SIZE_X", "SIZE_Y", "SIZE_Z", "CELLS_X", "CELLS_Y", "CELLS_Z"];
+        let more = ["REACH_X", "REACH_Y", "REACH_Z", "MOST", "REGION", "SOURCES", "PLACE"];
+        let constants: Vec<_> =
+            constants.into_iter().chain(names.into_iter().chain(more).map(|name| (name, 1))).collect();
         for service in ALL {
             let text = service.text(&constants);
             let module = naga::front::wgsl::parse_str(&text)

@@ -9,6 +9,8 @@ pub struct Handicap {
     pub workgroup: Option<u32>,
     /// The most workgroups along an axis of a dispatch. A dispatch has at most the square of it.
     pub workgroups: Option<u32>,
+    /// From how many tiles on it is looked for those where something can change.
+    pub tiles: Option<usize>,
     /// The most buffers that a process uses, uniform ones left out.
     pub buffers: Option<u32>,
     /// Whether strict code divides and takes square roots with the last digits wrong.

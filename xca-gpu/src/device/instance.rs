@@ -11,7 +11,9 @@ pub(super) fn open() -> Option<wgpu::Instance> {
     use wgpu::hal;
     let description = hal::InstanceDescriptor {
         name: "xca",
-        flags: wgpu::InstanceFlags::from_build_config().with_env(),
+        // The engine's own shaders write the sizes of dispatches, within the limits.
+        flags: wgpu::InstanceFlags::from_build_config().with_env()
+            - wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL,
         memory_budget_thresholds: wgpu::MemoryBudgetThresholds::default(),
         backend_options: wgpu::BackendOptions::default(),
         telemetry: None,
