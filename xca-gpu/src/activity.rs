@@ -1,9 +1,12 @@
 //! Tiles of the space in which nothing can change, and in which processes need not run.
 //!
-//! A tile is the cells of a workgroup. Each process notes for each substate that it writes the tiles in which it has
-//! changed a bit, by the number of its run. Before it runs again the device looks up the tiles in which something has
+//! A tile is the cells of a workgroup. Each process notes for each substate that it writes the tiles in
+//! which it has
+//! changed a bit, by the number of its run. Before it runs again the device looks up the tiles in which
+//! something has
 //! changed since that it reads there or within reach, or writes; only these are dispatched. In the others its
-//! results would be what stands there already, in both buffers where there are two. See `docs/architecture.md`.
+//! results would be what stands there already, in both buffers where there are two. See
+//! `docs/architecture.md`.
 
 use crate::device::{Binding, Bindings, Buffer, Device, DeviceError, Recorder};
 use crate::error::NotOnDevice;
@@ -27,7 +30,8 @@ const MOST_RUNS: u64 = 1 << 30;
 /// The processes of a model that run in selected tiles.
 #[derive(Debug)]
 pub(crate) struct Activity {
-    /// The number of the last run, the tiles selected so far (low and high word); then the region of each process.
+    /// The number of the last run, the tiles selected so far (low and high word); then the region of each
+    /// process.
     notes: Buffer,
     dispatches: Buffer,
     processes: Vec<Selected>,
@@ -142,7 +146,8 @@ impl Activity {
         self.rest == 0
     }
 
-    /// Records the selection of a process's tiles. Gives what is to be dispatched then, and where its size stands.
+    /// Records the selection of a process's tiles. Gives what is to be dispatched then, and where its size
+    /// stands.
     pub(crate) fn select(
         &mut self,
         (device, model): (&Device, &Model),
@@ -215,7 +220,8 @@ impl Activity {
     }
 }
 
-/// Whether the result of a process follows from the substates of cells and the parameters alone: it draws no random numbers, and
+/// Whether the result of a process follows from the substates of cells and the parameters alone: it draws no
+/// random numbers, and
 /// has nothing to do with items.
 fn can_be_selected(program: &Program) -> bool {
     let of_step_or_items = |content: &Content| {
@@ -233,7 +239,8 @@ fn can_be_selected(program: &Program) -> bool {
     program.process.kind == ProcessKind::Cells && !bindings.any(|binding| of_step_or_items(&binding.content))
 }
 
-/// For each substate that a process uses and each process that writes it: where that notes its changes, in words, and
+/// For each substate that a process uses and each process that writes it: where that notes its changes, in
+/// words, and
 /// whether the substate is read at neighbours.
 fn sources(
     model: &Model,

@@ -9,7 +9,6 @@ mod instance;
 mod recorder;
 mod rewrite;
 mod transfer;
-mod turns;
 
 pub use adapter::{Adapter, AdapterChoice, AdapterKind};
 pub(crate) use code::{Access, Code, Corrections, Pipeline};
@@ -136,7 +135,7 @@ impl Device {
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
             note.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error.to_string());
         }));
-        let mut device = Self {
+        Ok(Self {
             adapter: description,
             handicap,
             turns: None,
@@ -145,12 +144,12 @@ impl Device {
             lost,
             pipelines: Mutex::new(HashMap::new()),
             buffers: AtomicU64::new(0),
-        };
-        device.turns = turns::limit(&device).map_err(|error| GpuError::CannotOpen {
-            adapter: device.adapter.to_string(),
-            reason: error.to_string(),
-        })?;
-        Ok(device)
+        })
+    }
+
+    /// Notes how many turns the loops of an invocation may take together, where it ends them early.
+    pub(crate) fn set_turns(&mut self, turns: Option<u32>) {
+        self.turns = turns;
     }
 
     /// What is known of it.

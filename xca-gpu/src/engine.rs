@@ -5,6 +5,7 @@ use crate::error::{GpuError, NotOnDevice};
 use crate::execution::{GpuExecution, least_memory};
 use crate::program::{Manner, Texts, shader_of};
 use crate::proof;
+use crate::turns;
 use std::fmt;
 use std::sync::Arc;
 use xca_core::engine::{Engine, Execution, StartError};
@@ -92,7 +93,13 @@ impl Gpu {
     /// # Errors
     /// Where no adapter is found or none is meant, where it cannot be opened, or cannot do what is asked.
     pub fn new(options: &GpuOptions) -> Result<Self, GpuError> {
-        let device = Arc::new(Device::open(&options.adapter, options.handicap)?);
+        let mut device = Device::open(&options.adapter, options.handicap)?;
+        let turns = turns::limit(&device).map_err(|error| GpuError::CannotOpen {
+            adapter: device.adapter().to_string(),
+            reason: error.to_string(),
+        })?;
+        device.set_turns(turns);
+        let device = Arc::new(device);
         let strict = match options.arithmetic {
             Arithmetic::Relaxed => Err("it was asked for".to_owned()),
             Arithmetic::Best | Arithmetic::Strict => proof::of_strictness(&device),

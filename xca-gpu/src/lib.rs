@@ -47,6 +47,7 @@ mod reduction;
 mod service;
 mod space;
 mod stop;
+mod turns;
 mod values;
 
 pub use device::{Adapter, AdapterChoice, AdapterKind, DeviceError, Handicap, adapters};

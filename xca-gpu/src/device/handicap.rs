@@ -1,9 +1,12 @@
-//! An adapter made worse than it is, so that what the engine does at the limits of adapters can be tried on any of them.
+//! An adapter made worse than it is, so that what the engine does at the limits of adapters can be tried on
+//! any of them.
 
-/// Limits below those of the adapter, and operations that are worse. They change time and memory, never a result.
+/// Limits below those of the adapter, and operations that are worse. They change time and memory, never a
+/// result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Handicap {
-    /// The most bytes of a substate of cells that a process reaches at once. Larger ones are worked on in parts.
+    /// The most bytes of a substate of cells that a process reaches at once. Larger ones are worked on in
+    /// parts.
     pub reach: Option<u64>,
     /// The most invocations of a workgroup.
     pub workgroup: Option<u32>,

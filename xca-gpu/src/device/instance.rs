@@ -19,7 +19,8 @@ pub(super) fn open() -> Option<wgpu::Instance> {
         telemetry: None,
         display: None,
     };
-    // With Wayland's extension a layer of Mesa looks for a desktop, and complains on stderr where there is none.
+    // With Wayland's extension a layer of Mesa looks for a desktop, and complains on stderr where there is
+    // none.
     let without_wayland = |given: hal::vulkan::CreateInstanceCallbackArgs<'_, '_, '_>| {
         given.extensions.retain(|name| *name != c"VK_KHR_wayland_surface");
     };

@@ -1,12 +1,15 @@
 //! What is changed in code before a driver sees it.
 
 mod loops;
+mod module;
+mod operation;
 mod operations;
 
-pub(super) use operations::{Manner, Replacements};
+pub(super) use module::Checked;
+pub(super) use operation::Manner;
+pub(super) use operations::Replacements;
 
-use naga::Module;
-use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+use module::{check, parse};
 
 /// What stands in the buffer of watched loops before one was ended early.
 pub(crate) const UNTOUCHED: [u32; 4] = [0, u32::MAX, 0, 0];
@@ -20,12 +23,6 @@ pub(super) struct Watch {
     pub(super) number: u32,
 }
 
-/// A checked module.
-pub(super) struct Checked {
-    pub(super) module: Module,
-    pub(super) info: ModuleInfo,
-}
-
 /// Reads WGSL, and replaces its operations one kind after the other.
 pub(super) fn read(
     source: &str,
@@ -34,7 +31,8 @@ pub(super) fn read(
 ) -> Result<Checked, String> {
     let mut checked = parse(source)?;
     let mut source = source.to_owned();
-    // What stands for operations has operations of its own, for which something else may stand, and which is written first.
+    // What stands for operations has operations of its own, for which something else may stand, and which is
+    // written first.
     for replacements in replacements {
         let text = replacements.text(&checked);
         if !text.is_empty() {
@@ -52,16 +50,4 @@ pub(super) fn read(
         checked.info = check(&checked.module, &source)?;
     }
     Ok(checked)
-}
-
-fn parse(source: &str) -> Result<Checked, String> {
-    let module = naga::front::wgsl::parse_str(source).map_err(|error| error.emit_to_string(source))?;
-    let info = check(&module, source)?;
-    Ok(Checked { module, info })
-}
-
-fn check(module: &Module, source: &str) -> Result<ModuleInfo, String> {
-    Validator::new(ValidationFlags::all(), Capabilities::all())
-        .validate(module)
-        .map_err(|error| error.emit_to_string(source))
 }

@@ -145,7 +145,8 @@ fn quotients_are_those_of_the_processor() -> TestResult {
     Ok(())
 }
 
-/// All floats of 32 bits from 1 to 4: the square root of every other one is one of these times a power of two.
+/// All floats of 32 bits from 1 to 4: the square root of every other one is one of these times a power of
+/// two.
 #[test]
 fn all_roots_are_those_of_the_processor() -> TestResult {
     let model = Model::builder("roots")

@@ -125,7 +125,8 @@ fn assert_nothing_is_cut(gpu: &Gpu, turns: u32) -> Result<Vec<String>, ModelErro
     Ok(refused)
 }
 
-/// On an adapter that does all turns nothing is refused; on one that ends loops early only what it does not finish.
+/// On an adapter that does all turns nothing is refused; on one that ends loops early only what it does not
+/// finish.
 #[test]
 fn no_loop_is_cut_in_silence() -> TestResult {
     let gpu = gpu(Handicap::default())?;

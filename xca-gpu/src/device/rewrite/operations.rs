@@ -2,7 +2,8 @@
 
 mod text;
 
-use super::Checked;
+use super::module::Checked;
+use super::operation::{Manner, Operation};
 use naga::{
     Block, Expression, Function, Handle, MathFunction, Module, Range, ScalarKind, Span, Statement, TypeInner,
 };
@@ -15,25 +16,6 @@ pub(in crate::device) struct Replacements {
     /// Of floats of 32 bits, then of 64 bits.
     pub(in crate::device) divisions: [bool; 2],
     pub(in crate::device) roots: [bool; 2],
-}
-
-/// What operations are replaced by.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(in crate::device) enum Manner {
-    /// Correctly rounded results, made of the driver's own and of exact `+ - *`.
-    Corrected,
-    /// Results that are off in the last digits, as some drivers give them. For tests.
-    Rough,
-}
-
-/// An operation of floats.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Operation {
-    is_root: bool,
-    /// The bytes of a float.
-    width: u8,
-    /// How many floats at once.
-    lanes: u8,
 }
 
 impl Replacements {

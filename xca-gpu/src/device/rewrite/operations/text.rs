@@ -1,16 +1,20 @@
 //! The functions that stand for divisions and square roots, as WGSL.
 //!
-//! A corrected result begins with the driver's own, which may be off by some units in the last place. Twice the
-//! remainder, which is known exactly, improves it to one of the two numbers beside the true result; then the exact
-//! remainder says which of them is nearer. All this needs `+ - *` alone to be rounded correctly. Operands near the
+//! A corrected result begins with the driver's own, which may be off by some units in the last place. Twice
+//! the
+//! remainder, which is known exactly, improves it to one of the two numbers beside the true result; then the
+//! exact
+//! remainder says which of them is nearer. All this needs `+ - *` alone to be rounded correctly. Operands
+//! near the
 //! ends of the range are brought near 1 first, by powers of two, and the result back; where it becomes
 //! subnormal and a tie, the remainder decides once more, as the result must be rounded only once.
 
-use super::{Manner, Operation};
+use crate::device::rewrite::operation::{Manner, Operation};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-/// Whether a function of this name keeps its operations: in corrected ones those of the driver remain, be they rough.
+/// Whether a function of this name keeps its operations: in corrected ones those of the driver remain, be
+/// they rough.
 pub(super) fn stands_for_operation(manner: Manner, name: &str) -> bool {
     let rough = name.starts_with(prefix(Manner::Rough));
     rough || manner == Manner::Corrected && name.starts_with(prefix(Manner::Corrected))
@@ -35,7 +39,8 @@ fn scalar(width: u8) -> &'static str {
     if width == 8 { "f64" } else { "f32" }
 }
 
-/// The functions for operations, with all that they call. A corrected function divides and takes roots as the driver does.
+/// The functions for operations, with all that they call. A corrected function divides and takes roots as
+/// the driver does.
 pub(super) fn functions(manner: Manner, operations: &BTreeSet<Operation>) -> String {
     let mut text = String::new();
     for width in [4, 8] {
@@ -68,7 +73,8 @@ fn by_lanes(manner: Manner, operation: Operation) -> String {
     format!("fn {name}({arguments}) -> {vector} {{\n    return {vector}({lanes});\n}}\n")
 }
 
-/// Off by more than any driver, upwards and downwards: so far that the last steps of a correction in f32 are needed now
+/// Off by more than any driver, upwards and downwards: so far that the last steps of a correction in f32 are
+/// needed now
 /// and then.
 fn rough(width: u8) -> String {
     let [t, up, down] = if width == 8 {

@@ -1,7 +1,6 @@
 //! Whether the device ends loops early, and after how many turns.
 
-use super::rewrite::UNTOUCHED;
-use super::{Access, Code, Device, DeviceError};
+use crate::device::{Access, Code, Device, DeviceError, UNTOUCHED};
 use std::num::NonZeroU32;
 
 /// More turns than this are not tried: some tens of milliseconds on a slow device.
@@ -26,9 +25,10 @@ fn main() {
 }
 ";
 
-/// How many turns the loops of an invocation may take together, where the device ends them early: of one long loop, and of
+/// How many turns the loops of an invocation may take together, where the device ends them early: of one
+/// long loop, and of
 /// many short ones.
-pub(super) fn limit(device: &Device) -> Result<Option<u32>, DeviceError> {
+pub(crate) fn limit(device: &Device) -> Result<Option<u32>, DeviceError> {
     let mut least = None;
     let side = TRIED.isqrt();
     for [outer, inner] in [[1, TRIED], [side, TRIED / side]] {
@@ -69,7 +69,8 @@ fn refused(reason: &str) -> DeviceError {
     DeviceError::Refused { what: "to count the turns of a loop".to_owned(), reason: reason.to_owned() }
 }
 
-/// The turns that the device does, the last word, and what is noted of loops that it ends early, where they are watched.
+/// The turns that the device does, the last word, and what is noted of loops that it ends early, where they
+/// are watched.
 fn turns(
     device: &Device,
     [outer, inner]: [u32; 2],
