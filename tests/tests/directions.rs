@@ -126,6 +126,7 @@ const UNSAFE: [&str; 15] = [
     "xca-cpu/src/rows/prepared.rs",
     "xca-cpu/src/rows/search.rs",
     "xca-gpu/src/device/code.rs",
+    "xca-gpu/src/device/instance.rs",
 ];
 
 fn root() -> PathBuf {
