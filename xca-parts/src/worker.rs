@@ -3,6 +3,7 @@
 use crate::border::{Link, PartBorder};
 use crate::cut::Cut;
 use crate::fault::FaultMessage;
+use crate::greeting::Greeting;
 use crate::message::{Census, Command, Moment, Reply, decode, encode};
 use crate::transport::{Tag, Transport, TransportError};
 use std::any::Any;
@@ -140,6 +141,9 @@ pub(crate) fn serve(engine: &dyn Engine, shared: &Shared, transport: Box<dyn Tra
         let bytes = encode(reply).or_else(|reason| encode(&Reply::Failed { reason })).unwrap_or_default();
         link.lock().send(0, Tag::Reply, bytes)
     };
+    if link.lock().send(0, Tag::Reply, Greeting::new(shared).bytes()).is_err() {
+        return;
+    }
     let mut worker = match Worker::start(engine, shared, link.clone()) {
         Ok(worker) => worker,
         Err(error) => {

@@ -29,6 +29,7 @@ pub use config::ConfigError;
 
 use crate::engines::{EngineKind, Engines};
 use crate::interrupt::EXIT_INTERRUPTED;
+use crate::launcher;
 use crate::program::{Given, Program};
 use crate::terminal;
 use clap::Command;
@@ -169,6 +170,11 @@ fn main_of(definition: &Definition<'_>) -> ExitCode {
         Ok(Ok(Ended::Done)) => ExitCode::SUCCESS,
         Ok(Ok(Ended::Different)) => ExitCode::from(DIFFERENT),
         Ok(Ok(Ended::Interrupted)) => ExitCode::from(EXIT_INTERRUPTED),
+        // One of many processes says it for all.
+        Ok(Err(Unable::Refused(_))) if launcher::is_silent() => ExitCode::from(REFUSED),
+        Ok(Err(Unable::CommandLine(error))) if launcher::is_silent() && error.use_stderr() => {
+            ExitCode::from(REFUSED)
+        }
         Ok(Err(Unable::Refused(error))) => {
             terminal::complain(&*error);
             ExitCode::from(REFUSED)

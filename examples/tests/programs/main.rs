@@ -10,6 +10,7 @@ mod doors;
 mod files;
 mod gallery;
 mod grounds;
+mod in_parts;
 mod interrupted;
 mod killed;
 mod limits;
