@@ -8,7 +8,7 @@ use crate::tag::{Kind, number};
 use crate::wire::Wire;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::thread;
 use xca_core::{Engine, Model, Precision};
 use xca_parts::{Cut, decline};
@@ -29,7 +29,7 @@ struct Inner {
     places: Vec<Place>,
     next: AtomicU32,
     /// Whether the host has said that it needs this process no more.
-    stopped: std::sync::atomic::AtomicBool,
+    stopped: AtomicBool,
 }
 
 /// A process that cannot serve.
@@ -59,7 +59,7 @@ impl Job {
         } else {
             mailbox.lock().send(0, number(0, Kind::Place), &places[0].bytes());
         }
-        let stopped = (rank == 0).into();
+        let stopped = AtomicBool::new(rank == 0);
         // The number 0 is that of the job itself.
         Self(Arc::new(Inner { mailbox, rank, size, places, next: AtomicU32::new(1), stopped }))
     }
@@ -152,3 +152,6 @@ impl Drop for Inner {
         self.mailbox.lock().finish();
     }
 }
+
+#[cfg(test)]
+mod tests;

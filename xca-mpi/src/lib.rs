@@ -7,6 +7,8 @@
 //! `Library` connects a job to MPI. It is there with the feature `mpi`, which needs an MPI library and
 //! libclang to build. A [`Wire`] of another kind works in the same way.
 
+#![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
+
 mod engine;
 mod job;
 #[cfg(feature = "mpi")]

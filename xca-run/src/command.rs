@@ -165,16 +165,15 @@ fn main_of(definition: &Definition<'_>) -> ExitCode {
     let arguments: Vec<OsString> = std::env::args_os().collect();
     let panics = Panics::caught();
     // After a panic nothing of the definition is used.
-    let all = AssertUnwindSafe(|| parse::invocation(definition, &arguments).and_then(execute));
+    let all = AssertUnwindSafe(|| match parse::invocation(definition, &arguments) {
+        // What is wrong with a command line one of many processes says for all.
+        Err(_) if launcher::is_silent() => Ok(Ended::Done),
+        invocation => execute(invocation?),
+    });
     match panic::catch_unwind(all) {
         Ok(Ok(Ended::Done)) => ExitCode::SUCCESS,
         Ok(Ok(Ended::Different)) => ExitCode::from(DIFFERENT),
         Ok(Ok(Ended::Interrupted)) => ExitCode::from(EXIT_INTERRUPTED),
-        // One of many processes says it for all.
-        Ok(Err(Unable::Refused(_))) if launcher::is_silent() => ExitCode::from(REFUSED),
-        Ok(Err(Unable::CommandLine(error))) if launcher::is_silent() && error.use_stderr() => {
-            ExitCode::from(REFUSED)
-        }
         Ok(Err(Unable::Refused(error))) => {
             terminal::complain(&*error);
             ExitCode::from(REFUSED)

@@ -52,7 +52,9 @@ fn a_killed_process_ends_all_and_leaves_a_checkpoint() {
 fn an_interrupted_job_ends_with_all_its_files() {
     for name in ["-INT", "-TERM"] {
         let place = Workplace::new();
-        let child = mpirun(&place, 3, LIFE, ENDLESS).spawn().unwrap();
+        let mut command = mpirun(&place, 3, LIFE, ENDLESS);
+        // How many seconds processes that are told to end may take to write their files.
+        let child = command.env("OMPI_MCA_odls_base_sigkill_timeout", "10").spawn().unwrap();
         wait_until("a checkpoint", || checkpoints(&place).len() == 2);
         signal(child.id(), name);
         let output = ended(child, "an interrupted job");

@@ -19,8 +19,6 @@ pub(crate) fn mpirun(place: &Workplace, ranks: usize, program: &str, words: &str
         ("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"),
         // Containers may forbid the other ways to share memory.
         ("OMPI_MCA_btl_vader_single_copy_mechanism", "none"),
-        // How long processes that are told to end may take to write their files.
-        ("OMPI_MCA_odls_base_sigkill_timeout", "20"),
     ];
     command.envs(settings).env_remove("RUST_BACKTRACE");
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
