@@ -1,6 +1,6 @@
 //! The first message of each part: what it is of, so that the host finds parts that do not belong together.
 
-use crate::worker::Shared;
+use crate::shared::Shared;
 use std::fmt::{Debug, Write as _};
 use xca_core::model::Group;
 use xca_core::{Model, Precision};

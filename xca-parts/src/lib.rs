@@ -15,6 +15,7 @@ mod greeting;
 mod host;
 mod message;
 mod rows;
+mod shared;
 mod transport;
 mod worker;
 
@@ -25,10 +26,10 @@ pub use transport::{Tag, Transport, TransportError};
 use border::NAME;
 use greeting::Greeting;
 use host::Host;
+use shared::Shared;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 use std::thread::Builder;
-use worker::Shared;
 use xca_core::engine::{Engine, Execution, StartError};
 use xca_core::{Geometry, Model, Precision};
 

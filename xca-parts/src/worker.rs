@@ -1,23 +1,15 @@
 //! A part of the space at work: it does what the host says.
 
 use crate::border::{Link, PartBorder};
-use crate::cut::Cut;
 use crate::fault::FaultMessage;
 use crate::greeting::Greeting;
 use crate::message::{Census, Command, Moment, Reply, decode, encode};
+use crate::shared::Shared;
 use crate::transport::{Tag, Transport, TransportError};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use xca_core::engine::{EngineFailure, Execution, Fault, StepContext};
 use xca_core::{Engine, Model, ParameterSet, Precision, StartError};
-
-/// A model with its cut, as all parts know it.
-#[derive(Clone)]
-pub(crate) struct Shared {
-    pub(crate) model: Model,
-    pub(crate) precision: Precision,
-    pub(crate) cut: Cut,
-}
 
 /// One part.
 pub(crate) struct Worker {

@@ -1,7 +1,7 @@
 //! How jobs end before they are done: by a signal, a dead process, a fault, a mistake.
 
 use crate::launched::{ended, mpirun, process_of, run, signal, wait_until};
-use crate::running::{CADEM, LIFE, Workplace, assert_same_results, check_files, report};
+use crate::running::{CADEM, LIFE, Table, Workplace, assert_same_results, report};
 use std::fs;
 use std::path::PathBuf;
 
@@ -61,7 +61,9 @@ fn an_interrupted_job_ends_with_all_its_files() {
         assert!(!output.status.success());
         let told = report(&place.path("here"));
         assert_eq!(told["progress"]["outcome"], "interrupted", "{}", String::from_utf8_lossy(&output.stderr));
-        check_files(&place.path("here"));
+        let steps = told["progress"]["steps"].as_f64().unwrap();
+        assert_eq!(Table::read(&place.path("here/observables.csv")).last("step"), steps);
+        assert!(place.path("here/final.png").is_file());
         assert_usable(&place, LIFE);
     }
 }
