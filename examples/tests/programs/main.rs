@@ -17,6 +17,8 @@ mod limits;
 mod looked_at;
 mod maps;
 mod misuse;
+#[cfg(all(unix, feature = "mpi"))]
+mod mpi;
 mod physics;
 mod printed;
 mod rendered;

@@ -1,6 +1,6 @@
 //! How jobs end before they are done: by a signal, a dead process, a fault, a mistake.
 
-use crate::launched::{ended, mpirun, process_of, run, signal, wait_until};
+use super::launched::{ended, mpirun, process_of, run, signal, wait_until};
 use crate::running::{CADEM, LIFE, Table, Workplace, assert_same_results, report};
 use std::fs;
 use std::path::PathBuf;

@@ -1,6 +1,6 @@
 //! What is refused, with a sentence and without a hang.
 
-use crate::launched::run;
+use super::launched::run;
 use crate::running::{LIFE, Workplace};
 
 #[test]

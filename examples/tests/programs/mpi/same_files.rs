@@ -1,6 +1,6 @@
 //! The same files on any number of ranks, also across checkpoints, and the same verdicts.
 
-use crate::launched::{run, succeed};
+use super::launched::{run, succeed};
 use crate::running::{CADEM, HEAT, LANDSLIDE, LIFE, Workplace, assert_same_results, report};
 use std::fs;
 use std::path::Path;
