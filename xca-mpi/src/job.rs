@@ -124,7 +124,7 @@ impl Job {
                     // Several executions can be there at the same time.
                     Ok((engine, model)) => {
                         scope.spawn(move || {
-                            xca_parts::serve(&*engine, &model, precision, cut, Box::new(ranks))
+                            xca_parts::serve(&*engine, &model, precision, cut, Box::new(ranks));
                         });
                     }
                 }
