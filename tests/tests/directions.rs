@@ -8,7 +8,7 @@ use toml::{Table, Value};
 type TestResult = Result<(), Box<dyn Error>>;
 
 /// For each member, the members that it may depend on. A new member finds its place here first.
-const DIRECTIONS: [(&str, &[&str]); 28] = [
+const DIRECTIONS: [(&str, &[&str]); 29] = [
     ("xca-methods", &[]),
     ("xca-macros", &["xca-methods"]),
     ("xca-values", &[]),
@@ -18,6 +18,7 @@ const DIRECTIONS: [(&str, &[&str]); 28] = [
     ("xca-cpu", &["xca-core"]),
     ("xca-gpu", &["xca-core", "xca-wgsl"]),
     ("xca-parts", &["xca-core"]),
+    ("xca-mpi", &["xca-core", "xca-parts"]),
     ("xca-io", &[]),
     ("xca-picture", &["xca-io"]),
     ("xca-checkpoint", &["xca-core", "xca-io", "xca-wgsl"]),
@@ -33,6 +34,7 @@ const DIRECTIONS: [(&str, &[&str]); 28] = [
             "xca-cpu",
             "xca-gpu",
             "xca-parts",
+            "xca-mpi",
             "xca-io",
             "xca-checkpoint",
             "xca-picture",

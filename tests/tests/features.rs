@@ -22,7 +22,9 @@ fn dependencies(of: &str, features: &str) -> Result<Vec<String>, Box<dyn std::er
 #[test]
 fn a_program_has_what_its_features_ask_for() -> TestResult {
     for (of, features, there, absent) in [
-        ("xca-run", "", &["xca-cpu", "clap"][..], &["wgpu", "ratatui"][..]),
+        ("xca-run", "", &["xca-cpu", "clap"][..], &["wgpu", "ratatui", "mpi"][..]),
+        ("xca-run", "mpi", &["xca-mpi", "mpi"], &["wgpu", "ratatui"]),
+        ("xca-mpi", "", &["xca-parts"], &["mpi"]),
         ("xca-run", "gpu", &["wgpu"], &["ratatui"]),
         ("xca-run", "terminal", &["ratatui"], &["wgpu"]),
         ("xca", "", &["xca-cpu"], &["xca-run", "wgpu", "ratatui"]),
@@ -33,7 +35,9 @@ fn a_program_has_what_its_features_ask_for() -> TestResult {
         ("new-model", "gpu,terminal", &["wgpu", "ratatui"], &[]),
         ("xca", "record", &["xca-record", "xca-io", "xca-cpu"], COMMAND_LINE),
         ("xca-tests-library", "", &["xca-record", "xca-io", "xca-cpu"], COMMAND_LINE),
-        ("xca-examples", "", &["wgpu", "ratatui"], &[]),
+        ("xca", "mpi", &["xca-run", "mpi"], &["wgpu", "ratatui"]),
+        ("xca-examples", "", &["wgpu", "ratatui"], &["mpi"]),
+        ("xca-examples", "mpi", &["mpi"], &[]),
     ] {
         let found = dependencies(of, features)?;
         let has = |name: &&str| found.iter().any(|found| found == name);

@@ -1,7 +1,7 @@
 //! How a space is cut into parts.
 
 use std::ops::Range;
-use xca_core::engine::Part;
+use xca_core::engine::{Part, StartError};
 use xca_core::{Face, Geometry};
 
 /// A cut of a space into parts: so many along y, and so many along z. Their rows are shared evenly.
@@ -25,6 +25,22 @@ impl Cut {
         };
         let both = (2..parts).rev().filter(|along| parts.is_multiple_of(*along));
         [parts, 1].into_iter().chain(both).map(along_longer).find(|cut| cut.fits(geometry))
+    }
+
+    /// The even cut into so many parts, for an engine with this name.
+    ///
+    /// # Errors
+    /// [`StartError::NoParts`] where there is no such cut.
+    pub fn into_parts(geometry: &Geometry, parts: usize, engine: &str) -> Result<Self, StartError> {
+        Self::even(geometry, parts).ok_or_else(|| {
+            let ([_, y, z], most) = (geometry.extents(), Self::most(geometry));
+            let reason = format!(
+                "{y} rows along y and {z} along z cannot be cut into {parts} parts; the model reaches so far \
+                 that at most {} parts fit along y and {} along z",
+                most.y, most.z
+            );
+            StartError::NoParts { engine: engine.to_owned(), reason }
+        })
     }
 
     /// The most parts along y and along z.

@@ -1,10 +1,12 @@
 //! The host: a state in parts as a simulation sees it.
 
 use crate::border::{Link, NAME, broken};
+use crate::greeting::Greeting;
 use crate::message::{Census, Command, Moment, Reply, decode, encode};
 use crate::rows::{Lengths, Rows};
+use crate::shared::Shared;
 use crate::transport::{Tag, Transport, TransportError};
-use crate::worker::{Shared, Worker};
+use crate::worker::Worker;
 use std::ops::Range;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
@@ -41,11 +43,14 @@ impl Host {
         threads: Vec<JoinHandle<()>>,
     ) -> Result<Self, StartError> {
         let link = Link::new(transport);
-        let own = Worker::start(engine, &shared, link.clone())?;
+        let other = |reason: String| StartError::Other { engine: NAME.to_owned(), reason };
+        greet(&shared, &link).map_err(|reason| {
+            link.lock().end();
+            other(reason)
+        })?;
+        let own = Worker::start(engine, &shared, link.clone()).inspect_err(|_| link.lock().end())?;
         let mut state = State { own, link, failure: None };
-        state
-            .replies(Reply::Done)
-            .map_err(|failure| StartError::Other { engine: NAME.to_owned(), reason: failure.to_string() })?;
+        state.replies(Reply::Done).map_err(|failure| other(failure.to_string()))?;
         let rows = Rows::new(shared.model.geometry(), shared.cut);
         Ok(Self { shared, rows, state: Mutex::new(state), threads })
     }
@@ -164,6 +169,16 @@ impl Host {
         };
         replies.into_iter().map(values).collect::<Option<_>>().ok_or_else(|| self.garbled())
     }
+}
+
+/// Hears what the other parts are of. They begin while the host looks.
+fn greet(shared: &Shared, link: &Link) -> Result<(), String> {
+    let own = Greeting::new(shared);
+    let count = link.lock().count();
+    (1..count).try_for_each(|part| {
+        let said = link.lock().receive(part, Tag::Reply).map_err(|error| error.to_string())?;
+        own.check(part, &said)
+    })
 }
 
 /// Those of some cells that belong to a part.

@@ -11,9 +11,11 @@ mod border;
 mod channels;
 mod cut;
 mod fault;
+mod greeting;
 mod host;
 mod message;
 mod rows;
+mod shared;
 mod transport;
 mod worker;
 
@@ -22,11 +24,12 @@ pub use cut::Cut;
 pub use transport::{Tag, Transport, TransportError};
 
 use border::NAME;
+use greeting::Greeting;
 use host::Host;
+use shared::Shared;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 use std::thread::Builder;
-use worker::Shared;
 use xca_core::engine::{Engine, Execution, StartError};
 use xca_core::{Geometry, Model, Precision};
 
@@ -78,15 +81,7 @@ impl Parts {
     /// How the space of a model is cut.
     fn cut(&self, geometry: &Geometry) -> Result<Cut, StartError> {
         match self.number {
-            Number::Exactly(parts) => Cut::even(geometry, parts).ok_or_else(|| {
-                let ([_, y, z], most) = (geometry.extents(), Cut::most(geometry));
-                let reason = format!(
-                    "{y} rows along y and {z} along z cannot be cut into {parts} parts; the model reaches so \
-                     far that at most {} parts fit along y and {} along z",
-                    most.y, most.z
-                );
-                StartError::NoParts { engine: NAME.to_owned(), reason }
-            }),
+            Number::Exactly(parts) => Cut::into_parts(geometry, parts, NAME),
             Number::AtMost(parts) => {
                 let cut = (1..=parts).rev().find_map(|parts| Cut::even(geometry, parts));
                 Ok(cut.unwrap_or(Cut { y: 1, z: 1 }))
@@ -168,6 +163,13 @@ pub fn host(
 ) -> Result<Box<dyn Execution>, StartError> {
     let shared = Shared { model: model.clone(), precision, cut };
     Ok(Box::new(Host::start(engine, shared, transport, Vec::new())?))
+}
+
+/// Tells the [`host`] why the part with the transport's number cannot begin.
+pub fn decline(reason: &str, mut transport: Box<dyn Transport>) {
+    // Where the host has ended there is none to tell.
+    let _ = transport.send(0, Tag::Reply, Greeting::declined(reason).bytes());
+    transport.end();
 }
 
 /// Has an engine run the part with the transport's number as the [`host`] says, until that has ended. The

@@ -32,17 +32,22 @@ pub trait Transport: Send {
     /// # Errors
     /// As [`Self::send`] and [`Self::receive`].
     fn least(&mut self, number: u64) -> Result<u64, TransportError> {
-        if self.number() > 0 {
-            self.send(0, Tag::Least, number.to_le_bytes().to_vec())?;
-            let bytes = self.receive(0, Tag::Least)?;
-            return number_of(0, &bytes);
-        }
+        // Parts form a tree: each has up to two below it. Numbers go up, the least comes down.
+        let (own, count) = (self.number(), self.count());
+        let below = [2 * own + 1, 2 * own + 2].into_iter().filter(|part| *part < count);
         let mut least = number;
-        for part in 1..self.count() {
+        for part in below.clone() {
             let bytes = self.receive(part, Tag::Least)?;
             least = least.min(number_of(part, &bytes)?);
         }
-        (1..self.count()).try_for_each(|part| self.send(part, Tag::Least, least.to_le_bytes().to_vec()))?;
+        if own > 0 {
+            let above = (own - 1) / 2;
+            self.send(above, Tag::Least, least.to_le_bytes().to_vec())?;
+            least = number_of(above, &self.receive(above, Tag::Least)?)?;
+        }
+        for part in below {
+            self.send(part, Tag::Least, least.to_le_bytes().to_vec())?;
+        }
         Ok(least)
     }
 }

@@ -1,22 +1,15 @@
 //! A part of the space at work: it does what the host says.
 
 use crate::border::{Link, PartBorder};
-use crate::cut::Cut;
 use crate::fault::FaultMessage;
+use crate::greeting::Greeting;
 use crate::message::{Census, Command, Moment, Reply, decode, encode};
+use crate::shared::Shared;
 use crate::transport::{Tag, Transport, TransportError};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use xca_core::engine::{EngineFailure, Execution, Fault, StepContext};
 use xca_core::{Engine, Model, ParameterSet, Precision, StartError};
-
-/// A model with its cut, as all parts know it.
-#[derive(Clone)]
-pub(crate) struct Shared {
-    pub(crate) model: Model,
-    pub(crate) precision: Precision,
-    pub(crate) cut: Cut,
-}
 
 /// One part.
 pub(crate) struct Worker {
@@ -140,6 +133,9 @@ pub(crate) fn serve(engine: &dyn Engine, shared: &Shared, transport: Box<dyn Tra
         let bytes = encode(reply).or_else(|reason| encode(&Reply::Failed { reason })).unwrap_or_default();
         link.lock().send(0, Tag::Reply, bytes)
     };
+    if link.lock().send(0, Tag::Reply, Greeting::new(shared).bytes()).is_err() {
+        return;
+    }
     let mut worker = match Worker::start(engine, shared, link.clone()) {
         Ok(worker) => worker,
         Err(error) => {

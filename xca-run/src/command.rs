@@ -29,6 +29,7 @@ pub use config::ConfigError;
 
 use crate::engines::{EngineKind, Engines};
 use crate::interrupt::EXIT_INTERRUPTED;
+use crate::launcher;
 use crate::program::{Given, Program};
 use crate::terminal;
 use clap::Command;
@@ -164,7 +165,11 @@ fn main_of(definition: &Definition<'_>) -> ExitCode {
     let arguments: Vec<OsString> = std::env::args_os().collect();
     let panics = Panics::caught();
     // After a panic nothing of the definition is used.
-    let all = AssertUnwindSafe(|| parse::invocation(definition, &arguments).and_then(execute));
+    let all = AssertUnwindSafe(|| match parse::invocation(definition, &arguments) {
+        // What is wrong with a command line one of many processes says for all.
+        Err(_) if launcher::is_silent() => Ok(Ended::Done),
+        invocation => execute(invocation?),
+    });
     match panic::catch_unwind(all) {
         Ok(Ok(Ended::Done)) => ExitCode::SUCCESS,
         Ok(Ok(Ended::Different)) => ExitCode::from(DIFFERENT),

@@ -1,16 +1,17 @@
 //! Engines as the command line names them.
 
-use crate::engines::{EngineError, EngineKind, EngineOptions, Engines};
+use crate::engines::{EngineChoice, EngineError, EngineKind, EngineOptions, EngineWords, Engines, Helper};
 use std::time::Instant;
 use xca_compare::Contender;
 use xca_core::{Precision, UnknownPrecision};
+use xca_record::Failure;
 
-/// An engine with what it is given: `reference`, `cpu:2`, `gpu:NVIDIA`, `cpu@f32`.
+/// An engine with a precision: `reference`, `cpu:2`, `gpu:NVIDIA`, `cpu@f32`.
 #[derive(Debug)]
 pub(crate) struct Choice<'a> {
     text: String,
     kind: &'a dyn EngineKind,
-    options: EngineOptions,
+    engine: EngineChoice,
     precision: Option<Precision>,
 }
 
@@ -21,28 +22,27 @@ pub(crate) enum ChoiceError {
     Engine(#[from] EngineError),
     #[error(transparent)]
     Precision(#[from] UnknownPrecision),
-    #[error("there is nothing to choose of the {0} engine by a colon")]
-    Nothing(&'static str),
 }
 
 impl<'a> Choice<'a> {
     pub(crate) fn new(text: &str, engines: &'a Engines) -> Result<Self, ChoiceError> {
         let text = text.trim();
-        let (engine, precision) = match text.rsplit_once('@') {
-            Some((engine, precision)) => (engine, Some(precision.parse()?)),
+        let (word, precision) = match text.rsplit_once('@') {
+            Some((word, precision)) => (word, Some(precision.parse()?)),
             None => (text, None),
         };
-        let (name, which) = match engine.split_once(':') {
-            Some((name, which)) => (name, Some(which)),
-            None => (engine, None),
-        };
-        let kind = engines.kind(name)?;
-        let mut options = EngineOptions::default();
-        if let Some(which) = which {
-            let option = kind.options().first().ok_or(ChoiceError::Nothing(kind.name()))?;
-            options = options.with(option.name, which);
-        }
-        Ok(Self { text: text.to_owned(), kind, options, precision })
+        let engine = EngineWords::new(engines).parse(word)?;
+        Ok(Self { text: text.to_owned(), kind: engines.kind(&engine.name)?, engine, precision })
+    }
+
+    /// The name of the engine.
+    pub(crate) fn engine(&self) -> &'static str {
+        self.kind.name()
+    }
+
+    /// What this process does where it is only there to help another one.
+    pub(crate) fn helper(&self) -> Result<Option<Box<dyn Helper>>, Failure> {
+        self.kind.helper()
     }
 
     /// Whether the engine has this option.
@@ -57,7 +57,7 @@ impl<'a> Choice<'a> {
         options: &EngineOptions,
         precision: Precision,
     ) -> Result<Contender, EngineError> {
-        let mut chosen = self.options.clone();
+        let mut chosen = self.engine.options.clone();
         for (option, value) in options.iter().filter(|(option, _)| self.knows(option)) {
             if chosen.get(option).is_none() {
                 chosen = chosen.with(option, value);
@@ -83,7 +83,7 @@ mod tests {
         assert_eq!((contender.engine.name(), contender.engine.threads()), ("cpu", 3));
         assert_eq!((contender.precision, contender.name.as_str()), (Precision::F32, "cpu:3@f32"));
         let choice = Choice::new("gpu:llvm pipe", &engines).unwrap();
-        assert_eq!(choice.options.get("adapter"), Some("llvm pipe"));
+        assert_eq!(choice.engine.options.get("adapter"), Some("llvm pipe"));
         let choice = Choice::new(" reference ", &engines).unwrap();
         let unheeded = none.with("arithmetic", "strict");
         assert_eq!(choice.contender(&engines, &unheeded, Precision::F64).unwrap().name, "reference");
@@ -93,17 +93,12 @@ mod tests {
     fn what_is_no_engine_is_told() {
         let engines = Engines::default();
         for (text, wanted) in [
-            ("cup", "there is no engine `cup`; there are cpu, gpu, parts, reference"),
+            ("cup", "there is no engine `cup`; there are cpu[:N], gpu[:N|NAME], "),
             ("cpu@f16", "`f16` is not a precision"),
-            ("reference:2", "nothing to choose of the reference engine"),
+            ("cpu:0@f32", "engine `cpu:0`: 0 threads do nothing"),
         ] {
             let error = Choice::new(text, &engines).unwrap_err().to_string();
             assert!(error.contains(wanted), "{error}");
-        }
-        for (text, wanted) in [("cpu:0", "0 threads do nothing"), ("cpu:two", "it must be a whole number")] {
-            let choice = Choice::new(text, &engines).unwrap();
-            let error = choice.contender(&engines, &EngineOptions::default(), Precision::F64).unwrap_err();
-            assert!(error.to_string().contains(wanted), "{error}");
         }
     }
 }

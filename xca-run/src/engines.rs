@@ -3,15 +3,20 @@
 mod cpu;
 mod gpu;
 mod kind;
+mod mpi;
 mod options;
 mod parts;
 mod reference;
+mod word;
 
-pub use kind::{Devices, EngineKind, MissingFeature};
+pub use kind::{Devices, EngineDetail, EngineKind, Helper, MissingFeature};
 pub use options::{EngineOption, EngineOptions};
+pub(crate) use word::{EngineChoice, EngineWords};
 
+use crate::launcher;
 use cpu::CpuKind;
 use gpu::GpuKind;
+use mpi::MpiKind;
 use parts::PartsKind;
 use reference::ReferenceKind;
 use xca_core::Engine;
@@ -25,10 +30,17 @@ pub struct Engines {
 }
 
 impl Default for Engines {
-    /// `cpu`, `gpu`, `parts` and `reference`. Without the feature `gpu`, the second can be named but not made.
+    /// `cpu`, `gpu`, `mpi`, `parts` and `reference`. Without the features `gpu` and `mpi`, the second and the third can
+    /// be named but not made.
     fn default() -> Self {
         Self {
-            kinds: vec![Box::new(CpuKind), Box::new(GpuKind), Box::new(PartsKind), Box::new(ReferenceKind)],
+            kinds: vec![
+                Box::new(CpuKind),
+                Box::new(GpuKind),
+                Box::new(MpiKind::default()),
+                Box::new(PartsKind),
+                Box::new(ReferenceKind),
+            ],
         }
     }
 }
@@ -54,6 +66,41 @@ pub enum EngineError {
         of: String,
         /// The engine.
         engine: &'static str,
+    },
+    /// A word that is none of those that name engines.
+    #[error("engine `{word}`: {reason}")]
+    Word {
+        /// The word.
+        word: String,
+        /// Why.
+        reason: String,
+    },
+    /// A choice that is made twice.
+    #[error("--{option} is given twice, also after the colon of the {engine} engine; leave one away")]
+    Twice {
+        /// The engine.
+        engine: String,
+        /// What was chosen.
+        option: String,
+    },
+    /// A subcommand that the engine is not for.
+    #[error("`{subcommand}` does not run on the {engine} engine: {reason}; choose another engine")]
+    Subcommand {
+        /// The engine.
+        engine: &'static str,
+        /// The subcommand.
+        subcommand: String,
+        /// Why.
+        reason: &'static str,
+    },
+    /// Many processes that would all do the same.
+    #[error(
+        "a launcher has started {processes} processes, and each would do the whole of it; share it with \
+         --engine mpi:cpu, or start one process"
+    )]
+    Launched {
+        /// How many there are.
+        processes: usize,
     },
     /// A value that makes no sense.
     #[error("--{option} {value}: {reason}")]
@@ -99,6 +146,25 @@ impl Engines {
         self.kinds().find(|kind| kind.name() == name).ok_or_else(unknown)
     }
 
+    /// Refuses engines that a subcommand cannot use, and such that would do the same in each process of a launcher.
+    pub(crate) fn check<'a>(
+        &self,
+        names: impl IntoIterator<Item = &'a str>,
+        subcommand: &str,
+    ) -> Result<(), EngineError> {
+        let mut spans = false;
+        for name in names {
+            let kind = self.kind(name)?;
+            spans |= kind.spans_processes();
+            if let Some(reason) = kind.refuses(subcommand) {
+                let subcommand = subcommand.to_owned();
+                return Err(EngineError::Subcommand { engine: kind.name(), subcommand, reason });
+            }
+        }
+        let processes = launcher::processes();
+        if processes > 1 && !spans { Err(EngineError::Launched { processes }) } else { Ok(()) }
+    }
+
     /// An engine.
     ///
     /// # Errors
@@ -106,8 +172,9 @@ impl Engines {
     pub fn engine(&self, name: &str, options: &EngineOptions) -> Result<Box<dyn Engine>, EngineError> {
         let kind = self.kind(name)?;
         for (option, value) in options.iter() {
-            let own = kind.options().iter().find(|own| own.name == option);
-            let own = own.ok_or_else(|| self.no_option(option, kind))?;
+            let detail = kind.detail().map(|detail| detail.option);
+            let mut own = kind.options().iter().copied().chain(detail);
+            let own = own.find(|own| own.name == option).ok_or_else(|| self.no_option(option, kind))?;
             (own.check)(value).map_err(|reason| {
                 let [option, value] = [option, value].map(str::to_owned);
                 EngineError::Value { option, value, reason }
@@ -137,12 +204,12 @@ mod tests {
         assert_eq!(of("cpu", &threads("3")).unwrap().threads(), 3);
         assert_eq!(of("reference", &EngineOptions::default()).unwrap().threads(), 1);
         let said = |name: &str, options: &EngineOptions| of(name, options).unwrap_err().to_string();
-        let wanted = "--threads is for --engine cpu and --engine parts, not for the reference engine";
+        let wanted = "--threads is for --engine cpu, not for the reference engine";
         assert!(said("reference", &threads("2")).starts_with(wanted));
         assert_eq!(said("cpu", &threads("0")), "--threads 0: 0 threads do nothing; give at least 1");
         assert_eq!(
             said("cup", &threads("1")),
-            "there is no engine `cup`; there are cpu, gpu, parts, reference"
+            "there is no engine `cup`; there are cpu, gpu, mpi, parts, reference"
         );
         let hands = EngineOptions::default().with("hands", "2");
         assert!(said("cpu", &hands).starts_with("--hands is no option, not for the cpu engine"));
@@ -169,8 +236,17 @@ mod tests {
     #[test]
     fn names_are_those_of_the_engines() {
         let engines = Engines::default();
-        for kind in engines.kinds().filter(|kind| cfg!(feature = "gpu") || kind.name() != "gpu") {
-            let engine = engines.engine(kind.name(), &EngineOptions::default()).unwrap();
+        let is_there = |kind: &&dyn EngineKind| match kind.name() {
+            "gpu" => cfg!(feature = "gpu"),
+            // It begins MPI, which is for tests with a launcher.
+            "mpi" => false,
+            _ => true,
+        };
+        for kind in engines.kinds().filter(is_there) {
+            let is_bare = kind.detail().is_none_or(|detail| !detail.is_required);
+            let word = if is_bare { kind.name().to_owned() } else { format!("{}:2:cpu", kind.name()) };
+            let choice = EngineWords::new(&engines).parse(&word).unwrap();
+            let engine = engines.engine(&choice.name, &choice.options).unwrap();
             assert_eq!(engine.name(), kind.name());
         }
     }
@@ -197,7 +273,7 @@ mod tests {
         let engines = Engines::default().with(Other);
         assert_eq!(
             engines.kinds().map(EngineKind::name).collect::<Vec<_>>(),
-            ["cpu", "gpu", "parts", "reference"]
+            ["cpu", "gpu", "mpi", "parts", "reference"]
         );
         assert_eq!(engines.kind("cpu").unwrap().about(), "another");
     }

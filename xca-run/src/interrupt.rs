@@ -1,5 +1,6 @@
 //! Ctrl-C and termination: the run ends after its current step, with its files complete.
 
+use crate::launcher;
 use std::io;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -21,6 +22,7 @@ pub struct InterruptError {
 ///
 /// The first Ctrl-C (or SIGTERM, or SIGHUP) raises the flag, so the run can end after its step. A second one ends the
 /// program at once with [`EXIT_INTERRUPTED`]; a file that is being written then stays behind under its temporary name.
+/// Of many processes that a launcher has started, only the launcher ends one at once.
 /// On Linux a SIGHUP that is ignored, as below `nohup`, stays ignored.
 ///
 /// ```
@@ -122,7 +124,8 @@ fn listen(raised: Arc<AtomicBool>) -> io::Result<()> {
 }
 
 fn on_signal(raised: &AtomicBool) {
-    if raised.swap(true, Ordering::Relaxed) {
+    // A launcher of many processes sends several signals itself, and ends what does not end in time.
+    if raised.swap(true, Ordering::Relaxed) && launcher::processes() == 1 {
         #[cfg(feature = "terminal")]
         xca_watch::give_back();
         #[expect(clippy::exit, reason = "the user asked twice, and the run did not answer the first time")]

@@ -70,13 +70,17 @@ mod command;
 mod contender;
 mod engines;
 pub mod interrupt;
+mod launcher;
 mod options;
 mod program;
 pub mod progress;
 mod terminal;
 
 pub use command::{CommandLine, ConfigError};
-pub use engines::{Devices, EngineError, EngineKind, EngineOption, EngineOptions, Engines, MissingFeature};
+pub use engines::{
+    Devices, EngineDetail, EngineError, EngineKind, EngineOption, EngineOptions, Engines, Helper,
+    MissingFeature,
+};
 pub use options::{number_in, positive_number};
 pub use program::{Assignment, Given, NoAssignment, Program};
 #[doc(no_inline)]

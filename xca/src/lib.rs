@@ -7,6 +7,7 @@
 //! | | [`prelude`], models, the serial reference engine | |
 //! | `cpu` | `xca::Cpu`, the engine for all cores, and `xca::parts`, an engine made of several | yes |
 //! | `gpu` | `xca::gpu`, the engine for graphics adapters; with `run` also `--engine gpu` | |
+//! | `mpi` | `--engine mpi` of a program: parts of the space on many machines; the MPI library has to be installed | |
 //! | `record` | `xca::record`, `xca::compare`, `xca::ensemble`, `xca::picture` and `xca::io`: runs and their files without a command line | |
 //! | `run` | `xca::run`, the command line of a model's program, and its names in the prelude | |
 //! | `terminal` | the subcommand `watch` of a program | |

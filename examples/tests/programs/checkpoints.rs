@@ -145,7 +145,7 @@ fn none_at_all() {
         ("resume here --threads 0", "0 threads do nothing"),
         (
             "resume here --engine reference --threads 2",
-            "--threads is for --engine cpu and --engine parts, not for the reference engine",
+            "--threads is for --engine cpu, not for the reference engine",
         ),
         ("resume here --checkpoint away", "error: cannot read the checkpoint away\ncaused by: "),
         ("run --checkpoint-every soon", "it must be a number of steps, such as 500, or a time"),

@@ -10,12 +10,15 @@ mod doors;
 mod files;
 mod gallery;
 mod grounds;
+mod in_parts;
 mod interrupted;
 mod killed;
 mod limits;
 mod looked_at;
 mod maps;
 mod misuse;
+#[cfg(all(unix, feature = "mpi"))]
+mod mpi;
 mod physics;
 mod printed;
 mod rendered;

@@ -27,7 +27,11 @@ fn names_that_no_one_knows() {
         (CADEM, "--walls none", "possible values: single, per-slot"),
         (CADEM, "--integrator verlet", "possible values: semi-implicit, explicit"),
         (CADEM, "--open floor", "there is no face `floor`; the faces are x-low"),
-        (CADEM, "--engine abacus", "possible values: cpu, gpu, parts, reference"),
+        (
+            CADEM,
+            "--engine abacus",
+            "there is no engine `abacus`; there are cpu[:N], gpu[:N|NAME], mpi:cpu[:THREADS], parts:N:cpu[:THREADS], reference",
+        ),
         (
             HEAT,
             "--set beta=1",
@@ -46,13 +50,9 @@ fn values_that_make_no_sense() {
         (
             CADEM,
             "--engine reference --threads 2",
-            "--threads is for --engine cpu and --engine parts, not for the reference engine",
+            "--threads is for --engine cpu, not for the reference engine",
         ),
-        (
-            CADEM,
-            "--engine gpu --threads 2",
-            "--threads is for --engine cpu and --engine parts, not for the gpu engine",
-        ),
+        (CADEM, "--engine gpu --threads 2", "--threads is for --engine cpu, not for the gpu engine"),
         (CADEM, "--engine gpu --adapter abacus", "no adapter is `abacus`; this machine has 0: "),
         (CADEM, "--engine gpu --arithmetic lax", "`lax` is no arithmetic; use best, strict or relaxed"),
         (CADEM, "--adapter 0", "--adapter is for --engine gpu, not for the cpu engine"),

@@ -31,7 +31,7 @@ fn compare(program: &str, options: &str, every: u64) {
     compare_on(&all, program, options, every);
 }
 
-fn compare_on(parts: &[(&str, &str)], program: &str, options: &str, every: u64) {
+pub(crate) fn compare_on(parts: &[(&str, &str)], program: &str, options: &str, every: u64) {
     let place = Workplace::new();
     place.succeed(program, &format!("{options} --engine cpu --threads 2 --out whole"));
     for (begun, resumed) in parts {
@@ -78,7 +78,7 @@ fn compare_reports(whole: &Value, resumed: &Value) {
         let ends = ["_seconds", "_bytes", "_per_second", "engine_figures"];
         ends.iter().any(|end| name.ends_with(end))
     };
-    let known = ["started", "resumed", "engine", "threads"];
+    let known = ["started", "resumed", "engine", "threads", "device"];
     // These differ because the command lines of the two runs do.
     let told = ["command_line", "checkpoint_every", "files"];
     let (whole, resumed) = (whole.as_object().unwrap(), resumed.as_object().unwrap());

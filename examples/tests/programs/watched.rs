@@ -270,7 +270,7 @@ fn what_cannot_be_watched_is_said_before_the_screen_is_taken() {
         (
             LIFE,
             "--engine reference --threads 2",
-            "--threads is for --engine cpu and --engine parts, not for the reference engine",
+            "--threads is for --engine cpu, not for the reference engine",
         ),
     ] {
         let mut terminal = Terminal::watch(&place, program, options);

@@ -2,9 +2,9 @@
 
 use super::arguments::{ModelArguments, RunArguments};
 use super::definition::Definition;
-use super::engine::EngineChoice;
 use super::initial;
 use super::outcome::Unable;
+use crate::engines::EngineChoice;
 use crate::program::Given;
 use clap::{ArgMatches, Command, FromArgMatches};
 use serde_json::{Map, Value};

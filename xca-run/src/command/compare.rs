@@ -3,21 +3,21 @@
 use super::arguments::{interval, steps};
 use super::choice::Choice as ModelChoice;
 use super::definition::Definition;
-use super::engine::with_shared_options;
+use super::engine::{help, with_shared_options};
 use super::help::{with_help, with_model};
 use super::outcome::{Ended, Unable};
 use super::prepare::warn;
 use super::voice::Voice;
 use crate::contender::Choice;
-use crate::engines::{EngineError, EngineOptions};
+use crate::engines::{EngineError, EngineOptions, Engines};
 use crate::interrupt::Interrupt;
 use crate::options::number_in;
 use crate::progress::Progress;
 use clap::{Args, Command};
 use std::path::PathBuf;
 use xca_compare::{CompareError, Comparison};
-use xca_compare::{Contender, Subject, Verdict};
-use xca_core::{Precision, RunError};
+use xca_compare::{Subject, Verdict};
+use xca_core::RunError;
 use xca_record::Monitor;
 use xca_report::comparison::{self, Files};
 
@@ -29,8 +29,8 @@ const ABOUT: &str =
 /// Which engines are compared, and how.
 #[derive(Args, Debug, Clone)]
 pub(super) struct CompareArguments {
-    /// The engines; the others are compared with the first. A name, with threads or an adapter after a colon and a precision after an @:
-    /// reference, cpu:2, gpu:llvmpipe, cpu@f32
+    /// The engines; the others are compared with the first. Each as --engine of `run` takes it, with a precision after an @:
+    /// reference, cpu:2, gpu:llvmpipe, parts:3:cpu, cpu@f32
     #[arg(long, value_name = "ENGINE,…", value_delimiter = ',', default_value = "reference,cpu")]
     engines: Vec<String>,
 
@@ -87,7 +87,16 @@ pub(super) fn compare(
     command_line: Vec<String>,
 ) -> Result<Ended, Unable> {
     let precision = model.arguments.given(None).precision;
-    let contenders = contenders(model.definition, &arguments.engines, options, precision)?;
+    let engines = model.definition.engines;
+    let choices = choices(engines, &arguments.engines, options)?;
+    for choice in &choices {
+        if let Some(helper) = choice.helper().map_err(Unable::Refused)? {
+            let given = model.arguments.given(arguments.steps);
+            return help(&*helper, || Ok(model.set_up(&given)?.model));
+        }
+    }
+    let contenders = choices.iter().map(|choice| choice.contender(engines, options, precision));
+    let contenders = contenders.collect::<Result<Vec<_>, EngineError>>().map_err(Unable::refused)?;
     let given = model.arguments.given(arguments.steps);
     let set_up = model.set_up(&given)?;
     warn(&set_up);
@@ -149,20 +158,18 @@ impl Monitor for Terminal<'_> {
 }
 
 /// The engines that take part. What is chosen for all of them is for those that know it, of which there must be one.
-fn contenders(
-    definition: &Definition<'_>,
+fn choices<'a>(
+    engines: &'a Engines,
     named: &[String],
     options: &EngineOptions,
-    precision: Precision,
-) -> Result<Vec<Contender>, Unable> {
-    let engines = definition.engines;
+) -> Result<Vec<Choice<'a>>, Unable> {
     let choices = named.iter().map(|text| Choice::new(text, engines)).collect::<Result<Vec<_>, _>>();
     let choices = choices.map_err(Unable::refused)?;
+    engines.check(choices.iter().map(Choice::engine), NAME).map_err(Unable::refused)?;
     if let Some((option, _)) = options.iter().find(|(option, _)| !choices.iter().any(|it| it.knows(option))) {
         return Err(Unable::refused(format!("no engine that takes part has --{option}; leave it away")));
     }
-    let contenders = choices.iter().map(|choice| choice.contender(engines, options, precision));
-    contenders.collect::<Result<_, EngineError>>().map_err(Unable::refused)
+    Ok(choices)
 }
 
 #[cfg(test)]

@@ -1,18 +1,10 @@
 //! The options of the command line that choose an engine: those of all kinds that the program offers.
 
 use super::definition::Definition;
-use super::outcome::Unable;
-use crate::engines::{EngineKind, EngineOption, EngineOptions, Engines};
-use clap::builder::{PossibleValue, PossibleValuesParser};
+use super::outcome::{Ended, Unable};
+use crate::engines::{EngineChoice, EngineKind, EngineOption, EngineOptions, EngineWords, Engines, Helper};
 use clap::{Arg, ArgMatches, Command};
-use xca_core::Engine;
-
-/// An engine as the command line chooses it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct EngineChoice {
-    pub(crate) name: String,
-    pub(crate) options: EngineOptions,
-}
+use xca_core::{Engine, Model};
 
 /// The option that names the engine.
 const ENGINE: &str = "engine";
@@ -20,29 +12,32 @@ const ENGINE: &str = "engine";
 /// Adds the options that choose the engine of a run.
 pub(super) fn with_engine(command: Command, engines: &Engines) -> Command {
     let first = engines.kinds().next().map(EngineKind::name);
-    let command = command.arg(engine(engines).help("What runs the model").default_value(first));
+    let command = command.arg(engine(engines, "What runs the model").default_value(first));
     command.args(options(engines).into_iter().map(argument))
 }
 
 /// Adds the options that choose another engine for a run that goes on.
 pub(super) fn with_other_engine(command: Command, engines: &Engines) -> Command {
-    let other = engine(engines).help("What runs the model; the run's own engine unless it is given");
+    let other = engine(engines, "What runs the model; the run's own engine unless it is given");
     let options = options(engines).into_iter().map(argument);
     command.arg(other).args(options)
 }
 
 /// Adds the options that a comparison cannot take after the colon.
 pub(super) fn with_shared_options(command: Command, engines: &Engines) -> Command {
-    let first = |name: &str| {
-        let mut first = engines.kinds().filter_map(|kind| kind.options().first());
-        first.any(|option| option.name == name)
+    let is_detail = |name: &str| {
+        let mut details = engines.kinds().filter_map(EngineKind::detail);
+        details.any(|detail| detail.option.name == name)
     };
-    command.args(options(engines).into_iter().filter(|option| !first(option.name)).map(argument))
+    command.args(options(engines).into_iter().filter(|option| !is_detail(option.name)).map(argument))
 }
 
-fn engine(engines: &Engines) -> Arg {
-    let named = engines.kinds().map(|kind| PossibleValue::new(kind.name()).help(kind.about()));
-    Arg::new(ENGINE).long(ENGINE).value_name("ENGINE").value_parser(PossibleValuesParser::new(named))
+fn engine(engines: &Engines, about: &str) -> Arg {
+    let words = EngineWords::new(engines);
+    let help = format!("{about}: {}", words.forms());
+    let long = format!("{about}:\n{}", words.about());
+    let parse = move |text: &str| words.parse(text);
+    Arg::new(ENGINE).long(ENGINE).value_name("ENGINE").help(help).long_help(long).value_parser(parse)
 }
 
 /// The options of all kinds, each once.
@@ -73,24 +68,66 @@ pub(super) fn given(engines: &Engines, matches: &ArgMatches) -> EngineOptions {
     given
 }
 
-impl EngineChoice {
-    /// What the command line says.
-    pub(super) fn of(engines: &Engines, matches: &ArgMatches) -> Self {
-        let name = matches.get_one::<String>(ENGINE).cloned().unwrap_or_default();
-        Self { name, options: given(engines, matches) }
+/// The engine that the command line chooses for a subcommand.
+pub(super) fn chosen(
+    engines: &Engines,
+    matches: &ArgMatches,
+    subcommand: &str,
+) -> Result<EngineChoice, Unable> {
+    let word = matches
+        .get_one::<EngineChoice>(ENGINE)
+        .cloned()
+        .ok_or_else(|| Unable::refused("no engine is given"))?;
+    engines.check([&*word.name], subcommand).map_err(Unable::refused)?;
+    word.with(&given(engines, matches)).map_err(Unable::refused)
+}
+
+/// The engine that the command line chooses for a run that was begun on another.
+#[derive(Debug)]
+pub(super) struct OtherChoice {
+    /// Nothing where it is the run's own.
+    word: Option<EngineChoice>,
+    options: EngineOptions,
+}
+
+impl OtherChoice {
+    pub(super) fn new(engines: &Engines, matches: &ArgMatches) -> Result<Self, Unable> {
+        let (word, options) = (matches.get_one::<EngineChoice>(ENGINE).cloned(), given(engines, matches));
+        if let Some(word) = &word {
+            word.clone().with(&options).map_err(Unable::refused)?;
+        }
+        Ok(Self { word, options })
     }
 
-    /// What the command line says for a run that was begun on this engine.
-    pub(super) fn or_as_begun(&self, begun: &Self) -> Self {
-        if self.name.is_empty() || self.name == begun.name {
-            return Self { name: begun.name.clone(), options: self.options.clone().or(&begun.options) };
+    /// The engine of a run that was begun on this one.
+    pub(super) fn or_as_begun(&self, begun: &EngineChoice) -> EngineChoice {
+        let own = self.word.iter().fold(self.options.clone(), |options, word| options.or(&word.options));
+        match &self.word {
+            // Another engine need not be able to use what that one used.
+            Some(word) if word.name != begun.name => EngineChoice { name: word.name.clone(), options: own },
+            _ => EngineChoice { name: begun.name.clone(), options: own.or(&begun.options) },
         }
-        // Another engine need not be able to use what that one used.
-        self.clone()
+    }
+}
+
+impl EngineChoice {
+    /// What this process does where it is only there to help another one.
+    pub(super) fn helper(&self, definition: &Definition<'_>) -> Result<Option<Box<dyn Helper>>, Unable> {
+        let kind = definition.engines.kind(&self.name).map_err(Unable::refused)?;
+        kind.helper().map_err(Unable::Refused)
     }
 
     /// The engine.
     pub(super) fn engine(&self, definition: &Definition<'_>) -> Result<Box<dyn Engine>, Unable> {
         definition.engines.engine(&self.name, &self.options).map_err(Unable::refused)
     }
+}
+
+/// Helps another process with what it runs: a model that is made here when it is needed.
+pub(super) fn help(
+    helper: &dyn Helper,
+    mut model: impl FnMut() -> Result<Model, Unable>,
+) -> Result<Ended, Unable> {
+    helper.help(&mut |_| model().map_err(Unable::into_failure)).map_err(Unable::failed)?;
+    Ok(Ended::Done)
 }

@@ -4,7 +4,7 @@ use super::arguments::ResumeArguments;
 use super::choice::{Choice, RunInvocation, parsed};
 use super::compare::CompareArguments;
 use super::definition::Definition;
-use super::engine::{EngineChoice, given};
+use super::engine::{OtherChoice, chosen, given};
 use super::help::EXIT_CODES;
 use super::inspect::InspectArguments;
 use super::list::ListArguments;
@@ -14,7 +14,7 @@ use super::render::RenderArguments;
 use super::sweep::SweepArguments;
 use super::watch::WatchArguments;
 use super::{clashes, compare, config, inspect, list, new, render, resume, run, sweep, watch};
-use crate::engines::EngineOptions;
+use crate::engines::{EngineChoice, EngineOptions};
 use clap::ArgMatches;
 use clap::Command;
 use clap::error::ErrorKind;
@@ -25,7 +25,7 @@ use std::path::PathBuf;
 pub(super) enum Invocation<'a> {
     Run(Box<RunInvocation<'a>>),
     /// With what is said of the engine.
-    Resume(&'a Definition<'a>, ResumeArguments, EngineChoice),
+    Resume(&'a Definition<'a>, ResumeArguments, OtherChoice),
     Render(Box<RunInvocation<'a>>, RenderArguments),
     /// With what has to be drawn, and with the whole command line.
     Draw(&'a Definition<'a>, PathBuf, RenderArguments, Vec<String>),
@@ -123,7 +123,7 @@ fn complete<'a>(
     match matches.subcommand() {
         Some((run::NAME, matches)) => Ok(Invocation::Run(Box::new(RunInvocation {
             model: Choice::new(definition, matches)?,
-            engine: EngineChoice::of(definition.engines, matches),
+            engine: chosen(definition.engines, matches, run::NAME)?,
             run: parsed(matches)?,
             command_line: words(arguments),
         }))),
@@ -134,7 +134,7 @@ fn complete<'a>(
             words(arguments),
         )),
         Some((sweep::NAME, matches)) => {
-            let on = EngineChoice::of(definition.engines, matches);
+            let on = chosen(definition.engines, matches, sweep::NAME)?;
             Ok(Invocation::Sweep(Box::new(Choice::new(definition, matches)?), on, parsed(matches)?))
         }
         Some((render::NAME, matches)) => {
@@ -145,7 +145,7 @@ fn complete<'a>(
             }
             let run = RunInvocation {
                 model: Choice::new(definition, matches)?,
-                engine: EngineChoice::of(definition.engines, matches),
+                engine: chosen(definition.engines, matches, render::NAME)?,
                 run: render.as_of_run(),
                 command_line: words(arguments),
             };
@@ -155,7 +155,7 @@ fn complete<'a>(
             let watch: WatchArguments = parsed(matches)?;
             let run = RunInvocation {
                 model: Choice::new(definition, matches)?,
-                engine: EngineChoice::of(definition.engines, matches),
+                engine: chosen(definition.engines, matches, watch::NAME)?,
                 run: watch.as_of_run(),
                 command_line: words(arguments),
             };
@@ -167,7 +167,7 @@ fn complete<'a>(
         Some((inspect::NAME, matches)) => Ok(Invocation::Inspect(definition, parsed(matches)?)),
         Some((new::NAME, matches)) => Ok(Invocation::New(parsed(matches)?)),
         Some((resume::NAME, matches)) => {
-            let on = EngineChoice::of(definition.engines, matches);
+            let on = OtherChoice::new(definition.engines, matches)?;
             Ok(Invocation::Resume(definition, parsed(matches)?, on))
         }
         _ => Err(Unable::refused("no command is given")),

@@ -1,9 +1,9 @@
 //! What comes before a run, whether it begins or goes on: the engine, and the model with its parameters.
 
 use super::choice::RunInvocation;
-use super::engine::EngineChoice;
 use super::outcome::Unable;
 use super::working_directory::WorkingDirectory;
+use crate::engines::EngineChoice;
 use crate::program::Given;
 use crate::terminal;
 use xca_checkpoint::Identity;

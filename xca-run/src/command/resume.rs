@@ -1,24 +1,27 @@
 //! The subcommand `resume`.
 
 use super::arguments::ResumeArguments;
+use super::choice::RunInvocation;
 use super::definition::Definition;
-use super::engine::{EngineChoice, with_other_engine};
+use super::engine::{OtherChoice, help, with_other_engine};
 use super::help::with_help;
 use super::outcome::{Ended, Unable};
 use super::parse;
-use super::prepare::{Prepared, check_room};
+use super::prepare::{Prepared, check_room, described};
 use super::under_way::UnderWay;
 use super::working_directory::WorkingDirectory;
+use crate::engines::EngineChoice;
 use clap::{Args, Command};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use xca_checkpoint::{Checkpoint, CheckpointError, CheckpointFolder, Description, Difference};
+use xca_core::Model;
 use xca_io::numbers::counted;
 use xca_record::Failure;
 use xca_record::record::REPORT;
 use xca_record::report;
 use xca_record::report::Earlier;
-use xca_record::{BeginError, ReadReportError, Resumed};
+use xca_record::{BeginError, ReadReportError, Resumed, Run};
 
 pub(super) const NAME: &str = "resume";
 
@@ -50,7 +53,7 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
 pub(super) fn resume(
     definition: &Definition<'_>,
     arguments: &ResumeArguments,
-    on: &EngineChoice,
+    on: &OtherChoice,
 ) -> Result<Ended, Unable> {
     let folder = &arguments.folder;
     if !folder.is_dir() {
@@ -68,9 +71,15 @@ pub(super) fn resume(
         return Ok(Ended::Done);
     }
     let path = chosen(arguments)?;
-    let found = Found { definition, arguments, on, path: &path };
+    let found = Found { definition, arguments, path: &path };
     let checkpoint = Checkpoint::read(&path).map_err(|error| found.refused(error.into(), None))?;
-    found.under_way(checkpoint, earlier)?.go()
+    let begun = found.begun(&checkpoint, &earlier)?;
+    let on = on.or_as_begun(&begun.engine);
+    definition.engines.check([&*on.name], NAME).map_err(Unable::refused)?;
+    if let Some(helper) = on.helper(definition)? {
+        return help(&*helper, || found.model(&checkpoint, &begun));
+    }
+    found.under_way(checkpoint, earlier, &begun, &on)?.go()
 }
 
 /// A report that may be of someone else is not replaced; a lost one is no obstacle.
@@ -90,25 +99,49 @@ fn chosen(arguments: &ResumeArguments) -> Result<PathBuf, Unable> {
 struct Found<'a> {
     definition: &'a Definition<'a>,
     arguments: &'a ResumeArguments,
-    on: &'a EngineChoice,
     path: &'a Path,
 }
 
 impl Found<'_> {
-    /// Puts the run together as it was.
-    fn under_way(&self, checkpoint: Checkpoint, earlier: Earlier) -> Result<UnderWay, Unable> {
+    /// The run as it was begun.
+    fn begun(&self, checkpoint: &Checkpoint, earlier: &Earlier) -> Result<RunInvocation<'_>, Unable> {
         let description = &checkpoint.description;
         let of_program = description.run.other_program(self.definition.identity());
         self.same(of_program, description)?;
         self.same(earlier.difference(&description.run.command_line), description)?;
-        let invocation = parse::recorded(self.definition, &description.run.command_line, "checkpoint")?;
-        let on = self.on.or_as_begun(&invocation.engine);
+        parse::recorded(self.definition, &description.run.command_line, "checkpoint")
+    }
+
+    /// The model alone.
+    fn model(&self, checkpoint: &Checkpoint, begun: &RunInvocation<'_>) -> Result<Model, Unable> {
+        let there = WorkingDirectory::enter(&checkpoint.description.run.directory)?;
+        let run = described(begun)?;
+        drop(there);
+        Ok(self.with_slots(run)?.model().clone())
+    }
+
+    fn with_slots(&self, run: Run) -> Result<Run, Unable> {
+        match self.arguments.slots {
+            Some(slots) => run.slots(slots).map_err(Unable::refused),
+            None => Ok(run),
+        }
+    }
+
+    /// Puts the run together as it was.
+    fn under_way(
+        &self,
+        checkpoint: Checkpoint,
+        earlier: Earlier,
+        begun: &RunInvocation<'_>,
+        on: &EngineChoice,
+    ) -> Result<UnderWay, Unable> {
+        let description = &checkpoint.description;
         let there = WorkingDirectory::enter(&description.run.directory)?;
-        let Prepared { engine, mut run } = Prepared::new(&invocation, &on)?;
+        let Prepared { engine, mut run } = Prepared::new(begun, on)?;
         drop(there);
         run = run.steps(self.steps(description, &earlier)?);
-        if let Some(slots) = self.arguments.slots {
-            run = run.slots(slots).map_err(Unable::refused)?;
+        run = self.with_slots(run)?;
+        if self.arguments.slots.is_some() {
             check_room(&*engine, run.model(), run.run_options().precision)?;
         }
         if let Some(interval) = self.arguments.checkpoint_every {

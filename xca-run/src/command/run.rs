@@ -3,10 +3,10 @@
 use super::arguments::RunArguments;
 use super::choice::RunInvocation;
 use super::definition::Definition;
-use super::engine::with_engine;
+use super::engine::{help, with_engine};
 use super::help::{with_help, with_model};
 use super::outcome::{Ended, Unable};
-use super::prepare::{Prepared, not_begun};
+use super::prepare::{Prepared, described, not_begun};
 use super::under_way::UnderWay;
 use crate::terminal;
 use clap::{Args, Command};
@@ -30,6 +30,9 @@ pub(super) fn run(invocation: RunInvocation<'_>) -> Result<Ended, Unable> {
     if invocation.run.print_source {
         terminal::say(&source(&invocation)?).map_err(Unable::failed)?;
         return Ok(Ended::Done);
+    }
+    if let Some(helper) = invocation.engine.helper(invocation.model.definition)? {
+        return help(&*helper, || Ok(described(&invocation)?.model().clone()));
     }
     let Prepared { engine, run } = Prepared::new(&invocation, &invocation.engine)?;
     let RunInvocation { model, run: arguments, .. } = invocation;

@@ -13,8 +13,7 @@ pub(super) struct CpuKind;
 pub(super) const THREADS: EngineOption = EngineOption {
     name: "threads",
     value_name: "N",
-    about: "How many threads the cpu engine uses, or each part of the parts engine; one for each core unless it \
-            is given",
+    about: "How many threads the cpu engine uses; one for each core unless it is given",
     check: |text| threads(text).map(drop),
 };
 
@@ -24,7 +23,7 @@ impl EngineKind for CpuKind {
     }
 
     fn about(&self) -> &'static str {
-        "All cores, or as many threads as --threads says"
+        "All cores, or N threads"
     }
 
     fn options(&self) -> &'static [EngineOption] {
@@ -46,6 +45,18 @@ pub(super) fn engine(chosen: Option<&str>) -> Result<Cpu, Failure> {
         None => Cpu::new()?,
         Some(number) => Cpu::with_threads(threads(number)?)?,
     })
+}
+
+/// The threads of a part that runs on this engine, `cpu` or `cpu:2`, if they are chosen.
+pub(super) fn threads_of_part(text: &str) -> Result<Option<String>, String> {
+    let (engine, threads) = match text.split_once(':') {
+        Some((engine, threads)) => (engine, Some(threads)),
+        None => (text, None),
+    };
+    if engine != "cpu" {
+        return Err(format!("a part runs on the cpu engine, not on `{engine}`"));
+    }
+    threads.map(|threads| (THREADS.check)(threads).map(|()| threads.to_owned())).transpose()
 }
 
 fn threads(text: &str) -> Result<usize, String> {

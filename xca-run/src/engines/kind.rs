@@ -49,15 +49,39 @@ pub trait EngineKind: fmt::Debug + Send + Sync {
     /// A line about it, for help and `list`.
     fn about(&self) -> &'static str;
 
-    /// What can be chosen of it, each an option of the command line. A comparison takes the first after a
-    /// colon: `cpu:2`. Names of the frame's own options are refused when the program starts.
+    /// What can be chosen of it, each an option of the command line. Names of the frame's own options are
+    /// refused when the program starts.
     fn options(&self) -> &'static [EngineOption] {
         &[]
+    }
+
+    /// What stands after its name and a colon, as in `cpu:2`: the first of its options unless it says otherwise.
+    fn detail(&self) -> Option<EngineDetail> {
+        self.options().first().map(|option| EngineDetail { option: *option, is_required: false })
+    }
+
+    /// Why a subcommand, such as `watch`, cannot use it; nothing where it can.
+    fn refuses(&self, _subcommand: &str) -> Option<&'static str> {
+        None
     }
 
     /// What is chosen where many engines of this kind work side by side, unless the user chooses himself.
     fn beside_others(&self) -> EngineOptions {
         EngineOptions::default()
+    }
+
+    /// Whether its engines take all processes that a launcher such as `mpirun` has started.
+    fn spans_processes(&self) -> bool {
+        false
+    }
+
+    /// What this process does where it is only there to help another one, which runs the model; nothing where it
+    /// runs the model itself.
+    ///
+    /// # Errors
+    /// Where the processes do not find each other.
+    fn helper(&self) -> Result<Option<Box<dyn Helper>>, Failure> {
+        Ok(None)
     }
 
     /// Makes an engine. The options have been checked one by one.
@@ -78,6 +102,24 @@ pub trait EngineKind: fmt::Debug + Send + Sync {
     fn source(&self, _model: &Model, _precision: Precision) -> Option<Result<String, Failure>> {
         None
     }
+}
+
+/// A process that helps another one to run a model.
+pub trait Helper {
+    /// Helps until the other one ends. It is given a way to make the model that the other one runs.
+    ///
+    /// # Errors
+    /// Where it cannot help.
+    fn help(&self, model: &mut dyn FnMut(Precision) -> Result<Model, Failure>) -> Result<(), Failure>;
+}
+
+/// What is chosen of an engine after its name and a colon.
+#[derive(Debug, Clone, Copy)]
+pub struct EngineDetail {
+    /// What it is; it need not be an option of the command line too.
+    pub option: EngineOption,
+    /// Whether the name alone is no engine.
+    pub is_required: bool,
 }
 
 /// What a kind of engine can run on.

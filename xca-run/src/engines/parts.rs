@@ -1,7 +1,7 @@
 //! The engine that shares a space among several.
 
 use super::cpu;
-use super::kind::EngineKind;
+use super::kind::{EngineDetail, EngineKind};
 use super::options::{EngineOption, EngineOptions};
 use std::num::NonZeroUsize;
 use std::sync::Arc;
@@ -15,8 +15,8 @@ pub(super) struct PartsKind;
 
 const PARTS: EngineOption = EngineOption {
     name: "parts",
-    value_name: "N[:cpu[:THREADS]]",
-    about: "How many parts of the space the parts engine has, and the engine and threads of each; 2 unless it is given",
+    value_name: "N:cpu[:THREADS]",
+    about: "The number of parts, and the engine and threads of each",
     check: |text| Share::new(text).map(drop),
 };
 
@@ -26,20 +26,20 @@ impl EngineKind for PartsKind {
     }
 
     fn about(&self) -> &'static str {
-        "Parts of the space, each on a cpu engine of its own"
+        "N parts of the space, each on a cpu engine of its own"
     }
 
-    fn options(&self) -> &'static [EngineOption] {
-        &[PARTS, cpu::THREADS]
+    fn detail(&self) -> Option<EngineDetail> {
+        Some(EngineDetail { option: PARTS, is_required: true })
     }
 
-    fn beside_others(&self) -> EngineOptions {
-        EngineOptions::default().with(cpu::THREADS.name, "1")
+    fn refuses(&self, subcommand: &str) -> Option<&'static str> {
+        (subcommand == "watch").then_some("each picture would gather the whole state from its parts")
     }
 
     fn make(&self, options: &EngineOptions) -> Result<Box<dyn Engine>, Failure> {
-        let Share { parts, threads } = Share::new(options.get(PARTS.name).unwrap_or("2"))?;
-        let threads = threads.or_else(|| options.get(cpu::THREADS.name).map(str::to_owned));
+        let share = options.get(PARTS.name).ok_or("the number of parts is not given")?;
+        let Share { parts, threads } = Share::new(share)?;
         let threads = threads.unwrap_or_else(|| {
             let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
             (cores / parts).max(1).to_string()
@@ -54,7 +54,7 @@ impl EngineKind for PartsKind {
 #[derive(Debug, PartialEq, Eq)]
 struct Share {
     parts: NonZeroUsize,
-    /// The threads of each part, if they are chosen here.
+    /// The threads of each part, if they are chosen.
     threads: Option<String>,
 }
 
@@ -62,20 +62,15 @@ impl Share {
     fn new(text: &str) -> Result<Self, String> {
         // Each part is a thread.
         const MOST: usize = xca_cpu::Cpu::MOST_THREADS;
-        let mut words = text.splitn(3, ':');
-        let parts = words.next().and_then(|number| number.parse().ok());
-        let parts = parts.filter(|parts: &NonZeroUsize| parts.get() <= MOST);
+        let (parts, rest) = match text.split_once(':') {
+            Some((parts, rest)) => (parts, Some(rest)),
+            None => (text, None),
+        };
+        let parts = parts.parse().ok().filter(|parts: &NonZeroUsize| parts.get() <= MOST);
         let parts =
             parts.ok_or_else(|| format!("the number of parts must be a whole number from 1 to {MOST}"))?;
-        match words.next() {
-            None | Some("cpu") => {}
-            Some(other) => return Err(format!("a part runs on the cpu engine, not on `{other}`")),
-        }
-        let threads = words.next().map(str::to_owned);
-        if let Some(threads) = &threads {
-            (cpu::THREADS.check)(threads)?;
-        }
-        Ok(Self { parts, threads })
+        let rest = rest.ok_or_else(|| format!("say what runs each part: parts:{parts}:cpu"))?;
+        Ok(Self { parts, threads: cpu::threads_of_part(rest)? })
     }
 }
 
@@ -87,21 +82,19 @@ mod tests {
     #[test]
     fn parts_are_named_with_what_runs_them() {
         let share = |text: &str| Share::new(text).map(|Share { parts, threads }| (parts.get(), threads));
-        assert_eq!(share("3"), Ok((3, None)));
         assert_eq!(share("7:cpu"), Ok((7, None)));
         assert_eq!(share("2:cpu:5"), Ok((2, Some("5".to_owned()))));
         for (text, words) in [
             ("", "whole number from 1 to 1024"),
-            ("0", "whole number from 1 to 1024"),
-            ("1025", "whole number from 1 to 1024"),
+            ("0:cpu", "whole number from 1 to 1024"),
+            ("1025:cpu", "whole number from 1 to 1024"),
+            ("2", "say what runs each part: parts:2:cpu"),
             ("2:gpu", "not on `gpu`"),
             ("2:cpu:0", "give at least 1"),
         ] {
             assert!(share(text).is_err_and(|error| error.contains(words)), "{text}");
         }
-        let threads = |options: EngineOptions| PartsKind.make(&options).unwrap().threads();
-        let options = EngineOptions::default().with("threads", "3");
-        assert_eq!(threads(options.clone()), 2 * 3);
-        assert_eq!(threads(options.with("parts", "4:cpu:2")), 4 * 2);
+        let options = EngineOptions::default().with("parts", "4:cpu:2");
+        assert_eq!(PartsKind.make(&options).unwrap().threads(), 4 * 2);
     }
 }

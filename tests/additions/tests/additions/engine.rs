@@ -31,18 +31,15 @@ fn it_runs_resumes_sweeps_and_is_compared() -> TestResult {
 fn help_and_list_tell_of_it() -> TestResult {
     let folder = tempfile::tempdir()?;
     let help = succeed(folder.path(), "run --help")?;
-    assert!(help.contains("twins:     Serial, and everything several times"), "{help}");
+    assert!(help.contains("Serial, and everything several times"), "{help}");
     assert!(help.contains("--copies <N>"), "{help}");
     let list = succeed(folder.path(), "list")?;
     assert!(list.contains("twins       Serial, and everything several times"), "{list}");
     for (words, wanted) in [
         ("run --copies 2", "--copies is for --engine twins, not for the cpu engine"),
         ("run --engine twins --copies 10", "it must be a whole number from 1 to 9"),
-        (
-            "run --engine twins --threads 2",
-            "--threads is for --engine cpu and --engine parts, not for the twins engine",
-        ),
-        ("run --engine twin", "[possible values: cpu, gpu, parts, reference, twins]"),
+        ("run --engine twins --threads 2", "--threads is for --engine cpu, not for the twins engine"),
+        ("run --engine twin", "there is no engine `twin`; there are cpu[:N], gpu[:N|NAME], "),
         ("run --engine twins --print-source", "the twins engine makes no text of the processes"),
     ] {
         let output = plate(folder.path(), words)?;

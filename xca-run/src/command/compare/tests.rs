@@ -101,7 +101,7 @@ fn engines_that_do_not_agree_have_an_exit_code() {
 fn what_makes_no_sense_is_refused() {
     for (words, wanted) in [
         (&["--engines", "cpu,cup"][..], "there is no engine `cup`"),
-        (&["--engines", "reference:2"], "nothing to choose of the reference engine"),
+        (&["--engines", "reference:2"], "nothing can be chosen of the reference engine"),
         (&["--arithmetic", "strict"], "no engine that takes part has --arithmetic"),
         (&["--repeats", "0"], "it must be a whole number from 1 to 1000"),
         (&["--tolerance", "-1"], "it must be a finite number at least 0"),

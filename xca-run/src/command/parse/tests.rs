@@ -110,7 +110,10 @@ fn wrong_values_are_named() {
     );
     assert!(message(&["--every=0"]).contains("every 0 steps never comes"));
     assert!(message(&["--precision", "f16"]).contains("use f32 or f64"));
-    assert!(message(&["--engine", "abacus"]).contains("[possible values: cpu, gpu, parts, reference]"));
+    assert!(
+        message(&["--engine", "abacus"])
+            .contains("there is no engine `abacus`; there are cpu[:N], gpu[:N|NAME], ")
+    );
     assert!(message(&["--set", "alpha"]).contains("must be of the form NAME=VALUE"));
     assert!(message(&["--siez", "3"]).contains("unexpected argument '--siez'"));
 }

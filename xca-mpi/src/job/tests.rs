@@ -1,0 +1,125 @@
+//! Jobs whose processes are threads.
+
+use super::Job;
+use crate::engine::Mpi;
+use crate::mailbox::tests::Threads;
+use std::thread;
+use xca_core::prelude::*;
+use xca_core::{Precision, Snapshot};
+use xca_cpu::Cpu;
+
+#[derive(Substates, Clone)]
+struct Life {
+    alive: u8,
+}
+
+#[elementary_process]
+fn evolve(cell: &mut Cell<Life>) {
+    let mut count = 0;
+    for n in 1..cell.neighbour_count() {
+        count += cell.neighbour(n).alive;
+    }
+    cell.alive = if count == 3 || (count == 2 && cell.alive == 1) { 1 } else { 0 };
+}
+
+fn life(width: usize) -> Model {
+    Model::builder("life")
+        .extents([width, 9, 1])
+        .neighbourhood(Neighbourhood::moore_2d(1))
+        .boundary(Boundary::Toroidal)
+        .substates::<Life>()
+        .process(evolve)
+        .fill(|site| Life { alive: u8::from(site.random(0) < 0.4) })
+        .build()
+        .unwrap()
+}
+
+fn part(threads: usize) -> Result<Box<dyn Engine>, String> {
+    let cpu = Cpu::with_threads(threads).map_err(|error| error.to_string())?;
+    Ok(Box::new(cpu))
+}
+
+/// What the host comes to in a job of so many processes, whose others make this model.
+fn hosted<T>(size: usize, model: fn(Precision) -> Result<Model, String>, work: impl FnOnce(Job) -> T) -> T {
+    thread::scope(|scope| {
+        let mut wires = Threads::connect(size).into_iter();
+        let own = wires.next().unwrap();
+        for wire in wires {
+            scope.spawn(move || {
+                let mut model = model;
+                Job::new(wire).serve(&part, &mut model).unwrap();
+            });
+        }
+        work(Job::new(own))
+    })
+}
+
+fn after(engine: &dyn Engine, steps: u64) -> Snapshot {
+    let mut simulation = Simulation::new(&life(20), engine, RunOptions::default()).unwrap();
+    simulation.run(steps).unwrap();
+    simulation.snapshot().unwrap()
+}
+
+#[test]
+fn processes_come_to_what_one_comes_to() {
+    let wanted = after(&Reference, 25);
+    for size in [1, 2, 3, 5] {
+        let got = hosted(size, |_| Ok(life(20)), |job| after(&Mpi::new(job, &part, Some(1)).unwrap(), 25));
+        assert!(got == wanted, "{size} processes");
+    }
+}
+
+/// Executions do not take each other's messages, and a job outlives those that have ended.
+#[test]
+fn several_executions_are_there_at_once() {
+    let wanted = after(&Reference, 10);
+    hosted(
+        3,
+        |_| Ok(life(20)),
+        |job| {
+            let [one, two] = [Some(1), Some(2)].map(|threads| Mpi::new(job.clone(), &part, threads).unwrap());
+            let mut first = Simulation::new(&life(20), &one, RunOptions::default()).unwrap();
+            let mut second = Simulation::new(&life(20), &two, RunOptions::default()).unwrap();
+            for _ in 0..5 {
+                first.run(2).unwrap();
+                second.step().unwrap();
+            }
+            assert!(first.snapshot().unwrap() == wanted);
+            drop(first);
+            second.run(5).unwrap();
+            assert!(second.snapshot().unwrap() == wanted);
+            assert!(after(&one, 10) == wanted);
+        },
+    );
+}
+
+#[test]
+fn processes_that_cannot_begin_are_told_and_serve_on() {
+    let said = |model: fn(Precision) -> Result<Model, String>| {
+        hosted(3, model, |job| {
+            let engine = Mpi::new(job, &part, None).unwrap();
+            let started = Simulation::new(&life(20), &engine, RunOptions::default());
+            started.err().map(|error| error.to_string()).unwrap_or_default()
+        })
+    };
+    let text = said(|_| Err("cannot read map.asc".to_owned()));
+    assert!(text.contains("part 1: cannot read map.asc"), "{text}");
+    let text = said(|_| Ok(life(21)));
+    assert!(text.contains("part 1 differs in its space: checksum "), "{text}");
+}
+
+#[test]
+fn the_host_knows_where_the_processes_are() {
+    hosted(
+        4,
+        |_| Ok(life(20)),
+        |job| {
+            let engine = Mpi::new(job, &part, Some(3)).unwrap();
+            assert_eq!((engine.name(), engine.threads()), ("mpi", 12));
+            let facts = engine.facts();
+            let ranks = "0: machine 0, 3 threads; 1: machine 0, 3 threads; 2: machine 1, 3 threads; \
+                     3: machine 1, 3 threads";
+            assert!(facts.contains(&("ranks", ranks.to_owned())), "{facts:?}");
+        },
+    );
+}

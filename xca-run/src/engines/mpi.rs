@@ -1,0 +1,139 @@
+//! The engine whose parts are the processes of an MPI job. All that the command line knows of MPI is here,
+//! also of
+//! a program that was built without it.
+
+use super::cpu;
+use super::kind::{EngineDetail, EngineKind, Helper};
+use super::options::{EngineOption, EngineOptions};
+use xca_core::Engine;
+use xca_record::Failure;
+
+/// Has what runs each part.
+#[derive(Debug, Default)]
+pub(super) struct MpiKind {
+    job: built::OneJob,
+}
+
+const PART: EngineOption = EngineOption {
+    name: "mpi",
+    value_name: "cpu[:THREADS]",
+    about: "The engine of each process, and its threads",
+    check: |text| cpu::threads_of_part(text).map(drop),
+};
+
+impl EngineKind for MpiKind {
+    fn name(&self) -> &'static str {
+        "mpi"
+    }
+
+    fn about(&self) -> &'static str {
+        "A part of the space in each process that `mpirun` starts"
+    }
+
+    fn detail(&self) -> Option<EngineDetail> {
+        Some(EngineDetail { option: PART, is_required: true })
+    }
+
+    fn refuses(&self, subcommand: &str) -> Option<&'static str> {
+        let is_for = ["run", "resume", "compare"].contains(&subcommand);
+        (!is_for).then_some("only `run`, `resume` and `compare` share their work among processes")
+    }
+
+    fn spans_processes(&self) -> bool {
+        true
+    }
+
+    fn helper(&self) -> Result<Option<Box<dyn Helper>>, Failure> {
+        self.job.helper()
+    }
+
+    fn make(&self, options: &EngineOptions) -> Result<Box<dyn Engine>, Failure> {
+        let threads = cpu::threads_of_part(options.get(PART.name).unwrap_or("cpu"))?;
+        self.job.engine(threads.map(|threads| threads.parse()).transpose()?)
+    }
+}
+
+/// With MPI.
+#[cfg(feature = "mpi")]
+mod built {
+    use crate::engines::kind::Helper;
+    use crate::interrupt::Interrupt;
+    use crate::launcher;
+    use std::sync::OnceLock;
+    use xca_core::{Engine, Model, Precision};
+    use xca_cpu::Cpu;
+    use xca_mpi::{Job, Library, Mpi, Wire as _};
+    use xca_record::Failure;
+
+    /// The job of this process, from when it is first needed.
+    #[derive(Debug, Default)]
+    pub(super) struct OneJob(OnceLock<Result<Job, String>>);
+
+    impl OneJob {
+        fn job(&self) -> Result<Job, Failure> {
+            Ok(self.0.get_or_init(begin).clone()?)
+        }
+
+        pub(super) fn helper(&self) -> Result<Option<Box<dyn Helper>>, Failure> {
+            let job = self.job()?;
+            Ok((job.rank() > 0).then(|| Box::new(Rank(job)) as Box<dyn Helper>))
+        }
+
+        pub(super) fn engine(&self, threads: Option<usize>) -> Result<Box<dyn Engine>, Failure> {
+            Ok(Box::new(Mpi::new(self.job()?, &part, threads)?))
+        }
+    }
+
+    fn begin() -> Result<Job, String> {
+        let library = Library::begin().map_err(|error| error.to_string())?;
+        let (seen, started) = (library.size(), launcher::processes());
+        if seen == 1 && started > 1 {
+            return Err(format!(
+                "the launcher has started {started} processes, but each is alone: launcher and program are of \
+                 different MPI libraries; use the `mpirun` of the library that the program was built with"
+            ));
+        }
+        Ok(Job::new(Box::new(library)))
+    }
+
+    fn part(threads: usize) -> Result<Box<dyn Engine>, String> {
+        let engine = Cpu::with_threads(threads).map_err(|error| error.to_string())?;
+        Ok(Box::new(engine))
+    }
+
+    /// A process that does what the host says.
+    struct Rank(Job);
+
+    impl Helper for Rank {
+        fn help(&self, model: &mut dyn FnMut(Precision) -> Result<Model, Failure>) -> Result<(), Failure> {
+            // The host ends the job; signals to this process do not.
+            Interrupt::install()?;
+            let mut model = |precision| model(precision).map_err(|error| error.to_string());
+            Ok(self.0.serve(&part, &mut model)?)
+        }
+    }
+}
+
+/// Without MPI: what to do to have it.
+#[cfg(not(feature = "mpi"))]
+mod built {
+    use crate::engines::MissingFeature;
+    use crate::engines::kind::Helper;
+    use xca_core::Engine;
+    use xca_record::Failure;
+
+    const MISSING: MissingFeature = MissingFeature { feature: "mpi" };
+
+    #[derive(Debug, Default)]
+    pub(super) struct OneJob;
+
+    impl OneJob {
+        pub(super) fn helper(&self) -> Result<Option<Box<dyn Helper>>, Failure> {
+            Err(MISSING.into())
+        }
+
+        pub(super) fn engine(&self, _threads: Option<usize>) -> Result<Box<dyn Engine>, Failure> {
+            Err(MISSING.into())
+        }
+    }
+}
