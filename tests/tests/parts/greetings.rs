@@ -24,7 +24,7 @@ fn said(own: &Side, other: &Side) -> Result<String, Box<dyn std::error::Error>> 
     for side in sides {
         let (end, engine) = (ends.pop().ok_or("no end")?, Arc::clone(&engine));
         threads.push(thread::spawn(move || {
-            serve(&*engine, &side.model, side.precision, side.cut, Box::new(end))
+            serve(&*engine, &side.model, side.precision, side.cut, Box::new(end));
         }));
     }
     let end = ends.pop().ok_or("no end")?;
