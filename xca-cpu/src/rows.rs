@@ -5,6 +5,7 @@
 //! are compared by pass, process and cell.
 
 mod found;
+mod ground;
 mod halo;
 mod now;
 mod pass;
@@ -12,38 +13,23 @@ mod pieces;
 mod prepare;
 mod prepared;
 mod search;
+mod tools;
 
 use crate::activity::Activity;
 use crate::blocks::{blocks, blocks_of_due, long_blocks};
 use crate::group::{Group, population};
-use crate::layout::Layout;
 use crate::population::Population;
 use crate::wavefront::{Depth, Piece, Wavefront};
 use found::Found;
 pub(crate) use found::{FirstFault, Mover};
+pub(crate) use ground::{Ground, StageOfStep};
 use pass::{Followed, Pass};
 use prepare::Ready;
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
-use xca_core::engine::StepContext;
-use xca_core::{Model, Precision};
-
-/// Processes that run together over all rows, in a step.
-#[derive(Clone, Copy)]
-pub(crate) struct StageOfStep<'a> {
-    pub(crate) processes: &'a [usize],
-    pub(crate) context: StepContext<'a>,
-}
-
-/// What passes work on.
-#[derive(Clone, Copy)]
-pub(crate) struct Ground<'a> {
-    pub(crate) model: &'a Model,
-    pub(crate) layout: &'a Layout,
-    pub(crate) precision: Precision,
-}
+use xca_core::Model;
 
 /// Runs a pass over the rows, with `activity` where its processes are due. The result is what the migration among
 /// them, if there is one, moves, in the order of items.

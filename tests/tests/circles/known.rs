@@ -108,8 +108,6 @@ pub(crate) const KNOWN: &[Known] = &[
         folder: "xca-cpu/src",
         files: &["blocks.rs", "listing.rs", "lists.rs", "motion.rs", "population.rs", "upkeep.rs"],
     },
-    // Rows, and what is prepared for them.
-    Known { folder: "xca-cpu/src", files: &["rows/pieces.rs", "rows.rs"] },
     // A device, and the code that it compiles.
     Known { folder: "xca-gpu/src", files: &["device/code.rs", "device.rs", "error.rs"] },
     // Formats write what a recorder shows them, and a recorder holds formats.

@@ -1,13 +1,13 @@
 //! The rows of a pass: its processes, one after the other, in each row.
 #![allow(unsafe_code)]
 
-use super::Ground;
 use super::found::{Found, Mover};
+use super::ground::Ground;
 use super::now::{Now, Report};
-use super::pieces::Pieces;
 use super::prepare::Ready;
 use super::prepared::Prepared;
 use super::search::{Measured, Searches};
+use super::tools::{Cells, Outcome, Pieces, Work};
 use crate::activity::{Activity, DueRow};
 use crate::group::{Group, population};
 use crate::layout::Layout;
@@ -16,7 +16,7 @@ use crate::population::Population;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use xca_core::engine::Fault;
-use xca_core::kernel::{Entry, Frame, Row, RowItems, STAY, Scratch, StoppedAt};
+use xca_core::kernel::{Frame, Row, RowItems, STAY, Scratch, StoppedAt};
 use xca_core::{Model, Parity, ProcessKind, Stream};
 
 /// What is known of where processes are due.
@@ -265,33 +265,4 @@ impl<'a> Pass<'a> {
             }
         }
     }
-}
-
-/// What a kernel has done in some cells.
-#[derive(Default)]
-pub(super) struct Outcome {
-    /// The largest radius of a search.
-    pub(super) widest: f64,
-    /// Whether the result may be another one in another step.
-    pub(super) asked_for_step: bool,
-}
-
-/// Lists that are kept from row to row.
-pub(super) struct Work<'a> {
-    pub(super) entries: Vec<Entry>,
-    /// A migration's answers for the items of a row.
-    pub(super) answers: Vec<u32>,
-    pub(super) scratch: Scratch,
-    pub(super) pieces: Pieces,
-    pub(super) now: &'a Now,
-}
-
-/// The cells that a kernel is given.
-pub(super) struct Cells {
-    /// The padded number of the first.
-    pub(super) first: usize,
-    pub(super) origin: [u32; 3],
-    pub(super) length: usize,
-    /// Their items.
-    pub(super) own: (usize, usize),
 }

@@ -1,24 +1,14 @@
 //! Processes over cells, in those pieces of a row in which they are due, and what they have changed there.
 #![allow(unsafe_code)]
 
-use super::pass::{Cells, Pass, Work};
+use super::pass::Pass;
 use super::prepared::{Prepared, Shared};
+use super::tools::{Cells, Work};
 use crate::activity::Activity;
 use crate::population::Population;
 use crate::tiles::Tiles;
 use std::ops::Range;
 use xca_core::kernel::MemoryOf;
-
-/// What is kept from row to row.
-#[derive(Default)]
-pub(super) struct Pieces {
-    /// The tiles of a row that are due.
-    due: Vec<u64>,
-    /// What a piece held before a process wrote to it in place.
-    before: Vec<u8>,
-    /// For each substate of the process the tiles that have changed, and those from which that is seen.
-    changes: Vec<[Vec<u64>; 2]>,
-}
 
 /// What a process has done in a row.
 #[derive(Default)]

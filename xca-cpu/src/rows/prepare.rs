@@ -1,8 +1,8 @@
 //! What a pass needs before its rows: halos and second buffers, and where everything lies in memory.
 
+use super::ground::{Ground, StageOfStep};
 use super::prepared::{Prepared, prepare};
 use super::search::{self, Measured, Searches};
-use super::{Ground, StageOfStep};
 use crate::group::Group;
 use crate::layout::Layout;
 use xca_core::Model;
