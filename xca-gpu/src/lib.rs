@@ -29,7 +29,6 @@
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 mod access;
-mod activity;
 mod cause;
 mod device;
 mod engine;
@@ -47,9 +46,8 @@ mod reduction;
 mod service;
 mod space;
 mod stop;
-mod turns;
 mod values;
 
-pub use device::{Adapter, AdapterChoice, AdapterKind, DeviceError, Handicap, adapters};
+pub use device::{Adapter, AdapterChoice, AdapterKind, DeviceError, adapters};
 pub use engine::{Arithmetic, Gpu, GpuOptions, UnknownArithmetic, wgsl};
 pub use error::GpuError;

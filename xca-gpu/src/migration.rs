@@ -137,7 +137,7 @@ impl Migration {
             (&self.order).into(),
         ];
         services.run(device, recorder, PLACE, (&[], parts), population.items)?;
-        let mut parts: Vec<Binding> = vec![
+        let parts: Parts<'_> = &[
             (&self.space).into(),
             journal(),
             groups.faults().into(),
@@ -146,8 +146,7 @@ impl Migration {
             population.labels.now().into(),
             (&self.order).into(),
         ];
-        parts.extend(groups.ended_early().map(Binding::from));
-        services.run(device, recorder, SORT, (&[], &parts), space.stored())
+        services.run(device, recorder, SORT, (&[], parts), space.stored())
     }
 
     /// Records the moves themselves.

@@ -56,6 +56,4 @@ mod visit;
 pub use error::{Error, Problem};
 pub use fault::FaultKind;
 pub use layout::{FieldLayout, Layout};
-pub use shader::{
-    ACTIVITY_HEAD, Binding, BindingAccess, Content, Dispatch, Numbering, Options, Shader, State, shader,
-};
+pub use shader::{Binding, BindingAccess, Content, Dispatch, Options, Shader, State, shader};
