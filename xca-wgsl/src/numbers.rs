@@ -34,7 +34,9 @@ impl Routines {
                     &format!(
                         "let away: {name} = whole + select({name}(1.0), {name}(-1.0), a < {name}(0.0));"
                     ),
-                    &format!("return select(whole, away, abs(a - whole) >= {name}(0.5));"),
+                    &format!("let rounded: {name} = select(whole, away, abs(a - whole) >= {name}(0.5));"),
+                    // Some drivers lose the sign of a zero in `trunc`.
+                    &format!("return select(rounded, a * abs(whole), rounded == {name}(0.0));"),
                 ];
                 self.need_of_one("round", type_, &name, &lines)
             }
