@@ -40,7 +40,15 @@ impl Routines {
                 ];
                 self.need_of_one("round", type_, &name, &lines)
             }
-            Operation::Fraction => self.need_of_one("fraction", type_, &name, &["return a - trunc(a);"]),
+            Operation::Fraction => self.need_of_one(
+                "fraction",
+                type_,
+                &name,
+                &[
+                    &format!("let whole: {name} = trunc(a);"),
+                    &format!("return a - select(whole, a * abs(whole), whole == {name}(0.0));"),
+                ],
+            ),
             Operation::IsNan => self.need_of_one("is_nan", type_, "bool", &["return !(a == a);"]),
             Operation::IsFinite => {
                 self.need_of_one("is_finite", type_, "bool", &[&format!("return abs(a) <= {largest};")])
