@@ -5,7 +5,7 @@ use cadem::{Case, Configuration};
 use std::error::Error;
 use xca_core::prelude::*;
 use xca_core::{GroupSnapshot, Snapshot, StartError};
-use xca_gpu::{AdapterChoice, Arithmetic, Gpu, GpuError, GpuOptions};
+use xca_gpu::{AdapterChoice, Arithmetic, Gpu, GpuError, GpuOptions, Handicap};
 use xca_tests::suite::engines::{PRECISIONS, assert_same_fault, assert_same_runs, gpu};
 use xca_tests::suite::lattice::Shape;
 use xca_tests::suite::site;
@@ -18,7 +18,8 @@ fn relaxed() -> Result<Gpu, GpuError> {
 
 /// The strict engine, with so few bytes in reach that spaces are cut.
 fn short_sighted(reach: u64) -> Result<Gpu, GpuError> {
-    Gpu::new(&GpuOptions { arithmetic: Arithmetic::Strict, reach: Some(reach), ..GpuOptions::default() })
+    let handicap = Handicap { reach: Some(reach), ..Handicap::default() };
+    Gpu::new(&GpuOptions { arithmetic: Arithmetic::Strict, handicap, ..GpuOptions::default() })
 }
 
 #[derive(Substates, Clone, Copy)]

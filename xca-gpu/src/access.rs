@@ -1,5 +1,6 @@
 //! The state as simulations ask for it.
 
+use crate::activity::Activity;
 use crate::device::DeviceError;
 use crate::execution::{GpuExecution, failure};
 use crate::groups::Group;
@@ -7,8 +8,8 @@ use crate::reduction::{self, Rows, Values};
 use crate::service::{OCCUPANCY, Services};
 use std::ops::Range;
 use xca_core::engine::{
-    EngineFailure, Execution, Fault, Interruption, Population as Items, StepContext, SubstateId, check_cells,
-    check_population, check_substate, check_values, check_values_of_cells,
+    EngineFailure, Execution, Fault, Figure, Interruption, Population as Items, StepContext, SubstateId,
+    check_cells, check_population, check_substate, check_values, check_values_of_cells,
 };
 use xca_core::reduction::{Reduced, ReducedRows, Reduction, append_row};
 
@@ -34,6 +35,7 @@ impl Execution for GpuExecution {
     fn write(&mut self, substate: SubstateId, values: &[u8]) -> Result<(), EngineFailure> {
         let items = self.items(substate.group);
         check_values(&self.model, self.manner.precision, substate, items, values)?;
+        self.forget_activity().map_err(|error| failure(&error))?;
         let plane = self.groups.plane(substate);
         match self.groups.group(substate.group) {
             Group::Cells(_) => {
@@ -58,6 +60,7 @@ impl Execution for GpuExecution {
         values: &[u8],
     ) -> Result<(), EngineFailure> {
         check_values_of_cells(&self.model, self.manner.precision, substate, cells, values)?;
+        self.forget_activity().map_err(|error| failure(&error))?;
         self.set_cells(substate, cells, values).map_err(|error| failure(&error))
     }
 
@@ -90,7 +93,11 @@ impl Execution for GpuExecution {
     fn reduce_rows(&self, substate: SubstateId, reduction: &Reduction) -> Result<ReducedRows, EngineFailure> {
         check_substate(&self.model, substate)?;
         let stored = self.model.stored(substate, self.manner.precision);
-        let results = if reduction::is_possible(&self.device, reduction, stored) {
+        let longest_row = match self.groups.group(substate.group) {
+            Group::Cells(_) => self.space.geometry().extents()[0],
+            Group::Population(population) => population.items,
+        };
+        let results = if reduction::is_possible(&self.device, (reduction, stored), longest_row) {
             self.reduce_here(substate, reduction).map_err(|error| failure(&error))?
         } else {
             let lengths = match self.groups.group(substate.group) {
@@ -114,7 +121,14 @@ impl Execution for GpuExecution {
 
     fn memory(&self) -> usize {
         let migrations = self.migrations.iter().map(crate::migration::Migration::memory);
-        self.groups.memory() + self.halo.memory() + migrations.sum::<usize>()
+        let activity = self.activity.as_ref().map_or(0, Activity::memory);
+        self.groups.memory() + self.halo.memory() + migrations.sum::<usize>() + activity
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        let share = self.activity.as_ref().and_then(Activity::share);
+        let figure = |value| Figure { name: "share_of_cells_worked_on".to_owned(), value };
+        share.map(figure).into_iter().collect()
     }
 }
 
@@ -136,6 +150,9 @@ impl GpuExecution {
     fn occupancy(&self, group: usize) -> Result<u32, DeviceError> {
         let Some(population) = self.groups.population(group) else { return Ok(0) };
         let (device, rows) = (&self.device, self.space.rows());
+        if !device.finishes(self.space.geometry().extents()[0] + 2) {
+            return population.largest_occupancy(device);
+        }
         let description = crate::migration::description(&self.space, population);
         let space = device.uniform("space", bytemuck::cast_slice(&description))?;
         let length = (rows * size_of::<u32>()) as u64;

@@ -4,12 +4,17 @@
 mod adapter;
 mod code;
 mod exact;
+mod handicap;
+mod instance;
 mod recorder;
+mod rewrite;
 mod transfer;
 
 pub use adapter::{Adapter, AdapterChoice, AdapterKind};
-pub(crate) use code::{Access, Code, Pipeline};
+pub(crate) use code::{Access, Code, Corrections, Pipeline};
+pub use handicap::Handicap;
 pub(crate) use recorder::{Binding, Bindings, Recorder};
+pub(crate) use rewrite::UNTOUCHED;
 pub(crate) use transfer::Landing;
 
 use crate::error::GpuError;
@@ -26,6 +31,9 @@ pub fn adapters() -> Vec<Adapter> {
 /// An open adapter.
 pub(crate) struct Device {
     adapter: Adapter,
+    handicap: Handicap,
+    /// The most turns of loops, where the device ends them early.
+    turns: Option<u32>,
     device: wgpu::Device,
     queue: wgpu::Queue,
     /// Why the device is lost, once it is.
@@ -56,6 +64,17 @@ pub enum DeviceError {
         /// The limit.
         most: u64,
     },
+    /// Loops that the device does not bring to their end.
+    #[error(
+        "{what} has loops that take more turns than this adapter does: it ends the loops of a cell or an item after about {turns} \
+         turns together; spread the work over several steps, or take the cpu engine or another adapter"
+    )]
+    EndedEarly {
+        /// Whose loops.
+        what: String,
+        /// How many turns it does.
+        turns: u32,
+    },
     /// Anything else: code that does not compile, a limit that is passed.
     #[error("the device refused {what}: {reason}")]
     Refused {
@@ -83,7 +102,7 @@ impl Buffer {
 
 impl Device {
     /// Opens an adapter.
-    pub(crate) fn open(choice: &AdapterChoice) -> Result<Self, GpuError> {
+    pub(crate) fn open(choice: &AdapterChoice, handicap: Handicap) -> Result<Self, GpuError> {
         let all = adapter::all();
         let known: Vec<Adapter> = all.iter().map(|(_, description)| description.clone()).collect();
         if known.is_empty() {
@@ -118,12 +137,19 @@ impl Device {
         }));
         Ok(Self {
             adapter: description,
+            handicap,
+            turns: None,
             device,
             queue,
             lost,
             pipelines: Mutex::new(HashMap::new()),
             buffers: AtomicU64::new(0),
         })
+    }
+
+    /// Notes how many turns the loops of an invocation may take together, where it ends them early.
+    pub(crate) fn set_turns(&mut self, turns: Option<u32>) {
+        self.turns = turns;
     }
 
     /// What is known of it.
@@ -133,7 +159,7 @@ impl Device {
 
     /// The largest number of workgroups along an axis.
     pub(crate) fn most_workgroups(&self) -> u32 {
-        self.device.limits().max_compute_workgroups_per_dimension
+        handicap::lower(self.device.limits().max_compute_workgroups_per_dimension, self.handicap.workgroups)
     }
 
     /// The invocations of a workgroup that suit it. A graphics card fills its units with few; a processor that plays one does a whole
@@ -141,12 +167,45 @@ impl Device {
     pub(crate) fn workgroup(&self) -> u32 {
         let most = self.device.limits().max_compute_invocations_per_workgroup;
         let wanted = if self.adapter.kind == AdapterKind::Processor { 1024 } else { 64 };
+        let most = handicap::lower(most, self.handicap.workgroup);
         wanted.min(1 << most.max(1).ilog2())
+    }
+
+    /// From how many tiles on it is looked for those where something can change, where it is told.
+    pub(crate) fn few_tiles(&self) -> Option<usize> {
+        self.handicap.tiles
+    }
+
+    /// The most storage buffers that code uses.
+    pub(crate) fn buffers(&self) -> u32 {
+        handicap::lower(self.adapter.buffers, self.handicap.buffers)
+    }
+
+    /// How many turns the loops of an invocation may take together, where the device ends them early and says
+    /// nothing.
+    pub(crate) fn turns(&self) -> Option<u32> {
+        self.turns
+    }
+
+    /// Whether the device finishes loops of so many turns.
+    pub(crate) fn finishes(&self, turns: usize) -> bool {
+        self.turns.is_none_or(|most| turns <= most as usize)
+    }
+
+    /// The most bytes of a substate of cells that code is to reach at once.
+    pub(crate) fn reach(&self) -> u64 {
+        handicap::lower(self.adapter.largest_binding, self.handicap.reach)
     }
 
     /// Memory full of zeros.
     pub(crate) fn buffer(&self, name: &str, size: u64) -> Result<Buffer, DeviceError> {
         self.allocate(name, size, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC)
+    }
+
+    /// Memory for the sizes of so many dispatches, which the device writes.
+    pub(crate) fn dispatches(&self, name: &str, number: usize) -> Result<Buffer, DeviceError> {
+        let size = number * 3 * size_of::<u32>();
+        self.allocate(name, size as u64, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDIRECT)
     }
 
     /// Memory for what all invocations read alike.

@@ -1,14 +1,16 @@
 //! The engine as a program chooses it.
 
-use crate::device::{Adapter, AdapterChoice, AdapterKind, Device, DeviceError};
+use crate::device::{Adapter, AdapterChoice, AdapterKind, Corrections, Device, DeviceError, Handicap};
 use crate::error::{GpuError, NotOnDevice};
 use crate::execution::{GpuExecution, least_memory};
 use crate::program::{Manner, Texts, shader_of};
 use crate::proof;
+use crate::turns;
 use std::fmt;
 use std::sync::Arc;
 use xca_core::engine::{Engine, Execution, StartError};
 use xca_core::{Model, Precision};
+use xca_wgsl::Numbering;
 
 /// How float arithmetic is done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -46,9 +48,11 @@ pub struct UnknownArithmetic(String);
 /// # Errors
 /// Where a process cannot be written in WGSL.
 pub fn wgsl(model: &Model, precision: Precision) -> Result<String, xca_wgsl::Error> {
-    let manner = Manner { precision, strict: true, workgroup: 64, reach: u64::MAX };
+    let manner = Manner { precision, strict: Some(Corrections::default()), workgroup: 64, reach: u64::MAX };
     let known = Texts::default();
-    let of = |process| shader_of(&known, model, process, manner, None).map(|shader| shader.source);
+    let of = |process| {
+        shader_of(&known, model, process, manner, (None, Numbering::Axes)).map(|shader| shader.source)
+    };
     let texts = model.processes().iter().map(of);
     Ok(texts.collect::<Result<Vec<_>, _>>()?.join("\n"))
 }
@@ -70,9 +74,8 @@ pub struct GpuOptions {
     pub adapter: AdapterChoice,
     /// How float arithmetic is done.
     pub arithmetic: Arithmetic,
-    /// The most bytes of a substate that a process is to reach at once, where that is less than the adapter allows. Larger substates of
-    /// cells are worked on in parts; so it can be tried how, without a model that fills an adapter.
-    pub reach: Option<u64>,
+    /// Limits below those of the adapter, for tests.
+    pub handicap: Handicap,
 }
 
 /// The GPU engine: an open adapter.
@@ -80,10 +83,8 @@ pub struct GpuOptions {
 pub struct Gpu {
     device: Arc<Device>,
     texts: Arc<Texts>,
-    /// Why arithmetic is relaxed, where it is.
-    relaxed: Option<String>,
-    /// The most bytes of a substate of cells that a process reaches at once.
-    reach: u64,
+    /// How arithmetic is strict, or why it is relaxed.
+    strict: Result<Corrections, String>,
 }
 
 impl Gpu {
@@ -92,20 +93,22 @@ impl Gpu {
     /// # Errors
     /// Where no adapter is found or none is meant, where it cannot be opened, or cannot do what is asked.
     pub fn new(options: &GpuOptions) -> Result<Self, GpuError> {
-        let device = Arc::new(Device::open(&options.adapter)?);
-        let relaxed = match options.arithmetic {
-            Arithmetic::Relaxed => Some("it was asked for".to_owned()),
-            Arithmetic::Best | Arithmetic::Strict => proof::of_strictness(&device).err(),
+        let mut device = Device::open(&options.adapter, options.handicap)?;
+        let turns = turns::limit(&device).map_err(|error| GpuError::CannotOpen {
+            adapter: device.adapter().to_string(),
+            reason: error.to_string(),
+        })?;
+        device.set_turns(turns);
+        let device = Arc::new(device);
+        let strict = match options.arithmetic {
+            Arithmetic::Relaxed => Err("it was asked for".to_owned()),
+            Arithmetic::Best | Arithmetic::Strict => proof::of_strictness(&device),
         };
-        match (&relaxed, options.arithmetic) {
-            (Some(reason), Arithmetic::Strict) => {
+        match (&strict, options.arithmetic) {
+            (Err(reason), Arithmetic::Strict) => {
                 Err(GpuError::NotStrict { adapter: device.adapter().to_string(), reason: reason.clone() })
             }
-            _ => {
-                let most = device.adapter().largest_binding;
-                let reach = options.reach.unwrap_or(most).min(most);
-                Ok(Self { device, texts: Arc::default(), relaxed, reach })
-            }
+            _ => Ok(Self { device, texts: Arc::default(), strict }),
         }
     }
 
@@ -116,12 +119,29 @@ impl Gpu {
 
     /// Whether float arithmetic has the bits of the reference engine.
     pub fn is_strict(&self) -> bool {
-        self.relaxed.is_none()
+        self.strict.is_ok()
     }
 
     /// Why arithmetic is relaxed, where it is.
     pub fn why_relaxed(&self) -> Option<&str> {
-        self.relaxed.as_deref()
+        self.strict.as_ref().err().map(String::as_str)
+    }
+
+    /// The operations that the driver rounds wrongly and that are corrected, such as `division in f32`: they take
+    /// longer.
+    pub fn corrected(&self) -> Vec<String> {
+        let Ok(Corrections { divisions, roots }) = self.strict else { return Vec::new() };
+        let words = |word: &'static str, of: [bool; 2]| {
+            let types = ["f32", "f64"].into_iter().zip(of).filter(|(_, corrected)| *corrected);
+            types.map(move |(type_, _)| format!("{word} in {type_}"))
+        };
+        words("division", divisions).chain(words("square root", roots)).collect()
+    }
+
+    /// How many turns the loops of a cell or item may take together, where the adapter ends them early (Mesa's
+    /// lavapipe does). A process that needs more stops the run with an error.
+    pub fn turns(&self) -> Option<u32> {
+        self.device.turns()
     }
 }
 
@@ -162,6 +182,8 @@ impl Engine for Gpu {
             ("kind", kind.to_string()),
             ("arithmetic", if self.is_strict() { "strict" } else { "relaxed" }.to_owned()),
         ];
+        let corrected = self.corrected();
+        facts.extend((!corrected.is_empty()).then(|| ("corrected", corrected.join(", "))));
         facts.extend(self.why_relaxed().map(|reason| ("relaxed_because", reason.to_owned())));
         facts
     }
@@ -185,7 +207,8 @@ impl Engine for Gpu {
     }
 
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {
-        let (strict, workgroup, reach) = (self.is_strict(), self.device.workgroup(), self.reach);
+        let strict = self.strict.as_ref().ok().copied();
+        let (workgroup, reach) = (self.device.workgroup(), self.device.reach());
         let manner = Manner { precision, strict, workgroup, reach };
         match GpuExecution::new(model, manner, Arc::clone(&self.device), &self.texts) {
             Ok(execution) => Ok(Box::new(execution)),

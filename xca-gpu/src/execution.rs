@@ -4,16 +4,17 @@ mod memory;
 
 pub(crate) use memory::least_memory;
 
+use crate::activity::Activity;
 use crate::cause::Cause;
 use crate::device::{Binding, Buffer, Device, DeviceError, Landing, Recorder};
 use crate::error::NotOnDevice;
-use crate::groups::{Groups, JOURNAL, JOURNAL_WORDS};
+use crate::groups::{ENDED_EARLY, Groups, JOURNAL, JOURNAL_WORDS};
 use crate::halo::Halo;
 use crate::migration::Migration;
 use crate::pace::Pace;
 use crate::plane::size_on_device;
 use crate::program::{Manner, Program, Texts};
-use crate::service::{ADVANCE, SEAL_AIM, SEAL_FULL, SEAL_REPORT, Services};
+use crate::service::{ADVANCE, SEAL_AIM, SEAL_FULL, SEAL_REPORT, SORTING, Services};
 use crate::space::Space;
 use memory::{check_types, groups_of, looked_at, records, space_of};
 use std::collections::{HashMap, HashSet};
@@ -22,6 +23,9 @@ use std::sync::Arc;
 use std::time::Instant;
 use xca_core::engine::{EngineFailure, Fault, Interruption, StepContext, SubstateId};
 use xca_core::{Face, Faces, Model, ParameterValue, ProcessKind, Stream};
+
+/// The bytes that activity is told by.
+const ACTIVITY_TOLD: u64 = 16;
 
 /// A model with its state on a device.
 pub(crate) struct GpuExecution {
@@ -33,6 +37,9 @@ pub(crate) struct GpuExecution {
     pub(crate) halo: Halo,
     pub(crate) services: Services,
     pub(crate) programs: Vec<Program>,
+    /// Where it is looked for tiles in which something can change; and where what it tells lands.
+    pub(crate) activity: Option<Activity>,
+    activity_landing: Landing,
     pub(crate) migrations: Vec<Migration>,
     /// For each process, what its seals say: that it reported, that it aimed wrong, that it overfilled a cell.
     stamps: HashMap<(usize, Cause), Buffer>,
@@ -40,6 +47,8 @@ pub(crate) struct GpuExecution {
     looked_at: HashSet<SubstateId>,
     /// Where the journals land after each submission.
     landing: Landing,
+    /// Where the note about loops that were ended early lands, if the device ends any.
+    ended_early: Option<Landing>,
     pace: Pace,
     /// What the device was told last.
     parameters: Option<Vec<ParameterValue>>,
@@ -61,8 +70,9 @@ impl GpuExecution {
         let mut programs = Vec::new();
         for (place, process) in model.processes().iter().enumerate() {
             let process = (*process, Stream::process(place));
-            programs.push(Program::new(&device, model, &space, process, (manner, texts))?);
+            programs.push(Program::new(&device, model, &space, process, (manner, texts), false)?);
         }
+        let activity = Activity::new(&device, model, &space, &programs, (manner, texts))?;
         let doubled: HashSet<SubstateId> =
             programs.iter().flat_map(|program| program.doubled(model)).collect();
         let groups = groups_of(model, manner, &device, (&space, &programs, &doubled))?;
@@ -83,6 +93,8 @@ impl GpuExecution {
             }
         }
         let landing = device.landing(groups.journals().size())?;
+        let activity_landing = device.landing(ACTIVITY_TOLD)?;
+        let ended_early = groups.ended_early().map(|_| device.landing(ENDED_EARLY)).transpose()?;
         let execution = Self {
             model: model.clone(),
             manner,
@@ -92,10 +104,13 @@ impl GpuExecution {
             halo,
             services: Services::default(),
             programs,
+            activity,
+            activity_landing,
             migrations,
             stamps,
             looked_at: looked_at(model),
             landing,
+            ended_early,
             pace: Pace::new(),
             parameters: None,
             seed: None,
@@ -139,13 +154,14 @@ impl GpuExecution {
         let parameters: Vec<ParameterValue> = context.values.values().collect();
         let precision = self.manner.precision;
         if self.parameters.as_ref() != Some(&parameters) {
-            for program in &self.programs {
+            for program in self.all_programs() {
                 program.set_parameters(&self.device, context.values, precision)?;
             }
+            self.forget_activity()?;
             self.parameters = Some(parameters);
         }
         if self.seed != Some(context.seed) {
-            for program in &self.programs {
+            for program in self.all_programs() {
                 program.set_space(&self.device, &self.space, context.seed, precision)?;
             }
             self.seed = Some(context.seed);
@@ -164,12 +180,22 @@ impl GpuExecution {
         Ok(())
     }
 
+    fn all_programs(&self) -> impl Iterator<Item = &Program> {
+        self.programs.iter().chain(self.activity.iter().flat_map(Activity::programs))
+    }
+
+    /// Has all processes run in all tiles: what they read was changed without a note.
+    pub(crate) fn forget_activity(&mut self) -> Result<(), DeviceError> {
+        self.activity.as_mut().map_or(Ok(()), |activity| activity.forget(&self.device))
+    }
+
     /// Has the device go on after a fault, with a state that was put in place of the broken one.
     fn revive(&mut self) -> Result<(), DeviceError> {
         self.device.upload(self.groups.faults(), 0, bytemuck::cast_slice(&[u32::MAX, 0]))?;
         for migration in &self.migrations {
             migration.revive(&self.device)?;
         }
+        self.forget_activity()?;
         for group in 0..=self.model.groups().len() as u64 {
             // Nobody is leaving; and nothing has stopped.
             self.device.upload(self.groups.journals(), group * JOURNAL + 12, &[0; 4])?;
@@ -202,7 +228,7 @@ impl GpuExecution {
                 self.record(&mut recorder, index)?;
             }
         }
-        self.finish(recorder)
+        self.finish(recorder, 1)
     }
 
     /// Runs whole steps, several in one submission.
@@ -248,14 +274,25 @@ impl GpuExecution {
             self.services.run(&self.device, &mut recorder, ADVANCE, (&[], &parts), journals)?;
         }
         self.step = self.step.map(|step| step + steps);
-        self.finish(recorder)
+        self.finish(recorder, steps)
     }
 
     /// Records a process with all that follows from it.
     fn record(&mut self, recorder: &mut Recorder, index: usize) -> Result<(), DeviceError> {
         let program = &mut self.programs[index];
         let (device, model) = (&self.device, &self.model);
-        for (bindings, workgroups) in program.dispatches(device, model, &self.space, &self.groups)? {
+        let selecting = self.activity.as_mut().filter(|activity| activity.is_looking());
+        let dispatches = if let Some(activity) = selecting {
+            let known = (&self.space, &self.groups);
+            let (bindings, dispatches, at) =
+                activity.select((device, model), recorder, &mut self.services, known, index)?;
+            recorder.run_as_told(&bindings, dispatches, at);
+            // They are done already; what follows from them is not.
+            vec![(bindings, [0; 3])]
+        } else {
+            program.dispatches(device, model, &self.space, &self.groups)?
+        };
+        for (bindings, workgroups) in dispatches {
             recorder.run(&bindings, workgroups);
             if self.stamps.contains_key(&(index, Cause::Reported)) {
                 // After each part: so that it is the first part with a fault whose records are kept.
@@ -301,9 +338,20 @@ impl GpuExecution {
     }
 
     /// Submits what was recorded, waits for it, and reads the journals. What stopped the run comes with the number of its step.
-    fn finish(&mut self, mut recorder: Recorder) -> Result<Option<(u64, Fault)>, DeviceError> {
+    fn finish(&mut self, mut recorder: Recorder, steps: u64) -> Result<Option<(u64, Fault)>, DeviceError> {
         recorder.land(self.groups.journals(), 0, &self.landing);
+        if let (Some(note), Some(landing)) = (self.groups.ended_early(), &self.ended_early) {
+            recorder.land(note, 0, landing);
+        }
+        if let Some(activity) = &self.activity {
+            recorder.land(activity.head(), 0, &self.activity_landing);
+        }
         self.device.submit(recorder)?;
+        self.look_for_early_ends()?;
+        if let Some(activity) = &mut self.activity {
+            let words: Vec<u32> = bytemuck::pod_collect_to_vec(&self.device.landed(&self.activity_landing)?);
+            activity.learn(&self.device, &words, steps)?;
+        }
         let bytes = self.device.landed(&self.landing)?;
         let words: Vec<u32> = bytemuck::pod_collect_to_vec(&bytes);
         let journals: Vec<&[u32]> =
@@ -324,6 +372,20 @@ impl GpuExecution {
         let details = [journal[11], journal[12], journal[13], journal[14]];
         let fault = self.fault(process, journal[7], journal[10], details)?;
         Ok(Some((long(journal[8], journal[9]), fault)))
+    }
+
+    /// An error where the device has ended a loop early.
+    fn look_for_early_ends(&self) -> Result<(), DeviceError> {
+        let (Some(landing), Some(turns)) = (&self.ended_early, self.device.turns()) else { return Ok(()) };
+        let words: Vec<u32> = bytemuck::pod_collect_to_vec(&self.device.landed(landing)?);
+        let number = words.first().copied().unwrap_or(0);
+        if number == 0 {
+            return Ok(());
+        }
+        let program = self.programs.get(number as usize - 1).filter(|_| number != SORTING.get());
+        let what = program.map(|program| format!("the process `{}`", program.process.name));
+        let what = what.unwrap_or_else(|| "the sort of the items of a cell".to_owned());
+        Err(DeviceError::EndedEarly { what, turns })
     }
 
     /// Tells the device and all that is bound how many items a population has now.

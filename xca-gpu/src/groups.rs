@@ -1,6 +1,6 @@
 //! The state of a model in the device's memory: all its substates, and what the device notes of the run.
 
-use crate::device::{Binding, Buffer, Device, DeviceError};
+use crate::device::{Binding, Buffer, Device, DeviceError, UNTOUCHED};
 use crate::plane::Plane;
 use crate::population::Population;
 use crate::space::Part;
@@ -20,6 +20,16 @@ pub(crate) const JOURNAL: u64 = 256;
 /// The words of a journal that are read back: see `shaders/common.wgsl`.
 pub(crate) const JOURNAL_WORDS: usize = 15;
 
+/// The bytes of the note about loops that were ended early.
+pub(crate) const ENDED_EARLY: u64 = size_of_val(&UNTOUCHED) as u64;
+
+/// A note that says that no loop was ended early.
+fn note(device: &Device) -> Result<Buffer, DeviceError> {
+    let note = device.buffer("loops ended early", ENDED_EARLY)?;
+    device.upload(&note, 0, bytemuck::cast_slice(&UNTOUCHED))?;
+    Ok(note)
+}
+
 /// The bytes before the records of faults, and some more.
 const HEAD: u64 = 16;
 
@@ -37,13 +47,16 @@ pub(crate) struct Groups {
     /// A journal of the model, then one for each group.
     journals: Buffer,
     faults: Buffer,
+    /// Where the device ends loops early: whose it ended first.
+    ended_early: Option<Buffer>,
 }
 
 impl Groups {
     /// Around planes and populations, with room for so many bytes of records of faults.
     pub(crate) fn new(device: &Device, groups: Vec<Group>, records: u64) -> Result<Self, DeviceError> {
         let journals = device.buffer("journals", JOURNAL * (groups.len() as u64 + 1))?;
-        Ok(Self { groups, journals, faults: no_faults(device, records)? })
+        let ended_early = device.turns().map(|_| note(device)).transpose()?;
+        Ok(Self { groups, journals, faults: no_faults(device, records)?, ended_early })
     }
 
     /// Makes room for so many bytes of records of faults.
@@ -126,6 +139,11 @@ impl Groups {
     /// All journals.
     pub(crate) fn journals(&self) -> &Buffer {
         &self.journals
+    }
+
+    /// Where it is noted whose loops the device ended early, if it does such a thing.
+    pub(crate) fn ended_early(&self) -> Option<&Buffer> {
+        self.ended_early.as_ref()
     }
 
     /// What processes report.

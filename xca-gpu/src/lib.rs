@@ -29,6 +29,7 @@
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 mod access;
+mod activity;
 mod cause;
 mod device;
 mod engine;
@@ -46,8 +47,9 @@ mod reduction;
 mod service;
 mod space;
 mod stop;
+mod turns;
 mod values;
 
-pub use device::{Adapter, AdapterChoice, AdapterKind, DeviceError, adapters};
+pub use device::{Adapter, AdapterChoice, AdapterKind, DeviceError, Handicap, adapters};
 pub use engine::{Arithmetic, Gpu, GpuOptions, UnknownArithmetic, wgsl};
 pub use error::GpuError;

@@ -137,7 +137,7 @@ impl Migration {
             (&self.order).into(),
         ];
         services.run(device, recorder, PLACE, (&[], parts), population.items)?;
-        let parts: Parts<'_> = &[
+        let mut parts: Vec<Binding> = vec![
             (&self.space).into(),
             journal(),
             groups.faults().into(),
@@ -146,7 +146,8 @@ impl Migration {
             population.labels.now().into(),
             (&self.order).into(),
         ];
-        services.run(device, recorder, SORT, (&[], parts), space.stored())
+        parts.extend(groups.ended_early().map(Binding::from));
+        services.run(device, recorder, SORT, (&[], &parts), space.stored())
     }
 
     /// Records the moves themselves.

@@ -137,6 +137,12 @@ impl Population {
         Ok(cells.chunk_by(|cell, next| row(*cell) == row(*next)).map(<[u32]>::len).collect())
     }
 
+    /// The most items in a cell, counted on the host.
+    pub(crate) fn largest_occupancy(&self, device: &Device) -> Result<u32, DeviceError> {
+        let cells: Vec<u32> = bytemuck::pod_collect_to_vec(&self.cells.read_items(device, self.items)?);
+        Ok(cells.chunk_by(u32::eq).map(|items| items.len() as u32).max().unwrap_or(0))
+    }
+
     /// What a process is bound to.
     pub(crate) fn binding(&self, content: &Content, part: Option<&Part>) -> Option<Binding> {
         let ranges = |buffer: &Buffer| match part {

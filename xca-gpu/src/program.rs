@@ -1,23 +1,24 @@
 //! A process on the device: its shader, compiled, and what it is bound to.
 
-use crate::device::{Access, Binding, Bindings, Buffer, Code, Device, DeviceError, Pipeline};
+use crate::device::{Access, Binding, Bindings, Buffer, Code, Corrections, Device, DeviceError, Pipeline};
 use crate::error::NotOnDevice;
 use crate::groups::{Group, Groups};
 use crate::service;
 use crate::space::{Part, Space};
 use crate::values;
 use std::collections::HashMap;
+use std::num::NonZeroU32;
 use std::sync::{Arc, Mutex, PoisonError};
 use xca_core::engine::SubstateId;
 use xca_core::{Model, ParameterSet, Parity, Precision, Process, ProcessKind, Stream};
-use xca_wgsl::{BindingAccess, Content, Dispatch, Layout, Options, Shader, State};
+use xca_wgsl::{BindingAccess, Content, Dispatch, Layout, Numbering, Options, Shader, State};
 
 /// How processes are compiled.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Manner {
     pub(crate) precision: Precision,
-    /// Whether the driver must not change float arithmetic.
-    pub(crate) strict: bool,
+    /// Where the driver must not change float arithmetic: which operations are corrected.
+    pub(crate) strict: Option<Corrections>,
     /// The invocations of a workgroup, a power of two.
     pub(crate) workgroup: u32,
     /// The most bytes of a substate of cells that a process reaches at once.
@@ -37,6 +38,8 @@ pub(crate) struct Program {
     spaces: Option<(Layout, Vec<Buffer>)>,
     offsets: Option<Buffer>,
     directions: Option<Buffer>,
+    /// Where it notes what it changes, if it does.
+    notes: Option<Binding>,
     /// Bound pipelines by the buffers that they are bound to.
     bound: HashMap<Vec<(u64, u64)>, Bindings>,
 }
@@ -73,23 +76,39 @@ pub(crate) fn shader_of(
     model: &Model,
     process: &Process,
     manner: Manner,
-    neighbour_offsets: Option<Vec<i32>>,
+    (neighbour_offsets, numbering): (Option<Vec<i32>>, Numbering),
 ) -> Result<Shader, xca_wgsl::Error> {
     let geometry = model.geometry();
-    let [width, height, _] = geometry.extents();
-    // Workgroups as long along x as the space allows.
-    let x = width.next_power_of_two().min(manner.workgroup as usize) as u32;
-    let y = height.next_power_of_two().min((manner.workgroup / x) as usize) as u32;
     let options = Options {
         precision: manner.precision,
         neighbourhood_size: u32::try_from(geometry.neighbourhood().size()).ok(),
         neighbour_offsets,
-        workgroup_size: [x, y, (manner.workgroup / (x * y)).min(64)],
+        workgroup_size: workgroup_size(geometry.extents(), manner.workgroup),
+        numbering,
         boundaries: geometry.boundaries(),
         parity: geometry.neighbourhood().parity(),
-        opaque_zero: manner.strict,
+        opaque_zero: manner.strict.is_some(),
     };
     texts.of(process, options)
+}
+
+/// The size of a workgroup over cells: as long along x as the space allows.
+pub(crate) fn workgroup_size([width, height, _]: [usize; 3], workgroup: u32) -> [u32; 3] {
+    let x = width.next_power_of_two().min(workgroup as usize) as u32;
+    let y = height.next_power_of_two().min((workgroup / x) as usize) as u32;
+    [x, y, (workgroup / (x * y)).min(64)]
+}
+
+/// Along the axes, unless one of them has too many workgroups for a dispatch.
+fn numbering(device: &Device, space: &Space, manner: Manner) -> Numbering {
+    let size = workgroup_size(space.geometry().extents(), manner.workgroup);
+    let longest = space.parts().iter().flat_map(|part| part.workgroups(size)).max();
+    if longest > Some(device.most_workgroups()) { Numbering::Row } else { Numbering::Axes }
+}
+
+/// The number by which a process is known whose loops are ended early: its place in the step, from 1.
+fn watch_number(stream: Stream) -> Option<NonZeroU32> {
+    NonZeroU32::new(u32::from(stream.number()) + 1)
 }
 
 impl Program {
@@ -100,18 +119,21 @@ impl Program {
         space: &Space,
         (process, stream): (Process, Stream),
         (manner, texts): (Manner, &Texts),
+        is_selected: bool,
     ) -> Result<Self, NotOnDevice> {
         let geometry = model.geometry();
         let size = geometry.neighbourhood().size();
         let same = geometry.neighbourhood().parity() == Parity::None;
         let offsets = same.then(|| space.offsets()[..size].to_vec());
-        let shader = shader_of(texts, model, &process, manner, offsets)?;
+        let numbering = if is_selected { Numbering::List } else { numbering(device, space, manner) };
+        let shader = shader_of(texts, model, &process, manner, (offsets, numbering))?;
         if shader.needs_f64 && !device.adapter().has_f64 {
             return Err(NotOnDevice::NoF64 { what: format!("the process `{}`", process.name) });
         }
-        let most = device.adapter().buffers as usize;
-        let storage =
-            shader.bindings.iter().filter(|binding| binding.access != BindingAccess::Uniform).count();
+        let most = device.buffers() as usize;
+        let bindings = shader.bindings.iter();
+        let storage = bindings.filter(|binding| binding.access != BindingAccess::Uniform).count()
+            + usize::from(device.turns().is_some());
         if storage > most {
             let process = process.name;
             return Err(NotOnDevice::TooManyBuffers { process, wanted: storage, most });
@@ -126,6 +148,7 @@ impl Program {
             workgroup,
             buffers: shader.bindings.iter().map(|binding| access(binding.access)).collect(),
             strict: manner.strict,
+            watched: device.turns().and_then(|_| watch_number(stream)),
         };
         let pipeline = device.pipeline(&code)?;
         let mut parameters = Vec::new();
@@ -169,6 +192,7 @@ impl Program {
             spaces,
             offsets,
             directions,
+            notes: None,
             bound: HashMap::new(),
         })
     }
@@ -261,13 +285,35 @@ impl Program {
             Dispatch::Cells(size) => (0..space.parts().len())
                 .map(|number| {
                     let part = &space.parts()[number];
-                    let workgroups =
-                        std::array::from_fn(|axis| (part.count[axis] as u32).div_ceil(size[axis]));
+                    let along = part.workgroups(size);
+                    let workgroups = match self.shader.numbering {
+                        Numbering::Axes => along,
+                        Numbering::Row | Numbering::List => {
+                            service::workgroups(device, along.iter().map(|count| *count as usize).product())
+                        }
+                    };
                     let parts = self.buffers(model, groups, number, Some(part));
                     Ok((self.bind(device, parts)?, workgroups))
                 })
                 .collect(),
         }
+    }
+
+    /// Has it note in which tiles it changes something.
+    pub(crate) fn note_in(&mut self, notes: Binding) {
+        self.notes = Some(notes);
+    }
+
+    /// The process with all cells in reach.
+    pub(crate) fn bound(
+        &mut self,
+        device: &Device,
+        model: &Model,
+        space: &Space,
+        groups: &Groups,
+    ) -> Result<Bindings, DeviceError> {
+        let parts = self.buffers(model, groups, 0, space.parts().first());
+        self.bind(device, parts)
     }
 
     fn bind(&mut self, device: &Device, parts: Vec<Binding>) -> Result<Bindings, DeviceError> {
@@ -302,6 +348,7 @@ impl Program {
                 Content::NeighbourDirections => self.directions.as_ref().map(Binding::from),
                 Content::Moment(_) => Some(groups.journal(population)),
                 Content::Faults(_) => Some(groups.faults().into()),
+                Content::Activity => self.notes.clone(),
                 Content::Substate { argument, field, state, .. } => {
                     let id = self.substate(model, *argument, *field)?;
                     groups.substate(id, *state == State::After, part)
@@ -311,6 +358,7 @@ impl Program {
                     Group::Population(population) => population.binding(content, part),
                 },
             })
+            .chain(groups.ended_early().map(Binding::from))
             .collect()
     }
 }

@@ -1,9 +1,10 @@
 //! The proof of strict arithmetic: a battery of operands through every operation, on the device and on the host.
 //!
 //! Vulkan promises correct rounding for `+`, `-` and `*` alone; `/` and `sqrt` may be off, small numbers may be flushed to zero, and
-//! nothing but a decoration keeps a driver from contracting `a * b + c`. So an adapter is believed when it has shown it.
+//! nothing but a decoration keeps a driver from contracting `a * b + c`. So an adapter is believed when it has shown it. Where only
+//! `/` or `sqrt` are wrong, corrected ones take their place, and have to show the same.
 
-use crate::device::{Access, Code, Device, DeviceError};
+use crate::device::{Access, Code, Corrections, Device, DeviceError};
 use std::fmt::Write as _;
 use xca_core::philox;
 
@@ -100,30 +101,63 @@ tried!(f64, u64, |words| u64::from(words[0]) << 32 | u64::from(words[1]));
 ///
 /// # Errors
 /// Why it is not proved.
-pub(crate) fn of_strictness(device: &Device) -> Result<(), String> {
+pub(crate) fn of_strictness(device: &Device) -> Result<Corrections, String> {
     if !device.adapter().may_be_strict {
         let interface = &device.adapter().interface;
         return Err(format!("its driver takes no SPIR-V as it is (interface: {interface}, wanted: vulkan)"));
     }
-    of_type::<f32>(device)?;
-    if device.adapter().has_f64 { of_type::<f64>(device) } else { Ok(()) }
+    let mut corrections = Corrections::default();
+    correct::<f32>(device, 0, &mut corrections)?;
+    if device.adapter().has_f64 {
+        correct::<f64>(device, 1, &mut corrections)?;
+    }
+    Ok(corrections)
 }
 
-fn of_type<T: Tried>(device: &Device) -> Result<(), String> {
+/// Finds out what has to be corrected in a type, and proves that it is right then.
+fn correct<T: Tried>(device: &Device, type_: usize, corrections: &mut Corrections) -> Result<(), String> {
     let operands = operands::<T>();
-    let found = on_device::<T>(device, &operands).map_err(|error| error.to_string())?;
+    let wrong = wrong::<T>(device, &operands, *corrections)?;
+    if wrong.is_empty() {
+        return Ok(());
+    }
+    for (operation, _) in &wrong {
+        match OPERATIONS[*operation].0 {
+            "a / b" | "a * c / c" => corrections.divisions[type_] = true,
+            "sqrt(a)" => corrections.roots[type_] = true,
+            // No other operation can be made of those that are right.
+            _ => return Err(wrong[0].1.clone()),
+        }
+    }
+    match self::wrong::<T>(device, &operands, *corrections)?.first() {
+        None => Ok(()),
+        Some((_, error)) => Err(format!("{error}, corrected")),
+    }
+}
+
+/// The operations that the device does wrongly, by their places, each with what is wrong.
+fn wrong<T: Tried>(
+    device: &Device,
+    operands: &[T],
+    corrections: Corrections,
+) -> Result<Vec<(usize, String)>, String> {
+    let found = on_device::<T>(device, operands, corrections).map_err(|error| error.to_string())?;
+    let mut wrong: Vec<(usize, String)> = Vec::new();
     for (operands, found) in operands.chunks_exact(3).zip(found.chunks_exact(OPERATIONS.len())) {
         let [a, b, c] = [operands[0], operands[1], operands[2]];
-        for ((found, wanted), (name, _)) in found.iter().zip(T::results(a, b, c)).zip(OPERATIONS) {
-            if !wanted.same(*found) {
-                return Err(format!(
+        let wanted = T::results(a, b, c);
+        for (operation, ((found, wanted), (name, _))) in found.iter().zip(wanted).zip(OPERATIONS).enumerate()
+        {
+            if !wanted.same(*found) && wrong.iter().all(|(known, _)| *known != operation) {
+                let text = format!(
                     "in {} {name} gives {found:e} instead of {wanted:e} for a = {a:e}, b = {b:e}, c = {c:e}",
                     T::NAME
-                ));
+                );
+                wrong.push((operation, text));
             }
         }
     }
-    Ok(())
+    Ok(wrong)
 }
 
 /// All pairs of edges, and random numbers.
@@ -143,13 +177,18 @@ fn operands<T: Tried>() -> Vec<T> {
     operands
 }
 
-fn on_device<T: Tried>(device: &Device, operands: &[T]) -> Result<Vec<T>, DeviceError> {
+fn on_device<T: Tried>(
+    device: &Device,
+    operands: &[T],
+    corrections: Corrections,
+) -> Result<Vec<T>, DeviceError> {
     let code = Code {
         name: format!("the proof of arithmetic in {}", T::NAME),
         source: source(T::NAME),
         workgroup: [WORKGROUP, 1, 1],
         buffers: vec![Access::Read, Access::Write],
-        strict: true,
+        strict: Some(corrections),
+        watched: None,
     };
     let given = device.buffer("operands", size_of_val(operands) as u64)?;
     device.upload(&given, 0, bytemuck::cast_slice(operands))?;

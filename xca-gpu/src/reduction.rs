@@ -3,7 +3,7 @@
 //!
 //! So the result has the bits of the reference engine wherever float sums have.
 
-use crate::device::{Access, Binding, Buffer, Code, Device, DeviceError};
+use crate::device::{Access, Binding, Buffer, Code, Corrections, Device, DeviceError};
 use crate::service::workgroups;
 use xca_core::reduction::{Reduced, Reduction};
 use xca_core::{StoredScalar, StoredType};
@@ -51,17 +51,21 @@ enum RowResult {
     Double,
 }
 
-/// Whether the device can do it: float sums are made in 64 bits.
-pub(crate) fn is_possible(device: &Device, reduction: &Reduction, stored: StoredType) -> bool {
+/// Whether the device can do it: float sums are made in 64 bits, and a row takes a loop.
+pub(crate) fn is_possible(
+    device: &Device,
+    (reduction, stored): (&Reduction, StoredType),
+    longest_row: usize,
+) -> bool {
     let float = matches!(stored.scalar, StoredScalar::F32 | StoredScalar::F64);
     let sum = matches!(reduction, Reduction::Sum | Reduction::Product);
-    device.adapter().has_f64 || !(float && sum)
+    (device.adapter().has_f64 || !(float && sum)) && device.finishes(stored.components() * (longest_row + 2))
 }
 
 /// Reduces rows of values, component by component: the results of all rows, in order.
 pub(crate) fn reduce(
     device: &Device,
-    strict: bool,
+    strict: Option<Corrections>,
     (reduction, stored): (&Reduction, StoredType),
     values: Values<'_>,
     rows: Rows,
@@ -79,6 +83,7 @@ pub(crate) fn reduce(
         workgroup: [WORKGROUP, 1, 1],
         buffers,
         strict,
+        watched: None,
     };
     let description = device.uniform("rows", bytemuck::bytes_of(&rows))?;
     let wanted = device.buffer("wanted", 8)?;

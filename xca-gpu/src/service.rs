@@ -4,6 +4,7 @@ use crate::device::{Access, Binding, Bindings, Code, Device, DeviceError, Record
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::fmt::Write as _;
+use std::num::NonZeroU32;
 
 const COMMON: &str = include_str!("shaders/common.wgsl");
 
@@ -14,6 +15,8 @@ pub(crate) struct Service {
     source: &'static str,
     workgroup: u32,
     buffers: &'static [Access],
+    /// Whether it has loops that may be long: one more buffer is bound, where the device ends loops early.
+    long: bool,
 }
 
 use Access::{Read, Uniform, Write};
@@ -28,6 +31,7 @@ macro_rules! services {
             ),
             workgroup: $workgroup,
             buffers: &[$($access),+],
+            long: matches!($file.as_bytes(), b"sort"),
         };
     )*
 
@@ -48,10 +52,14 @@ services! {
     SEAL_REPORT = "seal_report" after "seal", 1, [Uniform, Write, Write];
     SEAL_AIM = "seal_aim" after "seal", 1, [Uniform, Write, Write, Read, Read, Read];
     SEAL_FULL = "seal_full" after "seal", 1, [Uniform, Write, Write, Read, Read];
+    SELECT = "select", 256, [Read, Write, Write];
     SORT = "sort", 256, [Uniform, Write, Write, Read, Write, Read, Write];
     SPREAD_BLOCKS = "spread_blocks" after "blocks", 64, [Read, Read, Write];
     SUM_BLOCKS = "sum_blocks" after "blocks", 64, [Read, Write];
 }
+
+/// The number by which [`SORT`] is known where its loops are ended early.
+pub(crate) const SORTING: NonZeroU32 = NonZeroU32::MAX;
 
 /// What [`SUM_BLOCKS`] and [`SPREAD_BLOCKS`] work on in one workgroup.
 pub(crate) const BLOCK: usize = 1024;
@@ -103,7 +111,8 @@ impl Service {
             source: self.text(constants),
             workgroup: [self.workgroup, 1, 1],
             buffers: self.buffers.to_vec(),
-            strict: false,
+            strict: None,
+            watched: device.turns().filter(|_| self.long).map(|_| SORTING),
         };
         device.bind(&device.pipeline(&code)?, parts)
     }
@@ -134,6 +143,11 @@ mod tests {
     #[test]
     fn all_are_valid_wgsl() {
         let constants = [("WORDS", 2), ("PAIRS", 3), ("CROSSINGS", 3), ("FIRST", 1), ("PICK_UP", 1)];
+        let names =
+            ["TILES", "ALONG_X", "ALONG_Y", "SIZE_X", "SIZE_Y", "SIZE_Z", "CELLS_X", "CELLS_Y", "CELLS_Z"];
+        let more = ["REACH_X", "REACH_Y", "REACH_Z", "MOST", "REGION", "SOURCES", "PLACE"];
+        let constants: Vec<_> =
+            constants.into_iter().chain(names.into_iter().chain(more).map(|name| (name, 1))).collect();
         for service in ALL {
             let text = service.text(&constants);
             let module = naga::front::wgsl::parse_str(&text)

@@ -29,6 +29,13 @@ pub(crate) struct Part {
     pub(crate) stored: usize,
 }
 
+impl Part {
+    /// The workgroups of this size along each axis that cover its cells.
+    pub(crate) fn workgroups(&self, size: [u32; 3]) -> [u32; 3] {
+        std::array::from_fn(|axis| (self.count[axis] as u32).div_ceil(size[axis]))
+    }
+}
+
 /// A cell of the halo.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct HaloCell {

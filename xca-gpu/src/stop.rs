@@ -36,9 +36,7 @@ impl GpuExecution {
                     let first = part.map_or(0, |part| part.first[axis]);
                     (cell[axis] - first) as u64 / u64::from(size[axis])
                 });
-                let [width, height, _]: [u64; 3] = std::array::from_fn(|axis| {
-                    part.map_or(1, |part| part.count[axis] as u64).div_ceil(u64::from(size[axis]))
-                });
+                let [width, height, _] = part.map_or([1; 3], |part| part.workgroups(size)).map(u64::from);
                 (z * height + y) * width + x
             }
         };

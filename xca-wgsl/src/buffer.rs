@@ -3,6 +3,7 @@
 use crate::access::Use;
 use crate::names::Names;
 use crate::program::{Roles, bare};
+use crate::routine;
 use crate::types::{self, Type};
 use std::fmt::Write as _;
 use xca_core::{ScalarType, ValueType};
@@ -62,8 +63,9 @@ impl Buffer {
         types::loaded(self.value_type.scalar, &format!("{}[{place}]", self.now))
     }
 
-    /// The statements that store a value, indented once.
-    pub(crate) fn store(&self, number: &str, value: &str) -> String {
+    /// The statements that store a value, indented once; where a variable is given, it becomes true where the value
+    /// changes.
+    pub(crate) fn store(&self, number: &str, value: &str, changed: Option<&str>) -> String {
         let target = self.next.as_ref().unwrap_or(&self.now);
         let components = self.value_type.components();
         let lanes = u32::from(self.value_type.lanes);
@@ -73,6 +75,12 @@ impl Buffer {
                 ScalarType::Bool => format!("u32({component})"),
                 _ => component.to_owned(),
             };
+            if let Some(changed) = changed {
+                let differs = routine::difference(self.value_type.scalar);
+                let now = &self.now;
+                let _ =
+                    writeln!(text, "{indent}{changed} = {changed} | {differs}({now}[{place}], {stored});");
+            }
             let _ = writeln!(text, "{indent}{target}[{place}] = {stored};");
         };
         match self.value_type.length {

@@ -49,6 +49,7 @@ impl Declarations {
         writer.substates(glossary);
         writer.items();
         writer.own(&roles, glossary, names);
+        writer.activity();
         writer.private();
         writer.faults(uses);
         writer.finish()
@@ -167,6 +168,16 @@ impl Writer<'_> {
                 BindingAccess::ReadWrite,
                 Content::Destinations,
             );
+        }
+    }
+
+    fn activity(&mut self) {
+        if self.mentions("activity") {
+            let type_ = "array<atomic<u32>>";
+            self.buffer("activity", type_, BindingAccess::ReadWrite, Content::Activity);
+            for name in ["tile", "tiles", "run_number"] {
+                let _ = writeln!(self.variables, "var<private> {name}: u32;");
+            }
         }
     }
 

@@ -3,7 +3,7 @@
 use crate::access::Uses;
 use crate::glossary::Glossary;
 use crate::names;
-use crate::shader::Options;
+use crate::shader::{ACTIVITY_HEAD, Numbering, Options};
 use std::fmt::Write as _;
 use xca_core::ir::FunctionKind;
 
@@ -22,12 +22,20 @@ impl Entry<'_> {
             FunctionKind::Cells => (format!("{x}, {y}, {z}"), "all(id < space.count)".to_owned()),
             _ => ((x * y * z).to_string(), "item < moment.items".to_owned()),
         };
-        let mut arguments = vec!["@builtin(global_invocation_id) id: vec3<u32>"];
-        if self.kind != FunctionKind::Cells || self.uses.faults {
+        let cells = self.kind == FunctionKind::Cells;
+        let numbered = cells && self.options.numbering != Numbering::Axes;
+        let mut arguments = if numbered {
+            vec!["@builtin(local_invocation_id) place: vec3<u32>"]
+        } else {
+            vec!["@builtin(global_invocation_id) id: vec3<u32>"]
+        };
+        if !cells || numbered || self.uses.faults {
             arguments.push("@builtin(num_workgroups) workgroups: vec3<u32>");
         }
-        if self.uses.faults {
+        if numbered || self.uses.faults {
             arguments.push("@builtin(workgroup_id) workgroup_id: vec3<u32>");
+        }
+        if self.uses.faults {
             arguments.push("@builtin(local_invocation_index) local: u32");
         }
         let mut out = String::new();
@@ -35,8 +43,11 @@ impl Entry<'_> {
         let _ = writeln!(out, "{}", self.one(over));
         let _ = writeln!(out, "@compute @workgroup_size({size})");
         let _ = writeln!(out, "fn main(\n    {},\n) {{", arguments.join(",\n    "));
-        if self.kind != FunctionKind::Cells {
+        if !cells {
             let _ = writeln!(out, "    let item: u32 = id.x + id.y * workgroups.x * {size}u;");
+        }
+        if numbered {
+            out.push_str(&cells_of_number([x, y, z], self.notes_changes()));
         }
         let argument = if self.kind == FunctionKind::Cells { "space.first + id" } else { "item" };
         if self.uses.faults {
@@ -46,6 +57,11 @@ impl Entry<'_> {
         }
         out.push_str("}\n");
         out
+    }
+
+    /// Whether workgroups look up their tiles, and note in which something changes.
+    pub(crate) fn notes_changes(&self) -> bool {
+        self.kind == FunctionKind::Cells && self.options.numbering == Numbering::List
     }
 
     /// Whether the process has to know the cell of its item.
@@ -92,9 +108,20 @@ impl Entry<'_> {
             let _ = writeln!(out, "    {name}();");
         }
         if let Ok(variable) = self.glossary.central(0) {
-            for buffer in self.glossary.buffers.iter().filter(|buffer| buffer.used.write) {
+            let written = self.glossary.buffers.iter().filter(|buffer| buffer.used.write);
+            for (place, buffer) in written.enumerate() {
                 let value = format!("{variable}.{}", names::field(buffer.field));
-                out.push_str(&buffer.store(number, &value));
+                if !self.notes_changes() {
+                    out.push_str(&buffer.store(number, &value, None));
+                    continue;
+                }
+                let changed = format!("changed_{place}");
+                let _ = writeln!(out, "    var {changed}: bool = false;");
+                out.push_str(&buffer.store(number, &value, Some(&changed)));
+                let row = place + 2;
+                let _ = writeln!(out, "    if {changed} {{");
+                let at = format!("activity[{ACTIVITY_HEAD}u + {row}u * tiles + tile]");
+                let _ = writeln!(out, "        atomicStore(&{at}, run_number);\n    }}");
             }
         }
         out.push_str("}\n");
@@ -104,6 +131,11 @@ impl Entry<'_> {
     /// Of the faults in a workgroup the first is recorded; of all workgroups the first cell or item is remembered. So
     /// the result does not depend on the order in which invocations run.
     fn with_faults(&self, guard: &str, over: &str, argument: &str) -> String {
+        let record = if self.notes_changes() {
+            "tile"
+        } else {
+            "(workgroup_id.z * workgroups.y + workgroup_id.y) * workgroups.x + workgroup_id.x"
+        };
         let order = if self.kind == FunctionKind::Cells { "linear_index(here_index)" } else { "this_item" };
         format!(
             "    if local == 0u {{
@@ -118,7 +150,7 @@ impl Entry<'_> {
     }}
     workgroupBarrier();
     if has_fault && atomicLoad(&first_fault) == {order} {{
-        let number: u32 = (workgroup_id.z * workgroups.y + workgroup_id.y) * workgroups.x + workgroup_id.x;
+        let number: u32 = {record};
         faults.records[number] = recorded_fault;
         atomicMin(&faults.first, {order});
     }}
@@ -126,3 +158,26 @@ impl Entry<'_> {
         )
     }
 }
+
+/// The indices of an invocation's cell, from the number of its workgroup, or from the tile that it looks up.
+fn cells_of_number([x, y, z]: [u32; 3], is_listed: bool) -> String {
+    let [x_more, y_more, z_more] = [x - 1, y - 1, z - 1];
+    let (look_up, number) = if is_listed { (LOOK_UP, "tile") } else { ("", "workgroup") };
+    format!(
+        "    let workgroup: u32 = workgroup_id.x + workgroup_id.y * workgroups.x;
+    let size = vec3<u32>({x}u, {y}u, {z}u);
+    let along: vec3<u32> = (space.count + vec3<u32>({x_more}u, {y_more}u, {z_more}u)) / size;
+{look_up}    let row: u32 = {number} / along.x;
+    let id: vec3<u32> = vec3<u32>({number} % along.x, row % along.y, row / along.y) * size + place;
+"
+    )
+}
+
+/// Beyond the end of the list there is no tile.
+const LOOK_UP: &str = "    tiles = along.x * along.y * along.z;
+    tile = tiles;
+    if workgroup < atomicLoad(&activity[1]) {
+        tile = atomicLoad(&activity[64u + workgroup]);
+    }
+    run_number = atomicLoad(&activity[0]);
+";

@@ -56,4 +56,6 @@ mod visit;
 pub use error::{Error, Problem};
 pub use fault::FaultKind;
 pub use layout::{FieldLayout, Layout};
-pub use shader::{Binding, BindingAccess, Content, Dispatch, Options, Shader, State, shader};
+pub use shader::{
+    ACTIVITY_HEAD, Binding, BindingAccess, Content, Dispatch, Numbering, Options, Shader, State, shader,
+};

@@ -46,6 +46,11 @@ pub(crate) fn write(program: &Program, options: &Options) -> Result<Shader, Erro
     let entry_text = entry.text();
     let reading = format!("{}{entry_text}", functions.concat());
     body.extend(glossary.buffers.iter().flat_map(|buffer| buffer.readers(&reading)));
+    if entry.notes_changes() {
+        glossary.buffers.iter().filter(|buffer| buffer.used.write).for_each(|buffer| {
+            routines.need_difference(buffer.value_type.scalar, options.precision);
+        });
+    }
     body.extend(routines.texts().cloned());
     if uses.faults {
         body.push(fault::record(kind));
@@ -74,6 +79,7 @@ pub(crate) fn write(program: &Program, options: &Options) -> Result<Shader, Erro
         entry_point: "main".to_owned(),
         bindings: declarations.bindings,
         dispatch: if over_cells { Dispatch::Cells([x, y, z]) } else { Dispatch::Items(x * y * z) },
+        numbering: options.numbering,
     })
 }
 

@@ -33,12 +33,14 @@ const OWN: &str = "
 Real Destination Space Moment Fault Faults main space moment neighbour_offsets item_starts item_ends item_labels
 item_cells destinations faults here here_index this_item element recorded_fault first_fault storage_index cell_index linear_index
 neighbour_at valid_neighbour neighbour_direction neighbour_directions neighbour_exists record_fault report_fault has_fault multiply_high philox random_words random_bits random_real
-cell_containing nearest_image shorter_way wrapped wrapped_along
+cell_containing nearest_image shorter_way wrapped wrapped_along activity tile tiles run_number
 
 ";
 
 /// The beginnings of the names of routines.
-const PREFIXES: [&str; 26] = [
+const PREFIXES: [&str; 28] = [
+    "differs_",
+    "changed_",
     "tuple_",
     "runtime_",
     "repeat_",

@@ -89,6 +89,24 @@ impl Routines {
         })
     }
 
+    /// Whether two numbers in memory differ in a bit. A NaN differs from itself.
+    pub(crate) fn need_difference(&mut self, scalar: ScalarType, precision: Precision) -> String {
+        let name = types::scalar_name(scalar);
+        let condition = if types::is_f64(scalar, precision) {
+            // There is no other way to the bits of 64; zeros differ by their signs.
+            format!(
+                "!(a == b) || (a == {name}(0.0) && (({name}(1.0) / a < {name}(0.0)) != ({name}(1.0) / b < {name}(0.0))))"
+            )
+        } else if types::is_float(scalar) {
+            "bitcast<u32>(a) != bitcast<u32>(b)".to_owned()
+        } else {
+            "a != b".to_owned()
+        };
+        self.need(difference(scalar), |routine| {
+            format!("fn {routine}(a: {name}, b: {name}) -> bool {{\n    return {condition};\n}}\n")
+        })
+    }
+
     /// The value itself. naga computes with constants while it reads a shader, and refuses what is not finite or loses bits;
     /// it does not look into functions.
     pub(crate) fn need_run_time(&mut self, type_: &Type) -> String {
@@ -307,6 +325,11 @@ impl Routines {
             )
         })
     }
+}
+
+/// The routine that compares two numbers of a type bit by bit.
+pub(crate) fn difference(scalar: ScalarType) -> String {
+    format!("differs_{}", types::scalar_name(scalar).to_lowercase())
 }
 
 fn masked(text: &str, type_: &Type) -> String {

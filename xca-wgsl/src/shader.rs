@@ -20,6 +20,8 @@ pub struct Options {
     pub neighbour_offsets: Option<Vec<i32>>,
     /// The size of a workgroup along x, y and z; of a process over items the product.
     pub workgroup_size: [u32; 3],
+    /// How a workgroup of a process over cells finds its cells.
+    pub numbering: Numbering,
     /// What lies beyond the faces: round toroidal axes searches for near items go the shorter way, beyond
     /// flat faces no neighbour exists.
     pub boundaries: Faces<Boundary>,
@@ -37,6 +39,7 @@ impl Default for Options {
             neighbourhood_size: None,
             neighbour_offsets: None,
             workgroup_size: [64, 1, 1],
+            numbering: Numbering::Axes,
             boundaries: Faces::all(Boundary::Flat),
             parity: Parity::None,
             opaque_zero: false,
@@ -55,9 +58,27 @@ pub struct Shader {
     pub bindings: Vec<Binding>,
     /// What one invocation works on.
     pub dispatch: Dispatch,
+    /// How its workgroups find their cells, where it runs over cells.
+    pub numbering: Numbering,
     /// Whether the module uses 64-bit floats.
     pub needs_f64: bool,
 }
+
+/// How a workgroup of a process over cells finds its cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Numbering {
+    /// Workgroups lie along x, y and z as the cells do.
+    Axes,
+    /// Workgroups are numbered, x running fastest, and workgroup `(x, y)` of the dispatch is number
+    /// `x + y * (workgroups along x)`: for more workgroups along an axis than a device has room for.
+    Row,
+    /// Workgroups are numbered as in a row, and look up in a list which tile of the space is theirs; they note
+    /// what they change: [`Content::Activity`].
+    List,
+}
+
+/// The words before the list of [`Content::Activity`].
+pub const ACTIVITY_HEAD: u32 = 64;
 
 /// What the invocations of a shader run over. Invocations beyond the end do nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -142,6 +163,11 @@ pub enum Content {
     /// `u32` for each item: where a migration sends it, the linear index of a cell (without halo) or one of
     /// `xca_core::kernel::{STAY, OUTSIDE, NOWHERE}`.
     Destinations,
+    /// Which tiles a process works on, and in which it changes something, as `u32`. A tile is the cells of a workgroup; `n` is
+    /// the number of tiles. At 0 the number of this run, at 1 the length of the list, from [`ACTIVITY_HEAD`] on the list, as
+    /// many words as tiles; then `n` words that are the engine's; then `n` words for each substate that
+    /// the process writes, in the order of the bindings: the number of the last run that changed it in that tile.
+    Activity,
     /// Faults: at 0 a `u32`, the linear index of the first cell (of a process over items: the first item) with a fault, which is
     /// `u32::MAX` before; at 4 a `u32` that makes the shader do nothing where it is not zero, so that the state at a fault stays;
     /// from 8 on a record for each workgroup, numbered with x running fastest, which holds the first fault in

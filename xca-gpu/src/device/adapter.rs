@@ -1,5 +1,6 @@
 //! Adapters: the devices that this machine offers.
 
+use super::instance::{self, BACKENDS};
 use std::fmt;
 
 /// What is known of an adapter before it is used.
@@ -118,11 +119,9 @@ impl Adapter {
 
 /// All adapters with what is known of them.
 pub(super) fn all() -> Vec<(wgpu::Adapter, Adapter)> {
-    // No window is ever drawn to, and OpenGL has neither f64 nor what strict arithmetic needs.
-    let backends = wgpu::Backends::VULKAN | wgpu::Backends::METAL | wgpu::Backends::DX12;
-    let description = wgpu::InstanceDescriptor::new_without_display_handle();
-    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor { backends, ..description });
-    pollster::block_on(instance.enumerate_adapters(backends))
+    let adapters = instance::open().map(|instance| pollster::block_on(instance.enumerate_adapters(BACKENDS)));
+    adapters
+        .unwrap_or_default()
         .into_iter()
         .enumerate()
         .map(|(number, adapter)| {

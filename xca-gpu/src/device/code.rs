@@ -1,8 +1,11 @@
 //! Code on the device: WGSL compiled to pipelines, strictly or as the driver likes.
 #![allow(unsafe_code)]
 
+use super::rewrite::{self, Manner, Replacements, Watch};
 use super::{Device, DeviceError, exact};
+use std::borrow::Cow;
 use std::fmt;
+use std::num::NonZeroU32;
 use std::sync::{Arc, PoisonError};
 
 /// How code uses a buffer.
@@ -27,8 +30,19 @@ pub(crate) struct Code {
     pub(crate) workgroup: [u32; 3],
     /// The buffers.
     pub(crate) buffers: Vec<Access>,
-    /// Whether the driver must not change float arithmetic.
-    pub(crate) strict: bool,
+    /// Where the driver must not change float arithmetic: which operations are corrected.
+    pub(crate) strict: Option<Corrections>,
+    /// Where loops that the device ends early are to be told: the number that is written to one more buffer, which
+    /// stands behind the others.
+    pub(crate) watched: Option<NonZeroU32>,
+}
+
+/// The operations that the driver does not round correctly, and that are made correct by other operations: of floats
+/// of 32 bits, then of 64 bits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub(crate) struct Corrections {
+    pub(crate) divisions: [bool; 2],
+    pub(crate) roots: [bool; 2],
 }
 
 /// Compiled code.
@@ -68,18 +82,32 @@ impl Device {
     fn compile(&self, code: &Code) -> Result<Pipeline, DeviceError> {
         let what = format!("the code of {}", code.name);
         let refused = |reason: String| DeviceError::Refused { what: what.clone(), reason };
-        // Wrong WGSL is told with its line, by both ways.
-        let words = if code.strict { Some(exact::spirv(&code.source).map_err(refused)?) } else { None };
+        let watch =
+            code.watched.map(|number| Watch { binding: code.buffers.len() as u32, number: number.get() });
+        let replacements = code.strict.map(|corrections| self.replacements(corrections)).unwrap_or_default();
+        // Wrong WGSL is told with its line, here and by the driver.
+        let checked = if code.strict.is_some() || watch.is_some() {
+            Some(rewrite::read(&code.source, &replacements, watch).map_err(refused)?)
+        } else {
+            None
+        };
+        let words = match &checked {
+            Some(checked) if code.strict.is_some() => Some(exact::spirv(checked).map_err(refused)?),
+            _ => None,
+        };
         self.guarded(&what, || {
-            let module = match words {
-                Some(words) => self.passthrough(code, words),
-                None => self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                    label: Some(&code.name),
-                    source: wgpu::ShaderSource::Wgsl(code.source.as_str().into()),
-                }),
+            let module = if let Some(words) = words {
+                self.passthrough(code, words)
+            } else {
+                let source = match checked {
+                    Some(checked) => wgpu::ShaderSource::Naga(Cow::Owned(checked.module)),
+                    None => wgpu::ShaderSource::Wgsl(code.source.as_str().into()),
+                };
+                let label = Some(code.name.as_str());
+                self.device.create_shader_module(wgpu::ShaderModuleDescriptor { label, source })
             };
-            let entries: Vec<_> =
-                code.buffers.iter().zip(0..).map(|(access, number)| entry(number, *access)).collect();
+            let buffers = code.buffers.iter().copied().chain(watch.map(|_| Access::Write));
+            let entries: Vec<_> = buffers.zip(0..).map(|(access, number)| entry(number, access)).collect();
             let layout = self.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
                 label: Some(&code.name),
                 entries: &entries,
@@ -103,6 +131,13 @@ impl Device {
             });
             Pipeline { pipeline, layout, name: code.name.clone() }
         })
+    }
+
+    /// What is replaced in strict code.
+    fn replacements(&self, Corrections { divisions, roots }: Corrections) -> Vec<Replacements> {
+        let corrected = Replacements { manner: Manner::Corrected, divisions, roots };
+        let rough = Replacements { manner: Manner::Rough, divisions: [true; 2], roots: [true; 2] };
+        if self.handicap.rough { vec![corrected, rough] } else { vec![corrected] }
     }
 
     fn passthrough(&self, code: &Code, words: Vec<u32>) -> wgpu::ShaderModule {

@@ -3,9 +3,9 @@
 //! WGSL lets a driver contract `a * b + c` to one rounding, and reorder sums. SPIR-V forbids both for operations that are decorated so,
 //! which WGSL cannot say; hence this detour over naga's own SPIR-V.
 
+use super::rewrite::Checked;
 use naga::back::spv;
 use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
-use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 /// The number of the decoration, and of the instruction that puts one on a result.
 const NO_CONTRACTION: u32 = 42;
@@ -17,12 +17,8 @@ const TYPES: std::ops::RangeInclusive<u32> = 19..=33;
 /// Float arithmetic: FNegate, FAdd, FSub, FMul, FDiv, FRem, FMod, VectorTimesScalar.
 const ARITHMETIC: [u32; 8] = [127, 129, 131, 133, 136, 140, 141, 142];
 
-/// Translates WGSL.
-pub(super) fn spirv(source: &str) -> Result<Vec<u32>, String> {
-    let module = naga::front::wgsl::parse_str(source).map_err(|error| error.emit_to_string(source))?;
-    let info = Validator::new(ValidationFlags::all(), Capabilities::all())
-        .validate(&module)
-        .map_err(|error| error.emit_to_string(source))?;
+/// Translates a module.
+pub(super) fn spirv(Checked { module, info }: &Checked) -> Result<Vec<u32>, String> {
     let options = spv::Options {
         lang_version: (1, 3),
         flags: spv::WriterFlags::empty(),
@@ -37,7 +33,7 @@ pub(super) fn spirv(source: &str) -> Result<Vec<u32>, String> {
         force_loop_bounding: false,
         ..spv::Options::default()
     };
-    let words = spv::write_vec(&module, &info, &options, None).map_err(|error| error.to_string())?;
+    let words = spv::write_vec(module, info, &options, None).map_err(|error| error.to_string())?;
     Ok(without_contraction(&words))
 }
 
@@ -69,13 +65,14 @@ fn without_contraction(words: &[u32]) -> Vec<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::device::rewrite;
 
     const SOURCE: &str = "@group(0) @binding(0) var<storage, read_write> x: array<f32>;
         @compute @workgroup_size(1) fn main() { x[0] = -x[0] * x[1] + x[2] / x[3] - x[4]; }";
 
     #[test]
     fn each_float_operation_is_decorated_once() {
-        let words = spirv(SOURCE).unwrap();
+        let words = spirv(&rewrite::read(SOURCE, &[], None).unwrap()).unwrap();
         let decorations = words
             .windows(3)
             .filter(|window| window[0] == (DECORATE | 3 << 16) && window[2] == NO_CONTRACTION);
@@ -88,7 +85,7 @@ mod tests {
 
     #[test]
     fn wrong_code_says_where() {
-        let error = spirv("fn main() { let x: f32 = 1u; }").unwrap_err();
+        let error = rewrite::read("fn main() { let x: f32 = 1u; }", &[], None).err().unwrap();
         assert!(error.contains("let x: f32 = 1u"), "{error}");
     }
 }

@@ -56,14 +56,23 @@ impl Recorder {
         if workgroups.contains(&0) {
             return;
         }
+        let [x, y, z] = workgroups;
+        self.bound(bindings).dispatch_workgroups(x, y, z);
+    }
+
+    /// Runs code in as many workgroups as a buffer says at this byte.
+    pub(crate) fn run_as_told(&mut self, bindings: &Bindings, workgroups: &Buffer, at: u64) {
+        self.bound(bindings).dispatch_workgroups_indirect(&workgroups.buffer, at);
+    }
+
+    fn bound(&mut self, bindings: &Bindings) -> &mut wgpu::ComputePass<'static> {
         let encoder = &mut self.encoder;
         let pass = self.pass.get_or_insert_with(|| {
             encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default()).forget_lifetime()
         });
         pass.set_pipeline(&bindings.pipeline.pipeline);
         pass.set_bind_group(0, &bindings.group, &[]);
-        let [x, y, z] = workgroups;
-        pass.dispatch_workgroups(x, y, z);
+        pass
     }
 
     pub(super) fn copy(&mut self, from: &Buffer, start: u64, to: &wgpu::Buffer, place: Range<u64>) {

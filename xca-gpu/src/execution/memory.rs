@@ -97,11 +97,8 @@ pub(super) fn records(space: &Space, programs: &[Program], items: impl Fn(&Progr
         })?;
         let workgroups = match program.shader.dispatch {
             Dispatch::Cells(size) => {
-                let along =
-                    |part: &Part, axis: usize| (part.count[axis] as u64).div_ceil(u64::from(size[axis]));
-                let of_parts =
-                    space.parts().iter().map(|part| (0..3).map(|axis| along(part, axis)).product());
-                of_parts.max().unwrap_or(1)
+                let of_part = |part: &Part| part.workgroups(size).into_iter().map(u64::from).product();
+                space.parts().iter().map(of_part).max().unwrap_or(1)
             }
             Dispatch::Items(size) => (items(program) as u64).div_ceil(u64::from(size)).max(1),
         };

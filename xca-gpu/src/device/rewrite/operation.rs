@@ -1,0 +1,20 @@
+//! Operations of floats that can be replaced.
+
+/// What operations are replaced by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(in crate::device) enum Manner {
+    /// Correctly rounded results, made of the driver's own and of exact `+ - *`.
+    Corrected,
+    /// Results that are off in the last digits, as some drivers give them. For tests.
+    Rough,
+}
+
+/// An operation of floats.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Operation {
+    pub(super) is_root: bool,
+    /// The bytes of a float.
+    pub(super) width: u8,
+    /// How many floats at once.
+    pub(super) lanes: u8,
+}

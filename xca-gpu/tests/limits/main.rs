@@ -1,0 +1,8 @@
+//! What the engine does at the limits of adapters, which handicaps bring within reach of small models.
+
+mod activity;
+mod buffers;
+mod common;
+mod division;
+mod turns;
+mod workgroups;
