@@ -127,15 +127,16 @@ impl Gpu {
         self.strict.as_ref().err().map(String::as_str)
     }
 
-    /// The operations that the driver rounds wrongly and that are corrected, such as `division in f32`: they take
+    /// The operations that the driver does wrongly and that are corrected, such as `division in f32`: they take
     /// longer.
     pub fn corrected(&self) -> Vec<String> {
-        let Ok(Corrections { divisions, roots }) = self.strict else { return Vec::new() };
+        let Ok(Corrections { divisions, roots, roundings }) = self.strict else { return Vec::new() };
         let words = |word: &'static str, of: [bool; 2]| {
             let types = ["f32", "f64"].into_iter().zip(of).filter(|(_, corrected)| *corrected);
             types.map(move |(type_, _)| format!("{word} in {type_}"))
         };
-        words("division", divisions).chain(words("square root", roots)).collect()
+        let of_two = words("division", divisions).chain(words("square root", roots));
+        of_two.chain(words("rounding to whole numbers", roundings)).collect()
     }
 
     /// How many turns the loops of a cell or item may take together, where the adapter ends them early (Mesa's

@@ -2,21 +2,23 @@
 //!
 //! Vulkan promises correct rounding for `+`, `-` and `*` alone; `/` and `sqrt` may be off, small numbers may be flushed to zero, and
 //! nothing but a decoration keeps a driver from contracting `a * b + c`. So an adapter is believed when it has shown it. Where only
-//! `/` or `sqrt` are wrong, corrected ones take their place, and have to show the same.
+//! `/`, `sqrt`, `trunc`, `floor` or `ceil` are wrong, corrected ones take their place, and have to show the same.
 
 use crate::device::{Access, Code, Corrections, Device, DeviceError};
 use std::fmt::Write as _;
 use xca_core::philox;
 
 /// What is tried, as WGSL over `a`, `b` and `c`, and as the host does it.
-const OPERATIONS: [(&str, &str); 12] = [
+const OPERATIONS: [(&str, &str); 14] = [
     ("a + b", "a + b"),
     ("a - b", "a - b"),
     ("a * b", "a * b"),
     ("a / b", "a / b"),
     ("-a", "-a"),
     ("abs(a)", "abs(a)"),
+    ("trunc(a)", "trunc(a)"),
     ("floor(a)", "floor(a)"),
+    ("ceil(a)", "ceil(a)"),
     ("sqrt(a)", "sqrt(abs(a))"),
     ("a * b + c", "a * b + c"),
     ("a * b - c * b", "a * b - c * b"),
@@ -37,7 +39,7 @@ trait Tried: bytemuck::Pod + std::fmt::LowerExp {
     /// From random bits.
     fn random(words: [u32; 4]) -> Self;
     /// The host's results, in the order of [`OPERATIONS`].
-    fn results(a: Self, b: Self, c: Self) -> [Self; 12];
+    fn results(a: Self, b: Self, c: Self) -> [Self; 14];
     /// Whether two results are the same: bit by bit, where they are numbers.
     fn same(self, other: Self) -> bool;
 }
@@ -63,14 +65,18 @@ macro_rules! tried {
                 // Most of them of like size, so that sums round: with the exponent of one.
                 let fraction = (1 << (Self::MANTISSA_DIGITS - 1)) - 1;
                 let near = Self::from_bits(bits & fraction | (1.0 as Self).to_bits());
-                match words[3] % 4 {
+                // Some of them from a sixteenth to beyond where all are whole.
+                let exponent = (words[2] % (Self::MANTISSA_DIGITS + 8)) as i32 - 4;
+                match words[3] % 8 {
                     0 => Self::from_bits(bits),
-                    1 => -near,
+                    1 | 2 => -near,
+                    3 => near * (2.0 as Self).powi(exponent),
+                    4 => -near * (2.0 as Self).powi(exponent),
                     _ => near,
                 }
             }
 
-            fn results(a: Self, b: Self, c: Self) -> [Self; 12] {
+            fn results(a: Self, b: Self, c: Self) -> [Self; 14] {
                 [
                     a + b,
                     a - b,
@@ -78,7 +84,9 @@ macro_rules! tried {
                     a / b,
                     -a,
                     a.abs(),
+                    a.trunc(),
                     a.floor(),
+                    a.ceil(),
                     a.abs().sqrt(),
                     a * b + c,
                     a * b - c * b,
@@ -125,6 +133,7 @@ fn correct<T: Tried>(device: &Device, type_: usize, corrections: &mut Correction
         match OPERATIONS[*operation].0 {
             "a / b" | "a * c / c" => corrections.divisions[type_] = true,
             "sqrt(a)" => corrections.roots[type_] = true,
+            "trunc(a)" | "floor(a)" | "ceil(a)" => corrections.roundings[type_] = true,
             // No other operation can be made of those that are right.
             _ => return Err(wrong[0].1.clone()),
         }
@@ -247,9 +256,13 @@ mod tests {
         let operands = operands::<f32>();
         assert!(operands.len() >= 3 * SETS as usize && operands.len().is_multiple_of(3));
         let sets = || operands.chunks_exact(3).map(|set| (set[0], set[1], set[2]));
-        let contracted = |(a, b, c): (f32, f32, f32)| !a.mul_add(b, c).same(f32::results(a, b, c)[8]);
+        let contracted = |(a, b, c): (f32, f32, f32)| !a.mul_add(b, c).same(f32::results(a, b, c)[10]);
         assert!(sets().filter(|set| contracted(*set)).count() > 100);
         assert!(sets().any(|(a, b, _)| (a * b).is_subnormal()));
+        let small = |(a, ..): (f32, f32, f32)| a < 0.0 && a.trunc() == 0.0;
+        assert!(sets().filter(|set| small(*set)).count() > 10);
+        let large = |(a, ..): (f32, f32, f32)| a.abs() > 65536.0 && a.trunc() != a;
+        assert!(sets().filter(|set| large(*set)).count() > 10);
         let reciprocal = |(a, b, _): (f32, f32, f32)| !(a * (1.0 / b)).same(a / b);
         assert!(sets().filter(|set| reciprocal(*set)).count() > 100);
     }

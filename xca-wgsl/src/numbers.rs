@@ -34,21 +34,11 @@ impl Routines {
                     &format!(
                         "let away: {name} = whole + select({name}(1.0), {name}(-1.0), a < {name}(0.0));"
                     ),
-                    &format!("let rounded: {name} = select(whole, away, abs(a - whole) >= {name}(0.5));"),
-                    // Some drivers lose the sign of a zero in `trunc`.
-                    &format!("return select(rounded, a * abs(whole), rounded == {name}(0.0));"),
+                    &format!("return select(whole, away, abs(a - whole) >= {name}(0.5));"),
                 ];
                 self.need_of_one("round", type_, &name, &lines)
             }
-            Operation::Fraction => self.need_of_one(
-                "fraction",
-                type_,
-                &name,
-                &[
-                    &format!("let whole: {name} = trunc(a);"),
-                    &format!("return a - select(whole, a * abs(whole), whole == {name}(0.0));"),
-                ],
-            ),
+            Operation::Fraction => self.need_of_one("fraction", type_, &name, &["return a - trunc(a);"]),
             Operation::IsNan => self.need_of_one("is_nan", type_, "bool", &["return !(a == a);"]),
             Operation::IsFinite => {
                 self.need_of_one("is_finite", type_, "bool", &[&format!("return abs(a) <= {largest};")])

@@ -43,6 +43,8 @@ pub(crate) struct Code {
 pub(crate) struct Corrections {
     pub(crate) divisions: [bool; 2],
     pub(crate) roots: [bool; 2],
+    /// Floats made whole: `trunc`, `floor` and `ceil`.
+    pub(crate) roundings: [bool; 2],
 }
 
 /// Compiled code.
@@ -134,9 +136,10 @@ impl Device {
     }
 
     /// What is replaced in strict code.
-    fn replacements(&self, Corrections { divisions, roots }: Corrections) -> Vec<Replacements> {
-        let corrected = Replacements { manner: Manner::Corrected, divisions, roots };
-        let rough = Replacements { manner: Manner::Rough, divisions: [true; 2], roots: [true; 2] };
+    fn replacements(&self, corrections: Corrections) -> Vec<Replacements> {
+        let corrected = Replacements { manner: Manner::Corrected, of: corrections };
+        let all = Corrections { divisions: [true; 2], roots: [true; 2], roundings: [true; 2] };
+        let rough = Replacements { manner: Manner::Rough, of: all };
         if self.handicap.rough { vec![corrected, rough] } else { vec![corrected] }
     }
 

@@ -3,6 +3,6 @@
 mod activity;
 mod buffers;
 mod common;
-mod division;
+mod corrections;
 mod turns;
 mod workgroups;

@@ -5,14 +5,24 @@
 pub(in crate::device) enum Manner {
     /// Correctly rounded results, made of the driver's own and of exact `+ - *`.
     Corrected,
-    /// Results that are off in the last digits, as some drivers give them. For tests.
+    /// Results that are off in the last digits, or wrong at the edges, as some drivers give them. For tests.
     Rough,
+}
+
+/// What an operation does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Kind {
+    Quotient,
+    Root,
+    Truncation,
+    Floor,
+    Ceiling,
 }
 
 /// An operation of floats.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Operation {
-    pub(super) is_root: bool,
+    pub(super) kind: Kind,
     /// The bytes of a float.
     pub(super) width: u8,
     /// How many floats at once.

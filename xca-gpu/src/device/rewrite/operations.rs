@@ -1,9 +1,10 @@
-//! Divisions and square roots replaced by calls of functions.
+//! Operations of floats replaced by calls of functions.
 
 mod text;
 
 use super::module::Checked;
-use super::operation::{Manner, Operation};
+use super::operation::{Kind, Manner, Operation};
+use crate::device::Corrections;
 use naga::{
     Block, Expression, Function, Handle, MathFunction, Module, Range, ScalarKind, Span, Statement, TypeInner,
 };
@@ -13,14 +14,16 @@ use std::collections::{BTreeSet, HashMap};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(in crate::device) struct Replacements {
     pub(in crate::device) manner: Manner,
-    /// Of floats of 32 bits, then of 64 bits.
-    pub(in crate::device) divisions: [bool; 2],
-    pub(in crate::device) roots: [bool; 2],
+    pub(in crate::device) of: Corrections,
 }
 
 impl Replacements {
     fn replaces(self, operation: Operation) -> bool {
-        let of = if operation.is_root { self.roots } else { self.divisions };
+        let of = match operation.kind {
+            Kind::Quotient => self.of.divisions,
+            Kind::Root => self.of.roots,
+            Kind::Truncation | Kind::Floor | Kind::Ceiling => self.of.roundings,
+        };
         match operation.width {
             4 => of[0],
             8 => of[1],
@@ -43,16 +46,19 @@ impl Replacements {
     }
 }
 
-/// The divisions and square roots of floats in a function.
+/// The operations of floats in a function that can be replaced.
 fn operations<'a>(
     module: &'a Module,
     function: &'a Function,
     info: &'a naga::valid::FunctionInfo,
 ) -> impl Iterator<Item = (Handle<Expression>, Operation)> + 'a {
     function.expressions.iter().filter_map(|(handle, expression)| {
-        let is_root = match expression {
-            Expression::Binary { op: naga::BinaryOperator::Divide, .. } => false,
-            Expression::Math { fun: MathFunction::Sqrt, .. } => true,
+        let kind = match expression {
+            Expression::Binary { op: naga::BinaryOperator::Divide, .. } => Kind::Quotient,
+            Expression::Math { fun: MathFunction::Sqrt, .. } => Kind::Root,
+            Expression::Math { fun: MathFunction::Trunc, .. } => Kind::Truncation,
+            Expression::Math { fun: MathFunction::Floor, .. } => Kind::Floor,
+            Expression::Math { fun: MathFunction::Ceil, .. } => Kind::Ceiling,
             _ => return None,
         };
         let (scalar, lanes) = match info[handle].ty.inner_with(&module.types) {
@@ -60,7 +66,7 @@ fn operations<'a>(
             TypeInner::Vector { size, scalar } => (scalar, *size as u8),
             _ => return None,
         };
-        let operation = Operation { is_root, width: scalar.width, lanes };
+        let operation = Operation { kind, width: scalar.width, lanes };
         (scalar.kind == ScalarKind::Float).then_some((handle, operation))
     })
 }

@@ -1,10 +1,11 @@
-//! Division and square root on an adapter that rounds them badly, against the processor's.
+//! Operations on an adapter that does them badly, against the processor's.
 
 use crate::common::TestResult;
 use xca_core::prelude::*;
 use xca_gpu::{Arithmetic, Gpu, GpuError, GpuOptions, Handicap};
 
-/// The strict engine on an adapter whose divisions and roots are off in the last digits.
+/// The strict engine on an adapter whose divisions and roots are off in the last digits, and which makes numbers
+/// whole by way of small integers.
 fn rough() -> Result<Gpu, GpuError> {
     let handicap = Handicap { rough: true, ..Handicap::default() };
     Gpu::new(&GpuOptions { arithmetic: Arithmetic::Strict, handicap, ..GpuOptions::default() })
@@ -37,6 +38,22 @@ struct Square {
 #[elementary_process]
 fn take_root(cell: &mut Cell<Square>) {
     cell.root = cell.number.sqrt();
+}
+
+#[derive(Substates, Clone, Copy)]
+struct Whole {
+    number: Real,
+    rounded: [Real; 4],
+    fraction: Real,
+    floors: Vector3<Real>,
+}
+
+#[elementary_process]
+fn round(cell: &mut Cell<Whole>) {
+    let number = cell.number;
+    cell.rounded = [number.trunc(), number.floor(), number.ceil(), number.round()];
+    cell.fraction = number.fract();
+    cell.floors = Vector3::new(number, 0.5 * number, -number).floor();
 }
 
 /// Well mixed bits of a number (splitmix64).
@@ -119,7 +136,14 @@ fn numbers(bytes: &[u8], precision: Precision) -> Vec<u64> {
 fn a_rough_adapter_is_corrected() -> TestResult {
     let gpu = rough()?;
     assert!(gpu.is_strict());
-    let corrected = ["division in f32", "division in f64", "square root in f32", "square root in f64"];
+    let corrected = [
+        "division in f32",
+        "division in f64",
+        "square root in f32",
+        "square root in f64",
+        "rounding to whole numbers in f32",
+        "rounding to whole numbers in f64",
+    ];
     assert_eq!(gpu.corrected(), corrected);
     Ok(())
 }
@@ -160,5 +184,34 @@ fn all_roots_are_those_of_the_processor() -> TestResult {
         })
         .build()?;
     assert_eq!(difference(&model, [&Reference, &rough()?], Precision::F32)?, None);
+    Ok(())
+}
+
+/// Numbers of all sizes up to those that are all whole, of both signs.
+#[test]
+fn whole_numbers_are_those_of_the_processor() -> TestResult {
+    let gpu = rough()?;
+    for (precision, digits) in
+        [(Precision::F32, f32::MANTISSA_DIGITS), (Precision::F64, f64::MANTISSA_DIGITS)]
+    {
+        let model = Model::builder("whole numbers")
+            .extents([1024, 128, 1])
+            .substates::<Whole>()
+            .process(round)
+            .fill(move |site| {
+                let [x, y, _] = site.cell();
+                let bits = mixed((y * 1024 + x) as u64);
+                let fraction = (bits >> 12) as f64 / 2.0_f64.powi(52);
+                let size = (bits % u64::from(digits + 8)) as i32 - 4;
+                // Halves and whole numbers among them.
+                let fraction = if bits & 0x100 == 0 { fraction } else { (fraction * 8.0).floor() / 8.0 };
+                let sign = if bits & 0x200 == 0 { 1.0 } else { -1.0 };
+                let none = Vector3::splat(0.0);
+                let number = sign * (1.0 + fraction) * 2.0_f64.powi(size);
+                Whole { number, rounded: [0.0; 4], fraction: 0.0, floors: none }
+            })
+            .build()?;
+        assert_eq!(difference(&model, [&Reference, &gpu], precision)?, None, "{precision}");
+    }
     Ok(())
 }
