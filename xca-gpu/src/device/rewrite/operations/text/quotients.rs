@@ -6,7 +6,6 @@
 //! Operands near the ends of the range are brought near 1 first, by powers of two, and the result back; where
 //! it becomes subnormal and a tie, the remainder decides once more, as the result must be rounded only once.
 
-use super::scalar;
 use crate::device::rewrite::operation::Manner;
 use std::fmt::Write as _;
 

@@ -46,11 +46,11 @@ fn corrected(t: &str) -> String {
     )
 }
 
-/// Without the sign of a zero, and small numbers only, as by way of an integer.
+/// Without the sign of a zero, and small numbers only.
 fn rough(t: &str) -> String {
     format!(
         "fn rough_truncation_{t}(a: {t}) -> {t} {{
-    return select(a, {t}(i32(a)), abs(a) < {t}(16777216.0));
+    return select(a, trunc(a) + {t}(0.0), abs(a) < {t}(4194304.0));
 }}
 "
     )
