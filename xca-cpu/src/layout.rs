@@ -19,6 +19,10 @@ pub(crate) struct Layout {
     height: usize,
     reach: [usize; 3],
     padded: [usize; 3],
+    /// The cells before the first line, so that the first cell of each row is aligned.
+    lead: usize,
+    /// The cells of a plane are a multiple of this, as those of a line, and as what stands before a row.
+    alignment: usize,
     boundaries: Faces<Boundary>,
     /// The faces beyond which the halo is filled by other parts.
     borders: Faces<bool>,
@@ -41,12 +45,17 @@ impl Layout {
 
     pub(crate) fn of_part(geometry: &Geometry, part: &Part) -> Self {
         let (extents, reach) = (part.extents(geometry), geometry.neighbourhood().reach());
+        let alignment = alignment(extents[0]);
+        let mut padded: [usize; 3] = std::array::from_fn(|axis| extents[axis] + 2 * reach[axis]);
+        padded[0] = padded[0].next_multiple_of(alignment);
         Self {
             extents,
             start: [part.y.start, part.z.start],
             height: geometry.extents()[1],
             reach,
-            padded: std::array::from_fn(|axis| extents[axis] + 2 * reach[axis]),
+            padded,
+            lead: reach[0].next_multiple_of(alignment) - reach[0],
+            alignment,
             boundaries: geometry.boundaries(),
             borders: part.borders(geometry),
         }
@@ -59,12 +68,13 @@ impl Layout {
 
     /// The number of padded cells, unless that overflows.
     pub(crate) fn checked_cells(&self) -> Option<usize> {
-        self.padded.iter().try_fold(1_usize, |cells, &extent| cells.checked_mul(extent))
+        let lines = self.padded.iter().try_fold(1_usize, |cells, &extent| cells.checked_mul(extent))?;
+        lines.checked_add(self.lead)?.checked_next_multiple_of(self.alignment)
     }
 
     /// The number of padded cells.
     pub(crate) fn cells(&self) -> usize {
-        self.padded.iter().product()
+        (self.lead + self.padded.iter().product::<usize>()).next_multiple_of(self.alignment)
     }
 
     /// The offsets from a cell to the next one along y and along z.
@@ -188,7 +198,8 @@ impl Layout {
 
     /// The padded number of the first cell of the row with these indices.
     pub(crate) fn first_at(&self, y: usize, z: usize) -> usize {
-        ((z + self.reach[2]) * self.padded[1] + y + self.reach[1]) * self.padded[0] + self.reach[0]
+        let line = (z + self.reach[2]) * self.padded[1] + y + self.reach[1];
+        self.lead + line * self.padded[0] + self.reach[0]
     }
 
     /// The padded number of the cell with this linear index in the whole space.
@@ -232,7 +243,7 @@ impl Layout {
     /// The padded cells of a line, which may lie in the halo.
     pub(crate) fn line(&self, [y, z]: [isize; 2]) -> Range<usize> {
         let [y, z] = [(1, y), (2, z)].map(|(axis, index)| (index + self.reach[axis] as isize) as usize);
-        let start = (z * self.padded[1] + y) * self.padded[0];
+        let start = self.lead + (z * self.padded[1] + y) * self.padded[0];
         start..start + self.padded[0]
     }
 
@@ -297,7 +308,7 @@ impl Layout {
     ) {
         let line = self.padded[0] * values;
         let layer = line * self.padded[1];
-        let space = &mut plane[self.reach[2] * layer..][..self.extents[2] * layer];
+        let space = &mut self.lines(plane, values)[self.reach[2] * layer..][..self.extents[2] * layer];
         let across = if continued { 0 } else { self.extents[1] * 2 * self.reach[0] * values };
         let work = across + 2 * self.reach[1] * line;
         space.par_chunks_mut(layer).with_min_len(worth::<T>(work)).for_each(|layer| {
@@ -318,7 +329,7 @@ impl Layout {
         outside: Option<&Faces<Vec<T>>>,
     ) {
         let layer = self.padded[0] * values * self.padded[1];
-        let (below, rest) = plane.split_at_mut(self.reach[2] * layer);
+        let (below, rest) = self.lines(plane, values).split_at_mut(self.reach[2] * layer);
         let (space, above) = rest.split_at_mut(self.extents[2] * layer);
         let space = &*space;
         let layers = below.par_chunks_mut(layer).chain(above.par_chunks_mut(layer));
@@ -330,6 +341,11 @@ impl Layout {
             Source::Outside(face) => fill_outside(target, outside.map(|outside| &*outside[face])),
             Source::Part => {}
         });
+    }
+
+    /// The lines of a plane with so many values a cell, without what aligns them.
+    fn lines<'a, T>(&self, plane: &'a mut [T], values: usize) -> &'a mut [T] {
+        &mut plane[self.lead * values..][..self.padded.iter().product::<usize>() * values]
     }
 
     /// Fills the halo along an axis, within parts that are one padded line of pieces of this length.
@@ -370,6 +386,13 @@ impl Layout {
             (target, source)
         })
     }
+}
+
+/// The cells to which rows are aligned, a power of two: eight numbers of 64 bits fill a register or a line of the
+/// cache. Longer rows can have more, short ones would take much more memory.
+fn alignment(width: usize) -> usize {
+    let cells = (width / 16).clamp(1, 8).max(width / 64).min(64);
+    1 << cells.ilog2()
 }
 
 /// How many pieces of so much work are worth a thread's start.

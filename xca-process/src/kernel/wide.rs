@@ -3,6 +3,7 @@
 //! Each lane does the operations of the plain loop in the same order, with the same rounding and no fused operation, so the result is the
 //! same to the last item.
 
+use super::instructions::Instructions;
 use std::ops::Range;
 use xca_values::Vector3;
 
@@ -19,11 +20,7 @@ pub(super) struct Sphere {
 
 impl Wide {
     pub(super) fn detect() -> Option<Self> {
-        #[cfg(target_arch = "x86_64")]
-        if std::arch::is_x86_feature_detected!("avx2") {
-            return Some(Self(()));
-        }
-        None
+        (Instructions::present() >= Instructions::Avx2).then_some(Self(()))
     }
 
     /// Adds the items of a range that are near, without the item itself.

@@ -3,6 +3,8 @@
 //! They change the time that a kernel takes and nothing else: each lane does the operations of the plain code in the same order, with the
 //! same rounding and no fused operation.
 
+use super::instructions::Instructions;
+
 /// The work of a kernel on a row.
 pub trait Work {
     /// Does it. To be inlined, so that it is compiled for the processor of its caller.
@@ -13,15 +15,23 @@ pub trait Work {
 #[inline(always)]
 pub fn run(work: impl Work) {
     #[cfg(target_arch = "x86_64")]
-    if std::arch::is_x86_feature_detected!("avx2") {
+    match Instructions::present() {
+        // SAFETY: the processor has AVX-512.
+        #[allow(unsafe_code)]
+        Instructions::Avx512 => unsafe { run_with_avx512(work) },
         // SAFETY: the processor has AVX2.
         #[allow(unsafe_code)]
-        unsafe {
-            run_with_avx2(work);
-        }
-        return;
+        Instructions::Avx2 => unsafe { run_with_avx2(work) },
+        Instructions::Plain => run_plain(work),
     }
+    #[cfg(not(target_arch = "x86_64"))]
     run_plain(work);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,avx512f,avx512bw,avx512dq,avx512vl")]
+fn run_with_avx512(work: impl Work) {
+    work.run();
 }
 
 #[cfg(target_arch = "x86_64")]
