@@ -21,15 +21,15 @@ pub(crate) fn blocks(layout: &Layout, populations: &[&Population], threads: usiz
 /// between blocks meets memory once more.
 const LONGER_THAN_LEAST: usize = 4;
 
-/// Blocks of rows without items that are long enough for passes of this depth.
+/// Blocks of layers without items that are long enough for passes of this depth.
 pub(crate) fn long_blocks(layout: &Layout, threads: usize, depth: Depth) -> Vec<Range<usize>> {
-    let (rows, least) = (layout.rows(), depth.least_block());
-    let of_thread = rows / (least * LONGER_THAN_LEAST * threads);
+    let (layers, least) = (layout.rows() / depth.lag.layer, depth.least_block());
+    let of_thread = layers / (least * LONGER_THAN_LEAST * threads);
     let count = match of_thread {
-        0 => (rows / least).clamp(1, threads),
+        0 => (layers / least).clamp(1, threads),
         of_thread => of_thread.min(BLOCKS_PER_THREAD) * threads,
     };
-    (0..count).map(|number| number * rows / count..(number + 1) * rows / count).collect()
+    (0..count).map(|number| number * layers / count..(number + 1) * layers / count).collect()
 }
 
 fn blocks_of_same_work(layout: &Layout, populations: &[&Population], count: usize) -> Vec<Range<usize>> {

@@ -8,6 +8,8 @@ pub(crate) struct Choices {
     pub(crate) leave_out: LeaveOut,
     /// How many steps are done together.
     pub(crate) stride: Option<u64>,
+    /// The rows of the columns in which they are done.
+    pub(crate) column: Option<usize>,
 }
 
 /// When cells are left out in which nothing can change.

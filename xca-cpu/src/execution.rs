@@ -61,7 +61,7 @@ impl CpuExecution {
         check_size(model, &layout, precision)?;
         let groups = threads.run(|| groups(model, &layout, precision, choices.skin));
         let stages = stages(model, 0..model.processes().len());
-        let stride = Stride::new((model, &layout, precision), stages.len(), threads.count(), choices.stride);
+        let stride = Stride::new((model, &layout, precision), stages.len(), threads.count(), choices);
         let activity = Activity::new(model, &layout, choices.leave_out);
         Ok(Self {
             model: model.clone(),

@@ -169,11 +169,15 @@ impl Layout {
             return None;
         }
         if depth == 1 {
-            return Some(Lag { rows: along, is_ring: along > 0 && is_ring(1) });
+            return Some(Lag { layers: along, is_ring: along > 0 && is_ring(1), ..Lag::NONE });
         }
-        // Round a torus along y the first rows of a layer see its last ones.
-        let in_layer = if along > 0 && is_ring(1) { height - 1 } else { along };
-        Some(Lag { rows: up * height + in_layer, is_ring: up > 0 && is_ring(2) })
+        if up == 0 {
+            // Round a torus along y the first rows of a layer see its last ones.
+            let layers = if along > 0 && is_ring(1) { height - 1 } else { along };
+            return Some(Lag { layers, ..Lag::NONE });
+        }
+        let along = (along == 0 || !is_ring(1)).then_some(along);
+        Some(Lag { layer: height, layers: up, is_ring: is_ring(2), along })
     }
 
     /// The indices y and z in the part of those lines of the halo that show a row.

@@ -113,6 +113,14 @@ impl Cpu {
         Self { choices: Choices { stride: Some(steps.get()), ..self.choices }, ..self }
     }
 
+    /// With steps done together in columns of so many rows where the space allows columns. For tests: it changes the
+    /// time that a step takes, and no result.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn with_columns(self, rows: std::num::NonZeroUsize) -> Self {
+        Self { choices: Choices { column: Some(rows.get()), ..self.choices }, ..self }
+    }
+
     /// Works on all cells in each step. For benchmarks: it changes the time that a step takes, and no result.
     #[doc(hidden)]
     #[must_use]

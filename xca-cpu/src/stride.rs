@@ -1,5 +1,6 @@
 //! How many steps are done together, each in the wake of the one before. Times decide, and change no result.
 
+use crate::choices::Choices;
 use crate::layout::Layout;
 use crate::memory::bytes_per_cell;
 use crate::wavefront::{Depth, Lag};
@@ -19,6 +20,9 @@ const WORTH: f64 = 0.97;
 /// The bytes that a pass works on before the next one follows.
 const BYTES_PER_CHUNK: usize = 1 << 17;
 
+/// The bytes that all passes meet in a column before the first of them goes on: they should fit in a core's own cache.
+const BYTES_PER_COLUMN: usize = 1 << 20;
+
 /// For how many steps the best number stays: at first, and at most.
 const HOLD: [u64; 2] = [256, 4096];
 
@@ -30,8 +34,9 @@ pub(crate) struct Stride {
     /// The most that the space has room for.
     most: u64,
     lag: Lag,
-    /// The rows that a pass works on before the next one follows.
-    chunk: usize,
+    /// The rows of a column, chosen by a test.
+    column: Option<usize>,
+    bytes_per_row: usize,
     /// The number that is tried or kept, and the shortest time of a step so far.
     present: Timed,
     /// The best number of those that are smaller.
@@ -60,23 +65,25 @@ impl Stride {
         (model, layout, precision): (&Model, &Layout, Precision),
         stages: usize,
         threads: usize,
-        fixed: Option<u64>,
+        choices: Choices,
     ) -> Self {
+        let Choices { stride: fixed, column, .. } = choices;
         let is_over_cells =
             |process: &Process| process.kind == ProcessKind::Cells && process.population().is_none();
         let lag = layout.lag().filter(|_| model.processes().iter().all(is_over_cells));
         let most = lag.map_or(1, |lag| {
             // A thread has to have more to do than what is left in the gaps between blocks.
             let blocks = if fixed.is_some() { 1 } else { 2 * threads };
-            let followers = layout.rows().checked_div(2 * blocks * lag.rows).unwrap_or(usize::MAX);
+            let layers = layout.rows() / lag.layer;
+            let followers = layers.checked_div(2 * blocks * lag.layers).unwrap_or(usize::MAX);
             (followers.saturating_add(1) / stages.max(1)) as u64
         });
-        let bytes_per_row = bytes_per_cell(model, precision) * layout.width();
         Self {
             fixed,
             most: most.clamp(1, MOST),
-            lag: lag.unwrap_or(Lag { rows: 0, is_ring: false }),
-            chunk: if fixed.is_some() { 1 } else { (BYTES_PER_CHUNK / bytes_per_row.max(1)).max(1) },
+            lag: lag.unwrap_or(Lag::NONE),
+            column,
+            bytes_per_row: (bytes_per_cell(model, precision) * layout.width()).max(1),
             present: Timed { steps: 1, seconds: f64::INFINITY },
             best: None,
             tries: Some(0),
@@ -89,7 +96,24 @@ impl Stride {
 
     /// How so many passes follow each other.
     pub(crate) fn depth(&self, passes: usize) -> Depth {
-        Depth { passes, lag: self.lag, chunk: self.chunk }
+        let column = self.column(passes);
+        let rows = column.unwrap_or(self.lag.layer);
+        let chunk =
+            if self.fixed.is_some() { 1 } else { (BYTES_PER_CHUNK / (self.bytes_per_row * rows)).max(1) };
+        Depth { passes, lag: self.lag, chunk, column }
+    }
+
+    /// The rows of a column, where columns are worth it.
+    fn column(&self, passes: usize) -> Option<usize> {
+        let along = self.lag.along?;
+        if self.column.is_some() {
+            return self.column;
+        }
+        // Between the first pass and the last one, with what these see.
+        let layers = (passes + 2) * self.lag.layers;
+        let rows = BYTES_PER_COLUMN / (self.bytes_per_row * layers);
+        // The rows by which a column is shifted are met twice.
+        (rows < self.lag.layer && rows >= 2 * passes * along).then_some(rows)
     }
 
     /// How many of the next steps are done together, where so many have nothing between them.
@@ -150,6 +174,7 @@ impl Stride {
 #[cfg(test)]
 mod tests {
     use super::{HOLD, MOST, Stride};
+    use crate::choices::Choices;
     use std::time::Duration;
     use xca_core::prelude::*;
 
@@ -167,7 +192,7 @@ mod tests {
         let builder = Model::builder("rows").extents([4, rows, 1]).neighbourhood(Neighbourhood::moore_2d(1));
         let model = builder.substates::<Site>().process(smooth).build().unwrap();
         let layout = crate::layout::Layout::new(model.geometry());
-        Stride::new((&model, &layout, Precision::F64), 1, threads, None)
+        Stride::new((&model, &layout, Precision::F64), 1, threads, Choices::default())
     }
 
     /// How many steps are done together, one leap after the other, where a step of so many together takes so long.
@@ -207,5 +232,25 @@ mod tests {
         assert_eq!([most(3, 1), most(12, 1), most(12, 2), most(12, 8)], [1, 4, 2, 1]);
         assert_eq!(most(100_000, 4), MOST);
         assert_eq!(stride(10_000, 2).steps(0), 0);
+    }
+
+    #[test]
+    fn columns_hold_what_fits_in_a_cache() {
+        let column = |extents: [usize; 3], boundary, passes| {
+            let builder = Model::builder("air").extents(extents).neighbourhood(Neighbourhood::moore(1));
+            let builder = builder.boundaries([boundary; 3]).substates::<Site>().process(smooth);
+            let model = builder.build().unwrap();
+            let layout = crate::layout::Layout::new(model.geometry());
+            let of = (&model, &layout, Precision::F64);
+            Stride::new(of, 1, 2, Choices::default()).depth(passes).column
+        };
+        // Two buffers of 8 bytes a cell: 4 kB a row, and 6 or 10 layers.
+        assert_eq!(column([256; 3], Boundary::Flat, 4), Some(42));
+        assert_eq!(column([256; 3], Boundary::Reflecting, 8), Some(25));
+        // What is shifted would be more than what is not.
+        assert_eq!(column([256; 3], Boundary::Flat, 16), None);
+        // A whole layer fits; round a torus rows see each other from end to end.
+        assert_eq!(column([256, 40, 256], Boundary::Flat, 4), None);
+        assert_eq!(column([256; 3], Boundary::Toroidal, 4), None);
     }
 }

@@ -1,20 +1,35 @@
 //! Passes over the rows, each in the wake of the one before, so that a row is met by all of them while it is in
 //! the processor's cache: temporal blocking with skewed blocks and the gaps between them.
 //!
-//! A pass may work on a row when the pass before has done all rows that see it or that it sees: those within a
-//! lag. Within a block of rows each pass follows the one before at this distance, and ends at that distance
-//! before a cut, since what lies beyond is another block's. What that leaves undone on both sides of each cut is
-//! done afterwards. All blocks can be worked on at the same time, and then all gaps.
+//! The rows make up layers, which are passed one after the other. A pass may work on a layer when the pass before
+//! has done all layers that see it or that it sees: those within a lag. Within a block of layers each pass follows
+//! the one before at this distance, and ends at that distance before a cut, since what lies beyond is another
+//! block's. What that leaves undone on both sides of each cut is done afterwards. All blocks can be worked on at
+//! the same time, and then all gaps.
+//!
+//! Where a few layers are too much for the cache, a block is worked on in columns, one after the other. A column
+//! lies further towards the first row in each pass that follows, as far as rows see each other, so that it needs
+//! nothing from columns that come later, and overwrites nothing that they need.
 
 use std::ops::Range;
 
-/// The distance that passes keep from each other.
+/// How the rows are passed, and the distance that passes keep from each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Lag {
-    /// Rows that see each other are at most so many apart.
-    pub(crate) rows: usize,
-    /// Whether the first rows and the last ones see each other, too.
+    /// The rows of a layer.
+    pub(crate) layer: usize,
+    /// Layers that see each other are at most so many apart.
+    pub(crate) layers: usize,
+    /// Whether the first layers and the last ones see each other, too.
     pub(crate) is_ring: bool,
+    /// Rows of a layer, or of layers that see each other, see each other where they are at most so many apart. Nothing
+    /// where all may: then there are no columns.
+    pub(crate) along: Option<usize>,
+}
+
+impl Lag {
+    /// Of passes that have nothing to do with each other.
+    pub(crate) const NONE: Self = Self { layer: 1, layers: 0, is_ring: false, along: None };
 }
 
 /// How many passes follow each other, and how.
@@ -22,14 +37,29 @@ pub(crate) struct Lag {
 pub(crate) struct Depth {
     pub(crate) passes: usize,
     pub(crate) lag: Lag,
-    /// How many rows a pass does before the next one follows, at least one.
+    /// How many layers a pass does before the next one follows, at least one.
     pub(crate) chunk: usize,
+    /// How many rows of a layer are in a column, at least one. Nothing where there are no columns.
+    pub(crate) column: Option<usize>,
 }
 
 impl Depth {
-    /// The rows that a block must have at least: the gaps at its two ends must not overlap.
+    /// The layers that a block must have at least: the gaps at its two ends must not overlap.
     pub(crate) fn least_block(self) -> usize {
-        (2 * self.passes.saturating_sub(1) * self.lag.rows).max(1)
+        (2 * self.passes.saturating_sub(1) * self.lag.layers).max(1)
+    }
+
+    /// The columns of a layer, by number.
+    fn columns(self) -> Range<usize> {
+        let shift = self.passes.saturating_sub(1) * self.lag.along.unwrap_or(0);
+        0..self.column.map_or(1, |rows| (self.lag.layer + shift).div_ceil(rows))
+    }
+
+    /// The rows of a layer that a column has in a pass.
+    fn rows(self, column: usize, pass: usize) -> Range<usize> {
+        let (Some(rows), Some(along)) = (self.column, self.lag.along) else { return 0..self.lag.layer };
+        let edge = |column: usize| (column * rows).saturating_sub(pass * along).min(self.lag.layer);
+        edge(column)..edge(column + 1)
     }
 }
 
@@ -37,7 +67,7 @@ impl Depth {
 #[derive(Debug, Clone)]
 pub(crate) struct Wavefront {
     depth: Depth,
-    /// One after the other.
+    /// Of layers, one after the other.
     blocks: Vec<Range<usize>>,
 }
 
@@ -46,14 +76,14 @@ pub(crate) struct Wavefront {
 pub(crate) struct Piece {
     low: Edge,
     high: Edge,
-    /// The first pass that has rows here.
+    /// The first pass that has layers here.
     first: usize,
 }
 
-/// Where a piece begins or ends: a row in the first pass, and so many rows further in each one that follows.
+/// Where a piece begins or ends: a layer in the first pass, and so many layers further in each one that follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Edge {
-    row: isize,
+    layer: isize,
     slope: isize,
 }
 
@@ -66,73 +96,97 @@ pub(crate) struct Portion {
 
 impl Edge {
     fn at(self, pass: usize) -> isize {
-        self.row + pass as isize * self.slope
+        self.layer + pass as isize * self.slope
     }
 }
 
 impl Wavefront {
-    /// Each block has to have at least [`Depth::least_block`] rows.
+    /// Each block has to have at least [`Depth::least_block`] layers.
     pub(crate) fn new(depth: Depth, blocks: Vec<Range<usize>>) -> Self {
         Self { depth, blocks }
     }
 
-    /// A single pass.
+    /// A single pass over blocks of rows.
     pub(crate) fn of_one_pass(blocks: Vec<Range<usize>>) -> Self {
         let chunk = blocks.iter().map(ExactSizeIterator::len).max().unwrap_or(0).max(1);
-        Self { depth: Depth { passes: 1, lag: Lag { rows: 0, is_ring: false }, chunk }, blocks }
+        Self { depth: Depth { passes: 1, lag: Lag::NONE, chunk, column: None }, blocks }
     }
 
     /// The pieces: first those of one list, in any order or at the same time, then those of the other.
     pub(crate) fn pieces(&self) -> [Vec<Piece>; 2] {
-        let Depth { passes, lag: Lag { rows: lag, is_ring }, .. } = self.depth;
+        let Depth { passes, lag: Lag { layers: lag, is_ring, .. }, .. } = self.depth;
         let lag = lag as isize;
-        let rows = self.rows();
-        let is_cut = |row: usize| passes > 1 && (is_ring || !(row == 0 || row == rows));
+        let layers = self.layers();
+        let is_cut = |layer: usize| passes > 1 && (is_ring || !(layer == 0 || layer == layers));
         let block = |block: &Range<usize>| {
-            let slope = |row: usize| if is_cut(row) { lag } else { 0 };
+            let slope = |layer: usize| if is_cut(layer) { lag } else { 0 };
             Piece {
-                low: Edge { row: block.start as isize, slope: slope(block.start) },
-                high: Edge { row: block.end as isize, slope: -slope(block.end) },
+                low: Edge { layer: block.start as isize, slope: slope(block.start) },
+                high: Edge { layer: block.end as isize, slope: -slope(block.end) },
                 first: 0,
             }
         };
         let gap = |block: &Range<usize>| {
-            let edge = |slope: isize| Edge { row: block.start as isize, slope };
+            let edge = |slope: isize| Edge { layer: block.start as isize, slope };
             is_cut(block.start).then(|| Piece { low: edge(-lag), high: edge(lag), first: 1 })
         };
         [self.blocks.iter().map(block).collect(), self.blocks.iter().filter_map(gap).collect()]
     }
 
-    fn rows(&self) -> usize {
+    fn layers(&self) -> usize {
         self.blocks.last().map_or(0, |block| block.end)
     }
 
     /// What is done in a piece, in order.
     pub(crate) fn portions(&self, piece: Piece) -> impl Iterator<Item = Portion> {
-        let Depth { passes, lag, chunk } = self.depth;
-        let (lag, rows) = (lag.rows as isize, self.rows() as isize);
+        let Self { depth, .. } = *self;
+        self.turns(piece).flat_map(move |turn| {
+            let layer = depth.lag.layer;
+            let rows = depth.rows(turn.column, turn.pass);
+            let is_whole = rows.len() == layer;
+            let (whole, parts) = if is_whole { (Some(turn.layers), 0..0) } else { (None, turn.layers) };
+            let whole = whole.map(|layers| layers.start * layer..layers.end * layer);
+            let parts = parts.map(move |number| number * layer + rows.start..number * layer + rows.end);
+            let all = whole.into_iter().chain(parts).filter(|rows| !rows.is_empty());
+            all.map(move |rows| Portion { pass: turn.pass, rows })
+        })
+    }
+
+    /// The turns of the passes in a piece, in order.
+    fn turns(&self, piece: Piece) -> impl Iterator<Item = Turn> {
+        let Depth { passes, lag, chunk, .. } = self.depth;
+        let (lag, layers) = (lag.layers as isize, self.layers() as isize);
         let passes = piece.first..passes;
         // A pass is so far behind the front.
         let behind = move |pass: usize| pass as isize * lag;
         let start = passes.clone().map(|pass| piece.low.at(pass) + behind(pass)).min().unwrap_or(0);
         let end = passes.clone().map(|pass| piece.high.at(pass) + behind(pass)).max().unwrap_or(0);
-        let fronts = (start..end).step_by(chunk);
-        fronts.flat_map(move |front| {
+        let columns = self.depth.columns();
+        let fronts =
+            columns.flat_map(move |column| (start..end).step_by(chunk).map(move |front| (column, front)));
+        fronts.flat_map(move |(column, front)| {
             passes.clone().flat_map(move |pass| {
                 let here = front - behind(pass);
                 let (low, high) =
                     (here.max(piece.low.at(pass)), (here + chunk as isize).min(piece.high.at(pass)));
-                round(low..high, rows).map(move |rows| Portion { pass, rows })
+                round(low..high, layers).map(move |layers| Turn { column, pass, layers })
             })
         })
     }
 }
 
-/// Rows that may lie beyond the first or the last one of a ring.
-fn round(range: Range<isize>, rows: isize) -> impl Iterator<Item = Range<usize>> {
+/// Layers of a column that one pass does.
+struct Turn {
+    column: usize,
+    pass: usize,
+    layers: Range<usize>,
+}
+
+/// Layers that may lie beyond the first or the last one of a ring.
+fn round(range: Range<isize>, layers: isize) -> impl Iterator<Item = Range<usize>> {
     let parts = [-1, 0, 1].map(|turn| {
-        let (start, end) = (range.start + turn * rows, range.end + turn * rows);
-        start.clamp(0, rows) as usize..end.clamp(0, rows) as usize
+        let (start, end) = (range.start + turn * layers, range.end + turn * layers);
+        start.clamp(0, layers) as usize..end.clamp(0, layers) as usize
     });
     parts.into_iter().filter(|part| part.start < part.end)
 }
@@ -153,8 +207,9 @@ mod tests {
 
     /// Whether two rows see each other.
     fn see(a: usize, b: usize, rows: usize, lag: Lag) -> bool {
-        let apart = a.abs_diff(b);
-        apart <= lag.rows || (lag.is_ring && rows - apart <= lag.rows)
+        let apart = (a / lag.layer).abs_diff(b / lag.layer);
+        let layers = apart <= lag.layers || (lag.is_ring && rows / lag.layer - apart <= lag.layers);
+        layers && lag.along.is_none_or(|along| (a % lag.layer).abs_diff(b % lag.layer) <= along)
     }
 
     /// A pass does a row: all passes before have done those that it sees, and none has gone on to overwrite them.
@@ -174,10 +229,13 @@ mod tests {
     #[test]
     fn no_row_notices_in_whatever_order_the_pieces_are_worked_on() {
         let mut chance = Chance(1);
-        let mut cuts = 0;
-        for case in 0..400 {
-            let lag = Lag { rows: chance.below(4), is_ring: case % 2 == 0 };
-            let depth = Depth { passes: 1 + chance.below(5), lag, chunk: 1 + chance.below(7) };
+        let (mut cuts, mut columns) = (0, 0);
+        for case in 0..600 {
+            let (layer, along) = (1 + chance.below(7), (case % 3 > 0).then(|| chance.below(3)));
+            let lag = Lag { layer, layers: chance.below(4), is_ring: case % 2 == 0, along };
+            let column = along.map(|_| 1 + chance.below(4));
+            let depth = Depth { passes: 1 + chance.below(5), lag, chunk: 1 + chance.below(7), column };
+            columns += depth.columns().len() - 1;
             let lengths: Vec<usize> =
                 (0..=chance.below(4)).map(|_| depth.least_block() + chance.below(9)).collect();
             let blocks = lengths.iter().scan(0, |start, length| {
@@ -185,7 +243,7 @@ mod tests {
                 Some(*start - length..*start)
             });
             let wavefront = Wavefront::new(depth, blocks.collect());
-            let mut done = vec![0; wavefront.rows()];
+            let mut done = vec![0; wavefront.layers() * layer];
             for pieces in wavefront.pieces() {
                 cuts += pieces.iter().filter(|piece| piece.first == 1).count();
                 let mut under_way: Vec<_> =
@@ -200,7 +258,7 @@ mod tests {
             }
             assert!(done.iter().all(|done| *done == depth.passes), "{depth:?} {lengths:?} {done:?}");
         }
-        assert!(cuts > 300, "{cuts}");
+        assert!(cuts > 300 && columns > 600, "{cuts} {columns}");
     }
 
     #[test]
@@ -216,13 +274,26 @@ mod tests {
         assert_eq!(gaps, []);
     }
 
-    #[test]
-    fn passes_follow_in_chunks() {
-        let lag = Lag { rows: 2, is_ring: false };
-        let wavefront = Wavefront::new(Depth { passes: 2, lag, chunk: 3 }, std::iter::once(0..7).collect());
+    fn portions(depth: Depth, layers: usize) -> Vec<(usize, std::ops::Range<usize>)> {
+        let wavefront = Wavefront::new(depth, std::iter::once(0..layers).collect());
         let [blocks, _] = wavefront.pieces();
         let portions = blocks.into_iter().flat_map(|block| wavefront.portions(block));
-        let portions: Vec<_> = portions.map(|portion| (portion.pass, portion.rows)).collect();
-        assert_eq!(portions, [(0, 0..3), (1, 0..1), (0, 3..6), (1, 1..4), (0, 6..7), (1, 4..7)]);
+        portions.map(|portion| (portion.pass, portion.rows)).collect()
+    }
+
+    #[test]
+    fn passes_follow_in_chunks() {
+        let depth = Depth { passes: 2, lag: Lag { layers: 2, ..Lag::NONE }, chunk: 3, column: None };
+        let wanted = [(0, 0..3), (1, 0..1), (0, 3..6), (1, 1..4), (0, 6..7), (1, 4..7)];
+        assert_eq!(portions(depth, 7), wanted);
+    }
+
+    #[test]
+    fn columns_are_shifted_from_pass_to_pass() {
+        let lag = Lag { layer: 10, layers: 1, is_ring: false, along: Some(1) };
+        let depth = Depth { passes: 2, lag, chunk: 1, column: Some(6) };
+        let first = [(0, 0..6), (0, 10..16), (1, 0..5), (1, 10..15)];
+        let second = [(0, 6..10), (0, 16..20), (1, 5..10), (1, 15..20)];
+        assert_eq!(portions(depth, 2), [first, second].concat());
     }
 }

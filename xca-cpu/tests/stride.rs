@@ -2,7 +2,7 @@
 //! other, is the oracle.
 
 use std::error::Error;
-use std::num::NonZeroU64;
+use std::num::{NonZeroU64, NonZeroUsize};
 use xca_core::prelude::*;
 use xca_core::{Parity, RunError, Snapshot};
 use xca_cpu::Cpu;
@@ -140,10 +140,11 @@ fn run(model: &Model, engine: &dyn Engine) -> Result<(Vec<Snapshot>, Option<RunE
     Ok((seen, None))
 }
 
-/// An engine that does so many steps together, as far as there is room.
-fn together(steps: u64, threads: usize) -> Result<Cpu, Box<dyn Error>> {
+/// An engine that does so many steps together, as far as there is room, in columns of so many rows.
+fn together(steps: u64, threads: usize, rows: usize) -> Result<Cpu, Box<dyn Error>> {
     let steps = NonZeroU64::new(steps).ok_or("no steps")?;
-    Ok(Cpu::with_threads(threads)?.without_tiles().with_stride(steps))
+    let rows = NonZeroUsize::new(rows).ok_or("no rows")?;
+    Ok(Cpu::with_threads(threads)?.without_tiles().with_stride(steps).with_columns(rows))
 }
 
 /// How many steps an engine does together, on the average.
@@ -161,6 +162,7 @@ fn spaces() -> Result<Vec<([usize; 3], Neighbourhood)>, xca_core::NeighbourhoodE
         ([5, 4, 50], Neighbourhood::moore(1)),
         ([33, 1, 1], Neighbourhood::custom(vec![[0; 3], [1, 0, 0], [-2, 0, 0]])?),
         ([5, 5, 40], Neighbourhood::von_neumann(2)),
+        ([5, 14, 24], Neighbourhood::moore(1)),
         ([9, 64, 1], Neighbourhood::hexagonal(Hexagons::CornerUp)),
         ([8, 64, 1], Neighbourhood::hexagonal(Hexagons::SideUp)),
         ([7, 5, 60], Neighbourhood::custom(vec![[0, 0, 0], [3, 0, 0], [-1, 2, 0], [0, -1, 1]])?),
@@ -185,9 +187,9 @@ fn steps_that_are_done_together_change_no_bit() -> TestResult {
                 let model = weather(extents, neighbourhood.clone(), boundaries, oldest)?;
                 let (wanted, end) = run(&model, &Reference)?;
                 faults += u32::from(end.is_some());
-                for (steps, threads) in [(2, 1), (3, 2), (5, 8), (16, 3)] {
-                    let engine = together(steps, threads)?;
-                    let place = format!("{extents:?} {boundaries:?} {oldest} {steps} on {threads}");
+                for (steps, threads, rows) in [(2, 1, 1), (3, 2, 3), (5, 8, 2), (16, 3, 4)] {
+                    let engine = together(steps, threads, rows)?;
+                    let place = format!("{extents:?} {boundaries:?} {oldest} {steps} on {threads} by {rows}");
                     let (got, stopped) = run(&model, &engine)?;
                     assert_eq!(
                         stopped.map(|one| one.to_string()),

@@ -41,7 +41,9 @@ impl Buffer {
         let old = self.start;
         self.words.resize(words(length), 0);
         (self.start, self.length) = (start(&self.words), length);
-        self.words.copy_within(old..old + kept.div_ceil(WORD), self.start);
+        if kept > 0 {
+            self.words.copy_within(old..old + kept.div_ceil(WORD), self.start);
+        }
         self.bytes_mut()[kept..].fill(0);
     }
 

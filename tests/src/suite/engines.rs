@@ -23,8 +23,10 @@ pub const SKINS: [Option<f64>; 4] = [None, Some(1e-3), Some(0.3), Some(1e9)];
 pub const TILES: [Option<NonZeroUsize>; 4] =
     [None, NonZeroUsize::new(1), NonZeroUsize::new(3), NonZeroUsize::new(1000)];
 
-/// Steps that are done together where there is room, and how many threads do so. It must make no difference either.
-pub const STRIDES: [(Option<NonZeroU64>, usize); 2] = [(NonZeroU64::new(2), 1), (NonZeroU64::new(7), 3)];
+/// Steps that are done together where there is room, in columns of so many rows, and how many threads do so. It must
+/// make no difference either.
+pub const STRIDES: [(Option<NonZeroU64>, Option<NonZeroUsize>, usize); 2] =
+    [(NonZeroU64::new(2), NonZeroUsize::new(1), 1), (NonZeroU64::new(7), NonZeroUsize::new(4), 3)];
 
 /// Numbers of parts of the space that must make no difference; fewer where the space is too small.
 pub const PARTS: [usize; 3] = [2, 3, 7];
@@ -100,9 +102,10 @@ pub fn all() -> Result<Vec<Box<dyn Engine>>, Box<dyn Error>> {
         }
         engines.push(Box::new(engine));
     }
-    for (steps, threads) in STRIDES {
-        let steps = steps.ok_or("no steps")?;
-        engines.push(Box::new(Cpu::with_threads(threads)?.without_tiles().with_stride(steps)));
+    for (steps, rows, threads) in STRIDES {
+        let (steps, rows) = steps.zip(rows).ok_or("no steps or no rows")?;
+        let engine = Cpu::with_threads(threads)?.without_tiles();
+        engines.push(Box::new(engine.with_stride(steps).with_columns(rows)));
     }
     for (number, (parts, tile)) in PARTS.into_iter().zip(TILES).enumerate() {
         let mut engine = Cpu::with_threads(1 + number)?;

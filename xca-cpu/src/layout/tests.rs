@@ -56,18 +56,23 @@ fn images_of_a_row_are_the_lines_of_the_halo_that_show_it() {
 
 #[test]
 fn rows_that_see_each_other_are_no_further_apart_than_the_lag() {
+    let mut with_columns = 0;
     for layout in layouts() {
         let lag = layout.lag().unwrap();
-        let rows = layout.rows();
-        let mut most = 0;
-        for row in 0..rows {
+        let layers = layout.rows() / lag.layer;
+        let (mut most, mut most_along) = (0, 0);
+        for row in 0..layout.rows() {
             for other in layout.rows_around(row) {
-                let apart = row.abs_diff(other);
-                most = most.max(if lag.is_ring { apart.min(rows - apart) } else { apart });
+                let apart = (row / lag.layer).abs_diff(other / lag.layer);
+                most = most.max(if lag.is_ring { apart.min(layers - apart) } else { apart });
+                most_along = most_along.max((row % lag.layer).abs_diff(other % lag.layer));
             }
         }
-        // Round a torus along y the lag counts whole layers, which no row of a small space needs.
-        assert!(most <= lag.rows, "{layout:?} {lag:?} {most}");
-        assert!(lag.rows < 2 * most.max(1), "{layout:?} {lag:?} {most}");
+        assert_eq!(most, lag.layers, "{layout:?} {lag:?}");
+        if let Some(along) = lag.along {
+            assert_eq!(most_along, along, "{layout:?} {lag:?}");
+            with_columns += 1;
+        }
     }
+    assert!(with_columns > 8, "{with_columns}");
 }
