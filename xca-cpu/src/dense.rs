@@ -29,21 +29,26 @@ enum Halo {
 }
 
 impl Dense {
+    /// The two buffers are those of these numbers among all of the model's.
     pub(crate) fn new(
         stored: StoredType,
         layout: &Layout,
-        outside: &Faces<Vec<u8>>,
+        (outside, numbers): (&Faces<Vec<u8>>, [usize; 2]),
         doubled: bool,
         read_elsewhere: bool,
     ) -> Self {
-        let mut current = Buffer::zeroed(layout.cells() * stored.size());
+        let mut current = Buffer::zeroed_apart(layout.cells() * stored.size(), numbers[0]);
         let element = stored.element_size();
         let planes = current.bytes_mut().chunks_exact_mut(layout.cells() * element);
         for (number, plane) in planes.enumerate() {
             let outside = outside.map(|value| value[number * element..(number + 1) * element].to_vec());
             layout.fill_halo(plane, element, Some(&outside), false);
         }
-        let next = doubled.then(|| current.clone());
+        let next = doubled.then(|| {
+            let mut next = Buffer::zeroed_apart(current.len(), numbers[1]);
+            next.bytes_mut().copy_from_slice(current.bytes());
+            next
+        });
         let is_part = layout.borders() != Faces::all(false);
         let halo = if is_part { Halo::Stale } else { Halo::Whole };
         Self { stored, current, next, read_elsewhere, halo }

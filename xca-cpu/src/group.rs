@@ -24,18 +24,20 @@ pub(crate) fn population(group: &Group) -> Option<&Population> {
 
 /// The groups of a model, before they have any values.
 pub(crate) fn groups(model: &Model, layout: &Layout, precision: Precision, skin: Option<f64>) -> Vec<Group> {
+    let mut buffers = 0..;
     let group = |(number, group): (usize, &Definition)| {
         let GroupKind::Cells { .. } = group.kind() else {
             return Group::Population(Population::new(group, precision, layout, skin));
         };
-        let plane = |(field, stored): (usize, StoredType)| {
+        let mut plane = |(field, stored): (usize, StoredType)| {
             let outside = group.outside(field, precision).unwrap_or_default();
             let substate = SubstateId { group: number, field };
             let (doubled, elsewhere) =
                 (model.plan().is_doubled(substate), model.plan().is_read_elsewhere(substate));
-            Dense::new(stored, layout, &outside, doubled, elsewhere)
+            let numbers = [(); 2].map(|()| buffers.next().unwrap_or(0));
+            Dense::new(stored, layout, (&outside, numbers), doubled, elsewhere)
         };
-        Group::Cells(group.stored(precision).into_iter().enumerate().map(plane).collect())
+        Group::Cells(group.stored(precision).into_iter().enumerate().map(&mut plane).collect())
     };
     model.groups().iter().enumerate().map(group).collect()
 }

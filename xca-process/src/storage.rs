@@ -4,6 +4,12 @@
 const ALIGNMENT: usize = 64;
 const WORD: usize = size_of::<u64>();
 
+/// A processor takes a load for one of what was stored last where their addresses differ by a multiple of this, and
+/// waits.
+const PAGE: usize = 4096;
+/// The lines from a buffer's place in a page to that of the next: no multiple of it is near a whole page for long.
+const LINES_APART: usize = 17;
+
 /// Bytes whose first one is aligned for every scalar and for wide registers.
 #[derive(Debug, Default)]
 pub struct Buffer {
@@ -11,13 +17,24 @@ pub struct Buffer {
     /// The words before the first byte.
     start: usize,
     length: usize,
+    /// Where the first byte is in a page; anywhere where there is nothing.
+    place: Option<usize>,
 }
 
 impl Buffer {
     /// So many zero bytes.
     pub fn zeroed(length: usize) -> Self {
-        let words = vec![0; words(length)];
-        Self { start: start(&words), words, length }
+        Self::placed(length, None)
+    }
+
+    /// So many zero bytes, in a buffer that is used together with others of other numbers, and does not hinder them.
+    pub fn zeroed_apart(length: usize, number: usize) -> Self {
+        Self::placed(length, Some(number * LINES_APART * ALIGNMENT % PAGE))
+    }
+
+    fn placed(length: usize, place: Option<usize>) -> Self {
+        let words = vec![0; words(length, place)];
+        Self { start: start(&words, place), words, length, place }
     }
 
     /// The number of bytes.
@@ -39,8 +56,8 @@ impl Buffer {
     pub fn resize(&mut self, length: usize) {
         let kept = self.length.min(length);
         let old = self.start;
-        self.words.resize(words(length), 0);
-        (self.start, self.length) = (start(&self.words), length);
+        self.words.resize(words(length, self.place), 0);
+        (self.start, self.length) = (start(&self.words, self.place), length);
         if kept > 0 {
             self.words.copy_within(old..old + kept.div_ceil(WORD), self.start);
         }
@@ -68,19 +85,25 @@ impl Buffer {
     }
 }
 
-/// The words that hold so many bytes from an aligned one on, wherever that is.
-fn words(length: usize) -> usize {
-    if length == 0 { 0 } else { length.div_ceil(WORD) + ALIGNMENT / WORD - 1 }
+/// The words that hold so many bytes from their place on, wherever that is.
+fn words(length: usize, place: Option<usize>) -> usize {
+    if length == 0 { 0 } else { length.div_ceil(WORD) + grid(place) / WORD - 1 }
 }
 
-/// The words before the first aligned one.
-fn start(words: &[u64]) -> usize {
-    if words.is_empty() { 0 } else { (words.as_ptr().addr().wrapping_neg() % ALIGNMENT) / WORD }
+/// The words before the first byte.
+fn start(words: &[u64], place: Option<usize>) -> usize {
+    let apart = place.unwrap_or(0).wrapping_sub(words.as_ptr().addr());
+    if words.is_empty() { 0 } else { apart % grid(place) / WORD }
+}
+
+/// The bytes from one address at which a buffer may begin to the next.
+fn grid(place: Option<usize>) -> usize {
+    if place.is_some() { PAGE } else { ALIGNMENT }
 }
 
 impl Clone for Buffer {
     fn clone(&self) -> Self {
-        let mut clone = Self::zeroed(self.length);
+        let mut clone = Self::placed(self.length, self.place);
         clone.bytes_mut().copy_from_slice(self.bytes());
         clone
     }
@@ -94,7 +117,7 @@ impl PartialEq for Buffer {
 
 #[cfg(test)]
 mod tests {
-    use super::{ALIGNMENT, Buffer};
+    use super::{ALIGNMENT, Buffer, PAGE};
 
     #[test]
     fn bytes_stay_and_are_aligned() {
@@ -114,5 +137,20 @@ mod tests {
             }
         }
         assert_ne!(Buffer::zeroed(7), buffer);
+    }
+
+    #[test]
+    fn buffers_of_other_numbers_are_elsewhere_in_a_page() {
+        let mut places: Vec<usize> = (0..PAGE / ALIGNMENT)
+            .map(|number| {
+                let mut buffer = Buffer::zeroed_apart(10, number).clone();
+                let place = buffer.as_ptr().addr() % PAGE;
+                buffer.resize(100_000);
+                assert_eq!(buffer.as_ptr().addr() % PAGE, place);
+                place
+            })
+            .collect();
+        places.sort_unstable();
+        assert!(places.iter().enumerate().all(|(number, place)| *place == number * ALIGNMENT), "{places:?}");
     }
 }
