@@ -24,3 +24,7 @@ pub mod comparing_page {}
 /// The page on maps.
 #[doc = include_str!("../../docs/maps.md")]
 pub mod maps_page {}
+
+/// The page for those who come from OpenCAL.
+#[doc = include_str!("../../docs/opencal.md")]
+pub mod opencal_page {}
