@@ -140,6 +140,20 @@ fn the_program_of_the_readme_is_the_example() -> TestResult {
     Ok(())
 }
 
+/// docs/SUMMARY.md, from which a book is made, has all pages of docs.
+#[test]
+fn the_book_has_every_page() -> TestResult {
+    let documents = Document::all()?;
+    let summary = documents.iter().find(|document| document.name() == "SUMMARY.md").ok_or("no summary")?;
+    let pages: Vec<&str> = summary.links().collect();
+    let docs = root().join("docs");
+    for document in documents.iter().filter(|document| document.path.starts_with(&docs)) {
+        let name = document.name();
+        assert!(name == "SUMMARY.md" || pages.contains(&name.as_str()), "docs/SUMMARY.md lacks {name}");
+    }
+    Ok(())
+}
+
 /// docs/gallery.md has a section for each program of the examples, with its file and a command that runs it.
 #[test]
 fn the_gallery_shows_every_program() -> TestResult {
