@@ -162,9 +162,11 @@ fn the_gallery_shows_every_program() -> TestResult {
     for entry in fs::read_dir(root().join("examples/src/bin"))? {
         let path = entry?.path();
         let name = path.file_stem().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-        for part in
-            [format!("\n## {name}\n"), format!("`examples/src/bin/{name}.rs`"), format!("--bin {name} -- run")]
-        {
+        for part in [
+            format!("\n## {name}\n"),
+            format!("`examples/src/bin/{name}.rs`"),
+            format!("--bin {name} -- run"),
+        ] {
             assert!(gallery.contains(&part), "docs/gallery.md lacks {part}");
         }
         programs += 1;

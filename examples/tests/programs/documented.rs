@@ -58,9 +58,8 @@ fn commands_have_options_that_programs_know() {
     let mut options = 0;
     for command in Documented::all() {
         let (program, subcommand) = (&command.program, &command.words[0]);
-        let help = helps
-            .entry([program.clone(), subcommand.clone()])
-            .or_insert_with(|| known(program, subcommand));
+        let help =
+            helps.entry([program.clone(), subcommand.clone()]).or_insert_with(|| known(program, subcommand));
         for option in command.options() {
             let place = command.document.display();
             assert!(help.contains(option), "{place}: `{program} {subcommand}` has no {option}");
