@@ -24,3 +24,15 @@ pub mod comparing_page {}
 /// The page on maps.
 #[doc = include_str!("../../docs/maps.md")]
 pub mod maps_page {}
+
+/// The page for those who come from OpenCAL.
+#[doc = include_str!("../../docs/opencal.md")]
+pub mod opencal_page {}
+
+/// The recipes for models and steering.
+#[doc = include_str!("../../docs/cookbook.md")]
+pub mod cookbook_page {}
+
+/// The recipes for maps, files, runs and engines.
+#[doc = include_str!("../../docs/cookbook-runs.md")]
+pub mod cookbook_runs_page {}

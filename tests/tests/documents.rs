@@ -140,6 +140,41 @@ fn the_program_of_the_readme_is_the_example() -> TestResult {
     Ok(())
 }
 
+/// docs/SUMMARY.md, from which a book is made, has all pages of docs.
+#[test]
+fn the_book_has_every_page() -> TestResult {
+    let documents = Document::all()?;
+    let summary = documents.iter().find(|document| document.name() == "SUMMARY.md").ok_or("no summary")?;
+    let pages: Vec<&str> = summary.links().collect();
+    let docs = root().join("docs");
+    for document in documents.iter().filter(|document| document.path.starts_with(&docs)) {
+        let name = document.name();
+        assert!(name == "SUMMARY.md" || pages.contains(&name.as_str()), "docs/SUMMARY.md lacks {name}");
+    }
+    Ok(())
+}
+
+/// docs/gallery.md has a section for each program of the examples, with its file and a command that runs it.
+#[test]
+fn the_gallery_shows_every_program() -> TestResult {
+    let gallery = fs::read_to_string(root().join("docs/gallery.md"))?;
+    let mut programs = 0;
+    for entry in fs::read_dir(root().join("examples/src/bin"))? {
+        let path = entry?.path();
+        let name = path.file_stem().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        for part in [
+            format!("\n## {name}\n"),
+            format!("`examples/src/bin/{name}.rs`"),
+            format!("--bin {name} -- run"),
+        ] {
+            assert!(gallery.contains(&part), "docs/gallery.md lacks {part}");
+        }
+        programs += 1;
+    }
+    assert!(programs > 10, "{programs}");
+    Ok(())
+}
+
 /// docs/architecture.md lists the files with unsafe code.
 #[test]
 fn unsafe_code_is_where_the_architecture_says() -> TestResult {

@@ -6,6 +6,7 @@ mod begun;
 mod checkpoints;
 mod compared;
 mod continued;
+mod documented;
 mod doors;
 mod files;
 mod gallery;
