@@ -10,7 +10,7 @@
 
 use crate::float::Float;
 use crate::geometry::Geometry;
-use crate::random::{Draw, Stream};
+use crate::random::Stream;
 use std::any::Any;
 use std::cell::Cell;
 use std::marker::PhantomData;
@@ -20,6 +20,7 @@ use xca_values::Vector3;
 
 mod cells;
 mod constants;
+mod draws;
 mod entries;
 mod instructions;
 mod near;
@@ -34,6 +35,7 @@ mod written;
 pub use crate::neighbourhood::shapes::{ANY as ANY_SHAPE, ShapeNumber};
 pub use cells::{AroundRead, Blocks, CentreRead, Column, Columns, Offset};
 pub use constants::{KernelConstant, constant};
+pub use draws::Draws;
 pub use entries::{Entry, Memory, MemoryOf};
 pub use instructions::Instructions;
 pub use near::{NO_PLACE, NearLists};
@@ -248,6 +250,22 @@ impl<'a> Row<'a> {
         self.asked_for_step.get()
     }
 
+    /// The random numbers of the row.
+    #[inline(always)]
+    pub fn draws(&self) -> Draws {
+        let Frame { stream, step, seed, extents, .. } = *self.frame;
+        // A space has a cell along x at least.
+        Draws::new((stream, step, seed), self.first_cell, extents[0])
+    }
+
+    /// What a kernel has asked for, at its end.
+    #[inline(always)]
+    pub fn has_drawn(&self, draws: &Draws) {
+        if draws.is_asked() {
+            self.asked_for_step.set(true);
+        }
+    }
+
     /// Where the kernel was when it panicked: in the first cell if that was before it began.
     pub fn stopped_at(&self) -> StoppedAt {
         self.stopped.get().unwrap_or_else(|| StoppedAt { cell: self.cell(0), label: None })
@@ -280,8 +298,8 @@ impl<'a> Row<'a> {
 
     /// The space.
     #[inline(always)]
-    pub fn space<R: Float>(&self) -> NativeSpace<'_, R> {
-        NativeSpace::new(self.frame, &self.asked_for_step)
+    pub fn space<'b, R: Float>(&'b self, draws: &'b Draws) -> NativeSpace<'b, R> {
+        NativeSpace::new(self.frame, draws)
     }
 
     /// The cells of the row.
@@ -374,38 +392,5 @@ impl<'a> Row<'a> {
     pub fn index(&self, x: usize) -> Vector3<i32> {
         let [first, y, z] = self.origin;
         Vector3::new(first as i32 + x as i32, y as i32, z as i32)
-    }
-
-    #[inline]
-    fn draw(&self, owner: u32, number: u32) -> [u32; 4] {
-        self.asked_for_step.set(true);
-        let Frame { stream, step, seed, .. } = *self.frame;
-        Draw { stream, step, owner, number }.words(seed)
-    }
-
-    /// Random bits of a cell of the row.
-    #[inline]
-    pub fn random_bits(&self, x: usize, draw: usize) -> u32 {
-        self.draw(self.cell(x), draw as u32)[0]
-    }
-
-    /// A random number of a cell of the row.
-    #[inline]
-    pub fn random<R: Float>(&self, x: usize, draw: usize) -> R {
-        let words = self.draw(self.cell(x), draw as u32);
-        R::uniform([words[0], words[1]])
-    }
-
-    /// Random bits of an item.
-    #[inline]
-    pub fn item_random_bits(&self, item: usize, draw: usize) -> u32 {
-        self.draw(self.label(item), draw as u32)[0]
-    }
-
-    /// A random number of an item.
-    #[inline]
-    pub fn item_random<R: Float>(&self, item: usize, draw: usize) -> R {
-        let words = self.draw(self.label(item), draw as u32);
-        R::uniform([words[0], words[1]])
     }
 }

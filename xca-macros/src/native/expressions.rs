@@ -203,8 +203,8 @@ impl Writer<'_> {
 
     fn builtin(&mut self, builtin: Builtin, arguments: &[Expression], span: Span) -> TokenStream {
         let arguments = self.expressions(arguments);
-        let [row, x, item, offsets, directions, space] =
-            ["row", "x", "item", "offsets", "directions", "space"].map(|name| self.name(name));
+        let [row, x, item, offsets, directions, space, draws] =
+            ["row", "x", "item", "offsets", "directions", "space", "draws"].map(|name| self.name(name));
         let cells = self.function.kind == FunctionKind::Cells;
         let real = &self.real;
         match builtin {
@@ -216,10 +216,14 @@ impl Writer<'_> {
             Builtin::Exists => quote_spanned!(span=> #directions.exists(#(#arguments,)* #row, #x)),
             Builtin::Index => quote!(#row.index(#x)),
             Builtin::Label => quote!(#row.label(#item)),
-            Builtin::Random if cells => quote_spanned!(span=> #row.random::<#real>(#x, #(#arguments),*)),
-            Builtin::Random => quote_spanned!(span=> #row.item_random::<#real>(#item, #(#arguments),*)),
-            Builtin::RandomBits if cells => quote_spanned!(span=> #row.random_bits(#x, #(#arguments),*)),
-            Builtin::RandomBits => quote_spanned!(span=> #row.item_random_bits(#item, #(#arguments),*)),
+            Builtin::Random if cells => quote_spanned!(span=> #draws.of_cell::<#real>(#x, #(#arguments),*)),
+            Builtin::Random => {
+                quote_spanned!(span=> #draws.of_item::<#real>(#row.label(#item), #(#arguments),*))
+            }
+            Builtin::RandomBits if cells => quote_spanned!(span=> #draws.bits_of_cell(#x, #(#arguments),*)),
+            Builtin::RandomBits => {
+                quote_spanned!(span=> #draws.bits_of_item(#row.label(#item), #(#arguments),*))
+            }
             Builtin::Side => quote!(#space.side()),
             Builtin::Extents => quote!(#space.extents()),
             Builtin::Step => quote!(#space.step()),

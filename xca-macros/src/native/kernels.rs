@@ -104,8 +104,8 @@ fn reads(access: &Access) -> bool {
 }
 
 fn space(real: &TokenStream, span: Span) -> TokenStream {
-    let (row, space) = (hidden("row", span), hidden("space", span));
-    quote!(let #space = #row.space::<#real>();)
+    let [row, space, draws] = ["row", "space", "draws"].map(|name| hidden(name, span));
+    quote!(let #space = #row.space::<#real>(#draws);)
 }
 
 fn cells(function: &Function, uses: &Uses, real: &TokenStream, shape: &Ident) -> TokenStream {
@@ -149,7 +149,10 @@ fn cells(function: &Function, uses: &Uses, real: &TokenStream, shape: &Ident) ->
         read: read_name,
     };
     let fetches = fetches(function, &names);
+    // A copy is read before the loop, also where only some cells use it; without it the loop could not be vectorised.
+    let own_parameters = parameters(function).map(|(name, _)| quote!(let #name = &{ *#name };));
     quote! {
+        #(#own_parameters)*
         #space
         let #offsets = #row.offsets::<#shape>();
         #directions

@@ -54,8 +54,8 @@ impl Work<'_> {
     /// The type and the function.
     pub(super) fn definition(&self) -> TokenStream {
         let Self { function, arguments, blocks, body } = self;
-        let [work, inner, shape, row, columns] =
-            ["Work", "inner", "SHAPE", "row", "columns"].map(|name| self.name(name));
+        let [work, inner, shape, row, columns, draws] =
+            ["Work", "inner", "SHAPE", "row", "columns", "draws"].map(|name| self.name(name));
         let constants = &function.constants;
         let given = constants.iter().map(|constant| &constant.ident);
         let given = quote!(#shape, #(#given),*);
@@ -70,7 +70,8 @@ impl Work<'_> {
             None => quote!(#name),
         });
         let row_type = quote!(&#LIFE ::xca_core::kernel::Row<#frame>);
-        let blocks = blocks.around(&quote!(#inner::<#given>(#row, #columns, #(#handed),*)), &row, &columns);
+        let blocks =
+            blocks.around(&quote!(#inner::<#given>(#row, &#draws, #columns, #(#handed),*)), &row, &columns);
         let inline = if self.over_cells() { quote!(always) } else { quote!(never) };
         quote! {
             struct #work<#LIFE, #frame, #declared> {
@@ -82,13 +83,16 @@ impl Work<'_> {
                 #[inline(always)]
                 fn run(self) {
                     let Self { #row, #(mut #names),* } = self;
+                    let #draws = #row.draws();
                     #blocks
+                    #row.has_drawn(&#draws);
                 }
             }
 
             #[inline(#inline)]
             fn #inner<#LIFE, #frame, #declared>(
                 #row: #row_type,
+                #draws: &::xca_core::kernel::Draws,
                 #columns: ::xca_core::kernel::Columns<#LIFE>,
                 #(#names: #of_block),*
             ) #body

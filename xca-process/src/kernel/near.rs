@@ -127,7 +127,8 @@ impl Row<'_> {
         let square = radius * radius;
         self.fetch(positions);
         if self.frame.toroidal.contains(&true) {
-            let space = self.space::<R>();
+            let draws = self.draws();
+            let space = self.space::<R>(&draws);
             walk.fill(items, near, positions, |one, other| {
                 super::search::length_squared(space.nearest_image(one - other)) < square
             });

@@ -245,7 +245,7 @@ impl<'a> Row<'a> {
         if self.frame.toroidal.contains(&true) {
             self.ranges::<REACH>(cell, touched, |range| {
                 keep(range, item, positions, found, |other| {
-                    length_squared(self.space::<R>().nearest_image(position - other)) < reach
+                    length_squared(self.space::<R>(&self.draws()).nearest_image(position - other)) < reach
                 });
             });
         } else if let (Some((CellFilter { wide: Some(wide), .. }, _)), Precision::F64) =

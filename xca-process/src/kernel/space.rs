@@ -1,8 +1,7 @@
 //! The cellular space in a kernel.
 
-use super::{Frame, NOWHERE, OUTSIDE};
+use super::{Draws, Frame, NOWHERE, OUTSIDE};
 use crate::float::Float;
-use std::cell::Cell;
 use std::marker::PhantomData;
 use xca_values::Vector3;
 
@@ -10,13 +9,13 @@ use xca_values::Vector3;
 #[derive(Debug, Clone, Copy)]
 pub struct NativeSpace<'a, R> {
     frame: &'a Frame<'a>,
-    asked_for_step: &'a Cell<bool>,
+    draws: &'a Draws,
     real: PhantomData<R>,
 }
 
 impl<'a, R: Float> NativeSpace<'a, R> {
-    pub(super) fn new(frame: &'a Frame<'a>, asked_for_step: &'a Cell<bool>) -> Self {
-        Self { frame, asked_for_step, real: PhantomData }
+    pub(super) fn new(frame: &'a Frame<'a>, draws: &'a Draws) -> Self {
+        Self { frame, draws, real: PhantomData }
     }
 
     /// The side of a cell in metres.
@@ -35,8 +34,7 @@ impl<'a, R: Float> NativeSpace<'a, R> {
     /// The low 32 bits of the number of the step.
     #[inline(always)]
     pub fn step(&self) -> u32 {
-        self.asked_for_step.set(true);
-        self.frame.step as u32
+        self.draws.step() as u32
     }
 
     /// The length of the space along an axis.
