@@ -11,7 +11,8 @@ fn main() {
         println!("cargo::rustc-env=XCA_COMMIT={commit}");
     }
     println!("cargo::rerun-if-changed=build.rs");
-    // Every commit and every change of branch adds a line there. A source tree without git has no such file, and is not watched.
+    // Every commit and every change of branch adds a line there. A source tree without git has no such file,
+    // and is not watched.
     let log = line_of("git", &["rev-parse", "--git-path", "logs/HEAD"]);
     if let Some(log) = log.filter(|log| std::path::Path::new(log).is_file()) {
         println!("cargo::rerun-if-changed={log}");

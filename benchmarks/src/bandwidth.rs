@@ -13,7 +13,8 @@ const PART: usize = 1 << 16;
 
 const ROUNDS: usize = 5;
 
-/// Bytes a second that threads read and write together while they copy a large array: the best of some rounds.
+/// Bytes a second that threads read and write together while they copy a large array: the best of some
+/// rounds.
 pub(crate) fn bandwidth(threads: usize) -> Result<f64, Box<dyn Error>> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
     let from = vec![1.0_f64; NUMBERS];

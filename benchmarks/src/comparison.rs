@@ -21,9 +21,9 @@ pub(crate) struct Comparison {
 }
 
 impl Comparison {
-    /// Of the times of so many steps: first the engine's, then those of the loop by hand, and then, if they were
-    /// taken, those of the engine that does one step after the other. A step reads and writes `bytes` of each
-    /// cell.
+    /// Of the times of so many steps: first the engine's, then those of the loop by hand, and then, if they
+    /// were taken, those of the engine that does one step after the other. A step reads and writes `bytes` of
+    /// each cell.
     pub(crate) fn new(
         name: String,
         cells: usize,

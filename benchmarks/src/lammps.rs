@@ -1,4 +1,5 @@
-//! LAMMPS on the same particles with the same law of contact: pair style `gran/hooke` without friction, which is CADEM's.
+//! LAMMPS on the same particles with the same law of contact: pair style `gran/hooke` without friction, which
+//! is CADEM's.
 
 use crate::particles::State;
 use std::error::Error;
@@ -68,7 +69,8 @@ fn run(folder: &Path, skin: f64, steps: usize, threads: usize) -> Result<f64, Bo
     }
 }
 
-/// LAMMPS' own damping is a rate: eta over the reduced mass, which is half a particle's, and a whole one's at a wall.
+/// LAMMPS' own damping is a rate: eta over the reduced mass, which is half a particle's, and a whole one's at
+/// a wall.
 const INPUT: &str = "\
 units si
 atom_style sphere

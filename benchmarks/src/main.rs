@@ -58,12 +58,15 @@ enum Benchmark {
         #[arg(long, default_value_t = 5)]
         steps: u64,
     },
-    /// CADEM: a step's time in three states of the paper's benchmark, and the cost of a particle for systems of different size.
+    /// CADEM: a step's time in three states of the paper's benchmark, and the cost of a particle for systems
+    /// of different size.
     Particles {
-        /// States of the 315,979 particles. Those after the start are computed once, which takes minutes, and kept.
+        /// States of the 315,979 particles. Those after the start are computed once, which takes minutes, and
+        /// kept.
         #[arg(long, value_delimiter = ',', default_values = ["start", "bouncing", "settled"])]
         states: Vec<Stage>,
-        /// Cells along each side of other cubes, at the start: 50 and 200 hold some 40,000 and 2,500,000 particles.
+        /// Cells along each side of other cubes, at the start: 50 and 200 hold some 40,000 and 2,500,000
+        /// particles.
         #[arg(long, value_delimiter = ',', default_values_t = [50, 200])]
         cells: Vec<usize>,
         /// How many steps make a round.
@@ -76,7 +79,8 @@ enum Benchmark {
         #[arg(long, default_value = "target/benchmarks")]
         folder: PathBuf,
     },
-    /// Models that are quiet nearly everywhere: the CPU engine as it is against itself where it works on all cells.
+    /// Models that are quiet nearly everywhere: the CPU engine as it is against itself where it works on all
+    /// cells.
     Quiet,
     /// A call of each function of `xca_core::math`, on one thread.
     Mathematics,

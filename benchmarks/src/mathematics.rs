@@ -70,7 +70,8 @@ fn hyperbolic_tangent(cell: &mut Cell<Values>) {
 
 const NAMES: [&str; 11] = ["copy", "sqrt", "exp", "log", "pow", "sin", "cos", "tan", "atan", "atan2", "tanh"];
 
-/// The time of a step of each process for one cell, on one thread; the arguments are evenly spread over 0 to 10.
+/// The time of a step of each process for one cell, on one thread; the arguments are evenly spread over 0
+/// to 10.
 pub(crate) fn costs(
     precision: Precision,
     rounds: usize,

@@ -127,7 +127,8 @@ pub(crate) struct Rounds {
     pub(crate) threads: usize,
 }
 
-/// Times rounds of so many steps, each from the same state and after one step to warm up; with a folder, in turns with LAMMPS.
+/// Times rounds of so many steps, each from the same state and after one step to warm up; with a folder, in
+/// turns with LAMMPS.
 pub(crate) fn cost(
     name: &str,
     state: &State,

@@ -1,4 +1,5 @@
-//! Models that are quiet nearly everywhere: the CPU engine, which leaves out what cannot change, against itself where it works on all cells.
+//! Models that are quiet nearly everywhere: the CPU engine, which leaves out what cannot change, against
+//! itself where it works on all cells.
 
 use crate::dense::life_from;
 use crate::timing::{Times, interleaved};

@@ -53,13 +53,14 @@ impl Configuration {
         if face.is_high() { self.sides()[face.axis()] - inset } else { inset }
     }
 
-    /// The largest number of domain faces that a cell touches: 3 where there are two cells or more along each axis.
+    /// The largest number of domain faces that a cell touches: 3 where there are two cells or more along each
+    /// axis.
     pub(crate) fn most_faces_of_a_cell(&self) -> usize {
         self.cells.iter().map(|&extent| if extent == 1 { 2 } else { 1 }).sum()
     }
 
-    /// The BOUNDARY slots: one for each domain face that an outermost cell touches, except in openings. The point that a slot carries is the
-    /// centre of its cell, moved onto the wall.
+    /// The BOUNDARY slots: one for each domain face that an outermost cell touches, except in openings. The
+    /// point that a slot carries is the centre of its cell, moved onto the wall.
     pub(crate) fn boundary_slots(&self) -> impl Iterator<Item = Item<Dem>> + '_ {
         let cells =
             Face::ALL.into_iter().flat_map(|face| self.closed_cells(face).map(move |cell| (face, cell)));

@@ -17,8 +17,8 @@ pub enum Case {
     Illustration,
     /// The paper's benchmark (section IV, Table I): 315,979 particles in 100^3 cells, for 0.1 s.
     Table1,
-    /// The run whose files the authors published: 2,602 particles in 20^3 cells, soft ones, with the wall law of their program. It
-    /// ends with 0.011240501 J of kinetic and potential energy.
+    /// The run whose files the authors published: 2,602 particles in 20^3 cells, soft ones, with the wall law
+    /// of their program. It ends with 0.011240501 J of kinetic and potential energy.
     Published,
 }
 
@@ -37,7 +37,8 @@ impl Case {
 
     /// The system.
     ///
-    /// The mass and the radius are the paper's. They make a density of 190,986 kg/m^3, where 2,000 kg/m^3 would be a mass of 1.047e-6 kg.
+    /// The mass and the radius are the paper's. They make a density of 190,986 kg/m^3, where 2,000 kg/m^3
+    /// would be a mass of 1.047e-6 kg.
     pub fn configuration(self) -> Configuration {
         let illustration = Configuration {
             cells: [20; 3],

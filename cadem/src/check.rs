@@ -10,7 +10,8 @@ impl Configuration {
     /// Checks that a run of this system can start from these particles. [`crate::model()`] does it too.
     ///
     /// # Errors
-    /// The first mistake that is found, in the order of [`ParticleError`]'s variants for each particle, and overlaps last.
+    /// The first mistake that is found, in the order of [`ParticleError`]'s variants for each particle, and
+    /// overlaps last.
     pub fn check_particles(&self, particles: &[Particle]) -> Result<(), ParticleError> {
         for particle in particles {
             self.check_particle(particle)?;

@@ -9,13 +9,14 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use xca_core::{Parameters, Precision};
 
-/// The least number of steps in a contact of two particles that needs no warning. The paper says 10 to 50 for a particle
-/// at a wall (eq. 3), which are 7 to 35 for two particles.
+/// The least number of steps in a contact of two particles that needs no warning. The paper says 10 to 50 for
+/// a particle at a wall (eq. 3), which are 7 to 35 for two particles.
 const STEPS_OF_A_CONTACT: f64 = 20.0;
 
 /// A CADEM system: space, material, walls, and how it is integrated. [`crate::Case`] has ready-made ones.
 ///
-/// Read from a file, what is not given is as in [`crate::Case::Illustration`], and a name that is none of these is an error.
+/// Read from a file, what is not given is as in [`crate::Case::Illustration`], and a name that is none of
+/// these is an error.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Configuration {
@@ -39,7 +40,8 @@ pub struct Configuration {
     pub walls: Walls,
     /// How velocity and position advance.
     pub integrator: Integrator,
-    /// The slots of a cell N, BOUNDARY slots among them; [`Configuration::default_slots`] unless given. The paper has 11.
+    /// The slots of a cell N, BOUNDARY slots among them; [`Configuration::default_slots`] unless given. The
+    /// paper has 11.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub slots: Option<usize>,
     /// The seed of the authors' initial placement; theirs is 1.
@@ -65,7 +67,8 @@ impl Configuration {
         }
     }
 
-    /// The same system with these parameters. A time step that is not the present one becomes [`TimeStep::Seconds`].
+    /// The same system with these parameters. A time step that is not the present one becomes
+    /// [`TimeStep::Seconds`].
     #[must_use]
     pub fn with_material(&self, material: &Material) -> Self {
         let Material { stiffness, damping, mass, radius, gravity, time_step } = *material;
@@ -76,8 +79,8 @@ impl Configuration {
         changed
     }
 
-    /// Sets a parameter by name: one of [`Material`]'s. A time step that follows from mass and stiffness keeps following them; `time_step`
-    /// sets it in s.
+    /// Sets a parameter by name: one of [`Material`]'s. A time step that follows from mass and stiffness
+    /// keeps following them; `time_step` sets it in s.
     ///
     /// ```
     /// let mut configuration = cadem::Case::Illustration.configuration();
@@ -107,15 +110,18 @@ impl Configuration {
         self.slots.unwrap_or_else(|| self.default_slots())
     }
 
-    /// Kepler's bound on the particles in a cell, floor(0.74 p_c^3 / (4/3 pi p_r^3)): the paper's N (section II.C), 11 with its numbers.
+    /// Kepler's bound on the particles in a cell, floor(0.74 p_c^3 / (4/3 pi p_r^3)): the paper's N (section
+    /// II.C), 11 with its numbers.
     pub fn kepler_bound(&self) -> usize {
         (0.74 * self.cell_side.powi(3) / (4.0 / 3.0 * PI * self.radius.powi(3))) as usize
     }
 
-    /// The slots of a cell unless they are given: twice Kepler's bound, and one for each domain face that a cell can touch.
+    /// The slots of a cell unless they are given: twice Kepler's bound, and one for each domain face that a
+    /// cell can touch.
     ///
-    /// The bound counts whole spheres, while a cell holds all whose centres are in it; and soft spheres overlap. The paper's benchmark comes to
-    /// 16 particles in a cell. In narrow cells, which the bound is worst for, there is room for a centre near each of the eight corners.
+    /// The bound counts whole spheres, while a cell holds all whose centres are in it; and soft spheres
+    /// overlap. The paper's benchmark comes to 16 particles in a cell. In narrow cells, which the bound is
+    /// worst for, there is room for a centre near each of the eight corners.
     pub fn default_slots(&self) -> usize {
         self.kepler_bound().saturating_mul(2).max(8).saturating_add(self.most_faces_of_a_cell())
     }
@@ -129,8 +135,8 @@ impl Configuration {
         Ok(placed.into_iter().map(Particle::from).collect())
     }
 
-    /// What makes the results of the system doubtful, in sentences: a time step that is too long for a contact, and
-    /// `f32`, in which slow particles stand still.
+    /// What makes the results of the system doubtful, in sentences: a time step that is too long for a
+    /// contact, and `f32`, in which slow particles stand still.
     ///
     /// ```
     /// use xca_core::Precision;
@@ -168,8 +174,8 @@ impl Configuration {
         is_short.then(warning).into_iter().chain(is_single.then(stands_still)).collect()
     }
 
-    /// The speed, in m/s, below which x + v dt is x in `f32` where x is largest: half of the distance to the next number,
-    /// divided by the time step.
+    /// The speed, in m/s, below which x + v dt is x in `f32` where x is largest: half of the distance to the
+    /// next number, divided by the time step.
     fn lost_speed(&self) -> f64 {
         let side = self.sides().into_iter().fold(0.0, f64::max);
         let largest = (side as f32).next_down();

@@ -7,8 +7,8 @@ use xca_core::prelude::*;
 
 /// The size of the force between two bodies in contact, in N: `k_n delta - eta v`.
 ///
-/// `overlap` is delta, in m. `parting` is the speed v at which the bodies move apart, in m/s. The spring repels; the dashpot
-/// opposes approach and separation alike (eq. 2).
+/// `overlap` is delta, in m. `parting` is the speed v at which the bodies move apart, in m/s. The spring
+/// repels; the dashpot opposes approach and separation alike (eq. 2).
 #[helper]
 pub fn contact_law(p: &Material, overlap: Real, parting: Real) -> Real {
     p.stiffness * overlap - p.damping * parting
@@ -16,8 +16,9 @@ pub fn contact_law(p: &Material, overlap: Real, parting: Real) -> Real {
 
 /// The force of another particle on a particle, in N; 0 where they do not touch.
 ///
-/// `separation` is x_i - x_j, in m, and `relative_velocity` v_i - v_j, in m/s; the overlap is 2 p_r less the distance (section
-/// II.A). Two centres at one place have no normal: the force is then no number, which [`crate::processes::displace`] reports.
+/// `separation` is x_i - x_j, in m, and `relative_velocity` v_i - v_j, in m/s; the overlap is 2 p_r less the
+/// distance (section II.A). Two centres at one place have no normal: the force is then no number, which
+/// [`crate::processes::displace`] reports.
 #[helper]
 pub fn particle_force(
     p: &Material,
@@ -51,8 +52,8 @@ pub fn wall_force(
     normal * contact_law(p, overlap, velocity.dot(normal))
 }
 
-/// How deep a particle is in a wall, in m: p_r less its distance from the plane (section II.A). The distance has a sign: behind
-/// the plane the overlap is more than a radius.
+/// How deep a particle is in a wall, in m: p_r less its distance from the plane (section II.A). The distance
+/// has a sign: behind the plane the overlap is more than a radius.
 #[helper]
 pub fn wall_overlap(p: &Material, face: u8, separation: Vector3<Real>) -> Real {
     p.radius - separation.dot(inward_normal(face))

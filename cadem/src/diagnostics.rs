@@ -12,7 +12,8 @@ use xca_core::{Geometry, Item, State, StateError, Vector3};
 
 /// Energies, momentum, contacts and occupancy of a state.
 ///
-/// Computed on the host in `f64`, whatever the precision of the run, and in the order of the slots: the same state gives the same bits.
+/// Computed on the host in `f64`, whatever the precision of the run, and in the order of the slots: the same
+/// state gives the same bits.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Diagnostics {
     /// The number of particles.

@@ -32,14 +32,14 @@ pub struct Material {
 }
 
 impl Material {
-    /// How long two particles are in contact when they collide, in s: pi / w with w^2 = k_n / m_eff - b^2, where m_eff is m / 2
-    /// and b is eta / (2 m_eff). Damping that lets them creep apart counts as none.
+    /// How long two particles are in contact when they collide, in s: pi / w with w^2 = k_n / m_eff - b^2,
+    /// where m_eff is m / 2 and b is eta / (2 m_eff). Damping that lets them creep apart counts as none.
     pub fn contact_duration(&self) -> f64 {
         self.duration(self.mass / 2.0, 1.0)
     }
 
-    /// How long a particle is in contact with a wall of which so many pieces act at once, in s. The wall does not
-    /// move, so m_eff is m, and k_n and eta count once for each piece.
+    /// How long a particle is in contact with a wall of which so many pieces act at once, in s. The wall does
+    /// not move, so m_eff is m, and k_n and eta count once for each piece.
     pub fn wall_contact_duration(&self, pieces: u32) -> f64 {
         self.duration(self.mass, f64::from(pieces))
     }

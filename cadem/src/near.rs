@@ -29,7 +29,8 @@ const FORWARD: [[isize; 3]; 13] = [
 ];
 
 impl<'a> Near<'a> {
-    /// Sorts points of a box from the origin to `sides` into bins at least `least_side` wide. Points outside count to the nearest bin.
+    /// Sorts points of a box from the origin to `sides` into bins at least `least_side` wide. Points outside
+    /// count to the nearest bin.
     pub(crate) fn new(sides: [f64; 3], least_side: f64, points: &'a [[f64; 3]]) -> Self {
         // Where few points stand in a large box, wider bins keep the list small.
         let most_bins = 8.0 * points.len() as f64 + 4096.0;
@@ -73,8 +74,8 @@ impl<'a> Near<'a> {
         &self.order[self.starts[bin] as usize..self.starts[bin + 1] as usize]
     }
 
-    /// Calls `pair` with the indices and the distance of every two points nearer than `reach`, which is at most the side of a bin. The
-    /// order of the calls follows from the points alone.
+    /// Calls `pair` with the indices and the distance of every two points nearer than `reach`, which is at
+    /// most the side of a bin. The order of the calls follows from the points alone.
     pub(crate) fn pairs_within(&self, reach: f64, mut pair: impl FnMut(usize, usize, f64)) {
         let mut compare = |one: u32, other: u32| {
             let ([x, y, z], [u, v, w]) = (self.points[one as usize], self.points[other as usize]);

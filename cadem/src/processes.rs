@@ -8,21 +8,23 @@
 //! | sigma_4 | [`accelerate`] and [`displace`]; which comes first is the integrator; before the latter [`guard_walls`], where walls have openings |
 //! | sigma_5 | [`reassign`] |
 //!
-//! Each particle computes the force on itself, so that a process writes its own slot only. BOUNDARY slots have no force and do
-//! not move.
+//! Each particle computes the force on itself, so that a process writes its own slot only. BOUNDARY slots
+//! have no force and do not move.
 
 use crate::contact::{is_beyond, particle_force, wall_force};
 use crate::material::Material;
 use crate::substates::{BOUNDARY, Dem, PARTICLE};
 use xca_core::prelude::*;
 
-/// The code of the fault that a particle moves further than its radius in one step; the value is its speed, in m/s.
+/// The code of the fault that a particle moves further than its radius in one step; the value is its speed,
+/// in m/s.
 pub const TOO_FAST: u32 = 1;
 
 /// The code of the fault that a velocity is no number.
 pub const NOT_A_NUMBER: u32 = 2;
 
-/// The code of the fault that a particle passes a wall where it has no opening; the value is its speed, in m/s.
+/// The code of the fault that a particle passes a wall where it has no opening; the value is its speed, in
+/// m/s.
 pub const THROUGH_WALL: u32 = 3;
 
 /// sigma_1: the force on a particle becomes its weight.
@@ -64,7 +66,8 @@ pub fn outer_contacts(me: &mut Slot<Dem>, p: &Material) {
     }
 }
 
-/// sigma_3 under the law [`crate::Walls::PerSlot`]: adds the forces of the walls through the BOUNDARY slots of the neighbours.
+/// sigma_3 under the law [`crate::Walls::PerSlot`]: adds the forces of the walls through the BOUNDARY slots
+/// of the neighbours.
 #[elementary_process]
 pub fn outer_walls(me: &mut Slot<Dem>, p: &Material) {
     if me.id != PARTICLE {
@@ -85,8 +88,8 @@ pub fn accelerate(me: &mut Slot<Dem>, p: &Material) {
     }
 }
 
-/// Where walls have openings, so that particles may leave: reports those that [`displace`] would take through a face of the domain that is
-/// closed at their cell ([`THROUGH_WALL`]). It changes nothing.
+/// Where walls have openings, so that particles may leave: reports those that [`displace`] would take through
+/// a face of the domain that is closed at their cell ([`THROUGH_WALL`]). It changes nothing.
 #[elementary_process]
 pub fn guard_walls(me: &mut Slot<Dem>, p: &Material, space: &Space) {
     if me.id != PARTICLE {
@@ -104,9 +107,10 @@ pub fn guard_walls(me: &mut Slot<Dem>, p: &Material, space: &Space) {
 ///
 /// After [`accelerate`] that is semi-implicit Euler, before it the explicit form as printed.
 ///
-/// A particle that would move further than its radius is the fault [`TOO_FAST`]. So two particles come nearer to each other
-/// by at most a diameter d in a step. The straight way between two places outside of a sphere of radius d keeps
-/// sqrt(3) / 2 d from its centre where it is no longer than d: any closer approach is a contact at the end of a step.
+/// A particle that would move further than its radius is the fault [`TOO_FAST`]. So two particles come nearer
+/// to each other by at most a diameter d in a step. The straight way between two places outside of a sphere
+/// of radius d keeps sqrt(3) / 2 d from its centre where it is no longer than d: any closer approach is a
+/// contact at the end of a step.
 ///
 /// A velocity that is NaN is the fault [`NOT_A_NUMBER`].
 #[elementary_process]

@@ -19,7 +19,8 @@ pub const FIRST_BOUNDARY_LABEL: u32 = 0x8000_0000;
 pub struct Dem {
     /// What the slot holds, Q_id: [`PARTICLE`] or [`BOUNDARY`].
     pub id: u8,
-    /// Of a BOUNDARY slot, the number of the domain face that it is a piece of ([`crate::Face::number`]); 0 of a particle.
+    /// Of a BOUNDARY slot, the number of the domain face that it is a piece of ([`crate::Face::number`]); 0
+    /// of a particle.
     pub face: u8,
     /// The centre of the particle, or a point on the plane of the wall, in m (Q_p).
     #[position]

@@ -15,8 +15,8 @@ use xca_core::{Float, Item, Model, ModelBuilder, Neighbourhood, Precision, State
 
 /// Builds the model of a system that starts from these particles.
 ///
-/// The parameters can still be changed by name ([`Model::set_parameter`]); what the initial state needs of them is checked again when a
-/// simulation of the model begins.
+/// The parameters can still be changed by name ([`Model::set_parameter`]); what the initial state needs of
+/// them is checked again when a simulation of the model begins.
 ///
 /// # Errors
 /// Where the system or a particle makes no sense; the message says what to change.

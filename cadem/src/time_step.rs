@@ -10,7 +10,8 @@ use std::fmt;
 pub enum TimeStep {
     /// This part of sqrt(m / k_n). The paper's runs have 0.1 (De Rango et al., section IV, footnote 4).
     Fraction(f64),
-    /// pi sqrt(m / k_n) / N_t, with N_t subdivisions of the time of a contact (eq. 3). The paper says 10 to 50.
+    /// pi sqrt(m / k_n) / N_t, with N_t subdivisions of the time of a contact (eq. 3). The paper says 10
+    /// to 50.
     Subdivisions(f64),
     /// So many seconds.
     Seconds(f64),
@@ -34,7 +35,8 @@ impl Default for TimeStep {
     }
 }
 
-/// How velocity and position advance, given the acceleration a at the start of the step (De Rango et al., eq. 4).
+/// How velocity and position advance, given the acceleration a at the start of the step (De Rango et al., eq.
+/// 4).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Integrator {
@@ -43,8 +45,9 @@ pub enum Integrator {
     SemiImplicit,
     /// The form that the paper prints: v' = v + a dt, x' = x + v dt.
     ///
-    /// It gains energy in every contact unless eta > k_n dt, which is 0.0894 kg/s with the paper's numbers, where eta is 0.0015: two
-    /// particles part 1.24 times as fast as they met, and each bounce on a wall adds 36 % to the energy of a ball.
+    /// It gains energy in every contact unless eta > k_n dt, which is 0.0894 kg/s with the paper's numbers,
+    /// where eta is 0.0015: two particles part 1.24 times as fast as they met, and each bounce on a wall adds
+    /// 36 % to the energy of a ball.
     Explicit,
 }
 

@@ -12,8 +12,9 @@ pub enum Walls {
     /// The wall is the domain face, and acts once: through the BOUNDARY slots of the particle's own cell.
     #[default]
     Single,
-    /// The law of the authors' program. The wall stands one radius inside the domain, and every BOUNDARY slot among the 27 cells of the
-    /// toroidal neighbourhood acts: nine pieces of each wall, so that k_n and eta are ninefold.
+    /// The law of the authors' program. The wall stands one radius inside the domain, and every BOUNDARY slot
+    /// among the 27 cells of the toroidal neighbourhood acts: nine pieces of each wall, so that k_n and eta
+    /// are ninefold.
     PerSlot,
 }
 
@@ -60,8 +61,9 @@ impl fmt::Display for Walls {
     }
 }
 
-/// A hole in a wall: a face, or a rectangle of its cells, without BOUNDARY slots. Particles that pass it leave the domain and are
-/// counted. Under [`Walls::PerSlot`] the pieces of wall around a hole reach one cell into it.
+/// A hole in a wall: a face, or a rectangle of its cells, without BOUNDARY slots. Particles that pass it
+/// leave the domain and are counted. Under [`Walls::PerSlot`] the pieces of wall around a hole reach one cell
+/// into it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Opening {
@@ -84,7 +86,8 @@ impl Opening {
     }
 }
 
-/// A rectangle of the cells of a face, by their indices along the two axes of the face in ascending order (on the floor: x, y).
+/// A rectangle of the cells of a face, by their indices along the two axes of the face in ascending order (on
+/// the floor: x, y).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rectangle {

@@ -33,7 +33,8 @@ impl std::error::Error for LineError {}
 /// Reads particles from a CSV file and checks that a run can start from them.
 ///
 /// # Errors
-/// With the file and the line, where the file cannot be read, is malformed, or holds a particle that does not fit the system.
+/// With the file and the line, where the file cannot be read, is malformed, or holds a particle that does not
+/// fit the system.
 pub fn particles(path: &Path, configuration: &Configuration) -> Result<Vec<Particle>, Failure> {
     let table = particle_csv::read(path, &COLUMNS.map(|name| (name, ColumnType::Number)))?;
     let [x, y, z, vx, vy, vz] = [0, 1, 2, 3, 4, 5].map(|column| &table.columns[column]);
@@ -54,7 +55,8 @@ pub fn particles(path: &Path, configuration: &Configuration) -> Result<Vec<Parti
     Ok(particles)
 }
 
-/// An opening from text: a face, `x-low` to `z-high`, or a rectangle of its cells from a first to a last one, `z-low:8,8:11,11`.
+/// An opening from text: a face, `x-low` to `z-high`, or a rectangle of its cells from a first to a last one,
+/// `z-low:8,8:11,11`.
 ///
 /// # Errors
 /// Where the text is neither.

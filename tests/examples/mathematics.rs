@@ -1,7 +1,7 @@
 //! The largest errors of the functions of `xca_core::math`, as in the table of docs/mathematics.md.
 //!
-//! `-- 100000` compares so many values of each kind with numbers of many digits, `-- sweep 13` every thirteenth number of `f32` with the
-//! platform's functions in `f64`.
+//! `-- 100000` compares so many values of each kind with numbers of many digits, `-- sweep 13` every
+//! thirteenth number of `f32` with the platform's functions in `f64`.
 #![allow(clippy::print_stdout, reason = "printing is what this program does")]
 
 use std::error::Error;

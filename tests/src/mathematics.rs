@@ -187,8 +187,8 @@ pub fn worst(
     Ok(worst)
 }
 
-/// The largest error of a function of one argument in `f32`, over every so many of all numbers, by the platform's function in `f64`. Angles
-/// go to 4096.
+/// The largest error of a function of one argument in `f32`, over every so many of all numbers, by the
+/// platform's function in `f64`. Angles go to 4096.
 ///
 /// # Errors
 /// What the run ends with.

@@ -1,4 +1,5 @@
-//! What the whole-system suites share: the engines that they run on, how runs are compared, and the models that they run.
+//! What the whole-system suites share: the engines that they run on, how runs are compared, and the models
+//! that they run.
 //!
 //! No suite names an engine. A new engine joins all of them by standing in [`engines::all`].
 

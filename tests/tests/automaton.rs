@@ -19,7 +19,8 @@ fn faces(pairs: [usize; 3]) -> Faces<Boundary> {
     Faces { west, east, south, north, bottom, top }
 }
 
-/// Spaces with few cells: thin along one axis, not square, one layer, as small as the neighbourhood allows, and one with many rows.
+/// Spaces with few cells: thin along one axis, not square, one layer, as small as the neighbourhood allows,
+/// and one with many rows.
 fn spaces(shape: Shape) -> &'static [[usize; 3]] {
     match shape {
         Shape::Alone => &[[1, 1, 1], [5, 1, 3]],
@@ -34,8 +35,8 @@ fn spaces(shape: Shape) -> &'static [[usize; 3]] {
     }
 }
 
-/// Whether a model can be built of this: round a torus no cell may be its own neighbour, beyond other faces there is only one more space,
-/// and rows of hexagons alternate.
+/// Whether a model can be built of this: round a torus no cell may be its own neighbour, beyond other faces
+/// there is only one more space, and rows of hexagons alternate.
 fn fits(shape: Shape, extents: [usize; 3], boundaries: Faces<Boundary>) -> bool {
     let alternating = match shape {
         Shape::HexagonsCornerUp => Some(1),
@@ -61,7 +62,8 @@ fn every_cell_finds_what_it_must() -> Result<(), Box<dyn Error>> {
         for (space, &extents) in spaces(shape).iter().enumerate() {
             for combination in 0..125 {
                 let pairs = [combination % 5, combination / 5 % 5, combination / 25];
-                // Axes with two kinds of faces take turns with the spaces; all of them come with each shape or the next ones.
+                // Axes with two kinds of faces take turns with the spaces; all of them come with each shape
+                // or the next ones.
                 if pairs.iter().any(|pair| *pair > 2) && (combination + number + space) % 4 != 0 {
                     continue;
                 }

@@ -1,4 +1,5 @@
-//! The self-checking population, on every engine, with items that rest, cross toroidal faces and leave through flat ones.
+//! The self-checking population, on every engine, with items that rest, cross toroidal faces and leave
+//! through flat ones.
 
 use std::error::Error;
 use xca_core::HostValue;
@@ -7,7 +8,8 @@ use xca_tests::suite::engines::{self, PRECISIONS, assert_same_runs};
 use xca_tests::suite::lattice::{Lattice, Shape, Terrain};
 use xca_tests::suite::traveller::{self, SIDE, Traveller};
 
-/// A neighbourhood, a space, and how the items of two classes move in a step, in quarters of a cell: always within the neighbourhood.
+/// A neighbourhood, a space, and how the items of two classes move in a step, in quarters of a cell: always
+/// within the neighbourhood.
 type Journey = (Shape, [usize; 3], [i32; 3], [i32; 3]);
 
 const JOURNEYS: [Journey; 10] = [
@@ -86,7 +88,8 @@ fn every_item_sees_what_it_must() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Changes one value of one item between the processes of the second step; every engine must report the same item.
+/// Changes one value of one item between the processes of the second step; every engine must report the same
+/// item.
 fn assert_found<V: HostValue>(
     substate: Substate<Traveller, V>,
     before: usize,

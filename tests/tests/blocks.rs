@@ -1,4 +1,5 @@
-//! Arrays in rows that kernels go through in blocks: rows of every length around that of a block, against loops on the host.
+//! Arrays in rows that kernels go through in blocks: rows of every length around that of a block, against
+//! loops on the host.
 
 use std::error::Error;
 use xca_core::prelude::*;

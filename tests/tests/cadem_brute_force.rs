@@ -6,7 +6,8 @@ use cadem::{Case, Configuration, Diagnostics, Integrator, Particle, Walls};
 use cadem_support::{Numbers, TestResult, close, start};
 use xca_tests::brute_force::{self, BruteForce};
 
-/// A box of 1 cm full of particles that fly about, and that fall 30 times as fast as on Earth so that all walls get their share.
+/// A box of 1 cm full of particles that fly about, and that fall 30 times as fast as on Earth so that all
+/// walls get their share.
 fn crowded(walls: Walls, integrator: Integrator) -> (Configuration, Vec<Particle>) {
     let configuration =
         Configuration { cells: [5; 3], gravity: 300.0, walls, integrator, ..Case::Table1.configuration() };

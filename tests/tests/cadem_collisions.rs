@@ -1,6 +1,7 @@
 //! What CADEM makes of a collision: restitution, contact time, overlap, and how they converge.
 //!
-//! All phases of a contact within a time step are tried in one run: many collisions side by side, each in a row of cells of its own.
+//! All phases of a contact within a time step are tried in one run: many collisions side by side, each in a
+//! row of cells of its own.
 
 mod cadem_support;
 
@@ -51,7 +52,8 @@ impl Bench {
         self
     }
 
-    /// The place of each collision in y and z, and the gap that leaves a phase of the first time step for the contact.
+    /// The place of each collision in y and z, and the gap that leaves a phase of the first time step for the
+    /// contact.
     fn collisions(&self) -> Vec<([f64; 2], f64)> {
         let count = self.rows * self.rows;
         let path = SPEED * self.configuration.material().time_step;
@@ -133,7 +135,8 @@ impl Bench {
     }
 }
 
-/// The restitution that the integrator's recurrence alone gives, with the same phases: no cells, no slots, no contact search.
+/// The restitution that the integrator's recurrence alone gives, with the same phases: no cells, no slots, no
+/// contact search.
 fn expected(collision: Option<Collision>, integrator: Integrator, bench: &Bench) -> Spread {
     let integrator = match integrator {
         Integrator::SemiImplicit => brute_force::Integrator::SymplecticEuler,
@@ -218,7 +221,8 @@ fn without_damping_nothing_is_lost_on_the_average() -> TestResult {
     Ok(())
 }
 
-/// The error of the mean restitution falls with the square of the time step, and so does that of the largest overlap.
+/// The error of the mean restitution falls with the square of the time step, and so does that of the largest
+/// overlap.
 #[test]
 fn converges_with_second_order() -> TestResult {
     let exact = of_particles().map(|collision| collision.restitution()).unwrap_or_default();

@@ -15,7 +15,8 @@ fn moving(label: u32, position: [f64; 3], velocity: [f64; 3]) -> Particle {
 #[test]
 fn particles_leave_through_openings_and_are_counted() -> TestResult {
     for walls in Walls::ALL {
-        // Under the law per-slot the pieces around a hole still act on what falls into it, so that this hole is wider.
+        // Under the law per-slot the pieces around a hole still act on what falls into it, so that this hole
+        // is wider.
         let hole = match walls {
             Walls::Single => Rectangle { first: [1, 1], last: [1, 1] },
             Walls::PerSlot => Rectangle { first: [0, 0], last: [2, 2] },

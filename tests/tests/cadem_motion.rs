@@ -11,7 +11,8 @@ fn position(simulation: &mut Simulation) -> Result<[f64; 3], Box<dyn std::error:
     Ok(cadem::particles(&simulation.state())?[0].position)
 }
 
-/// z = z0 - g dt^2 n (n + 1) / 2 with the semi-implicit integrator and n (n - 1) with the explicit one, whatever cells are crossed.
+/// z = z0 - g dt^2 n (n + 1) / 2 with the semi-implicit integrator and n (n - 1) with the explicit one,
+/// whatever cells are crossed.
 #[test]
 fn free_fall_is_that_of_the_integrator() -> TestResult {
     let integrators = [
@@ -31,7 +32,8 @@ fn free_fall_is_that_of_the_integrator() -> TestResult {
     Ok(())
 }
 
-/// A particle whose contact with the floor bears its weight stays there; one that is dropped on a damping floor comes to rest there.
+/// A particle whose contact with the floor bears its weight stays there; one that is dropped on a damping
+/// floor comes to rest there.
 #[test]
 fn a_particle_at_rest_is_as_deep_in_the_floor_as_its_weight_presses() -> TestResult {
     let table1 = Case::Table1.configuration();
@@ -93,7 +95,8 @@ fn momentum_is_kept_without_walls_and_gravity() -> TestResult {
     Ok(())
 }
 
-/// With no damping a collision gives back what it took but for the phase, which has no bias: energy neither grows nor falls.
+/// With no damping a collision gives back what it took but for the phase, which has no bias: energy neither
+/// grows nor falls.
 #[test]
 fn energy_is_kept_without_damping() -> TestResult {
     let configuration = Configuration { damping: 0.0, allow_overlaps: true, ..weightless([6; 3]) };
@@ -107,8 +110,8 @@ fn energy_is_kept_without_damping() -> TestResult {
     Ok(())
 }
 
-/// A particle that swings up and down on the floor, always in contact: its energy stays in the band of the integrator, whose width is w dt,
-/// for ever.
+/// A particle that swings up and down on the floor, always in contact: its energy stays in the band of the
+/// integrator, whose width is w dt, for ever.
 #[test]
 fn energy_of_an_endless_contact_has_no_trend() -> TestResult {
     let configuration = Configuration { cells: [1, 1, 1], damping: 0.0, ..Case::Table1.configuration() };

@@ -108,7 +108,8 @@ fn no_pair_passes_unseen() -> TestResult {
     Ok(())
 }
 
-/// Two that close on each other by twice their size in a step, each at less than the side of a cell in a step.
+/// Two that close on each other by twice their size in a step, each at less than the side of a cell in a
+/// step.
 #[test]
 fn a_pair_at_full_speed_head_on_is_too_fast() -> TestResult {
     let pair = Pair {

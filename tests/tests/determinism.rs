@@ -1,5 +1,6 @@
-//! Determinism as a contract: a run is a function of the model, the precision and the seed, and of nothing else: not of the engine, the
-//! threads, the build, the order in which items are given, or what was run before.
+//! Determinism as a contract: a run is a function of the model, the precision and the seed, and of nothing
+//! else: not of the engine, the threads, the build, the order in which items are given, or what was run
+//! before.
 
 use std::error::Error;
 use xca_core::prelude::*;
@@ -66,8 +67,8 @@ fn checksum(snapshot: &Snapshot) -> u64 {
     sum
 }
 
-/// The same on every machine, in every build, with every number of threads. A change of these numbers is a change of what models
-/// compute: it must be meant, and told to users.
+/// The same on every machine, in every build, with every number of threads. A change of these numbers is a
+/// change of what models compute: it must be meant, and told to users.
 #[test]
 fn the_bits_of_a_run_are_fixed() -> Result<(), Box<dyn Error>> {
     let model = everything().build()?;
@@ -110,7 +111,8 @@ fn the_seed_matters() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A state is a function of its items: however they came to where they are, and in whatever order they are given.
+/// A state is a function of its items: however they came to where they are, and in whatever order they are
+/// given.
 #[test]
 fn history_does_not_matter() -> Result<(), Box<dyn Error>> {
     let model = everything().build()?;
@@ -215,7 +217,8 @@ fn random_numbers_are_as_documented() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A substate that no process writes keeps its bits, whatever runs beside it: also those of a NaN and of a negative zero.
+/// A substate that no process writes keeps its bits, whatever runs beside it: also those of a NaN and of a
+/// negative zero.
 #[test]
 fn what_no_process_writes_keeps_its_bits() -> Result<(), Box<dyn Error>> {
     let recipe = Recipe { processes: vec![0, 2, 6, 20], ..everything() };
@@ -234,7 +237,8 @@ fn what_no_process_writes_keeps_its_bits() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Items on a grid, many of them exactly as far apart as the radius: whether they are near is decided by the last bit of a sum.
+/// Items on a grid, many of them exactly as far apart as the radius: whether they are near is decided by the
+/// last bit of a sum.
 #[test]
 fn near_by_a_rounding() -> Result<(), Box<dyn Error>> {
     let engines = engines::all()?;

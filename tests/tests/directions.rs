@@ -99,7 +99,8 @@ const FEW_FRIENDS: [(&str, &[&str]); 4] = [
 /// The members that name no engine.
 const WITHOUT_ENGINES: [&str; 4] = ["xca-values", "xca-process", "xca-core", "cadem"];
 
-/// What drives threads and devices, and the members that may: engines, and the benchmarks, which measure loops by hand.
+/// What drives threads and devices, and the members that may: engines, and the benchmarks, which measure
+/// loops by hand.
 const DRIVERS: [(&str, &[&str]); 2] = [("rayon", &["xca-cpu", "xca-benchmarks"]), ("wgpu", &["xca-gpu"])];
 
 /// The engines; none may know of another.

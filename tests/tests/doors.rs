@@ -59,8 +59,8 @@ fn step(execution: &mut dyn Execution) -> Result<(), Fault> {
     execution.run(0..1, &StepContext { step: 0, seed: 0, parameters: &[], values: &ParameterSet::default() })
 }
 
-/// Hands something to each engine that it must refuse with this message; afterwards the state is what it was, and
-/// steps go on.
+/// Hands something to each engine that it must refuse with this message; afterwards the state is what it was,
+/// and steps go on.
 fn refused(
     message: &str,
     order: impl Fn(&mut dyn Execution) -> Result<(), Fault>,
@@ -144,8 +144,8 @@ fn populations_that_do_not_agree() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Values come and go in the order in which the cells are named, on every engine; of a cell that is named twice the
-/// last value stays.
+/// Values come and go in the order in which the cells are named, on every engine; of a cell that is named
+/// twice the last value stays.
 #[test]
 fn cells_in_any_order() -> Result<(), Box<dyn Error>> {
     let model = model()?;

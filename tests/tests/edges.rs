@@ -1,5 +1,5 @@
-//! What passes the faces of a space: a lid that moves, an edge where lava leaves and is counted, and vents that
-//! feed it.
+//! What passes the faces of a space: a lid that moves, an edge where lava leaves and is counted, and vents
+//! that feed it.
 
 use std::error::Error;
 use xca_core::prelude::*;
@@ -51,8 +51,8 @@ fn lava(boundaries: Faces<Boundary>) -> Result<Model, ModelError> {
         .build()
 }
 
-/// The initial lava, and what the vents give in a step, follow from the definition: what is there and what has left
-/// must come to that.
+/// The initial lava, and what the vents give in a step, follow from the definition: what is there and what
+/// has left must come to that.
 #[test]
 fn lava_leaves_through_open_edges_and_is_counted() -> TestResult {
     use Boundary::{Flat, Reflecting, Toroidal};
@@ -86,8 +86,8 @@ fn lava_leaves_through_open_edges_and_is_counted() -> TestResult {
     Ok(())
 }
 
-/// Steering of one step runs in the order added, at step 0 after the initial state; every schedule comes when it
-/// must, in leaps too.
+/// Steering of one step runs in the order added, at step 0 after the initial state; every schedule comes when
+/// it must, in leaps too.
 #[test]
 fn schedules_of_sources() -> TestResult {
     let add = |amount: i32| {
@@ -173,8 +173,8 @@ fn drag(cell: &mut Cell<Fluid>) {
     cell.speed += 0.2 * change;
 }
 
-/// Couette flow under a lid that moves, without a row of cells for it: between a wall at rest and the lid the speed
-/// grows in proportion to the distance from the wall's cells, which are those beyond the south face.
+/// Couette flow under a lid that moves, without a row of cells for it: between a wall at rest and the lid the
+/// speed grows in proportion to the distance from the wall's cells, which are those beyond the south face.
 #[test]
 fn a_lid_drags_the_fluid_along() -> TestResult {
     const LID: f64 = 0.1;

@@ -296,7 +296,8 @@ fn a_panic() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The first fault is that of the first process, then of the first cell, then of the first label, whatever ran first.
+/// The first fault is that of the first process, then of the first cell, then of the first label, whatever
+/// ran first.
 #[test]
 fn the_first_fault() -> Result<(), Box<dyn Error>> {
     let process = |builder| -> Result<String, Box<dyn Error>> {

@@ -1,4 +1,5 @@
-//! What the features of the crates bring along: a program without them has no GPU library and no terminal library.
+//! What the features of the crates bring along: a program without them has no GPU library and no terminal
+//! library.
 
 use std::process::Command;
 

@@ -1,4 +1,5 @@
-//! `watch_finite`: a NaN or an infinity stops the run on every engine, with its step, substate, cell and item.
+//! `watch_finite`: a NaN or an infinity stops the run on every engine, with its step, substate, cell and
+//! item.
 
 use std::error::Error;
 use xca_core::prelude::*;

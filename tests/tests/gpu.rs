@@ -1,5 +1,5 @@
-//! What only the GPU engine has: strict and relaxed arithmetic, large substates in parts, several steps in one submission, refusals.
-//! That it agrees with the other engines is tested with them, in the other suites.
+//! What only the GPU engine has: strict and relaxed arithmetic, large substates in parts, several steps in
+//! one submission, refusals. That it agrees with the other engines is tested with them, in the other suites.
 
 use cadem::{Case, Configuration};
 use std::error::Error;
@@ -109,7 +109,8 @@ fn an_automaton_in_parts_finds_what_it_must() -> TestResult {
     Ok(())
 }
 
-/// The first fault in the order of cells, in its own step, though many steps are submitted together and the space is cut.
+/// The first fault in the order of cells, in its own step, though many steps are submitted together and the
+/// space is cut.
 #[test]
 fn a_fault_names_its_step_and_cell() -> TestResult {
     // Heat comes one cell further in each step, and the first that does not bear it is cell 31.
@@ -159,7 +160,8 @@ fn arrive(me: &Slot<Pilgrim>, space: &Space) -> Destination {
     space.cell_containing(me.position)
 }
 
-/// All walk to the last cell, which is full one day: the fault tells how many it would hold, though later steps were submitted with it.
+/// All walk to the last cell, which is full one day: the fault tells how many it would hold, though later
+/// steps were submitted with it.
 #[test]
 fn a_full_cell_is_told_as_it_was() -> TestResult {
     let pilgrims = (0..12_u32).map(|label| {
@@ -192,8 +194,9 @@ fn cells(snapshot: &Snapshot, precision: Precision) -> Vec<f64> {
     }
 }
 
-/// Relaxed arithmetic may contract and reorder. Of the stencil's seven terms each step then rounds a few times otherwise, and diffusion
-/// does not amplify that: after 50 steps temperatures near 50 agree to some hundred units in the last place.
+/// Relaxed arithmetic may contract and reorder. Of the stencil's seven terms each step then rounds a few
+/// times otherwise, and diffusion does not amplify that: after 50 steps temperatures near 50 agree to some
+/// hundred units in the last place.
 #[test]
 fn relaxed_heat_agrees_to_rounding() -> TestResult {
     let (gpu, model) = (relaxed()?, heat([20, 15, 12], Boundary::Toroidal, 1e9)?);
@@ -214,7 +217,8 @@ fn relaxed_heat_agrees_to_rounding() -> TestResult {
     Ok(())
 }
 
-/// In free fall nothing amplifies rounding: before the first contact particles agree to some units in the last place.
+/// In free fall nothing amplifies rounding: before the first contact particles agree to some units in the
+/// last place.
 #[test]
 fn relaxed_particles_agree_to_rounding() -> TestResult {
     let configuration = Case::Illustration.configuration();

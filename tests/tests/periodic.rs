@@ -22,7 +22,8 @@ fn bring_in(cell: &mut Cell<Place>, space: &Space) {
     cell.shorter = space.nearest_image(cell.given);
 }
 
-/// Coordinates along an axis of this length, in either precision: in, out, and as near to the faces as numbers can be.
+/// Coordinates along an axis of this length, in either precision: in, out, and as near to the faces as
+/// numbers can be.
 fn coordinates(length: f64, precision: Precision) -> Vec<f64> {
     let next = |value: f64, up: bool| match (precision, up) {
         (Precision::F64, true) => value.next_up(),

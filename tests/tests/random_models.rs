@@ -1,7 +1,8 @@
-//! Random models: whatever chance puts together runs on every engine with the same bits, or stops with the same fault.
+//! Random models: whatever chance puts together runs on every engine with the same bits, or stops with the
+//! same fault.
 //!
-//! The cases are the same in every run, so that a failure can be found again. `PROPTEST_RNG_SEED` chooses others, `PROPTEST_CASES` more
-//! of them.
+//! The cases are the same in every run, so that a failure can be found again. `PROPTEST_RNG_SEED` chooses
+//! others, `PROPTEST_CASES` more of them.
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};

@@ -7,7 +7,8 @@ use xca_core::{HostValue, StateError};
 use xca_tests::suite::engines::{self, PRECISIONS};
 use xca_tests::suite::lattice::mix;
 
-/// Each type of substate. Floating numbers are multiples of a small power of two, so that their exact sum can be computed.
+/// Each type of substate. Floating numbers are multiples of a small power of two, so that their exact sum can
+/// be computed.
 #[derive(Substates, Clone, Copy, Debug, PartialEq)]
 struct Ledger {
     byte: u8,

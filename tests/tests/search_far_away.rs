@@ -1,4 +1,5 @@
-//! Searches across the seam of a torus that is so long that `f32` rounds positions there by a visible part of a cell.
+//! Searches across the seam of a torus that is so long that `f32` rounds positions there by a visible part of
+//! a cell.
 
 use std::error::Error;
 use xca_core::prelude::*;
@@ -29,10 +30,12 @@ fn look(me: &mut Slot<Speck>, p: &Sight) {
 
 const CELLS: usize = 1 << 16;
 
-/// In sides of a cell: on the grid of the numbers there, and just beyond it, so that rounding shortens a distance to less.
+/// In sides of a cell: on the grid of the numbers there, and just beyond it, so that rounding shortens a
+/// distance to less.
 const RADII: [f64; 2] = [0.5, 0.5002];
 
-/// Items on both sides of the seam: in the first cell close together around the radius, in the last one as dense as `f32` can tell.
+/// Items on both sides of the seam: in the first cell close together around the radius, in the last one as
+/// dense as `f32` can tell.
 fn items(side: f64) -> Vec<(usize, f32)> {
     let length = CELLS as f64 * side;
     let first = (0..80).map(|number| (0, (side * (0.48 + 0.0005 * f64::from(number))) as f32));
@@ -47,7 +50,8 @@ fn items(side: f64) -> Vec<(usize, f32)> {
     first.chain(last).collect()
 }
 
-/// For each item, in the order of cells and labels, what it finds: all pairs are compared by the definition of a search.
+/// For each item, in the order of cells and labels, what it finds: all pairs are compared by the definition
+/// of a search.
 fn all_pairs(side: f64, radius: f64) -> Vec<(u32, u32)> {
     let items = items(side);
     let period = CELLS as f32 * side as f32;

@@ -1,5 +1,5 @@
-//! A run goes on from a snapshot as if it had never been taken apart: on any engine, with all that a state is made of. What does not fit
-//! is refused, and changes nothing.
+//! A run goes on from a snapshot as if it had never been taken apart: on any engine, with all that a state is
+//! made of. What does not fit is refused, and changes nothing.
 
 use std::error::Error;
 use xca_core::prelude::*;

@@ -101,7 +101,8 @@ pub struct SubstateShape {
 }
 
 impl Description {
-    /// That of a run at a snapshot. `missing` is the mask of the cells without ground, `time` in s where the model knows it.
+    /// That of a run at a snapshot. `missing` is the mask of the cells without ground, `time` in s where the
+    /// model knows it.
     pub fn new(
         run: Origin,
         model: &Model,
@@ -137,8 +138,8 @@ impl Description {
         self.extents()?.into_iter().try_fold(1, usize::checked_mul)
     }
 
-    /// Whether a run can have come to this, with so many bytes of data: the whole has a checksum, but anyone can
-    /// forge that.
+    /// Whether a run can have come to this, with so many bytes of data: the whole has a checksum, but anyone
+    /// can forge that.
     pub(super) fn makes_sense(&self, data: u64) -> bool {
         let components = self.parameters.iter().flat_map(|parameter| &parameter.components);
         let mut substates = self.groups.iter().flat_map(|group| &group.substates);

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A number that JSON gives back to the last bit: one that is not finite, for which JSON has no word, as its bits in hexadecimal.
+/// A number that JSON gives back to the last bit: one that is not finite, for which JSON has no word, as its
+/// bits in hexadecimal.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 #[serde(into = "Spelt", try_from = "Spelt")]
 pub struct Exact(pub f64);

@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use xca_core::{Engine, Field, Model, ParameterSet, Precision, Process, RunOptions};
 
-/// The run that a checkpoint belongs to: the same in all checkpoints of a run, whatever engine it was resumed on.
+/// The run that a checkpoint belongs to: the same in all checkpoints of a run, whatever engine it was resumed
+/// on.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Origin {
     /// The version of the framework.
@@ -130,8 +131,8 @@ pub fn other_program(found: [&str; 3], wanted: [&str; 3]) -> Option<Difference> 
     first_difference([property("program", 1), framework, property("version of the program", 2)])
 }
 
-/// How two models, as `run.json` tells their shapes, are not the same. The number of slots of a cell may be another: the states
-/// of a run do not depend on it.
+/// How two models, as `run.json` tells their shapes, are not the same. The number of slots of a cell may be
+/// another: the states of a run do not depend on it.
 pub fn other_model(found: &Value, wanted: &Value) -> Option<Difference> {
     first_difference(of_models(&without_slots(found), &without_slots(wanted)))
 }
@@ -166,8 +167,9 @@ fn other_inputs(found: &[InputFile], wanted: &[InputFile]) -> Option<Difference>
     first_difference(numbers.into_iter().chain(files))
 }
 
-/// The CRC-32 of the steps in which the processes are run, and of all processes with the helpers that they call, as shaders; of those that
-/// cannot be written as shaders, of the bodies alone, in which helpers are told by their addresses, and these are left out.
+/// The CRC-32 of the steps in which the processes are run, and of all processes with the helpers that they
+/// call, as shaders; of those that cannot be written as shaders, of the bodies alone, in which helpers are
+/// told by their addresses, and these are left out.
 fn of_processes(model: &Model) -> u32 {
     let mut sum = crc32fast::Hasher::new();
     for process in model.processes() {
@@ -265,7 +267,8 @@ impl Origin {
         other_program(self.identity(), identity)
     }
 
-    /// How this run is not the one that the program would do with its command line. The number of steps may be another.
+    /// How this run is not the one that the program would do with its command line. The number of steps may
+    /// be another.
     pub fn mismatch(&self, own: &Self) -> Option<Difference> {
         let text = |number: u64| number.to_string();
         first_difference([

@@ -9,8 +9,9 @@ use std::fmt;
 pub enum Outputs {
     /// Every so many steps, at least 1.
     Every(u64),
-    /// Ever further apart: after each of the first 8 steps, then four times until the number of steps has doubled. For runs
-    /// of which no one knows how long they are: a thousand steps have 36 states, a million 76.
+    /// Ever further apart: after each of the first 8 steps, then four times until the number of steps has
+    /// doubled. For runs of which no one knows how long they are: a thousand steps have 36 states, a
+    /// million 76.
     Growing,
 }
 

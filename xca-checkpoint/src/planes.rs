@@ -38,8 +38,8 @@ fn turned(mut bytes: Vec<u8>, size: usize) -> Vec<u8> {
     bytes
 }
 
-/// The planes of a snapshot in the order of the file: of each group the substates, of a population before them how many items each cell has,
-/// and the labels.
+/// The planes of a snapshot in the order of the file: of each group the substates, of a population before
+/// them how many items each cell has, and the labels.
 pub(super) fn of<'a>(description: &Description, snapshot: &'a Snapshot) -> Vec<Plane<'a>> {
     let mut planes = Vec::new();
     for (shape, state) in description.groups.iter().zip(&snapshot.groups) {

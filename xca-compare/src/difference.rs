@@ -327,8 +327,8 @@ impl Differences {
         self.verdict(0.0) == Verdict::Identical
     }
 
-    /// What is to be thought of the second state, where floating numbers may differ by so much in relation to the largest value of their
-    /// substate.
+    /// What is to be thought of the second state, where floating numbers may differ by so much in relation to
+    /// the largest value of their substate.
     pub fn verdict(&self, tolerance: f64) -> Verdict {
         if !self.remarks.is_empty() {
             return Verdict::Different;
@@ -340,7 +340,8 @@ impl Differences {
             .substates
             .iter()
             .any(|difference| difference.kind == Kind::Cell && !difference.is_identical());
-        // An item near a side of its cell may be on either of the two where it was rounded; but not where nothing was.
+        // An item near a side of its cell may be on either of the two where it was rounded; but not where
+        // nothing was.
         if cells_differ && of_values == Verdict::Identical { Verdict::Different } else { of_values }
     }
 

@@ -1,7 +1,7 @@
 //! One model on several engines: what each takes, and whether they agree.
 //!
-//! The engines run beside the first one, with a check every so many steps (`lockstep`); then each is timed (`timing`). What comes of it
-//! is a [`ComparisonReport`].
+//! The engines run beside the first one, with a check every so many steps (`lockstep`); then each is timed
+//! (`timing`). What comes of it is a [`ComparisonReport`].
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
@@ -187,8 +187,8 @@ impl Comparison {
     /// ([`Self::work`]) are done.
     ///
     /// # Errors
-    /// Where an engine cannot run the model, the first engine fails, or the monitor ends it. An engine beside the
-    /// first that fails is part of the report.
+    /// Where an engine cannot run the model, the first engine fails, or the monitor ends it. An engine beside
+    /// the first that fails is part of the report.
     pub fn run(&self, monitor: &mut dyn Monitor) -> Result<ComparisonReport, CompareError> {
         let model = self.recorder.model();
         let plan = self.plan();

@@ -74,8 +74,8 @@ fn look(
     Ok(())
 }
 
-/// The first step after which two engines differ that are alike in one state and were seen to differ in a later step; nothing if they do not
-/// differ when they are run again.
+/// The first step after which two engines differ that are alike in one state and were seen to differ in a
+/// later step; nothing if they do not differ when they are run again.
 fn bisect(
     model: &Model,
     pair: [&mut Lane<'_>; 2],

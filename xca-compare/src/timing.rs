@@ -9,8 +9,8 @@ use std::time::Instant;
 /// In how many pieces a run is timed, so that it can be interrupted between them.
 const PIECES: u64 = 16;
 
-/// Runs all engines from the start so many times. They take turns, each repeat beginning with the next one, so that what disturbs the
-/// machine for a while disturbs them all.
+/// Runs all engines from the start so many times. They take turns, each repeat beginning with the next one,
+/// so that what disturbs the machine for a while disturbs them all.
 pub(super) fn run(
     lanes: &mut [Lane<'_>],
     steps: u64,

@@ -28,7 +28,8 @@ pub trait Engine: fmt::Debug + Send + Sync {
     /// How many threads it uses.
     fn threads(&self) -> usize;
 
-    /// What a report says of the engine beside its name and its threads, its device for example: what it is, and which.
+    /// What a report says of the engine beside its name and its threads, its device for example: what it is,
+    /// and which.
     fn facts(&self) -> Vec<(&'static str, String)> {
         Vec::new()
     }
@@ -38,8 +39,9 @@ pub trait Engine: fmt::Debug + Send + Sync {
         None
     }
 
-    /// The bytes that a model takes at least when it is started, so that a program can compare them with the memory there is before it asks
-    /// for them. Items count where room for them is made in advance; an engine that does not know says 0.
+    /// The bytes that a model takes at least when it is started, so that a program can compare them with the
+    /// memory there is before it asks for them. Items count where room for them is made in advance; an engine
+    /// that does not know says 0.
     fn least_memory(&self, _model: &Model, _precision: Precision) -> u128 {
         0
     }
@@ -72,7 +74,8 @@ pub trait Engine: fmt::Debug + Send + Sync {
     }
 }
 
-/// The way from a part of a space to the others. What is sent arrives, in order; what it means is between the engines.
+/// The way from a part of a space to the others. What is sent arrives, in order; what it means is between the
+/// engines.
 pub trait Border: Send {
     /// Sends bytes to the part beyond this face of the own part. It does not wait until they arrive.
     ///
@@ -146,7 +149,8 @@ pub enum StartError {
 
 /// Threads that wait for work.
 ///
-/// A run of many steps moves to one of them as a whole; else each step would have to wake them and to wait for them to fall asleep.
+/// A run of many steps moves to one of them as a whole; else each step would have to wake them and to wait
+/// for them to fall asleep.
 pub trait Workers: Send + Sync {
     /// Does the work on one of the threads, and waits for it.
     fn run(&self, work: &mut (dyn FnMut() + Send));
@@ -203,13 +207,14 @@ pub struct Figure {
     pub value: f64,
 }
 
-/// The state of a model on an engine. Values pass as stored bytes: of cells in the order of linear indices, of items cell after cell
-/// and by label.
+/// The state of a model on an engine. Values pass as stored bytes: of cells in the order of linear indices,
+/// of items cell after cell and by label.
 ///
-/// Nothing may carry over from step to step but what these methods give and take: a run goes on from a snapshot made of them, on this engine
-/// or another, as if it had never been interrupted.
+/// Nothing may carry over from step to step but what these methods give and take: a run goes on from a
+/// snapshot made of them, on this engine or another, as if it had never been interrupted.
 pub trait Execution: Send {
-    /// Runs those of these processes that are due in the step ([`crate::Process::is_due`]), by their numbers in the model, in order.
+    /// Runs those of these processes that are due in the step ([`crate::Process::is_due`]), by their numbers
+    /// in the model, in order.
     ///
     /// # Errors
     /// The first fault, by process, then cell, then label. The state is then that of an unfinished step.
@@ -225,7 +230,8 @@ pub trait Execution: Send {
     /// All values of a substate.
     ///
     /// # Errors
-    /// Where [`check_substate`] refuses it, or the engine cannot reach its state any more; so with all that follows.
+    /// Where [`check_substate`] refuses it, or the engine cannot reach its state any more; so with all that
+    /// follows.
     fn read(&self, substate: SubstateId) -> Result<Vec<u8>, EngineFailure>;
 
     /// Replaces all values of a substate; as many bytes as [`Self::read`] gives.
@@ -234,14 +240,15 @@ pub trait Execution: Send {
     /// Where [`check_values`] refuses them, and as [`Self::read`].
     fn write(&mut self, substate: SubstateId, values: &[u8]) -> Result<(), EngineFailure>;
 
-    /// The values of a substate in these cells, given by their linear indices in any order, one value after the other.
+    /// The values of a substate in these cells, given by their linear indices in any order, one value after
+    /// the other.
     ///
     /// # Errors
     /// Where [`check_cells`] refuses them, and as [`Self::read`].
     fn read_cells(&self, substate: SubstateId, cells: &[usize]) -> Result<Vec<u8>, EngineFailure>;
 
-    /// Replaces the values of a substate in these cells, given by their linear indices in any order. Of a cell that is given twice the last
-    /// value stays.
+    /// Replaces the values of a substate in these cells, given by their linear indices in any order. Of a
+    /// cell that is given twice the last value stays.
     ///
     /// # Errors
     /// Where [`check_values_of_cells`] refuses them, and as [`Self::read`]. Nothing is written then.
@@ -293,7 +300,8 @@ pub trait Execution: Send {
     /// The bytes that the state takes.
     fn memory(&self) -> usize;
 
-    /// What there is to tell of how the state is computed, for reports. None of it is a result: engines, threads and machines differ in it.
+    /// What there is to tell of how the state is computed, for reports. None of it is a result: engines,
+    /// threads and machines differ in it.
     fn figures(&self) -> Vec<Figure> {
         Vec::new()
     }

@@ -1,9 +1,10 @@
 //! Extended Cellular Automata: write a model once, run it on every engine.
 //!
-//! An Extended Cellular Automaton is a space of cells, each with a state that is made of named *substates*; *parameters* that all cells
-//! share; a *neighbourhood*; *elementary processes* that change the state of all cells at once, one after the other; and *steering*, global
-//! operations between steps (Di Gregorio and Serra, *Future Generation Computer Systems* 16, 1999). Cells can have *slots* that hold
-//! items, particles for example; all items of a kind are a *population*.
+//! An Extended Cellular Automaton is a space of cells, each with a state that is made of named *substates*;
+//! *parameters* that all cells share; a *neighbourhood*; *elementary processes* that change the state of all
+//! cells at once, one after the other; and *steering*, global operations between steps (Di Gregorio and
+//! Serra, *Future Generation Computer Systems* 16, 1999). Cells can have *slots* that hold items, particles
+//! for example; all items of a kind are a *population*.
 //!
 //! # A model
 //! A fire that spreads through a forest:
@@ -78,13 +79,14 @@
 //! | run | [`Simulation`], [`Reference`], and the crate `xca-cpu` |
 //!
 //! # A step
-//! Processes run in the order in which they were added; each sees the state that the previous one left. A process writes its own cell
-//! only: neighbours show the state from before this process, the own cell what the process has written already. So the result
-//! does not depend on the order of cells, and every engine gives the same bits at any number of threads.
+//! Processes run in the order in which they were added; each sees the state that the previous one left. A
+//! process writes its own cell only: neighbours show the state from before this process, the own cell what
+//! the process has written already. So the result does not depend on the order of cells, and every engine
+//! gives the same bits at any number of threads.
 //!
 //! # For engines and generated code
-//! The modules [`engine`], [`ir`], [`kernel`], [`plan`] and [`storage`] are not part of the interface for models.
-//! They change with the engines and the macros, in any version.
+//! The modules [`engine`], [`ir`], [`kernel`], [`plan`] and [`storage`] are not part of the interface for
+//! models. They change with the engines and the macros, in any version.
 
 // The macros name this crate by its outer name, also in its own tests and documentation.
 extern crate self as xca_core;

@@ -25,7 +25,8 @@ use xca_process::{ParameterError, Parameters};
 use xca_values::{Field, Schema};
 use xca_values::{Precision, ScalarType, StoredType};
 
-/// An Extended Cellular Automaton in three dimensions (or two: one layer of cells), built by [`Model::builder`] and checked when it is built.
+/// An Extended Cellular Automaton in three dimensions (or two: one layer of cells), built by
+/// [`Model::builder`] and checked when it is built.
 #[derive(Clone, Debug)]
 pub struct Model {
     name: String,
@@ -218,8 +219,8 @@ impl Model {
         }
     }
 
-    /// Sets how many slots a cell has for the items of a population, by the name of its substates, before it is run. A run does
-    /// not depend on it, as long as no cell is full.
+    /// Sets how many slots a cell has for the items of a population, by the name of its substates, before it
+    /// is run. A run does not depend on it, as long as no cell is full.
     ///
     /// # Errors
     /// Where no population has the name, or no slot is left.
@@ -241,7 +242,8 @@ impl Model {
     /// Sets a parameter of the model by name, before it is run. What the initial state makes of it follows.
     ///
     /// # Errors
-    /// Where no parameter has the name or several have, it is computed, or the text is no value of its type or its range.
+    /// Where no parameter has the name or several have, it is computed, or the text is no value of its type
+    /// or its range.
     pub fn set_parameter(&mut self, name: &str, text: &str) -> Result<(), ParameterError> {
         self.parameters.change(Precision::F64, |parameters| parameters.set_by_name(name, text))
     }

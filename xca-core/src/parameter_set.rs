@@ -9,7 +9,8 @@ use xca_values::{Field, Schema};
 
 /// All parameters of a model, numbered through all structs in their order.
 ///
-/// A parameter is named by its field (`rate`), or by struct and field (`Flow.rate`) where several structs have one of that name.
+/// A parameter is named by its field (`rate`), or by struct and field (`Flow.rate`) where several structs
+/// have one of that name.
 #[derive(Clone, Default)]
 pub struct ParameterSet {
     structs: Vec<Box<dyn AnyParameters>>,
@@ -46,7 +47,8 @@ impl ParameterSet {
         }));
     }
 
-    /// Changes parameters, computes those that follow, and checks that all are in their ranges, as a run of this precision has them.
+    /// Changes parameters, computes those that follow, and checks that all are in their ranges, as a run of
+    /// this precision has them.
     ///
     /// # Errors
     /// Of the change, or where a parameter is out of its range. The parameters are then what they were.
@@ -216,7 +218,8 @@ impl ParameterSet {
     /// The value of the parameter with this name.
     ///
     /// # Errors
-    /// [`ParameterError::Unknown`] where no parameter has the name, [`ParameterError::Ambiguous`] where several have.
+    /// [`ParameterError::Unknown`] where no parameter has the name, [`ParameterError::Ambiguous`] where
+    /// several have.
     pub fn value_by_name(&self, name: &str) -> Result<ParameterValue, ParameterError> {
         let Place { struct_, field } = self.find_place(name)?;
         Ok(self.structs[struct_].value_of(field))

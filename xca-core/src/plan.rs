@@ -1,5 +1,6 @@
-//! What follows from a model's processes, worked out once for all engines: which substates a process reads elsewhere or writes, which population
-//! it goes through, which parameters it takes. This module is for engines; models do not need it.
+//! What follows from a model's processes, worked out once for all engines: which substates a process reads
+//! elsewhere or writes, which population it goes through, which parameters it takes. This module is for
+//! engines; models do not need it.
 //!
 //! The reference engine asks the processes themselves, on purpose: it is to find what is wrong here.
 

@@ -137,7 +137,8 @@ fn reduce_floats(reduction: &Reduction, scalar: StoredScalar, values: &[u8]) -> 
     Some(extreme.map_or(Reduced::Nothing, Reduced::Float))
 }
 
-/// Adds up numbers of one lane, in order. What is done is known to the compiler, so that no choice is left in the loop.
+/// Adds up numbers of one lane, in order. What is done is known to the compiler, so that no choice is left in
+/// the loop.
 #[inline(always)]
 fn sum(scalar: StoredScalar, values: &[u8]) -> Reduced {
     let lanes = values.chunks_exact(scalar.size()).map(|lane| number(scalar, lane));
@@ -166,8 +167,8 @@ impl ReducedRows {
     }
 }
 
-/// Whether all numbers are finite, which they nearly always are: a loop over bits, for vector instructions. The exponent has all its bits in
-/// NaN and infinities alone.
+/// Whether all numbers are finite, which they nearly always are: a loop over bits, for vector instructions.
+/// The exponent has all its bits in NaN and infinities alone.
 fn are_finite(scalar: StoredScalar, values: &[u8]) -> bool {
     const SINGLE: u32 = f32::INFINITY.to_bits();
     const DOUBLE: u64 = f64::INFINITY.to_bits();
@@ -219,10 +220,12 @@ fn number(scalar: StoredScalar, bytes: &[u8]) -> Reduced {
     note = "count the cells or items in a state: `state.count(substate, value)`"
 )]
 pub trait Reducible: HostValue {
-    /// The type of a sum: `i64` for integers and `bool`, `f64` for floating numbers, or a vector or an array of these.
+    /// The type of a sum: `i64` for integers and `bool`, `f64` for floating numbers, or a vector or an array
+    /// of these.
     type Sum;
 
-    /// The sum or product from the results of the components; where there was no value, in each what it is of nothing: 0 or 1.
+    /// The sum or product from the results of the components; where there was no value, in each what it is of
+    /// nothing: 0 or 1.
     fn total(results: &[Reduced], of_nothing: u8) -> Self::Sum;
 
     /// A component as what it adds to a sum.
@@ -262,7 +265,8 @@ macro_rules! reducible {
 
 reducible!(u8 => Integer(i64), i32 => Integer(i64), u32 => Integer(i64), f32 => Float(f64), f64 => Float(f64));
 
-/// The sum is how many are `true`, the product whether all are, the minimum and the maximum are "and" and "or".
+/// The sum is how many are `true`, the product whether all are, the minimum and the maximum are "and" and
+/// "or".
 impl Reducible for bool {
     type Sum = i64;
 

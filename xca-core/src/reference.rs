@@ -1,8 +1,9 @@
 //! The reference engine: serial, plain, dense slots.
 //!
-//! It is the oracle for all other engines and the baseline of every speed-up. Each process is a pass of its own over all cells; for each cell
-//! the neighbourhood is gathered by the boundary rules, one neighbour after the other; every cell holds all its slots, as in De Rango et al.,
-//! section III. Nothing is clever here, and nothing is shared with the other engines but the processes.
+//! It is the oracle for all other engines and the baseline of every speed-up. Each process is a pass of its
+//! own over all cells; for each cell the neighbourhood is gathered by the boundary rules, one neighbour after
+//! the other; every cell holds all its slots, as in De Rango et al., section III. Nothing is clever here, and
+//! nothing is shared with the other engines but the processes.
 
 mod execution;
 mod migration;
@@ -108,7 +109,8 @@ struct ReferenceExecution {
     groups: Vec<GroupState>,
 }
 
-/// The substates of one struct: of cells with one place each, or of items with as many places a cell as it has slots.
+/// The substates of one struct: of cells with one place each, or of items with as many places a cell as it
+/// has slots.
 struct GroupState {
     types: Vec<StoredType>,
     /// The places of a cell: 1 for cells.

@@ -93,7 +93,8 @@ pub enum RunError {
 pub struct Simulation {
     model: Model,
     execution: Box<dyn Execution>,
-    /// How many items of each population had left, beyond those that the engine has counted, when a snapshot was restored.
+    /// How many items of each population had left, beyond those that the engine has counted, when a snapshot
+    /// was restored.
     left_before: Vec<u64>,
     parameters: ParameterSet,
     options: RunOptions,
@@ -157,7 +158,8 @@ impl Simulation {
         self.execution.memory()
     }
 
-    /// What the engine tells of how it computes the state. None of it is a result: engines, threads and machines differ in it.
+    /// What the engine tells of how it computes the state. None of it is a result: engines, threads and
+    /// machines differ in it.
     pub fn figures(&self) -> Vec<Figure> {
         self.execution.figures()
     }
@@ -268,7 +270,8 @@ impl Simulation {
     /// Does one step: all processes in order, then the checks and the steering that are due.
     ///
     /// # Errors
-    /// A fault of a process, a substate that is not finite where the model watches it, or an error of a steering operation.
+    /// A fault of a process, a substate that is not finite where the model watches it, or an error of a
+    /// steering operation.
     pub fn step(&mut self) -> Result<(), RunError> {
         self.leap(1)
     }
@@ -306,8 +309,8 @@ impl Simulation {
         self.watch(|schedule| *schedule == Schedule::End)
     }
 
-    /// Runs one process alone, by its number in the model, for debugging; nothing happens where it is not due in the step that is under
-    /// way, to which it belongs: steps are not counted.
+    /// Runs one process alone, by its number in the model, for debugging; nothing happens where it is not due
+    /// in the step that is under way, to which it belongs: steps are not counted.
     ///
     /// # Errors
     /// A fault of the process, or a number that no process has.

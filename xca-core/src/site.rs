@@ -60,8 +60,8 @@ impl Site {
     }
 
     /// A random number in [0, 1): a function of the seed, the struct of substates, the cell and `draw`, the
-    /// same on every engine. It is independent of what processes draw. It has 53 bits in every run; an `f32` run
-    /// rounds what is made of it.
+    /// same on every engine. It is independent of what processes draw. It has 53 bits in every run; an `f32`
+    /// run rounds what is made of it.
     ///
     /// The function [`crate::State::fill`] draws other numbers at other steps.
     pub fn random(&self, draw: usize) -> f64 {

@@ -232,7 +232,8 @@ impl State<'_> {
     /// Replaces the items of a population, given in any order.
     ///
     /// # Errors
-    /// Where the model does not have the population, two items have one label, a cell lies outside the space or has too few slots.
+    /// Where the model does not have the population, two items have one label, a cell lies outside the space
+    /// or has too few slots.
     pub fn set_items<S: Substates>(&mut self, mut items: Vec<Item<S>>) -> Result<(), StateError> {
         let group = self.population_of::<S>()?;
         let mut labels: Vec<u32> = items.iter().map(|item| item.label).collect();
@@ -396,7 +397,8 @@ impl State<'_> {
     /// Sets a parameter by name, from the next step on.
     ///
     /// # Errors
-    /// Where no parameter has the name or several have, it is computed, or the text is no value of its type or its range.
+    /// Where no parameter has the name or several have, it is computed, or the text is no value of its type
+    /// or its range.
     pub fn set_parameter(&mut self, name: &str, text: &str) -> Result<(), StateError> {
         Ok(self.parameters.change(self.precision, |parameters| parameters.set_by_name(name, text))?)
     }

@@ -1,4 +1,5 @@
-//! Kernels that take memory for what it is not, written by hand without unsafe code: each ends with a fault of its process.
+//! Kernels that take memory for what it is not, written by hand without unsafe code: each ends with a fault
+//! of its process.
 
 use std::any::TypeId;
 use xca_core::ElementaryProcess;

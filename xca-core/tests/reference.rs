@@ -95,7 +95,8 @@ fn items_see_each_other_in_order_and_move() -> Result<(), Box<dyn std::error::Er
     let items = simulation.state().items::<Walker>()?;
     let seen: Vec<(u32, usize, u32)> =
         items.iter().map(|item| (item.label, item.cell[0], item.state.seen)).collect();
-    // 4 and 5 are 0.375 apart, 4 and 3 0.625, 5 and 3 0.25, 3 and 1 0.5; 5 and 1 exactly 0.75, which is not within.
+    // 4 and 5 are 0.375 apart, 4 and 3 0.625, 5 and 3 0.25, 3 and 1 0.5; 5 and 1 exactly 0.75, which is not
+    // within.
     assert_eq!(seen, [(3, 1, 541), (4, 1, 35), (5, 1, 34), (1, 2, 3)]);
     assert_eq!(simulation.state().count_left::<Walker>()?, 1);
     Ok(())

@@ -1,11 +1,13 @@
 //! Which cells are worked on: a process need not run where nothing has changed that its result follows from.
 //!
-//! A row is cut into tiles. For each process a tile is due if, since the process last ran there, something has changed that it reads there or
-//! within reach, or something that it writes. Elsewhere its result is what stands there already. A process that has asked for a random number or
-//! for the number of the step stays due in the tile. Values count as changed where their bits have.
+//! A row is cut into tiles. For each process a tile is due if, since the process last ran there, something
+//! has changed that it reads there or within reach, or something that it writes. Elsewhere its result is what
+//! stands there already. A process that has asked for a random number or for the number of the step stays due
+//! in the tile. Values count as changed where their bits have.
 //!
-//! A substate that goes to a second buffer has the same values in both, in each tile in which the processes that read it elsewhere are not
-//! due: where one of them has changed it, it is due itself. So buffers can be swapped though a tile was left out.
+//! A substate that goes to a second buffer has the same values in both, in each tile in which the processes
+//! that read it elsewhere are not due: where one of them has changed it, it is due itself. So buffers can be
+//! swapped though a tile was left out.
 
 use crate::choices::LeaveOut;
 use crate::layout::Layout;
@@ -232,7 +234,8 @@ impl Activity {
         cells * processes.iter().filter(is_over_cells).count() as u64
     }
 
-    /// For a pass the rows in which something is due, each with the number of tiles; nothing where a process needs all rows.
+    /// For a pass the rows in which something is due, each with the number of tiles; nothing where a process
+    /// needs all rows.
     pub(crate) fn rows(&self, processes: &[usize]) -> Option<Vec<DueRow>> {
         if processes.iter().any(|process| self.processes[*process].scope != Scope::Due) {
             return None;
@@ -261,8 +264,8 @@ impl Activity {
         }
     }
 
-    /// A process has changed a substate in these tiles of a row; `around` are those from which it is seen along x. Of the processes that follow
-    /// in the pass, those that use it are due in the row.
+    /// A process has changed a substate in these tiles of a row; `around` are those from which it is seen
+    /// along x. Of the processes that follow in the pass, those that use it are due in the row.
     pub(crate) fn change(
         &self,
         substate: SubstateId,
@@ -282,7 +285,8 @@ impl Activity {
         }
     }
 
-    /// After a pass over rows, in which processes have written a substate: what follows from that for other rows and processes.
+    /// After a pass over rows, in which processes have written a substate: what follows from that for other
+    /// rows and processes.
     pub(crate) fn spread(
         &mut self,
         substate: SubstateId,
@@ -359,7 +363,8 @@ impl Activity {
         self.spread(substate, &[], cells.iter().map(|cell| layout.row_of(*cell)));
     }
 
-    /// A substate has changed in a line of the halo that another part has sent, in those of its tiles that differ.
+    /// A substate has changed in a line of the halo that another part has sent, in those of its tiles that
+    /// differ.
     pub(crate) fn changed_beyond(
         &self,
         substate: SubstateId,

@@ -6,19 +6,21 @@ use crate::population::Population;
 use crate::wavefront::Depth;
 use std::ops::Range;
 
-/// Blocks a thread: enough that the last one is not waited for long, few enough that a block is worth its start.
+/// Blocks a thread: enough that the last one is not waited for long, few enough that a block is worth its
+/// start.
 const BLOCKS_PER_THREAD: usize = 32;
 
 /// The work of an item, counted in cells.
 const CELLS_PER_ITEM: usize = 16;
 
-/// Blocks of consecutive rows, which have about the same work: the items of the populations may all be in a few of the rows.
+/// Blocks of consecutive rows, which have about the same work: the items of the populations may all be in a
+/// few of the rows.
 pub(crate) fn blocks(layout: &Layout, populations: &[&Population], threads: usize) -> Vec<Range<usize>> {
     blocks_of_same_work(layout, populations, threads * BLOCKS_PER_THREAD)
 }
 
-/// How much longer blocks are than they have to be at least, where there are enough rows: what is done in the gaps
-/// between blocks meets memory once more.
+/// How much longer blocks are than they have to be at least, where there are enough rows: what is done in the
+/// gaps between blocks meets memory once more.
 const LONGER_THAN_LEAST: usize = 4;
 
 /// Blocks of layers without items that are long enough for passes of this depth.

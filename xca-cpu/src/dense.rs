@@ -59,8 +59,8 @@ impl Dense {
         self.halo = Halo::Stale;
     }
 
-    /// After a pass in which all rows were written, and continued into the halo if anyone reads it there: along
-    /// x, or with `whole` beyond all faces.
+    /// After a pass in which all rows were written, and continued into the halo if anyone reads it there:
+    /// along x, or with `whole` beyond all faces.
     pub(crate) fn written(&mut self, second: bool, whole: bool) {
         if let Some(next) = &mut self.next
             && second
@@ -107,7 +107,8 @@ impl Dense {
         }
     }
 
-    /// Fills the halo along z, but for what other parts send; with what they have sent it is that of the cells.
+    /// Fills the halo along z, but for what other parts send; with what they have sent it is that of the
+    /// cells.
     pub(crate) fn fill_layers(&mut self, layout: &Layout) {
         let element = self.stored.element_size();
         for plane in self.current.bytes_mut().chunks_exact_mut(layout.cells() * element) {
@@ -132,7 +133,8 @@ impl Dense {
         }
     }
 
-    /// Fills the halo beyond a face with what the part beyond it has packed; [`Self::edge`] says how many bytes.
+    /// Fills the halo beyond a face with what the part beyond it has packed; [`Self::edge`] says how many
+    /// bytes.
     pub(crate) fn unpack(&mut self, layout: &Layout, face: Face, bytes: &[u8]) {
         let element = self.stored.element_size();
         let mut lines = bytes.chunks_exact(layout.line([0; 2]).len() * element);

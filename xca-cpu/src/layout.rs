@@ -128,7 +128,8 @@ impl Layout {
         z * self.extents[1] + y
     }
 
-    /// The rows from which an item that goes to the next cell comes into a row: itself, and those beside it along y and z, also round a torus.
+    /// The rows from which an item that goes to the next cell comes into a row: itself, and those beside it
+    /// along y and z, also round a torus.
     pub(crate) fn rows_beside(&self, row: usize) -> impl Iterator<Item = usize> {
         let [_, height, depth] = self.extents;
         let [y, z] = self.row(row);
@@ -138,7 +139,8 @@ impl Layout {
         layers.into_iter().flat_map(move |z| beside(y, height).map(|y| z * height + y))
     }
 
-    /// The rows from which a row is seen: itself, and those within reach along y and z, also round a torus. A row may come twice.
+    /// The rows from which a row is seen: itself, and those within reach along y and z, also round a torus. A
+    /// row may come twice.
     pub(crate) fn rows_around(&self, row: usize) -> impl Iterator<Item = usize> {
         self.rows_that_see(self.row(row).map(|index| index as isize))
     }
@@ -269,7 +271,8 @@ impl Layout {
         })
     }
 
-    /// Whether what lies in the halo follows what lies in the space: along x, where it continues each row, and along y or z.
+    /// Whether what lies in the halo follows what lies in the space: along x, where it continues each row,
+    /// and along y or z.
     pub(crate) fn halo_follows(&self) -> [bool; 2] {
         let follows = |face| self.boundaries[face] != Boundary::Flat || self.borders[face];
         let [x, y, z] =
@@ -277,8 +280,8 @@ impl Layout {
         [x, y || z]
     }
 
-    /// The cells that continue each row into the halo, where they follow the space: for each its place and that of its source, counted
-    /// from the row's first cell.
+    /// The cells that continue each row into the halo, where they follow the space: for each its place and
+    /// that of its source, counted from the row's first cell.
     pub(crate) fn continuation(&self) -> Vec<(isize, isize)> {
         let counted = |index: usize| index as isize - self.reach[0] as isize;
         let follows = |(target, source)| match source {
@@ -288,9 +291,10 @@ impl Layout {
         self.along(0).filter_map(follows).collect()
     }
 
-    /// Fills the halo of a plane with so many values a cell: by the boundary rules, and beyond flat faces with their outside values,
-    /// where these are given. Beyond several flat faces that of the last axis stands, as it is filled last. Along x it does so unless the rows are `continued` already.
-    /// What other parts fill is left as it is.
+    /// Fills the halo of a plane with so many values a cell: by the boundary rules, and beyond flat faces
+    /// with their outside values, where these are given. Beyond several flat faces that of the last axis
+    /// stands, as it is filled last. Along x it does so unless the rows are `continued` already. What other
+    /// parts fill is left as it is.
     pub(crate) fn fill_halo<T: Copy + Send + Sync>(
         &self,
         plane: &mut [T],
@@ -392,8 +396,8 @@ impl Layout {
     }
 }
 
-/// The cells to which rows are aligned, a power of two: eight numbers of 64 bits fill a register or a line of the
-/// cache. Longer rows can have more, short ones would take much more memory.
+/// The cells to which rows are aligned, a power of two: eight numbers of 64 bits fill a register or a line of
+/// the cache. Longer rows can have more, short ones would take much more memory.
 fn alignment(width: usize) -> usize {
     let cells = (width / 16).clamp(1, 8).max(width / 64).min(64);
     1 << cells.ilog2()

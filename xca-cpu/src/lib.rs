@@ -1,9 +1,12 @@
 //! The parallel CPU engine.
 //!
-//! It runs the rows of the cellular space on all cores, with the same bits as the reference engine at any number of threads:
-//! - substates of cells are planes with a halo as wide as the neighbourhood, so that a neighbour is a constant offset;
+//! It runs the rows of the cellular space on all cores, with the same bits as the reference engine at any
+//! number of threads:
+//! - substates of cells are planes with a halo as wide as the neighbourhood, so that a neighbour is a
+//!   constant offset;
 //! - populations are compact: items are stored cell after cell, and empty rows cost nothing;
-//! - processes that do not disturb each other run together, row by row, while a row is in the processor's cache;
+//! - processes that do not disturb each other run together, row by row, while a row is in the processor's
+//!   cache;
 //! - steps with nothing between them follow each other at a distance of some rows, if that is faster;
 //! - a substate that is read at the centre only is written in place, any other is written to a second buffer.
 
@@ -88,16 +91,16 @@ impl Cpu {
         Ok(Self { own: Threads::new(pool), choices: Choices::default() })
     }
 
-    /// With lists of what is near that reach further than a search by so many of its radii, instead of by what the engine finds best. For
-    /// tests: it changes the time that a search takes, and no result.
+    /// With lists of what is near that reach further than a search by so many of its radii, instead of by
+    /// what the engine finds best. For tests: it changes the time that a search takes, and no result.
     #[doc(hidden)]
     #[must_use]
     pub fn with_skin(self, radii: f64) -> Self {
         Self { choices: Choices { skin: Some(radii), ..self.choices }, ..self }
     }
 
-    /// With pieces of so many cells, at least one, which are left out where nothing can change, whether that pays or not. For tests: it changes
-    /// the time that a step takes, and no result.
+    /// With pieces of so many cells, at least one, which are left out where nothing can change, whether that
+    /// pays or not. For tests: it changes the time that a step takes, and no result.
     #[doc(hidden)]
     #[must_use]
     pub fn with_tiles(self, cells: std::num::NonZeroUsize) -> Self {
@@ -105,16 +108,16 @@ impl Cpu {
         Self { choices: Choices { leave_out, ..self.choices }, ..self }
     }
 
-    /// With so many steps done together, at least one, where the space has room for them, instead of as many as the engine finds best. For
-    /// tests: it changes the time that a step takes, and no result.
+    /// With so many steps done together, at least one, where the space has room for them, instead of as many
+    /// as the engine finds best. For tests: it changes the time that a step takes, and no result.
     #[doc(hidden)]
     #[must_use]
     pub fn with_stride(self, steps: std::num::NonZeroU64) -> Self {
         Self { choices: Choices { stride: Some(steps.get()), ..self.choices }, ..self }
     }
 
-    /// With steps done together in columns of so many rows where the space allows columns. For tests: it changes the
-    /// time that a step takes, and no result.
+    /// With steps done together in columns of so many rows where the space allows columns. For tests: it
+    /// changes the time that a step takes, and no result.
     #[doc(hidden)]
     #[must_use]
     pub fn with_columns(self, rows: std::num::NonZeroUsize) -> Self {

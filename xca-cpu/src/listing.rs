@@ -19,8 +19,9 @@ pub(crate) struct Listed {
     pub(crate) ends: Vec<u32>,
 }
 
-/// Lists for each item the places of those nearer than `within` metres, and perhaps of some that are hardly further: for blocks of rows in
-/// order. No item may be so far outside of its cell, and nothing so near in a cell so far away, that the neighbourhood's box does not hold it.
+/// Lists for each item the places of those nearer than `within` metres, and perhaps of some that are hardly
+/// further: for blocks of rows in order. No item may be so far outside of its cell, and nothing so near in a
+/// cell so far away, that the neighbourhood's box does not hold it.
 pub(crate) fn make(
     population: &Population,
     layout: &Layout,
@@ -117,7 +118,8 @@ impl Maker<'_> {
         }
     }
 
-    /// The places of what is in the box around a cell: one range for each row, and in the halo one for each cell.
+    /// The places of what is in the box around a cell: one range for each row, and in the halo one for each
+    /// cell.
     #[inline(always)]
     fn strips(&self, padded: usize, x: usize, strips: &mut Vec<Range<u32>>) {
         let Population { starts, ends, .. } = self.population;

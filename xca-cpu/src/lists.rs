@@ -1,7 +1,8 @@
 //! Lists of what is near each item, kept over many passes.
 //!
-//! They hold what was within a search's radius and a skin when they were made. While no two items have come closer by more than the skin, a
-//! search in them finds what a search in the cells finds, to the last item ([`Lists::radius`]). So they change time, and no result.
+//! They hold what was within a search's radius and a skin when they were made. While no two items have come
+//! closer by more than the skin, a search in them finds what a search in the cells finds, to the last item
+//! ([`Lists::radius`]). So they change time, and no result.
 
 use crate::listing::Listed;
 use crate::motion::Motion;

@@ -19,7 +19,8 @@ pub(crate) fn check_size(model: &Model, layout: &Layout, precision: Precision) -
     if bytes > 1 << 45 { Err(too_large("the bytes of the state", bytes, 1 << 45)) } else { Ok(()) }
 }
 
-/// The bytes of a model without items: planes, some of them twice, and the ranges of the cells' and rows' items.
+/// The bytes of a model without items: planes, some of them twice, and the ranges of the cells' and rows'
+/// items.
 pub(crate) fn least_memory(model: &Model, layout: &Layout, precision: Precision) -> u128 {
     let is_population = |group: &&Group| matches!(group.kind(), GroupKind::Population { .. });
     let rows = model.groups().iter().filter(is_population).count() * layout.rows() * 2 * size_of::<u32>();

@@ -1,7 +1,8 @@
 //! Migration: moves the items that change their cell, and keeps all others in order.
 //!
-//! Few items move in a step. A row that none enters or leaves stays as it is; the items of any other row are merged by label, in their own
-//! room. Such rows are independent once what comes into them has been taken out of where it was.
+//! Few items move in a step. A row that none enters or leaves stays as it is; the items of any other row are
+//! merged by label, in their own room. Such rows are independent once what comes into them has been taken out
+//! of where it was.
 
 use crate::layout::Layout;
 use crate::motion::{largest, outside};
@@ -312,8 +313,8 @@ impl Part<'_> {
         }
     }
 
-    /// Merges those that stay and those that come, by cell and label, and sets the cells' ranges. The result is the first place that
-    /// can change; from there on are the `spans`.
+    /// Merges those that stay and those that come, by cell and label, and sets the cells' ranges. The result
+    /// is the first place that can change; from there on are the `spans`.
     fn merge(&mut self, change: &Change<'_>, spans: &mut Vec<Span>) -> u32 {
         let (mut leaving, mut coming) = (change.leaving, change.coming);
         let width = self.layout.width();

@@ -1,4 +1,5 @@
-//! How far items are outside their cells, and how far they have moved against each other since lists of them were made.
+//! How far items are outside their cells, and how far they have moved against each other since lists of them
+//! were made.
 
 use crate::blocks::blocks;
 use crate::layout::Layout;
@@ -12,7 +13,8 @@ use xca_core::{Geometry, StoredScalar};
 pub(crate) struct Motion {
     /// The largest distance along an axis, in metres, by which an item is outside its cell.
     pub(crate) slack: f64,
-    /// The square of the largest distance, in metres, of an item from where it would be if all had moved alike.
+    /// The square of the largest distance, in metres, of an item from where it would be if all had moved
+    /// alike.
     pub(crate) square: f64,
     /// The least and the greatest displacement along each axis, less the common one.
     pub(crate) low: [f64; 3],
@@ -23,8 +25,9 @@ impl Motion {
     pub(crate) const NONE: Self =
         Self { slack: 0.0, square: 0.0, low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
 
-    /// By how much two items have come closer at most, in metres. Two bounds: each is within a sphere around the common motion, and within the
-    /// box of all displacements. The sphere is the smaller one for motion in all directions, the box while the common motion is not known.
+    /// By how much two items have come closer at most, in metres. Two bounds: each is within a sphere around
+    /// the common motion, and within the box of all displacements. The sphere is the smaller one for motion
+    /// in all directions, the box while the common motion is not known.
     pub(crate) fn approach(&self) -> f64 {
         let widths = [0, 1, 2].map(|axis| self.high[axis] - self.low[axis]);
         let box_ = widths.iter().map(|width| width * width).sum::<f64>().sqrt();
@@ -66,7 +69,8 @@ pub(crate) fn measure(population: &Population, layout: &Layout, geometry: &Geome
     blocks.map(of_block).reduce(|| Motion::NONE, Motion::and)
 }
 
-/// Of the items of a row, with their positions. With `answers` of a migration, the slack is that of those that stay.
+/// Of the items of a row, with their positions. With `answers` of a migration, the slack is that of those
+/// that stay.
 pub(crate) fn measure_row(
     population: &Population,
     layout: &Layout,

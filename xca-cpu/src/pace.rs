@@ -1,5 +1,5 @@
-//! Whether it pays to leave out what is not due. Steps that work on all cells are timed, and steps that do not; the cheaper way goes on. Times
-//! decide what is worked on, and no result.
+//! Whether it pays to leave out what is not due. Steps that work on all cells are timed, and steps that do
+//! not; the cheaper way goes on. Times decide what is worked on, and no result.
 
 use std::time::Duration;
 
@@ -111,8 +111,8 @@ mod tests {
     use super::{PAUSES, Pace, Step};
     use std::time::Duration;
 
-    /// The numbers of those of so many steps that leave cells out, where such a step takes so many times what one takes that does not, and
-    /// this share is due.
+    /// The numbers of those of so many steps that leave cells out, where such a step takes so many times what
+    /// one takes that does not, and this share is due.
     fn steps(count: u64, times: f64, due: f64) -> Vec<u64> {
         let mut pace = Pace::new(false);
         let mut left_out = Vec::new();

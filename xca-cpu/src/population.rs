@@ -1,7 +1,9 @@
-//! Populations: items stored one after the other, row after row, in a row cell after cell, in a cell by label.
+//! Populations: items stored one after the other, row after row, in a row cell after cell, in a cell by
+//! label.
 //!
-//! Each row has some room after its last item. So an item that changes its cell moves the items of two rows and no others; only where a
-//! row has no room left, all are moved, to get room again ([`Population::make_room`]).
+//! Each row has some room after its last item. So an item that changes its cell moves the items of two rows
+//! and no others; only where a row has no room left, all are moved, to get room again
+//! ([`Population::make_room`]).
 
 use crate::layout::Layout;
 use crate::lists::Lists;
@@ -14,7 +16,8 @@ use xca_core::model::{Group as Definition, GroupKind};
 use xca_core::storage::Buffer;
 use xca_core::{Precision, StoredScalar, StoredType};
 
-/// How many more items than it has a row has room for at least: few items come and go at once, but some row among many is always unlucky.
+/// How many more items than it has a row has room for at least: few items come and go at once, but some row
+/// among many is always unlucky.
 const LEAST_ROOM: u32 = 4;
 
 /// A row has one more place for so many items that it has.
@@ -30,7 +33,8 @@ pub(crate) struct Population {
     pub(crate) items: Arrays,
     /// For a field that processes write and also read of other items: where they write it.
     pub(crate) next: Vec<Buffer>,
-    /// For each padded cell the place of its first item, also where it has none; in the halo, that of the cell that it stands for.
+    /// For each padded cell the place of its first item, also where it has none; in the halo, that of the
+    /// cell that it stands for.
     pub(crate) starts: Vec<u32>,
     /// For each padded cell one past its last item.
     pub(crate) ends: Vec<u32>,
@@ -219,8 +223,8 @@ impl Population {
         self.fill_halo(layout);
     }
 
-    /// Moves all items, so that each row has room for `counts` items and some more; gives for each row how far its items have moved
-    /// (wrapping).
+    /// Moves all items, so that each row has room for `counts` items and some more; gives for each row how
+    /// far its items have moved (wrapping).
     pub(crate) fn make_room(&mut self, layout: &Layout, counts: &[u32]) -> Vec<u32> {
         let rows = rows_with_room(layout, counts);
         let mut arrays = Arrays::new(&self.types, rows[layout.rows()] as usize);
@@ -337,8 +341,8 @@ impl Population {
     }
 }
 
-/// The first places of rows with so many items, and at the end the number of places. A row far from all items needs no room:
-/// they come from cell to cell.
+/// The first places of rows with so many items, and at the end the number of places. A row far from all items
+/// needs no room: they come from cell to cell.
 fn rows_with_room(layout: &Layout, counts: &[u32]) -> Vec<u32> {
     let mut rows = Vec::with_capacity(counts.len() + 1);
     let mut place = 0;

@@ -1,4 +1,5 @@
-//! Reductions of substates of cells. The results of rows are kept: a row that has not changed since is not reduced again.
+//! Reductions of substates of cells. The results of rows are kept: a row that has not changed since is not
+//! reduced again.
 
 use crate::activity::Activity;
 use crate::dense::Dense;

@@ -1,8 +1,8 @@
 //! Passes over the rows, in parallel.
 //!
-//! The rows are split into pieces; each belongs to one thread at a time. How they are split, and how far a pass
-//! runs before the next one follows, changes nothing in the result: a row writes only what is its own, and faults
-//! are compared by pass, process and cell.
+//! The rows are split into pieces; each belongs to one thread at a time. How they are split, and how far a
+//! pass runs before the next one follows, changes nothing in the result: a row writes only what is its own,
+//! and faults are compared by pass, process and cell.
 
 mod found;
 mod ground;
@@ -31,8 +31,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 use xca_core::Model;
 
-/// Runs a pass over the rows, with `activity` where its processes are due. The result is what the migration among
-/// them, if there is one, moves, in the order of items.
+/// Runs a pass over the rows, with `activity` where its processes are due. The result is what the migration
+/// among them, if there is one, moves, in the order of items.
 pub(crate) fn run(
     ground: Ground<'_>,
     groups: &mut [Group],

@@ -1,8 +1,9 @@
 //! Which processes run together, row by row.
 //!
-//! Consecutive processes share a pass over the rows where no row can notice: none of them may read at neighbours (or of other items) what
-//! another of them writes. Then a row goes through all of them while it is in the processor's cache. A substate that one process
-//! both reads elsewhere and writes goes to a second buffer, which becomes the first after the pass: no other process of the pass may touch it.
+//! Consecutive processes share a pass over the rows where no row can notice: none of them may read at
+//! neighbours (or of other items) what another of them writes. Then a row goes through all of them while it
+//! is in the processor's cache. A substate that one process both reads elsewhere and writes goes to a second
+//! buffer, which becomes the first after the pass: no other process of the pass may touch it.
 
 use xca_core::plan::ProcessPlan;
 use xca_core::{Model, ProcessKind};

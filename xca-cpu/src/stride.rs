@@ -8,7 +8,8 @@ use std::time::Duration;
 use xca_core::engine::Figure;
 use xca_core::{Model, Precision, Process, ProcessKind};
 
-/// The most steps that are done together: with more, what lies between the first and the last no longer fits in any cache.
+/// The most steps that are done together: with more, what lies between the first and the last no longer fits
+/// in any cache.
 const MOST: u64 = 16;
 
 /// How often a number of steps is tried before it is judged.
@@ -20,7 +21,8 @@ const WORTH: f64 = 0.97;
 /// The bytes that a pass works on before the next one follows.
 const BYTES_PER_CHUNK: usize = 1 << 17;
 
-/// The bytes that all passes meet in a column before the first of them goes on: they should fit in a core's own cache.
+/// The bytes that all passes meet in a column before the first of them goes on: they should fit in a core's
+/// own cache.
 const BYTES_PER_COLUMN: usize = 1 << 20;
 
 /// For how many steps the best number stays: at first, and at most.
@@ -195,7 +197,8 @@ mod tests {
         Stride::new((&model, &layout, Precision::F64), 1, threads, Choices::default())
     }
 
-    /// How many steps are done together, one leap after the other, where a step of so many together takes so long.
+    /// How many steps are done together, one leap after the other, where a step of so many together takes so
+    /// long.
     fn leaps(stride: &mut Stride, count: usize, seconds: impl Fn(u64) -> f64) -> Vec<u64> {
         let mut leaps = Vec::new();
         for _ in 0..count {

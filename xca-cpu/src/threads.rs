@@ -28,11 +28,13 @@ impl Threads {
         self.0.current_num_threads()
     }
 
-    /// Does the work on these threads, and waits for it. Parallel iterators run on the threads that they are started on.
+    /// Does the work on these threads, and waits for it. Parallel iterators run on the threads that they are
+    /// started on.
     ///
-    /// A thread of another pool would do other work of that pool while it waits: a simulation inside of a parallel iterator would begin the
-    /// next simulation below itself, and the one after that, until all are alive at once, each with the locks that it holds. So such a
-    /// thread waits for a thread that no pool knows.
+    /// A thread of another pool would do other work of that pool while it waits: a simulation inside of a
+    /// parallel iterator would begin the next simulation below itself, and the one after that, until all are
+    /// alive at once, each with the locks that it holds. So such a thread waits for a thread that no pool
+    /// knows.
     pub(crate) fn run<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
         let is_foreign = rayon::current_thread_index().is_some() && self.0.current_thread_index().is_none();
         if !is_foreign {

@@ -1,4 +1,5 @@
-//! Whether and when lists of what is near are made: decided by the times that passes take, which change no result.
+//! Whether and when lists of what is near are made: decided by the times that passes take, which change no
+//! result.
 
 use crate::layout::Layout;
 use crate::listing::make;
@@ -148,7 +149,8 @@ impl Figures {
     }
 }
 
-/// Keeps the lists of a population fit for the pass to come, or does without; gives the radius within which searches can use them.
+/// Keeps the lists of a population fit for the pass to come, or does without; gives the radius within which
+/// searches can use them.
 pub(crate) fn keep_lists(
     population: &mut Population,
     layout: &Layout,

@@ -1,15 +1,15 @@
-//! Passes over the rows, each in the wake of the one before, so that a row is met by all of them while it is in
-//! the processor's cache: temporal blocking with skewed blocks and the gaps between them.
+//! Passes over the rows, each in the wake of the one before, so that a row is met by all of them while it is
+//! in the processor's cache: temporal blocking with skewed blocks and the gaps between them.
 //!
-//! The rows make up layers, which are passed one after the other. A pass may work on a layer when the pass before
-//! has done all layers that see it or that it sees: those within a lag. Within a block of layers each pass follows
-//! the one before at this distance, and ends at that distance before a cut, since what lies beyond is another
-//! block's. What that leaves undone on both sides of each cut is done afterwards. All blocks can be worked on at
-//! the same time, and then all gaps.
+//! The rows make up layers, which are passed one after the other. A pass may work on a layer when the pass
+//! before has done all layers that see it or that it sees: those within a lag. Within a block of layers each
+//! pass follows the one before at this distance, and ends at that distance before a cut, since what lies
+//! beyond is another block's. What that leaves undone on both sides of each cut is done afterwards. All
+//! blocks can be worked on at the same time, and then all gaps.
 //!
-//! Where a few layers are too much for the cache, a block is worked on in columns, one after the other. A column
-//! lies further towards the first row in each pass that follows, as far as rows see each other, so that it needs
-//! nothing from columns that come later, and overwrites nothing that they need.
+//! Where a few layers are too much for the cache, a block is worked on in columns, one after the other. A
+//! column lies further towards the first row in each pass that follows, as far as rows see each other, so
+//! that it needs nothing from columns that come later, and overwrites nothing that they need.
 
 use std::ops::Range;
 
@@ -22,8 +22,8 @@ pub(crate) struct Lag {
     pub(crate) layers: usize,
     /// Whether the first layers and the last ones see each other, too.
     pub(crate) is_ring: bool,
-    /// Rows of a layer, or of layers that see each other, see each other where they are at most so many apart. Nothing
-    /// where all may: then there are no columns.
+    /// Rows of a layer, or of layers that see each other, see each other where they are at most so many
+    /// apart. Nothing where all may: then there are no columns.
     pub(crate) along: Option<usize>,
 }
 
@@ -63,7 +63,8 @@ impl Depth {
     }
 }
 
-/// Some passes over all rows, in an order in which no row can notice that they are not done one after the other.
+/// Some passes over all rows, in an order in which no row can notice that they are not done one after the
+/// other.
 #[derive(Debug, Clone)]
 pub(crate) struct Wavefront {
     depth: Depth,
@@ -80,7 +81,8 @@ pub(crate) struct Piece {
     first: usize,
 }
 
-/// Where a piece begins or ends: a layer in the first pass, and so many layers further in each one that follows.
+/// Where a piece begins or ends: a layer in the first pass, and so many layers further in each one that
+/// follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Edge {
     layer: isize,
@@ -212,7 +214,8 @@ mod tests {
         layers && lag.along.is_none_or(|along| (a % lag.layer).abs_diff(b % lag.layer) <= along)
     }
 
-    /// A pass does a row: all passes before have done those that it sees, and none has gone on to overwrite them.
+    /// A pass does a row: all passes before have done those that it sees, and none has gone on to overwrite
+    /// them.
     fn check(portion: &Portion, done: &mut [usize], lag: Lag) {
         for row in portion.rows.clone() {
             assert_eq!(done[row], portion.pass, "row {row} twice, or left out");

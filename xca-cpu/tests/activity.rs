@@ -1,4 +1,5 @@
-//! Cells in which nothing can change are left out, and that changes no bit. The reference engine, which computes all, is the oracle.
+//! Cells in which nothing can change are left out, and that changes no bit. The reference engine, which
+//! computes all, is the oracle.
 
 use std::error::Error;
 use std::num::NonZeroUsize;

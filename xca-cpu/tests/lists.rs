@@ -1,4 +1,5 @@
-//! Lists of what is near: when they are made, and that they change no bit. The reference engine, which has none, is the oracle.
+//! Lists of what is near: when they are made, and that they change no bit. The reference engine, which has
+//! none, is the oracle.
 
 use std::collections::HashMap;
 use std::error::Error;
@@ -98,7 +99,8 @@ fn grains(boundaries: [Boundary; 3], motion: &Motion) -> Result<Model, ModelErro
 const FLAT: [Boundary; 3] = [Boundary::Flat; 3];
 const TORUS: [Boundary; 3] = [Boundary::Toroidal; 3];
 
-/// How far the lists reach beyond a search, in radii: what the engine finds best, next to nothing, as is common, and too far.
+/// How far the lists reach beyond a search, in radii: what the engine finds best, next to nothing, as is
+/// common, and too far.
 const SKINS: [Option<f64>; 4] = [None, Some(1e-3), Some(0.3), Some(1e9)];
 
 /// The snapshots after each of so many steps.

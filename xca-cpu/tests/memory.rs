@@ -1,5 +1,5 @@
-//! Small models of every kind on all engines of the processor, for tools that watch memory: `scripts/miri` runs them under Miri. Nothing here
-//! opens a file, and each model takes a few steps of a few cells.
+//! Small models of every kind on all engines of the processor, for tools that watch memory: `scripts/miri`
+//! runs them under Miri. Nothing here opens a file, and each model takes a few steps of a few cells.
 
 use std::error::Error;
 use std::num::NonZeroU64;

@@ -1,5 +1,5 @@
-//! A first look at this engine beside the reference, and what it promises beyond the same bits. The suites that run on every engine are in
-//! the workspace's member `tests`.
+//! A first look at this engine beside the reference, and what it promises beyond the same bits. The suites
+//! that run on every engine are in the workspace's member `tests`.
 
 use std::error::Error;
 use xca_core::prelude::*;
@@ -114,7 +114,8 @@ fn spread(cell: &mut Cell<Site>) {
     cell.level += cell.neighbour(1).level;
 }
 
-/// What an engine announces is what it then takes, but for a page for each of at most three buffers, and some bytes.
+/// What an engine announces is what it then takes, but for a page for each of at most three buffers, and some
+/// bytes.
 #[test]
 fn memory_is_announced() -> TestResult {
     let cells = Model::builder("cells")

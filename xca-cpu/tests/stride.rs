@@ -1,5 +1,5 @@
-//! Steps that are done together, each in the wake of the one before, and that changes no bit. The reference engine, which does one after the
-//! other, is the oracle.
+//! Steps that are done together, each in the wake of the one before, and that changes no bit. The reference
+//! engine, which does one after the other, is the oracle.
 
 use std::error::Error;
 use std::num::{NonZeroU64, NonZeroUsize};

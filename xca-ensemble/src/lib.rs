@@ -247,7 +247,8 @@ impl Ensemble {
         pairs.enumerate().map(|(number, (parameters, seed))| Member { number, seed, parameters }).collect()
     }
 
-    /// Runs the members that are not in the table of the folder yet, and gives all that have come to their end.
+    /// Runs the members that are not in the table of the folder yet, and gives all that have come to their
+    /// end.
     ///
     /// `set_up` makes the model of a member, on the calling thread; its parameters are set after that. It is
     /// called once more for the first member, to see whether the table is one of this model.

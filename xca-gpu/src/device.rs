@@ -1,5 +1,5 @@
-//! The device: adapters, buffers, pipelines, submissions. Nothing outside this module names wgpu, whose interface changes every few
-//! months.
+//! The device: adapters, buffers, pipelines, submissions. Nothing outside this module names wgpu, whose
+//! interface changes every few months.
 
 mod adapter;
 mod code;
@@ -130,7 +130,8 @@ impl Device {
             let reason = if reason.is_empty() { "its driver does not say why".to_owned() } else { reason };
             note.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(reason);
         });
-        // Where no scope waits for an error, it is the next wait that tells of it; without this the library would panic.
+        // Where no scope waits for an error, it is the next wait that tells of it; without this the library
+        // would panic.
         let note = Arc::clone(&lost);
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
             note.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error.to_string());
@@ -162,8 +163,8 @@ impl Device {
         handicap::lower(self.device.limits().max_compute_workgroups_per_dimension, self.handicap.workgroups)
     }
 
-    /// The invocations of a workgroup that suit it. A graphics card fills its units with few; a processor that plays one does a whole
-    /// workgroup on one core, and likes them large.
+    /// The invocations of a workgroup that suit it. A graphics card fills its units with few; a processor
+    /// that plays one does a whole workgroup on one core, and likes them large.
     pub(crate) fn workgroup(&self) -> u32 {
         let most = self.device.limits().max_compute_invocations_per_workgroup;
         let wanted = if self.adapter.kind == AdapterKind::Processor { 1024 } else { 64 };

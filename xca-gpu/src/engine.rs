@@ -42,8 +42,8 @@ impl std::str::FromStr for Arithmetic {
 #[error("`{0}` is no arithmetic; use best, strict or relaxed")]
 pub struct UnknownArithmetic(String);
 
-/// All processes of a model as the engine compiles them for strict arithmetic; only that loops over neighbours stand as loops here, where the
-/// engine writes them out for the space at hand.
+/// All processes of a model as the engine compiles them for strict arithmetic; only that loops over
+/// neighbours stand as loops here, where the engine writes them out for the space at hand.
 ///
 /// # Errors
 /// Where a process cannot be written in WGSL.
@@ -127,8 +127,8 @@ impl Gpu {
         self.strict.as_ref().err().map(String::as_str)
     }
 
-    /// The operations that the driver does wrongly and that are corrected, such as `division in f32`: they take
-    /// longer.
+    /// The operations that the driver does wrongly and that are corrected, such as `division in f32`: they
+    /// take longer.
     pub fn corrected(&self) -> Vec<String> {
         let Ok(Corrections { divisions, roots, roundings }) = self.strict else { return Vec::new() };
         let words = |word: &'static str, of: [bool; 2]| {
@@ -139,8 +139,8 @@ impl Gpu {
         of_two.chain(words("rounding to whole numbers", roundings)).collect()
     }
 
-    /// How many turns the loops of a cell or item may take together, where the adapter ends them early (Mesa's
-    /// lavapipe does). A process that needs more stops the run with an error.
+    /// How many turns the loops of a cell or item may take together, where the adapter ends them early
+    /// (Mesa's lavapipe does). A process that needs more stops the run with an error.
     pub fn turns(&self) -> Option<u32> {
         self.device.turns()
     }
@@ -203,7 +203,8 @@ impl Engine for Gpu {
     }
 
     fn least_memory(&self, model: &Model, precision: Precision) -> u128 {
-        // Only the memory of the host is compared with this, and only where the processor plays the GPU is it the device's.
+        // Only the memory of the host is compared with this, and only where the processor plays the GPU is it
+        // the device's.
         if self.adapter().kind == AdapterKind::Processor { least_memory(model, precision) } else { 0 }
     }
 

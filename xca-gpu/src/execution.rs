@@ -41,7 +41,8 @@ pub(crate) struct GpuExecution {
     pub(crate) activity: Option<Activity>,
     activity_landing: Landing,
     pub(crate) migrations: Vec<Migration>,
-    /// For each process, what its seals say: that it reported, that it aimed wrong, that it overfilled a cell.
+    /// For each process, what its seals say: that it reported, that it aimed wrong, that it overfilled a
+    /// cell.
     stamps: HashMap<(usize, Cause), Buffer>,
     /// The substates of cells that processes read at neighbours.
     looked_at: HashSet<SubstateId>,
@@ -337,7 +338,8 @@ impl GpuExecution {
         migration.settle(device, recorder, services, (&mut self.groups, &self.halo))
     }
 
-    /// Submits what was recorded, waits for it, and reads the journals. What stopped the run comes with the number of its step.
+    /// Submits what was recorded, waits for it, and reads the journals. What stopped the run comes with the
+    /// number of its step.
     fn finish(&mut self, mut recorder: Recorder, steps: u64) -> Result<Option<(u64, Fault)>, DeviceError> {
         recorder.land(self.groups.journals(), 0, &self.landing);
         if let (Some(note), Some(landing)) = (self.groups.ended_early(), &self.ended_early) {

@@ -114,7 +114,8 @@ impl Halo {
     }
 }
 
-/// For each part the cells to pick up, then for each part those to set down: each a number in the part and a seat in the ferry.
+/// For each part the cells to pick up, then for each part those to set down: each a number in the part and a
+/// seat in the ferry.
 fn trips(space: &Space, pairs: &[(usize, usize)]) -> (Vec<[u32; 2]>, Vec<Trip>) {
     let mut crossings = Vec::new();
     let mut trips = Vec::new();
@@ -127,7 +128,8 @@ fn trips(space: &Space, pairs: &[(usize, usize)]) -> (Vec<[u32; 2]>, Vec<Trip>) 
             .collect();
         for part in space.parts() {
             let first = crossings.len();
-            // A cell to be picked up lies in several parts, and is taken in one; one to be set down lies in several as well.
+            // A cell to be picked up lies in several parts, and is taken in one; one to be set down lies in
+            // several as well.
             let taken = |(cell, _): &(usize, usize)| holds(part, *cell);
             crossings.extend(
                 waiting

@@ -14,7 +14,8 @@
 //!     cell.count += 1;
 //! }
 //!
-//! let model = Model::builder("counters").extents([64, 64, 1]).substates::<Counter>().process(count).build()?;
+//! let builder = Model::builder("counters").extents([64, 64, 1]);
+//! let model = builder.substates::<Counter>().process(count).build()?;
 //! let gpu = Gpu::new(&GpuOptions::default())?;
 //! println!("{}, {}", gpu.adapter(), if gpu.is_strict() { "strict" } else { "relaxed" });
 //! let mut simulation = Simulation::new(&model, &gpu, RunOptions::default())?;
@@ -23,9 +24,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The state lives on the device; several steps go into one submission; reductions are done there too. With *strict* arithmetic, which an
-//! adapter has to prove when it is opened, all results have the bits of the reference engine. `docs/gpu.md` tells how it works and where
-//! its limits are.
+//! The state lives on the device; several steps go into one submission; reductions are done there too. With
+//! *strict* arithmetic, which an adapter has to prove when it is opened, all results have the bits of the
+//! reference engine. `docs/gpu.md` tells how it works and where its limits are.
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 mod access;

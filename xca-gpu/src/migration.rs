@@ -1,7 +1,8 @@
-//! Migration on the device: counts the arrivals of each cell, adds them up to ranges, puts the items there and sorts them by label.
+//! Migration on the device: counts the arrivals of each cell, adds them up to ranges, puts the items there
+//! and sorts them by label.
 //!
-//! Which item reaches a range first depends on the device; but in the end each range is sorted by label, so that nothing of that
-//! stays, and the items lie as on every other engine.
+//! Which item reaches a range first depends on the device; but in the end each range is sorted by label, so
+//! that nothing of that stays, and the items lie as on every other engine.
 
 use crate::device::{Binding, Buffer, Device, DeviceError, Recorder};
 use crate::groups::Groups;
@@ -105,7 +106,8 @@ impl Migration {
         services.run(device, recorder, AIM, (&[], parts), population.items)
     }
 
-    /// Records the ranges of cells and the order of items. Afterwards a fault has to be looked for: a cell may be full.
+    /// Records the ranges of cells and the order of items. Afterwards a fault has to be looked for: a cell
+    /// may be full.
     pub(crate) fn arrange(
         &self,
         device: &Device,

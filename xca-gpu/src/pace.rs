@@ -1,8 +1,10 @@
-//! How much work goes into one submission: enough to keep the device busy, little enough that no driver takes it for dead.
+//! How much work goes into one submission: enough to keep the device busy, little enough that no driver takes
+//! it for dead.
 
 use std::time::{Duration, Instant};
 
-/// What a submission should take. Desktop drivers end work of some seconds; and a program wants to hear from its run.
+/// What a submission should take. Desktop drivers end work of some seconds; and a program wants to hear from
+/// its run.
 const AIM: Duration = Duration::from_millis(60);
 /// A step that takes longer is submitted process by process.
 const LONG: Duration = Duration::from_millis(400);

@@ -1,8 +1,10 @@
-//! The proof of strict arithmetic: a battery of operands through every operation, on the device and on the host.
+//! The proof of strict arithmetic: a battery of operands through every operation, on the device and on the
+//! host.
 //!
-//! Vulkan promises correct rounding for `+`, `-` and `*` alone; `/` and `sqrt` may be off, small numbers may be flushed to zero, and
-//! nothing but a decoration keeps a driver from contracting `a * b + c`. So an adapter is believed when it has shown it. Where only
-//! `/`, `sqrt`, `trunc`, `floor` or `ceil` are wrong, corrected ones take their place, and have to show the same.
+//! Vulkan promises correct rounding for `+`, `-` and `*` alone; `/` and `sqrt` may be off, small numbers may
+//! be flushed to zero, and nothing but a decoration keeps a driver from contracting `a * b + c`. So an
+//! adapter is believed when it has shown it. Where only `/`, `sqrt`, `trunc`, `floor` or `ceil` are wrong,
+//! corrected ones take their place, and have to show the same.
 
 use crate::device::{Access, Code, Corrections, Device, DeviceError};
 use std::fmt::Write as _;

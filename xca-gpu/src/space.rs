@@ -1,8 +1,10 @@
-//! Where cells lie in the device's memory: rows along x with a halo around the space, cut into parts that a process can reach at once.
+//! Where cells lie in the device's memory: rows along x with a halo around the space, cut into parts that a
+//! process can reach at once.
 
 use xca_core::{Boundary, Face, Geometry, Reached};
 
-/// Where the stored cells of a part begin is a multiple of this, so that each substate of theirs begins where a binding may.
+/// Where the stored cells of a part begin is a multiple of this, so that each substate of theirs begins where
+/// a binding may.
 const ALIGNMENT: usize = 64;
 
 /// The stored space.

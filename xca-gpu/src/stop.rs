@@ -8,8 +8,8 @@ use xca_core::{Precision, ProcessKind};
 use xca_wgsl::{Content, Dispatch, FaultKind};
 
 impl GpuExecution {
-    /// The fault of a process, from the cause and the cell or item that the device noted; of a migration, the item's label, cell and
-    /// destination, or the number of items in the cell.
+    /// The fault of a process, from the cause and the cell or item that the device noted; of a migration, the
+    /// item's label, cell and destination, or the number of items in the cell.
     pub(crate) fn fault(
         &self,
         process: usize,

@@ -1,8 +1,9 @@
 //! ESRI ASCII grids (`.asc`): one number for each cell of a layer, with its place on the map.
 //!
-//! Every geographic information system reads and writes them. A header says how many columns and rows there are, where the south-west corner
-//! lies, how long the side of a cell is, and which number stands for "no value here"; then come the rows, the northernmost first. Here, as in a
-//! model, rows count from the south: `[0, 0]` is the cell in the south-west.
+//! Every geographic information system reads and writes them. A header says how many columns and rows there
+//! are, where the south-west corner lies, how long the side of a cell is, and which number stands for "no
+//! value here"; then come the rows, the northernmost first. Here, as in a model, rows count from the south:
+//! `[0, 0]` is the cell in the south-west.
 
 mod error;
 mod header;
@@ -18,10 +19,11 @@ use std::path::Path;
 
 /// Reads a grid.
 ///
-/// Keys may stand in any order and in any case, on lines of their own or on one; values in lines of any length.
-/// `xllcenter` and `yllcenter` serve in place of `xllcorner` and `yllcorner`, and `dx` and `dy` that are equal in place of
-/// `cellsize`. Without a `NODATA_value`, -9999 stands for no value, as the format says. A value that is the same in `f32`
-/// stands for it too, as does any beyond 1e38 where it is beyond 1e38: programs write such numbers with few digits.
+/// Keys may stand in any order and in any case, on lines of their own or on one; values in lines of any
+/// length. `xllcenter` and `yllcenter` serve in place of `xllcorner` and `yllcorner`, and `dx` and `dy` that
+/// are equal in place of `cellsize`. Without a `NODATA_value`, -9999 stands for no value, as the format says.
+/// A value that is the same in `f32` stands for it too, as does any beyond 1e38 where it is beyond 1e38:
+/// programs write such numbers with few digits.
 ///
 /// # Errors
 /// [`ReadGridError`] with the path, and with the line where a line is to blame.
@@ -29,14 +31,14 @@ pub fn read(path: &Path) -> Result<Raster, ReadGridError> {
     read::read(path, None)
 }
 
-/// As [`read`], of a file that may lack the header if this place is given: then it must have a line for each row of these
-/// cells, the northernmost first, with a value for each column.
+/// As [`read`], of a file that may lack the header if this place is given: then it must have a line for each
+/// row of these cells, the northernmost first, with a value for each column.
 pub(crate) fn read_placed(path: &Path, on: Option<Placement>) -> Result<Raster, ReadGridError> {
     read::read(path, on)
 }
 
-/// Writes a raster as a grid, each number with as many digits as it takes to read it back to the last bit. The format has
-/// no room for a coordinate system. The file appears complete or not at all.
+/// Writes a raster as a grid, each number with as many digits as it takes to read it back to the last bit.
+/// The format has no room for a coordinate system. The file appears complete or not at all.
 ///
 /// # Errors
 /// [`WriteError`] with the path.

@@ -43,9 +43,9 @@ pub enum WriteError {
 
 /// Writes a file so that its name never shows half of it.
 ///
-/// `fill` receives a buffered file with a temporary name in the same folder. If it succeeds, the file is flushed to the
-/// disk and renamed to `path`, which replaces an earlier file in one move; else the temporary file is removed and an
-/// earlier file of that name stays as it was.
+/// `fill` receives a buffered file with a temporary name in the same folder. If it succeeds, the file is
+/// flushed to the disk and renamed to `path`, which replaces an earlier file in one move; else the temporary
+/// file is removed and an earlier file of that name stays as it was.
 ///
 /// # Errors
 /// [`WriteError::File`] with `path` and the error of `fill` or of the system.
@@ -111,8 +111,8 @@ fn temporary_name(path: &Path) -> io::Result<PathBuf> {
 
 /// A folder in which the files of a run are made.
 ///
-/// Made at the start of a run, so that a folder that cannot be written is reported before hours of computation, not
-/// after.
+/// Made at the start of a run, so that a folder that cannot be written is reported before hours of
+/// computation, not after.
 ///
 /// ```
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -132,11 +132,12 @@ pub struct OutputFolder {
 }
 
 impl OutputFolder {
-    /// Creates the folder, with those above it, if it does not exist, and makes sure that files can be made in it by
-    /// making one and removing it. What the folder already holds stays.
+    /// Creates the folder, with those above it, if it does not exist, and makes sure that files can be made
+    /// in it by making one and removing it. What the folder already holds stays.
     ///
     /// # Errors
-    /// [`WriteError::CreateFolder`], [`WriteError::NotAFolder`] or [`WriteError::NotWritable`], each with the path.
+    /// [`WriteError::CreateFolder`], [`WriteError::NotAFolder`] or [`WriteError::NotWritable`], each with the
+    /// path.
     pub fn create(path: impl Into<PathBuf>) -> Result<Self, WriteError> {
         let path = path.into();
         if path.exists() && !path.is_dir() {
@@ -164,22 +165,22 @@ impl OutputFolder {
 
     /// The path of a file of this folder.
     ///
-    /// Names may come from the names of substates: characters other than ASCII letters, digits and `.`, `_`, `-`
-    /// become `_`, so that the path stays inside the folder on every system.
+    /// Names may come from the names of substates: characters other than ASCII letters, digits and `.`, `_`,
+    /// `-` become `_`, so that the path stays inside the folder on every system.
     #[must_use]
     pub fn file(&self, name: &str) -> PathBuf {
         self.path.join(plain_name(name))
     }
 
-    /// The path of one file of a series, `STEM_STEP.EXTENSION` with the step in eight digits or more, so that the
-    /// names sort in the order of the steps.
+    /// The path of one file of a series, `STEM_STEP.EXTENSION` with the step in eight digits or more, so that
+    /// the names sort in the order of the steps.
     #[must_use]
     pub fn numbered(&self, stem: &str, step: u64, extension: &str) -> PathBuf {
         self.file(&format!("{stem}_{step:08}.{extension}"))
     }
 
-    /// Flushes the names of the folder to the disk, so that they outlive a loss of power. Only Unix lets one do that; elsewhere nothing
-    /// happens.
+    /// Flushes the names of the folder to the disk, so that they outlive a loss of power. Only Unix lets one
+    /// do that; elsewhere nothing happens.
     ///
     /// # Errors
     /// [`WriteError::File`] with the folder.

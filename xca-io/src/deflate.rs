@@ -3,8 +3,8 @@
 /// No stream grows by more than this factor when it is expanded: two bits become 258 bytes.
 pub const MOST_GROWTH: u64 = 1032;
 
-/// Whether so many bytes of a stream can become so many bytes of values. A reader asks before it makes room for them:
-/// the header of a short file may promise anything.
+/// Whether so many bytes of a stream can become so many bytes of values. A reader asks before it makes room
+/// for them: the header of a short file may promise anything.
 #[must_use]
 pub fn can_hold(compressed: u64, expanded: u64) -> bool {
     compressed.saturating_mul(MOST_GROWTH) >= expanded

@@ -1,8 +1,8 @@
 //! Readers and writers of scientific files.
 //!
-//! Every module takes plain data (slices of numbers, texts) and writes one kind of file. A file either appears
-//! complete under its name or not at all ([`atomic`]); the one exception is the time series ([`table_csv`]),
-//! which grows by whole rows. No simulation is needed.
+//! Every module takes plain data (slices of numbers, texts) and writes one kind of file. A file either
+//! appears complete under its name or not at all ([`atomic`]); the one exception is the time series
+//! ([`table_csv`]), which grows by whole rows. No simulation is needed.
 //!
 //! | module | file | for |
 //! |---|---|---|

@@ -19,10 +19,11 @@ pub(crate) fn read_line(source: &mut impl BufRead, line: &mut Vec<u8>) -> io::Re
     Ok(())
 }
 
-/// The source of a reader of CSV, for which a row can have many lines: a quotation mark that is never closed would make
-/// one row of the whole rest.
+/// The source of a reader of CSV, for which a row can have many lines: a quotation mark that is never closed
+/// would make one row of the whole rest.
 ///
-/// [`Self::begin_row`] must be called before each row, which then has 16 MiB; what the reader has read ahead counts too.
+/// [`Self::begin_row`] must be called before each row, which then has 16 MiB; what the reader has read ahead
+/// counts too.
 #[derive(Debug)]
 pub struct LimitedRows<R> {
     source: R,
@@ -48,7 +49,8 @@ impl<R> LimitedRows<R> {
 }
 
 impl<R: Read> Read for LimitedRows<R> {
-    /// As the source does, but an error ([`io::ErrorKind::InvalidData`]) beyond the end of what a row can have.
+    /// As the source does, but an error ([`io::ErrorKind::InvalidData`]) beyond the end of what a row can
+    /// have.
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         if self.left == 0 && !buffer.is_empty() {
             let message = "a row is longer than 16 MiB; is there a quotation mark that is not closed?";

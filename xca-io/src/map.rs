@@ -22,8 +22,8 @@ impl Map {
         Self { placement, missing: None, coordinate_system: None }
     }
 
-    /// The same map, without ground in the cells where the mask is true (x fastest, from the south). None where the mask
-    /// does not have one entry for each cell.
+    /// The same map, without ground in the cells where the mask is true (x fastest, from the south). None
+    /// where the mask does not have one entry for each cell.
     #[must_use]
     pub fn without(self, missing: Vec<bool>) -> Option<Self> {
         let [columns, rows] = self.placement.extents;
@@ -64,8 +64,8 @@ impl Map {
         cell < columns * rows && !self.missing().is_some_and(|missing| missing[cell])
     }
 
-    /// The linear indices of the cells at the edge: they have ground, and lie at the border of the map or share a side with a
-    /// cell without ground.
+    /// The linear indices of the cells at the edge: they have ground, and lie at the border of the map or
+    /// share a side with a cell without ground.
     pub fn edge(&self) -> Vec<usize> {
         let [columns, rows] = self.placement.extents;
         let is_edge = |cell: usize| {
@@ -77,8 +77,8 @@ impl Map {
         (0..columns * rows).filter(|cell| self.has_ground(*cell) && is_edge(*cell)).collect()
     }
 
-    /// Checks that a layer lies on the map, in its coordinate system, with nothing (0 or NaN) where the map has no ground.
-    /// `path` is the file of the layer, `on` says what the map is of.
+    /// Checks that a layer lies on the map, in its coordinate system, with nothing (0 or NaN) where the map
+    /// has no ground. `path` is the file of the layer, `on` says what the map is of.
     ///
     /// # Errors
     /// [`OverlayError`] with both values of the first difference, or with the cell.

@@ -2,8 +2,8 @@
 
 use std::time::Duration;
 
-/// `value` with at most `digits` significant digits, without trailing zeros: whole numbers as such, others with a point
-/// where that takes few characters (`0.0112405`, `315979`), else with an exponent (`1.2e-7`).
+/// `value` with at most `digits` significant digits, without trailing zeros: whole numbers as such, others
+/// with a point where that takes few characters (`0.0112405`, `315979`), else with an exponent (`1.2e-7`).
 pub fn significant(value: f64, digits: usize) -> String {
     let digits = digits.max(1);
     if value == 0.0 || !value.is_finite() {
@@ -30,7 +30,8 @@ pub fn counted(number: u64, thing: &str) -> String {
     format!("{number} {thing}{ending}")
 }
 
-/// A rate for people: `1.23e6`, `812.4` or `0.51` steps a second; below one in ten seconds, the seconds a step.
+/// A rate for people: `1.23e6`, `812.4` or `0.51` steps a second; below one in ten seconds, the seconds a
+/// step.
 #[must_use]
 pub fn rate_text(steps_per_second: f64) -> String {
     match steps_per_second {

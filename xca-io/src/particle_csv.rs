@@ -1,9 +1,9 @@
 //! Particles as CSV: one row a particle, exact to the last bit.
 //!
-//! The header is `label` and then the names of the columns (CADEM: `label,x,y,z,vx,vy,vz`). Rows are sorted by label.
-//! Floats have 17 significant digits (`f64`) or 9 (`f32`), in scientific notation, so that every value is
-//! read back as the same bits. Whole numbers are written as such, `bool` as `true` and `false`, states by
-//! name. Units are those of the model.
+//! The header is `label` and then the names of the columns (CADEM: `label,x,y,z,vx,vy,vz`). Rows are sorted
+//! by label. Floats have 17 significant digits (`f64`) or 9 (`f32`), in scientific notation, so that every
+//! value is read back as the same bits. Whole numbers are written as such, `bool` as `true` and `false`,
+//! states by name. Units are those of the model.
 //!
 //! [`write()`] makes such a file, [`read()`] takes one, by hand or from a run, with errors that say the line.
 
@@ -56,8 +56,9 @@ impl Column<'_> {
 
 /// Writes particles to `path`, sorted by label. The file appears complete or not at all.
 ///
-/// `labels` has one entry for each particle, in any order, and so has every column, in the same order. Values that are
-/// not finite are written as `NaN`, `inf` or `-inf`, so that a broken state can be looked at; [`read()`] refuses them.
+/// `labels` has one entry for each particle, in any order, and so has every column, in the same order. Values
+/// that are not finite are written as `NaN`, `inf` or `-inf`, so that a broken state can be looked at;
+/// [`read()`] refuses them.
 ///
 /// # Errors
 /// [`WriteParticlesError`], each with the path.

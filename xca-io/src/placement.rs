@@ -17,8 +17,9 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// The first thing in which a place differs from another one: extents, side or corner. Sides and corners that are within
-    /// 1e-6 of a cell are the same, so it does not matter with how many digits they are written.
+    /// The first thing in which a place differs from another one: extents, side or corner. Sides and corners
+    /// that are within 1e-6 of a cell are the same, so it does not matter with how many digits they are
+    /// written.
     pub fn difference(&self, other: &Self) -> Option<PlacementDifference> {
         let is_near = |one: f64, other: f64| (one - other).abs() <= TOLERANCE * self.side;
         let corners = || self.corner.iter().zip(other.corner);

@@ -1,7 +1,8 @@
 //! A layer of square cells with a number for each, as geographic information systems have it.
 //!
-//! [`Raster::read`] reads GeoTIFF and ESRI ASCII grids; [`crate::geotiff::write`] and [`crate::ascii_grid::write`] write
-//! them. Rows count from the south, as in a model: `[0, 0]` is the cell in the south-west.
+//! [`Raster::read`] reads GeoTIFF and ESRI ASCII grids; [`crate::geotiff::write`] and
+//! [`crate::ascii_grid::write`] write them. Rows count from the south, as in a model: `[0, 0]` is the cell in
+//! the south-west.
 
 mod read;
 

@@ -1,8 +1,9 @@
 //! A time series as CSV, row by row while the run goes on.
 //!
-//! The header is `step,time` and then the names of the observables; time is in seconds, or the unit of the model. Each
-//! row goes to the file whole, in one write, as soon as it is known: whenever the run ends, by Ctrl-C or a crash of the
-//! machine's power aside, the file holds complete rows. Numbers are the shortest decimals that give back the same `f64`.
+//! The header is `step,time` and then the names of the observables; time is in seconds, or the unit of the
+//! model. Each row goes to the file whole, in one write, as soon as it is known: whenever the run ends, by
+//! Ctrl-C or a crash of the machine's power aside, the file holds complete rows. Numbers are the shortest
+//! decimals that give back the same `f64`.
 
 use crate::regular_file;
 use std::fs::File;
@@ -107,7 +108,8 @@ impl SeriesWriter {
     /// Goes on with a file that has so many names. What it holds beyond `written` is cut off.
     ///
     /// # Errors
-    /// [`SeriesError::Write`], and [`SeriesError::Changed`] where the file does not begin with what was written.
+    /// [`SeriesError::Write`], and [`SeriesError::Changed`] where the file does not begin with what was
+    /// written.
     pub fn resume(path: &Path, names: usize, written: Written) -> Result<Self, SeriesError> {
         let opened =
             regular_file::check(path).and_then(|()| File::options().read(true).write(true).open(path));
@@ -135,8 +137,8 @@ impl SeriesWriter {
         Ok(self.written)
     }
 
-    /// Appends a row and hands it to the system. The values stand in the order of the names; `NaN` and `inf` are
-    /// written as such.
+    /// Appends a row and hands it to the system. The values stand in the order of the names; `NaN` and `inf`
+    /// are written as such.
     ///
     /// # Errors
     /// [`SeriesError::Width`] and [`SeriesError::Write`].
@@ -165,8 +167,8 @@ impl SeriesWriter {
     }
 }
 
-/// The shortest decimal that reads back as `value`: whole numbers without a point, very small and very large ones with
-/// an exponent.
+/// The shortest decimal that reads back as `value`: whole numbers without a point, very small and very large
+/// ones with an exponent.
 fn shortest(value: f64) -> String {
     if value.fract() == 0.0 && value.abs() < 1e15 { format!("{value}") } else { format!("{value:?}") }
 }

@@ -7,12 +7,12 @@
 //! | [`write_hexagons`] | `.vtp`, PolyData | dense substates on hexagons: a polygon a cell |
 //! | [`Collection`] | `.pvd` | the files of a run with their times: what to open to see the run as a film |
 //!
-//! [`read_particles`], [`read_dense`], [`read_hexagons`] and [`read_collection`] read them back, and no other VTK
-//! files.
-//! [`read_poly_data`] takes either kind of `.vtp`.
+//! [`read_particles`], [`read_dense`], [`read_hexagons`] and [`read_collection`] read them back, and no other
+//! VTK files. [`read_poly_data`] takes either kind of `.vtp`.
 //!
-//! Values are stored as they are (binary, little-endian, `AppendedData` in raw encoding) and compressed with zlib, so nothing is lost. Units are
-//! those of the model. Every file carries its time as the field `TimeValue`.
+//! Values are stored as they are (binary, little-endian, `AppendedData` in raw encoding) and compressed with
+//! zlib, so nothing is lost. Units are those of the model. Every file carries its time as the field
+//! `TimeValue`.
 
 mod appended;
 mod blocks;

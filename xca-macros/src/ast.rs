@@ -1,7 +1,8 @@
-//! A function of the accepted Rust subset, checked, with the tokens that its messages and its native copy need.
+//! A function of the accepted Rust subset, checked, with the tokens that its messages and its native copy
+//! need.
 //!
-//! One front end (`parse`) makes it; the native kernel (`native`) and the data of the body (`data`) are made from it.
-//! The shape is that of `xca_core::ir`.
+//! One front end (`parse`) makes it; the native kernel (`native`) and the data of the body (`data`) are made
+//! from it. The shape is that of `xca_core::ir`.
 
 use proc_macro2::{Span, TokenStream};
 use syn::{AngleBracketedGenericArguments, Expr, Ident, Lifetime, Lit, LitFloat, LitInt, Path, Type};
@@ -50,8 +51,8 @@ pub(crate) struct Call {
     pub(crate) function: Path,
     /// The name by which it is imported.
     pub(crate) import: Ident,
-    /// The name by which the generated code calls it: a type that is unknown to the compiler where the check of the calling
-    /// function finds an error.
+    /// The name by which the generated code calls it: a type that is unknown to the compiler where the check
+    /// of the calling function finds an error.
     pub(crate) alias: Ident,
 }
 
@@ -68,7 +69,8 @@ pub(crate) struct Argument {
     pub(crate) role: Role,
 }
 
-/// The number of a struct of substates among those that a process takes; 0 is that of the cell or item that it runs for.
+/// The number of a struct of substates among those that a process takes; 0 is that of the cell or item that
+/// it runs for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct ArgumentNumber(pub(crate) usize);
 
@@ -77,8 +79,8 @@ impl ArgumentNumber {
     pub(crate) const SUBJECT: Self = Self(0);
 }
 
-/// The structs are written so that they are unknown to the compiler where the check of the function finds an error; the
-/// plain types stand in [`Mentions`].
+/// The structs are written so that they are unknown to the compiler where the check of the function finds an
+/// error; the plain types stand in [`Mentions`].
 pub(crate) enum Role {
     /// `Cell<S>`: the substates type.
     Cell(Type),
@@ -194,7 +196,8 @@ pub(crate) enum Expression {
     Local(Ident),
     Constant(Path),
     Own(Ident),
-    /// A substate that another struct of the cell has: of the cell that the process runs for, or that its item stands in.
+    /// A substate that another struct of the cell has: of the cell that the process runs for, or that its
+    /// item stands in.
     OfCell {
         argument: ArgumentNumber,
         field: Ident,

@@ -1,5 +1,5 @@
-//! The body of a function as data: an expression that builds the `::xca_core::ir::Function`, one to one from the
-//! checked function.
+//! The body of a function as data: an expression that builds the `::xca_core::ir::Function`, one to one from
+//! the checked function.
 
 mod loops;
 mod words;

@@ -93,8 +93,8 @@ fn handle(name: &Ident) -> String {
     name.unraw().to_string().to_uppercase()
 }
 
-/// A constant that has a value only where the types of all fields are what their words say: all else goes through it, so that one
-/// mistake gives one message (`xca_core::checks`).
+/// A constant that has a value only where the types of all fields are what their words say: all else goes
+/// through it, so that one mistake gives one message (`xca_core::checks`).
 fn proof(fields: &[Field]) -> TokenStream {
     let name = crate::native::check_name();
     let proofs = fields.iter().map(|field| {

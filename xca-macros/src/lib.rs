@@ -1,4 +1,5 @@
-//! The macros of xca: one Rust function becomes a native row kernel and the data that a shader is written from.
+//! The macros of xca: one Rust function becomes a native row kernel and the data that a shader is written
+//! from.
 //!
 //! Use them through `xca_core`, whose documentation explains the accepted subset of Rust.
 
@@ -87,7 +88,8 @@ fn fallback(error: &syn::Error, function: &syn::ItemFn, wanted: Wanted) -> proc_
         return messages;
     }
     if wanted == Wanted::Helper {
-        // The function for ordinary code, and for processes a type that is unknown to the compiler because of the error.
+        // The function for ordinary code, and for processes a type that is unknown to the compiler because of
+        // the error.
         let mut ordinary = function.clone();
         *ordinary.block = syn::parse_quote!({ ::core::unreachable!() });
         return quote::quote! {

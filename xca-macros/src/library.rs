@@ -1,7 +1,7 @@
 //! The path by which generated code names the library.
 //!
-//! Everywhere in this crate it is written `::xca_core`. A crate that depends on `xca` alone does not know that name, and may have given another
-//! one to either: so the words are replaced by what its manifest says.
+//! Everywhere in this crate it is written `::xca_core`. A crate that depends on `xca` alone does not know
+//! that name, and may have given another one to either: so the words are replaced by what its manifest says.
 
 use proc_macro_crate::{FoundCrate, crate_name};
 use proc_macro2::{Group, Ident, Punct, Spacing, Span, TokenStream, TokenTree};

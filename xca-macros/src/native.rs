@@ -1,4 +1,5 @@
-//! The native side: a type for the model to hold, the kernels, and a copy of the function for the compiler to check.
+//! The native side: a type for the model to hold, the kernels, and a copy of the function for the compiler to
+//! check.
 
 mod blocks;
 mod body;
@@ -35,7 +36,8 @@ pub(crate) fn expand(function: &Function, original: &syn::ItemFn) -> Result<Toke
     }
 }
 
-/// A type of the user, or one that is unknown to the compiler where the check of the function has found an error.
+/// A type of the user, or one that is unknown to the compiler where the check of the function has found an
+/// error.
 pub(crate) fn checked(type_: &impl ToTokens) -> Type {
     let check = check::name();
     Type::Verbatim(quote!(<::xca_core::checks::Checked<#check> as ::xca_core::checks::Then<#type_>>::Type))
@@ -62,7 +64,8 @@ fn conditions(function: &Function) -> impl Iterator<Item = &Attribute> {
     function.attributes.iter().filter(|attribute| attribute.path().is_ident("cfg"))
 }
 
-/// The attributes that set lints. What the user expects may come true in one part of what the function becomes and not in another.
+/// The attributes that set lints. What the user expects may come true in one part of what the function
+/// becomes and not in another.
 fn lints(attributes: &[Attribute]) -> Vec<Attribute> {
     let levels = ["allow", "expect", "warn", "deny"];
     let mut lints: Vec<Attribute> = attributes

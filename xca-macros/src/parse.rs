@@ -1,6 +1,7 @@
 //! The front end: from Rust's syntax to the checked function.
 //!
-//! Everything outside the accepted subset is refused here, at the user's own tokens, with what to write instead.
+//! Everything outside the accepted subset is refused here, at the user's own tokens, with what to write
+//! instead.
 
 mod calls;
 mod expressions;
@@ -19,7 +20,8 @@ pub(crate) use places::plain_operator;
 use scope::Scope;
 use syn::{Error, Result};
 
-/// Parses and checks a function of the given kind; for processes the kind (cells or items) follows from the first argument.
+/// Parses and checks a function of the given kind; for processes the kind (cells or items) follows from the
+/// first argument.
 pub(crate) fn function(item: &syn::ItemFn, wanted: Wanted) -> Result<Function> {
     let signature = signature::parse(item, wanted)?;
     let mut scope =

@@ -1,10 +1,11 @@
 //! The methods that numbers, vectors and arrays have in an elementary process.
 //!
-//! This list is the only one: the macros accept the methods in it, say in their messages what it says, and write calls of the functions that
-//! it names; shaders are written from it; the tables of the documentation are those of [`table`].
+//! This list is the only one: the macros accept the methods in it, say in their messages what it says, and
+//! write calls of the functions that it names; shaders are written from it; the tables of the documentation
+//! are those of [`table`].
 //!
-//! A method is either an [`Operation`], which each engine has for each type of number, or a function of `xca_core::math`, which is written
-//! once, for `Real`.
+//! A method is either an [`Operation`], which each engine has for each type of number, or a function of
+//! `xca_core::math`, which is written once, for `Real`.
 
 mod list;
 mod method;

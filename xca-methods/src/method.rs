@@ -18,7 +18,8 @@ pub struct Method {
 /// How a method is made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Meaning {
-    /// Natively by the function of `xca_core::methods` that has the method's name; in a shader by an operation of its own.
+    /// Natively by the function of `xca_core::methods` that has the method's name; in a shader by an
+    /// operation of its own.
     Operation(Operation),
     /// By this function of `xca_core::math`, on every engine.
     Function(&'static str),

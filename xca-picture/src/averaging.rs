@@ -50,7 +50,8 @@ pub fn fitted(cells: [usize; 2], room: [usize; 2]) -> [usize; 2] {
     std::array::from_fn(|i| ((cells[i] as f64 * share).round() as usize).clamp(1, room[i]))
 }
 
-/// The pixels across and down that show a layer in a room; cells of squares get whole ones as [`fitted`] says.
+/// The pixels across and down that show a layer in a room; cells of squares get whole ones as [`fitted`]
+/// says.
 pub(super) fn fitted_layer(lattice: Lattice, cells: [usize; 2], room: [usize; 2]) -> [usize; 2] {
     if lattice == Lattice::Squares {
         return fitted(cells, room);

@@ -85,7 +85,8 @@ impl Axes<'_> {
         text::draw(canvas, self.names[1], name, Anchor::Right, &label());
     }
 
-    /// As many round coordinates along an axis as there is room for: each takes as many pixels as `room` says of its text.
+    /// As many round coordinates along an axis as there is room for: each takes as many pixels as `room` says
+    /// of its text.
     fn marks(&self, axis: usize, drawn: &Drawn, room: impl Fn(&str) -> f32) -> Vec<Mark> {
         let (low, length, pixels) = (self.corner[axis], drawn.lengths[axis], drawn.size[axis]);
         // Rounded, so that a coordinate between two pixels is not taken for one of the pixel before.

@@ -24,8 +24,8 @@ pub struct BlockPicture<'a> {
     pub scalar: Scalar<'a>,
     /// If not empty, the values are no magnitudes but these kinds or states. Others are drawn in grey.
     pub categories: &'a [Category],
-    /// Cells of this value are not drawn. If there is none, all are drawn but those of the octant that is next to the eye, so that the inside
-    /// is seen.
+    /// Cells of this value are not drawn. If there is none, all are drawn but those of the octant that is
+    /// next to the eye, so that the inside is seen.
     pub empty: Option<f64>,
     /// The cells that are not drawn, in the order of the values.
     pub hidden: Option<&'a [bool]>,
@@ -56,7 +56,8 @@ impl<'a> BlockPicture<'a> {
     /// Draws the picture.
     ///
     /// # Errors
-    /// [`PictureError::NoCells`], [`PictureError::Length`] (one value for each cell) and [`PictureError::Size`].
+    /// [`PictureError::NoCells`], [`PictureError::Length`] (one value for each cell) and
+    /// [`PictureError::Size`].
     pub fn render(&self) -> Result<Picture, PictureError> {
         let [columns, rows, layers] = self.extents;
         if self.extents.contains(&0) {
@@ -183,7 +184,8 @@ impl<'a> BlockPicture<'a> {
         has_inside.then(|| [columns.div_ceil(2), rows / 2, layers.div_ceil(2)])
     }
 
-    /// The edges of the block, those in front of it or those behind; where an octant is cut out, its edges instead of those that are gone.
+    /// The edges of the block, those in front of it or those behind; where an octant is cut out, its edges
+    /// instead of those that are gone.
     fn draw_edges(&self, canvas: &mut Canvas, eye: &Eye, in_front: bool) {
         let half = self.extents.map(|extent| extent as f64 / 2.0);
         // The corner that is farthest from the eye has the three edges that it does not see.
@@ -278,7 +280,8 @@ mod tests {
         let extents = [4, 6, 2];
         let values: Vec<f64> = (0..48).map(f64::from).collect();
         let picture = BlockPicture::new(extents, Scalar::new("t", &values)).render().unwrap();
-        // Upper faces, and faces towards x and y: outer ones, and those of the cut below z = 1, at y = 3 and at x = 2.
+        // Upper faces, and faces towards x and y: outer ones, and those of the cut below z = 1, at y = 3 and
+        // at x = 2.
         for (cell, axis) in [
             ([0, 0, 1], 2),
             ([1, 5, 1], 2),

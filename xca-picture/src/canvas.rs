@@ -3,8 +3,8 @@
 use super::Picture;
 use super::colour::mix;
 
-/// Pixels in encoded RGB, from the top left, row by row. Coordinates are in pixels; the middle of the first pixel is at
-/// (0.5, 0.5). What lies outside is cut off.
+/// Pixels in encoded RGB, from the top left, row by row. Coordinates are in pixels; the middle of the first
+/// pixel is at (0.5, 0.5). What lies outside is cut off.
 pub(super) struct Canvas {
     width: usize,
     height: usize,
@@ -90,8 +90,8 @@ impl Canvas {
 }
 
 impl Strokes {
-    /// Calls `paint` with each pixel of a surface of `width` by `height` that the pen touches, and the share of it that
-    /// is covered.
+    /// Calls `paint` with each pixel of a surface of `width` by `height` that the pen touches, and the share
+    /// of it that is covered.
     pub(super) fn cover(&self, width: usize, height: usize, mut paint: impl FnMut(usize, usize, f32)) {
         let reach = self.width / 2.0 + 1.0;
         let (mut low, mut high) = ([f32::MAX; 2], [f32::MIN; 2]);

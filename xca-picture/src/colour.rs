@@ -1,7 +1,7 @@
 //! Colours and colour maps.
 //!
-//! Light adds up in *linear* RGB, files hold *encoded* (sRGB) values; both are `[f32; 3]` from 0 to 1 here, and the
-//! names of functions and fields say which.
+//! Light adds up in *linear* RGB, files hold *encoded* (sRGB) values; both are `[f32; 3]` from 0 to 1 here,
+//! and the names of functions and fields say which.
 
 /// How a value becomes a colour.
 ///
@@ -76,8 +76,8 @@ fn oklab([lightness, chroma, hue]: [f32; 3]) -> [f32; 3] {
     [lightness, chroma * cos, chroma * sin]
 }
 
-/// Linear RGB of an Oklab colour (B. Ottosson, "A perceptual color space for image processing", 2020); beyond 0 and
-/// 1 where no screen can show it.
+/// Linear RGB of an Oklab colour (B. Ottosson, "A perceptual color space for image processing", 2020); beyond
+/// 0 and 1 where no screen can show it.
 fn linear_of_oklab([l, a, b]: [f32; 3]) -> [f32; 3] {
     let long = (l + 0.396_337_78 * a + 0.215_803_76 * b).powi(3);
     let medium = (l - 0.105_561_346 * a - 0.063_854_17 * b).powi(3);

@@ -15,7 +15,8 @@ use xca_io::numbers::significant;
 const BASE: f64 = 0.03;
 const HEIGHT: f64 = 0.2;
 
-/// One layer of a dense substate as columns as high as the ground, seen from above and the front without perspective.
+/// One layer of a dense substate as columns as high as the ground, seen from above and the front without
+/// perspective.
 ///
 /// Heights are multiplied so that the relief is seen; the caption says by how much.
 #[derive(Debug, Clone)]
@@ -216,7 +217,8 @@ mod tests {
         LandscapePicture::new(cells, 10.0, Scalar::new("t", &values), relief).render().unwrap()
     }
 
-    /// The heights of the columns as the picture shows them: where its top is on the vertical line through its middle.
+    /// The heights of the columns as the picture shows them: where its top is on the vertical line through
+    /// its middle.
     #[test]
     fn columns_are_as_high_as_the_ground() {
         // A tower in the middle of a plain.

@@ -33,8 +33,9 @@ impl<'a> Scalar<'a> {
         Self { label, values, range: None, map: ColourMap::default() }
     }
 
-    /// The scalar with a range that leaves out the given share of the values, from 0 to 1, at its upper end: a few fast
-    /// particles then do not make all others look alike. Values beyond the range have the colour of its end.
+    /// The scalar with a range that leaves out the given share of the values, from 0 to 1, at its upper end:
+    /// a few fast particles then do not make all others look alike. Values beyond the range have the colour
+    /// of its end.
     #[must_use]
     pub fn without_largest(mut self, share: f64) -> Self {
         let mut finite: Vec<f64> = self.values.iter().copied().filter(|value| value.is_finite()).collect();

@@ -92,8 +92,8 @@ pub enum PictureError {
         /// `particles` or `cells`.
         of: &'static str,
     },
-    /// The box has a corner that is not finite, or an upper corner that is not above the lower one; or the radius is
-    /// not a positive number.
+    /// The box has a corner that is not finite, or an upper corner that is not above the lower one; or the
+    /// radius is not a positive number.
     #[error("cannot draw particles: {what} is {value}")]
     Geometry {
         /// What the value stands for.

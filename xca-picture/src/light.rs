@@ -30,7 +30,8 @@ pub(super) struct Surface {
 }
 
 impl Light {
-    /// A lamp above `camera` that shines on spheres in a space with its centre at the origin and a diagonal of 1.
+    /// A lamp above `camera` that shines on spheres in a space with its centre at the origin and a diagonal
+    /// of 1.
     pub(super) fn new(camera: &Camera, spheres: &[[f32; 3]], radius: f32) -> Self {
         const SIZE: usize = 2048;
         let flat = unit([camera.forward[0], camera.forward[1], 0.0]);

@@ -101,8 +101,9 @@ impl<'a> Mosaic<'a> {
         Self { hidden, ..self }
     }
 
-    /// Calls `set` with the column and the row of each pixel, from the top left, and its colour: that of its cell, or of the
-    /// mean of its cells. Pixels whose cells are all hidden are left out, and those beside all hexagons.
+    /// Calls `set` with the column and the row of each pixel, from the top left, and its colour: that of its
+    /// cell, or of the mean of its cells. Pixels whose cells are all hidden are left out, and those beside
+    /// all hexagons.
     pub fn draw(&self, [width, height]: [usize; 2], mut set: impl FnMut(usize, usize, [f32; 3])) {
         if self.columns == 0 || self.rows == 0 {
             return;

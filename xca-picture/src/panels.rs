@@ -13,7 +13,8 @@ pub struct PanelPicture<'a> {
     pub title: &'a str,
     /// The smaller text below the title.
     pub caption: &'a str,
-    /// Width and height of the whole picture in pixels, if it must have these; white is added to the right and below.
+    /// Width and height of the whole picture in pixels, if it must have these; white is added to the right
+    /// and below.
     pub size: Option<[usize; 2]>,
 }
 

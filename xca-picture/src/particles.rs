@@ -20,9 +20,9 @@ pub struct Domain {
 
 /// Particles as shaded spheres in their box, in perspective, z up.
 ///
-/// Make one with [`ParticlePicture::new`], set what else is wanted, and [`render`](ParticlePicture::render) it. At the
-/// default size, in a release build and on one core, 2,602 particles take about a quarter of a second and 316,000 less
-/// than a second; meanwhile some 100 MB of memory are in use.
+/// Make one with [`ParticlePicture::new`], set what else is wanted, and [`render`](ParticlePicture::render)
+/// it. At the default size, in a release build and on one core, 2,602 particles take about a quarter of a
+/// second and 316,000 less than a second; meanwhile some 100 MB of memory are in use.
 #[derive(Debug, Clone)]
 pub struct ParticlePicture<'a> {
     /// The middles of the particles, as lengths; those that are not finite are left out.
@@ -69,8 +69,8 @@ impl<'a> ParticlePicture<'a> {
     /// Draws the picture.
     ///
     /// # Errors
-    /// [`PictureError::Size`], [`PictureError::Geometry`] (box, radius or viewpoint) and [`PictureError::Length`] (one
-    /// value of the scalar for each particle).
+    /// [`PictureError::Size`], [`PictureError::Geometry`] (box, radius or viewpoint) and
+    /// [`PictureError::Length`] (one value of the scalar for each particle).
     pub fn render(&self) -> Result<Picture, PictureError> {
         check_size(self.size)?;
         self.check_geometry()?;
@@ -162,8 +162,8 @@ impl<'a> ParticlePicture<'a> {
         let style = Style { height: 11.0, colour: FAINT_INK };
         let middle = scene.camera.project([0.0; 3]);
         for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
-            // The edge on the outline of the box, where one of its two faces is seen and the other is not: for x and y
-            // the lower one, for z the left one.
+            // The edge on the outline of the box, where one of its two faces is seen and the other is not:
+            // for x and y the lower one, for z the left one.
             let outline = (0..8_usize).filter(|start| start >> axis & 1 == 0).filter(|start| {
                 let seen = (0..3).filter(|&a| a != axis).filter(|&a| scene.faces_eye(a, start >> a & 1 == 1));
                 seen.count() == 1
@@ -200,8 +200,8 @@ mod tests {
         picture
     }
 
-    /// The pixels of the drawing proper, without the bar, whose colour is blueish and dark (`true`, the low end of the
-    /// map) or yellowish (`false`, the high end).
+    /// The pixels of the drawing proper, without the bar, whose colour is blueish and dark (`true`, the low
+    /// end of the map) or yellowish (`false`, the high end).
     fn count(picture: &Picture, low: bool) -> usize {
         let in_drawing = |i: &usize| i % picture.width() < 430;
         (0..picture.width() * picture.height())

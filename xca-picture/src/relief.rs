@@ -3,8 +3,8 @@
 /// Heights to draw a layer of cells over.
 #[derive(Debug, Clone, Copy)]
 pub struct Relief<'a> {
-    /// The height of the ground in each cell, in the unit of the cell's side, in the order of the values; NaN where there is
-    /// no ground.
+    /// The height of the ground in each cell, in the unit of the cell's side, in the order of the values; NaN
+    /// where there is no ground.
     pub heights: &'a [f64],
     /// Where the drawn value is not more than this, the bare ground is seen.
     pub bare: f64,

@@ -92,7 +92,8 @@ impl Scene<'_> {
     }
 }
 
-/// The depth of the line from `a` to `b` (pixels and depth) next to the pixel `p`: 1 / depth is linear on the screen.
+/// The depth of the line from `a` to `b` (pixels and depth) next to the pixel `p`: 1 / depth is linear on the
+/// screen.
 fn depth_on_line(a: [f32; 3], b: [f32; 3], p: [f32; 2]) -> f32 {
     let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
     let length2 = (dx * dx + dy * dy).max(1e-6);
@@ -172,8 +173,8 @@ impl Lit<'_> {
         mix(PAPER, self.light.shade(&surface, unit(ray.map(|c| -c))), share)
     }
 
-    /// How open a place is, from 0 to 1, judged by how far its neighbours on the screen stand in front of it: spheres
-    /// stand out from those behind. `radius` is that of a sphere there, in samples.
+    /// How open a place is, from 0 to 1, judged by how far its neighbours on the screen stand in front of it:
+    /// spheres stand out from those behind. `radius` is that of a sphere there, in samples.
     fn openness(&self, x: usize, y: usize, depth: f32, radius: f32) -> f32 {
         const RING: [[f32; 2]; 8] = [
             [1.0, 0.0],

@@ -29,8 +29,8 @@ const LEAST_WITH_AXES: usize = 200;
 
 /// One layer of a dense substate, a colour a cell, x to the right and y upwards.
 ///
-/// Square cells become squares of a whole number of pixels as long as there is room; where there are more cells than pixels,
-/// a pixel shows the mean of its cells.
+/// Square cells become squares of a whole number of pixels as long as there is room; where there are more
+/// cells than pixels, a pixel shows the mean of its cells.
 #[derive(Debug, Clone)]
 pub struct SlicePicture<'a> {
     /// The number of cells along x.
@@ -51,11 +51,13 @@ pub struct SlicePicture<'a> {
     pub title: &'a str,
     /// The smaller text below the title.
     pub caption: &'a str,
-    /// The side of a cell in `length_unit`, of a hexagon the distance to its neighbours, for the scale below the picture.
+    /// The side of a cell in `length_unit`, of a hexagon the distance to its neighbours, for the scale below
+    /// the picture.
     pub cell_side: f64,
     /// The unit of length.
     pub length_unit: &'a str,
-    /// The coordinates along the left and the lower edge, in place of the scale; none where `size` has no room for them.
+    /// The coordinates along the left and the lower edge, in place of the scale; none where `size` has no
+    /// room for them.
     pub axes: Option<Axes<'a>>,
     /// The longer side of the drawing in pixels, at most; the texts around it come on top. From 200 to 7900.
     pub pixels: usize,
@@ -88,7 +90,8 @@ impl<'a> SlicePicture<'a> {
     /// Draws the picture.
     ///
     /// # Errors
-    /// [`PictureError::NoCells`], [`PictureError::Length`] (one value for each cell) and [`PictureError::Size`].
+    /// [`PictureError::NoCells`], [`PictureError::Length`] (one value for each cell) and
+    /// [`PictureError::Size`].
     pub fn render(&self) -> Result<Picture, PictureError> {
         let Self { columns, rows, .. } = *self;
         if columns == 0 || rows == 0 {
@@ -171,7 +174,8 @@ impl<'a> SlicePicture<'a> {
             .draw(size, |x, y, colour| canvas.set(x0 + x, y0 + y, encode(colour)));
     }
 
-    /// A bar of a round length below the drawing, whose lower left corner is at `[x, y]`, and which is so long.
+    /// A bar of a round length below the drawing, whose lower left corner is at `[x, y]`, and which is so
+    /// long.
     fn draw_scale(&self, canvas: &mut Canvas, [x, y]: [usize; 2], width: usize, length: f64) {
         if !(length.is_finite() && length > 0.0) {
             return;
@@ -272,7 +276,8 @@ mod tests {
         let at = |cell: usize| picture.pixel(LEFT + 10 + 100 * cell + 50, TOP + 70 + 50);
         assert_eq!(at(1), [255; 3]);
         assert!(near(at(0), colour(0.0)) && near(at(2), colour(1.0)));
-        // Of a pixel with three cells, the hidden one has no part; where all are hidden, the background is seen.
+        // Of a pixel with three cells, the hidden one has no part; where all are hidden, the background is
+        // seen.
         let values: Vec<f64> = (0..1200).map(|i| [0.0, 1.0, 1e9][i % 3]).collect();
         let hidden: Vec<bool> = (0..1200).map(|i| i % 3 == 2 || i >= 600).collect();
         let mut scalar = Scalar::new("t", &values);
@@ -322,7 +327,8 @@ mod tests {
         // The drawing itself is where it was.
         assert!(near(picture.pixel(LEFT_OF_AXES, TOP_OF_AXES + 399), colour(0.0)));
         let below = ticks(&picture, |x| [x, TOP_OF_AXES + 404], LEFT_OF_AXES + 600);
-        // 4,251,200 is 10 m or 40 pixels from the corner, the next one 20 m from there, the last the end of all.
+        // 4,251,200 is 10 m or 40 pixels from the corner, the next one 20 m from there, the last the end of
+        // all.
         let mut wanted: Vec<usize> = (0..8).map(|i| LEFT_OF_AXES + 40 + 80 * i).collect();
         wanted[7] -= 1;
         assert_eq!(below, wanted);

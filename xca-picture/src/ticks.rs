@@ -29,8 +29,8 @@ pub(crate) fn ticks(low: f64, high: f64, wanted: usize) -> Ticks {
     Ticks { marks: marks.collect(), exponent }
 }
 
-/// About `wanted` round numbers between `low` and `high`, written out with commas: `4,251,000`. None where the span is
-/// too small for the numbers.
+/// About `wanted` round numbers between `low` and `high`, written out with commas: `4,251,000`. None where
+/// the span is too small for the numbers.
 pub(crate) fn coordinates(low: f64, high: f64, wanted: usize) -> Vec<(f64, String)> {
     let (span, largest) = (high - low, low.abs().max(high.abs()));
     if !(span.is_finite() && span > 1e-12 * largest && (1e-300..1e15).contains(&largest)) {

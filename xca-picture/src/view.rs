@@ -18,7 +18,8 @@ impl Default for Viewpoint {
     }
 }
 
-/// A pinhole camera. Points are 3-vectors in a space where the box has its centre at the origin and a diagonal of 1.
+/// A pinhole camera. Points are 3-vectors in a space where the box has its centre at the origin and a
+/// diagonal of 1.
 #[derive(Debug, Clone)]
 pub(super) struct Camera {
     pub(super) right: [f32; 3],
@@ -87,8 +88,8 @@ impl Camera {
         [self.centre[0] + scale * dot(p, self.right), self.centre[1] - scale * dot(p, self.up), depth]
     }
 
-    /// The direction in which a pixel looks, of length 1 along the line of sight: the point of depth `d` is at
-    /// `eye + d * ray`.
+    /// The direction in which a pixel looks, of length 1 along the line of sight: the point of depth `d` is
+    /// at `eye + d * ray`.
     pub(super) fn ray(&self, x: f32, y: f32) -> [f32; 3] {
         let (u, v) = ((x - self.centre[0]) / self.focal, (self.centre[1] - y) / self.focal);
         std::array::from_fn(|i| self.forward[i] + u * self.right[i] + v * self.up[i])

@@ -1,12 +1,14 @@
 //! What the code of the macros leans on so that one mistake in a process gives one message.
 //!
-//! From a process the macros write a copy that is checked against the words of [`crate::Cell`] and its kin, and kernels for each
-//! precision. The copy stands in a constant. All types of the kernels go through [`Checked`] of that constant: where the copy has an error the
-//! constant has no value, so that these types are unknown to the compiler, and it is silent about them.
+//! From a process the macros write a copy that is checked against the words of [`crate::Cell`] and its kin,
+//! and kernels for each precision. The copy stands in a constant. All types of the kernels go through
+//! [`Checked`] of that constant: where the copy has an error the constant has no value, so that these types
+//! are unknown to the compiler, and it is silent about them.
 
 use crate::ir::Function;
 
-/// The bytes that the arrays of a process or helper may take together, so that no thread and no GPU runs out of them.
+/// The bytes that the arrays of a process or helper may take together, so that no thread and no GPU runs out
+/// of them.
 pub const MOST_BYTES: usize = 65_536;
 
 /// Ends the compilation with a message where arrays take more than [`MOST_BYTES`].
@@ -122,8 +124,8 @@ impl PlainFunction {
 #[derive(Debug, Clone, Copy)]
 pub struct NoResult<const NUMBER: u8>;
 
-// With two candidates the compiler waits for the type of the result: where that is unknown, another message says why, and none
-// comes from here.
+// With two candidates the compiler waits for the type of the result: where that is unknown, another message
+// says why, and none comes from here.
 #[diagnostic::do_not_recommend]
 impl Callable<NoResult<0>> for PlainFunction {}
 #[diagnostic::do_not_recommend]

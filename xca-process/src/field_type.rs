@@ -1,8 +1,9 @@
 //! What the type of a field means: the proof behind the derives.
 //!
-//! A derive sees words, and a word can be an alias of anything. So it writes the type of each field once more, with [`RealWord`] where the
-//! word `Real` stands, and all that it says of the field follows from the traits here: the host's type, that of kernels and the
-//! description are those of one type, whatever its words mean.
+//! A derive sees words, and a word can be an alias of anything. So it writes the type of each field once
+//! more, with [`RealWord`] where the word `Real` stands, and all that it says of the field follows from the
+//! traits here: the host's type, that of kernels and the description are those of one type, whatever its
+//! words mean.
 
 use crate::float::Float;
 use crate::host_value::{HostScalar, HostValue};

@@ -36,8 +36,8 @@ pub trait Float:
     /// A number in [0, 1) made of random bits: 24 bits of the first word, or 27 and 26 bits of both.
     fn uniform(words: [u32; 2]) -> Self;
 
-    /// The number of the cell of this side that holds the coordinate: `floor(coordinate / side)`, or nothing where
-    /// that is no number of a cell (NaN, or too far away).
+    /// The number of the cell of this side that holds the coordinate: `floor(coordinate / side)`, or nothing
+    /// where that is no number of a cell (NaN, or too far away).
     fn cell_number(coordinate: Self, side: Self) -> Option<i64>;
 }
 
@@ -69,7 +69,8 @@ macro_rules! float {
                 if !numbered {
                     return None;
                 }
-                // The floor without a call of the mathematical library: cut off, and one less where that went up.
+                // The floor without a call of the mathematical library: cut off, and one less where that went
+                // up.
                 let cut = quotient as i32;
                 Some(i64::from(cut) - i64::from(cut as $type > quotient))
             }

@@ -18,8 +18,8 @@ pub enum Boundary {
     Flat,
     /// The opposite side. The face on that side is toroidal too.
     Toroidal,
-    /// The mirror image: beyond cell 0 lies cell 0, then cell 1. With a reach of one cell the gradient across the
-    /// face is zero.
+    /// The mirror image: beyond cell 0 lies cell 0, then cell 1. With a reach of one cell the gradient across
+    /// the face is zero.
     Reflecting,
 }
 
@@ -161,8 +161,8 @@ impl Geometry {
 
     /// Where a displacement leads from a cell, by the boundary rules.
     ///
-    /// Each axis follows its own rule. Beyond several flat faces, that along z counts before that along y, and that
-    /// along y before that along x.
+    /// Each axis follows its own rule. Beyond several flat faces, that along z counts before that along y,
+    /// and that along y before that along x.
     pub fn reach(&self, cell: [usize; 3], displacement: [i32; 3]) -> Reached {
         let mut target = [0; 3];
         for axis in [2, 1, 0] {

@@ -93,7 +93,8 @@ pub trait HostValue: Copy + PartialEq + Send + Sync + 'static {
     /// The type of its components.
     type Scalar: HostScalar;
 
-    /// The number of components: the lanes of a vector, the elements of an array, the lanes of all elements of an array of vectors.
+    /// The number of components: the lanes of a vector, the elements of an array, the lanes of all elements
+    /// of an array of vectors.
     const COMPONENTS: usize;
 
     /// One component.

@@ -1,8 +1,9 @@
 //! The body of an elementary process as data.
 //!
-//! `#[elementary_process]`, `#[migration]` and `#[helper]` keep, beside the native kernel, the parsed body of the
-//! function. An engine that cannot call Rust (a GPU) writes its own program from it. Types are those the user wrote;
-//! whatever Rust infers is inferred again by the reader of the data, from the schemas of the substates and parameters.
+//! `#[elementary_process]`, `#[migration]` and `#[helper]` keep, beside the native kernel, the parsed body of
+//! the function. An engine that cannot call Rust (a GPU) writes its own program from it. Types are those the
+//! user wrote; whatever Rust infers is inferred again by the reader of the data, from the schemas of the
+//! substates and parameters.
 //!
 //! This module is for engines and for code that the macros write; models do not need it.
 
@@ -57,8 +58,8 @@ pub struct Argument {
 /// What an argument stands for.
 #[derive(Debug, Clone)]
 pub enum Role {
-    /// The central cell: the struct that the process writes (`&mut Cell<S>`), and others of the cell (`&Cell<S>`); in a process over items
-    /// the cell that the item stands in.
+    /// The central cell: the struct that the process writes (`&mut Cell<S>`), and others of the cell
+    /// (`&Cell<S>`); in a process over items the cell that the item stands in.
     Cell(&'static Schema),
     /// The item of a population (`&mut Slot<S>`, `&Slot<S>`).
     Slot(&'static Schema),

@@ -1,11 +1,12 @@
 //! What native kernels run on: a row of cells, or the items of a row of cells.
 //!
-//! An engine describes a row by a [`Row`]; a kernel, made by the macros, asks it for the substates that its process declares
-//! (its [`Access`] list) and works through the row. One dynamic call serves a whole row, and inside it everything is
-//! monomorphic, so that the compiler can vectorise.
+//! An engine describes a row by a [`Row`]; a kernel, made by the macros, asks it for the substates that its
+//! process declares (its [`Access`] list) and works through the row. One dynamic call serves a whole row, and
+//! inside it everything is monomorphic, so that the compiler can vectorise.
 //!
-//! This module is for engines and for code that the macros write. An engine promises much of a row ([`Row::new`]); a kernel is trusted with
-//! nothing: what it asks for is compared with the row's entries, once a row.
+//! This module is for engines and for code that the macros write. An engine promises much of a row
+//! ([`Row::new`]); a kernel is trusted with nothing: what it asks for is compared with the row's entries,
+//! once a row.
 #![allow(unsafe_code)]
 
 use crate::float::Float;
@@ -140,8 +141,8 @@ pub struct StoppedAt {
     pub label: Option<u32>,
 }
 
-/// Where a kernel is in its row. It tells the row when it is dropped, which only a panic does; a kernel that arrives leaves it by
-/// [`Self::leave`]. So it lives in registers, and costs nothing where nothing can panic.
+/// Where a kernel is in its row. It tells the row when it is dropped, which only a panic does; a kernel that
+/// arrives leaves it by [`Self::leave`]. So it lives in registers, and costs nothing where nothing can panic.
 #[derive(Debug)]
 pub struct Place<'r, 'a> {
     /// The number of the cell in the row, in a process over cells.
@@ -203,15 +204,18 @@ impl<'a> Row<'a> {
     ///
     /// # Safety
     /// For the lifetime `'a`, and for every entry (that is not null, aligned for its elements):
-    /// - each plane of cells can be read at every cell of the row and, with `around`, at all of `frame.offsets` from there;
+    /// - each plane of cells can be read at every cell of the row and, with `around`, at all of
+    ///   `frame.offsets` from there;
     /// - of items, the row's own can be read and, with `all`, as many as `labels.len()`;
-    /// - no one writes meanwhile what can be read by this (other rows' cells and own items may be written by other threads);
+    /// - no one writes meanwhile what can be read by this (other rows' cells and own items may be written by
+    ///   other threads);
     /// - `length` elements of each plane of cells at `write` are this row's alone;
     /// - the row's own items at `write` are this row's alone;
-    /// - `write` is apart from everything that can be read through any entry, but for another entry's `read` of cells or own items of the
-    ///   same substate;
-    /// - `starts` and `ends` can be read at every cell of the row and at all offsets from there, hold ranges within
-    ///   `labels.len()`, and the ranges of the row's cells lie within `own`, which lies within `labels.len()`.
+    /// - `write` is apart from everything that can be read through any entry, but for another entry's `read`
+    ///   of cells or own items of the same substate;
+    /// - `starts` and `ends` can be read at every cell of the row and at all offsets from there, hold ranges
+    ///   within `labels.len()`, and the ranges of the row's cells lie within `own`, which lies within
+    ///   `labels.len()`.
     pub unsafe fn new(
         frame: &'a Frame<'a>,
         entries: &'a [Entry],
@@ -245,7 +249,8 @@ impl<'a> Row<'a> {
         self.fault.get()
     }
 
-    /// Whether the kernel has asked for a random number or for the number of the step, so that its results may be others in another step.
+    /// Whether the kernel has asked for a random number or for the number of the step, so that its results
+    /// may be others in another step.
     pub fn has_asked_for_step(&self) -> bool {
         self.asked_for_step.get()
     }
@@ -326,8 +331,8 @@ impl<'a> Row<'a> {
         self.items.map_or(0, |items| items.own.1 - items.own.0)
     }
 
-    /// The cell of an own item, which is given by its number among them. It cannot panic, so a kernel that has no use for it does not pay for
-    /// it.
+    /// The cell of an own item, which is given by its number among them. It cannot panic, so a kernel that
+    /// has no use for it does not pay for it.
     #[inline(always)]
     pub fn column_of(&self, number: usize) -> Column<'_> {
         let cell = self.items.and_then(|items| items.cells.get(number).copied()).unwrap_or_default();
@@ -355,7 +360,8 @@ impl<'a> Row<'a> {
     unsafe fn items_at(&self, cell: Column<'_>, distance: isize) -> Range<usize> {
         let Some(items) = &self.items else { return 0..0 };
         let at = cell.number() as isize + distance;
-        // SAFETY: `Row::new`: readable at every cell of the row and at all offsets from there; the column is this row's.
+        // SAFETY: `Row::new`: readable at every cell of the row and at all offsets from there; the column is
+        // this row's.
         unsafe { *items.starts.offset(at) as usize..*items.ends.offset(at) as usize }
     }
 

@@ -1,7 +1,8 @@
-//! Elementary processes as engines see them: the words of their source, their kernels and bodies, and the space that they work in.
+//! Elementary processes as engines see them: the words of their source, their kernels and bodies, and the
+//! space that they work in.
 //!
-//! Models name what is here by `xca_core`. The modules [`ir`], [`kernel`] and [`storage`] are for engines and generated code; they change
-//! with these, in any version.
+//! Models name what is here by `xca_core`. The modules [`ir`], [`kernel`] and [`storage`] are for engines and
+//! generated code; they change with these, in any version.
 
 // The macros name `xca_core`, also in the helpers of this crate.
 extern crate self as xca_core;

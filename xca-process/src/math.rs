@@ -1,7 +1,8 @@
 //! Mathematical functions with the same bits on every engine.
 //!
-//! They are made of + - * /, comparisons and whole numbers alone, which are the same everywhere; the platform's own functions are not. In a
-//! process `x.exp()` is [`exp`] here, computed in the precision of the run. In ordinary code these functions compute in `f64`.
+//! They are made of + - * /, comparisons and whole numbers alone, which are the same everywhere; the
+//! platform's own functions are not. In a process `x.exp()` is [`exp`] here, computed in the precision of the
+//! run. In ordinary code these functions compute in `f64`.
 //!
 //! ```
 //! use xca_core::prelude::*;
@@ -23,9 +24,10 @@
 //! assert_eq!(xca_core::math::exp(0.0), 1.0);
 //! ```
 //!
-//! The errors stated with each function are the largest that were found in hundreds of thousands of values of each precision, in units of the
-//! last digit of the exact value (half a unit is a correctly rounded value). `docs/mathematics.md` in the repository says how they were measured, what
-//! a call costs and what GPUs may do with denormal numbers.
+//! The errors stated with each function are the largest that were found in hundreds of thousands of values of
+//! each precision, in units of the last digit of the exact value (half a unit is a correctly rounded value).
+//! `docs/mathematics.md` in the repository says how they were measured, what a call costs and what GPUs may
+//! do with denormal numbers.
 
 mod exact;
 mod exponential;

@@ -8,9 +8,10 @@ pub(crate) mod shapes;
 
 /// The cells that a process sees, as displacements from the central cell, which has index 0.
 ///
-/// In the ready-made neighbourhoods the others follow with z slowest and x fastest, from the negative to the positive side: the seven of
-/// [`Neighbourhood::von_neumann`] are centre, -z, -y, -x, +x, +y, +z. Only with [`Hexagons::SideUp`] y is fastest, so that an index means the
-/// same direction in all columns. A custom list keeps its order.
+/// In the ready-made neighbourhoods the others follow with z slowest and x fastest, from the negative to the
+/// positive side: the seven of [`Neighbourhood::von_neumann`] are centre, -z, -y, -x, +x, +y, +z. Only with
+/// [`Hexagons::SideUp`] y is fastest, so that an index means the same direction in all columns. A custom list
+/// keeps its order.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Neighbourhood {
     name: String,
@@ -79,8 +80,9 @@ impl Neighbourhood {
         Self::ball(format!("Moore 2D, radius {radius}"), radius, 0, |_| true)
     }
 
-    /// The six touching hexagons of a cell in one layer, 7 with itself. An index means the same direction in even and odd rows or columns:
-    /// with a corner up the two below, those at the sides, the two above; with a side up the same with x and y exchanged.
+    /// The six touching hexagons of a cell in one layer, 7 with itself. An index means the same direction in
+    /// even and odd rows or columns: with a corner up the two below, those at the sides, the two above; with
+    /// a side up the same with x and y exchanged.
     pub fn hexagonal(hexagons: Hexagons) -> Self {
         // In even rows the two neighbours below and above stand at x - 1 and x, in odd rows at x and x + 1.
         let rows = |shift: i32| {

@@ -11,9 +11,10 @@ use xca_values::{Precision, ScalarType, Shortest, ValueType};
 
 /// A struct whose fields are parameters; derive it.
 ///
-/// Fields are of the types that substates have: `bool`, `u8`, `i32`, `u32`, `f32`, `f64`, `Real`, small vectors of a number, enums that
-/// derive `States`, and arrays of these. They can be read and set by name, from a number, `true` or `false`, the name of a state, or
-/// as many of them as a vector or an array has, separated by commas:
+/// Fields are of the types that substates have: `bool`, `u8`, `i32`, `u32`, `f32`, `f64`, `Real`, small
+/// vectors of a number, enums that derive `States`, and arrays of these. They can be read and set by name,
+/// from a number, `true` or `false`, the name of a state, or as many of them as a vector or an array has,
+/// separated by commas:
 ///
 /// ```
 /// use xca_core::prelude::*;
@@ -33,8 +34,8 @@ use xca_values::{Precision, ScalarType, Shortest, ValueType};
 /// # Ok::<(), ParameterError>(())
 /// ```
 ///
-/// A field can say more of itself. The range holds for each component, wherever a value comes from, in the precision of the run;
-/// NaN is never a value of a parameter.
+/// A field can say more of itself. The range holds for each component, wherever a value comes from, in the
+/// precision of the run; NaN is never a value of a parameter.
 ///
 /// ```
 /// use xca_core::prelude::*;
@@ -89,8 +90,8 @@ pub trait Parameters: Clone + fmt::Debug + Send + Sync + 'static {
         find(Self::SCHEMA, name).map(|(index, _)| self.value(index))
     }
 
-    /// Sets the parameter with this name from text: a number, `true` or `false`, the name of a state, or as many of them as the value has
-    /// components, separated by commas.
+    /// Sets the parameter with this name from text: a number, `true` or `false`, the name of a state, or as
+    /// many of them as the value has components, separated by commas.
     ///
     /// # Errors
     /// Where no parameter has the name, it is computed, or the text is no value of its type or its range.
@@ -134,7 +135,8 @@ impl ParameterValue {
         Self { value_type, components }
     }
 
-    /// A value with these components; nothing where the type has another number of them, or one is no value of it.
+    /// A value with these components; nothing where the type has another number of them, or one is no value
+    /// of it.
     pub fn from_components(value_type: ValueType, components: Vec<f64>) -> Option<Self> {
         let all_fit = components.iter().all(|number| value_type.scalar.holds(*number));
         (components.len() == value_type.components() && all_fit).then_some(Self { value_type, components })

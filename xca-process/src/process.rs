@@ -56,9 +56,11 @@ pub struct Process {
     pub local_interaction: bool,
     /// Whether it asks for the opposite of a neighbour.
     pub uses_opposite: bool,
-    /// Whether its text asks for random numbers or for the number of the step; a helper may do so too, which only a kernel notes.
+    /// Whether its text asks for random numbers or for the number of the step; a helper may do so too, which
+    /// only a kernel notes.
     pub uses_step: bool,
-    /// How it uses each substate; a substate may stand in two accesses, one of which is the position for a search.
+    /// How it uses each substate; a substate may stand in two accesses, one of which is the position for a
+    /// search.
     pub access: &'static [Access],
     /// Its body as data.
     pub body: fn() -> ir::Function,
@@ -104,7 +106,8 @@ impl Process {
 
 /// A function marked `#[elementary_process]` or `#[migration]`.
 ///
-/// Its name is a value that a model takes, as in `.process(evolve)`, and therefore not free for variables in the same module.
+/// Its name is a value that a model takes, as in `.process(evolve)`, and therefore not free for variables in
+/// the same module.
 #[diagnostic::on_unimplemented(
     message = "this is no elementary process",
     label = "not marked as an elementary process",

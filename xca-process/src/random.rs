@@ -1,7 +1,8 @@
 //! Counter-based random numbers: Philox 4x32-10.
 //!
-//! J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw: "Parallel random numbers: as easy as 1, 2, 3", SC11. A number is
-//! a function of its counter and key alone, so that it does not matter who draws it, when, or in which order.
+//! J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw: "Parallel random numbers: as easy as 1, 2, 3", SC11. A
+//! number is a function of its counter and key alone, so that it does not matter who draws it, when, or in
+//! which order.
 
 use crate::float::Float;
 

@@ -40,8 +40,8 @@ use xca_values::{StateNames, StoredScalar};
 /// assert_eq!(Tissue::NAMES.states, ["Resting", "Excited", "Refractory"]);
 /// ```
 ///
-/// A state takes one byte. The first one is that of cells which nothing has filled, and the default outside of flat boundaries. Texts
-/// (parameters, tables) name a state as the source does.
+/// A state takes one byte. The first one is that of cells which nothing has filled, and the default outside
+/// of flat boundaries. Texts (parameters, tables) name a state as the source does.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no type of a substate or parameter",
     label = "neither a number, bool, vector or array, nor an enum of states",

@@ -4,10 +4,11 @@
 const ALIGNMENT: usize = 64;
 const WORD: usize = size_of::<u64>();
 
-/// A processor takes a load for one of what was stored last where their addresses differ by a multiple of this, and
-/// waits.
+/// A processor takes a load for one of what was stored last where their addresses differ by a multiple of
+/// this, and waits.
 const PAGE: usize = 4096;
-/// The lines from a buffer's place in a page to that of the next: no multiple of it is near a whole page for long.
+/// The lines from a buffer's place in a page to that of the next: no multiple of it is near a whole page for
+/// long.
 const LINES_APART: usize = 17;
 
 /// Bytes whose first one is aligned for every scalar and for wide registers.
@@ -27,7 +28,8 @@ impl Buffer {
         Self::placed(length, None)
     }
 
-    /// So many zero bytes, in a buffer that is used together with others of other numbers, and does not hinder them.
+    /// So many zero bytes, in a buffer that is used together with others of other numbers, and does not
+    /// hinder them.
     pub fn zeroed_apart(length: usize, number: usize) -> Self {
         Self::placed(length, Some(number * LINES_APART * ALIGNMENT % PAGE))
     }

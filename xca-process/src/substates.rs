@@ -25,10 +25,10 @@ use xca_values::Schema;
 /// assert_eq!(Lava::THICKNESS.name(), "thickness");
 /// ```
 ///
-/// Fields are of type `bool`, `u8`, `i32`, `u32`, `f32`, `f64`, `Real`, of `Vector2`, `Vector3`, `Vector4` of a number, of an enum that
-/// derives [`crate::States`], or arrays of these, `[T; N]`.
-/// For each field there is a constant in capitals, a [`Substate`], by which the host names it. In a struct for the items
-/// of a population one field of type `Vector3<Real>` may be marked `#[position]`: searches for near items use it.
+/// Fields are of type `bool`, `u8`, `i32`, `u32`, `f32`, `f64`, `Real`, of `Vector2`, `Vector3`, `Vector4` of
+/// a number, of an enum that derives [`crate::States`], or arrays of these, `[T; N]`. For each field there is
+/// a constant in capitals, a [`Substate`], by which the host names it. In a struct for the items of a
+/// population one field of type `Vector3<Real>` may be marked `#[position]`: searches for near items use it.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no struct of substates",
     label = "its fields are not substates",
@@ -45,7 +45,8 @@ pub trait Substates: Clone + Send + Sync + 'static {
     fn decode<'a>(precision: Precision, field: impl FnMut(usize) -> &'a [u8]) -> Self;
 }
 
-/// The type in kernels and the number of the field whose name has this hash; made by the derive for the macros.
+/// The type in kernels and the number of the field whose name has this hash; made by the derive for the
+/// macros.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no substate of this name",
     label = "not a field of `{Self}`",

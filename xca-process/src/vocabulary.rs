@@ -1,7 +1,7 @@
 //! The words that an elementary process speaks.
 //!
-//! These types exist for the compiler and the reader: the macros check a process against them and then replace them by
-//! kernels. No value of them can be made, so nothing here can be called from ordinary code.
+//! These types exist for the compiler and the reader: the macros check a process against them and then
+//! replace them by kernels. No value of them can be made, so nothing here can be called from ordinary code.
 
 use crate::checks::HasPosition;
 use std::convert::Infallible;
@@ -12,8 +12,8 @@ use xca_values::Vector3;
 
 /// The central cell, in a process that runs once for each cell.
 ///
-/// Its substates are its fields: `cell.temperature` reads, `cell.temperature = …` writes. Reading shows what the process has
-/// already written. Only the central cell can be written.
+/// Its substates are its fields: `cell.temperature` reads, `cell.temperature = …` writes. Reading shows what
+/// the process has already written. Only the central cell can be written.
 #[derive(Debug)]
 pub struct Cell<S> {
     never: Infallible,
@@ -27,8 +27,8 @@ impl<S: 'static> Cell<S> {
         match self.never {}
     }
 
-    /// A cell of the neighbourhood as it was before this process; index 0 is the central cell. An index beyond the
-    /// neighbourhood is a fault that stops the run.
+    /// A cell of the neighbourhood as it was before this process; index 0 is the central cell. An index
+    /// beyond the neighbourhood is a fault that stops the run.
     pub fn neighbour(&self, _index: usize) -> &'static S {
         match self.never {}
     }
@@ -76,7 +76,8 @@ impl<S: 'static> Cell<S> {
         match self.never {}
     }
 
-    /// Stops the run after this process with an error that names the step, the process, the cell, the code and the value.
+    /// Stops the run after this process with an error that names the step, the process, the cell, the code
+    /// and the value.
     pub fn fault(&self, _code: u32, _value: Real) {
         match self.never {}
     }
@@ -130,8 +131,8 @@ impl<S: 'static> Slot<S> {
         match self.never {}
     }
 
-    /// Stops the run after this process with an error that names the step, the process, the cell, the item, the code and
-    /// the value.
+    /// Stops the run after this process with an error that names the step, the process, the cell, the item,
+    /// the code and the value.
     pub fn fault(&self, _code: u32, _value: Real) {
         match self.never {}
     }
@@ -271,20 +272,20 @@ impl Space {
         match self.never {}
     }
 
-    /// A separation of two positions, by the shorter way round each toroidal axis (the nearest image); along the others it is what it was.
-    /// A search measures distances in the same way.
+    /// A separation of two positions, by the shorter way round each toroidal axis (the nearest image); along
+    /// the others it is what it was. A search measures distances in the same way.
     pub fn nearest_image(&self, _separation: Vector3<Real>) -> Vector3<Real> {
         match self.never {}
     }
 
-    /// A position inside the space: one that lies beyond a face of a toroidal axis, by less than the length of the space, comes in again
-    /// at the opposite face. Along the other axes it is what it was.
+    /// A position inside the space: one that lies beyond a face of a toroidal axis, by less than the length
+    /// of the space, comes in again at the opposite face. Along the other axes it is what it was.
     pub fn wrapped(&self, _position: Vector3<Real>) -> Vector3<Real> {
         match self.never {}
     }
 
-    /// The cell that contains the position: cell `i` holds `i * side <= x < (i + 1) * side`. Outside the space it is
-    /// [`Destination::Outside`]; a position that is no number is a fault.
+    /// The cell that contains the position: cell `i` holds `i * side <= x < (i + 1) * side`. Outside the
+    /// space it is [`Destination::Outside`]; a position that is no number is a fault.
     pub fn cell_containing(&self, _position: Vector3<Real>) -> Destination {
         match self.never {}
     }

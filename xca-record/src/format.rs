@@ -31,9 +31,9 @@ use std::path::Path;
 
 /// A format in which the states of a run are written.
 ///
-/// The frame does the rest with what [`Self::files`] lists: `run.json` tells these files, files of others under
-/// their names are never replaced, a new run removes those of the one before, and a run that is resumed those that
-/// come after its checkpoint.
+/// The frame does the rest with what [`Self::files`] lists: `run.json` tells these files, files of others
+/// under their names are never replaced, a new run removes those of the one before, and a run that is resumed
+/// those that come after its checkpoint.
 ///
 /// ```
 /// use std::path::Path;
@@ -95,8 +95,8 @@ pub trait Writer: fmt::Debug + Send + Sync {
         Ok(())
     }
 
-    /// Writes the files that each recorded state has, and goes on with those of the run. The initial and the final
-    /// state are among them.
+    /// Writes the files that each recorded state has, and goes on with those of the run. The initial and the
+    /// final state are among them.
     ///
     /// # Errors
     /// As [`Self::begin`].
@@ -130,8 +130,8 @@ pub trait Writer: fmt::Debug + Send + Sync {
         None
     }
 
-    /// The files that hold a state of a view together, and that [`Self::read_state`] reads; none where the format does not
-    /// give it back. Default: the file of each state of the view.
+    /// The files that hold a state of a view together, and that [`Self::read_state`] reads; none where the
+    /// format does not give it back. Default: the file of each state of the view.
     fn state_files(&self, subject: Subject<'_>, view: View<'_>) -> Vec<OutputFile> {
         let mut files = self.files(subject);
         files.retain(|file| file.moment() == Moment::Each && file.is_of(&view.stem()));
@@ -139,8 +139,8 @@ pub trait Writer: fmt::Debug + Send + Sync {
         files
     }
 
-    /// Reads back a state of a view, all of whose files are there; nothing where the format does not give it back. Default:
-    /// what [`Self::read`] reads.
+    /// Reads back a state of a view, all of whose files are there; nothing where the format does not give it
+    /// back. Default: what [`Self::read`] reads.
     fn read_state(&self, saved: SavedView<'_>) -> Option<Result<SavedState, Failure>> {
         let files = self.state_files(saved.subject(), saved.view());
         self.read(&saved.path(files.first()?))

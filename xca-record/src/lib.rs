@@ -45,8 +45,9 @@
 //! | [`Monitor`] | who watches a run, and can end it |
 //! | [`read_items`] | a table of items, read back |
 //!
-//! The formats themselves are in `xca_io`. Several engines on one model are compared by `xca_compare`, many runs with other
-//! parameters and seeds are done by `xca_ensemble`, and a program with a command line is made by `xca_run`.
+//! The formats themselves are in `xca_io`. Several engines on one model are compared by `xca_compare`, many
+//! runs with other parameters and seeds are done by `xca_ensemble`, and a program with a command line is made
+//! by `xca_run`.
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 

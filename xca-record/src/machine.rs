@@ -26,9 +26,11 @@ fn gigabytes(bytes: u128) -> String {
     format!("{} GB", xca_io::numbers::significant(bytes as f64 / 1e9, 3))
 }
 
-/// Checks that something can fit into the memory that is left. Where the system does not say how much that is, everything fits.
+/// Checks that something can fit into the memory that is left. Where the system does not say how much that
+/// is, everything fits.
 ///
-/// For a set-up that makes something large before the model exists: memory that is not there ends a program without a word.
+/// For a set-up that makes something large before the model exists: memory that is not there ends a program
+/// without a word.
 ///
 /// # Errors
 /// Where it does not fit into what the machine has, or what the process or its group may use.

@@ -27,13 +27,15 @@ impl Observable {
         Self::new(name, "", value)
     }
 
-    /// The same quantity, which the model keeps: at the end of a run, and where engines are compared, its drift is told.
+    /// The same quantity, which the model keeps: at the end of a run, and where engines are compared, its
+    /// drift is told.
     #[must_use]
     pub fn conserved(self) -> Self {
         Self { is_conserved: true, ..self }
     }
 
-    /// How far a conserved quantity has come from its first value, as a part of that; of one that was 0, as a number.
+    /// How far a conserved quantity has come from its first value, as a part of that; of one that was 0, as a
+    /// number.
     pub fn drift(&self, last: f64) -> Option<f64> {
         let scale = if self.value == 0.0 { 1.0 } else { self.value.abs() };
         self.is_conserved.then(|| (last - self.value) / scale)

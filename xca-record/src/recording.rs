@@ -128,7 +128,8 @@ impl Recording {
             }
         }
         if self.simulation.stop_reason().is_none() {
-            // Before the end is recorded: a run that goes on from here does not end here, also one that is given more steps.
+            // Before the end is recorded: a run that goes on from here does not end here, also one that is
+            // given more steps.
             self.keep()?;
         }
         self.simulation.finish()?;

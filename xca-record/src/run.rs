@@ -145,8 +145,8 @@ impl Run {
         Self { steps, ..self }
     }
 
-    /// Gives the cells at least so many slots for the items of each population, so that a run goes on which ended with a full
-    /// cell. The states of a run do not depend on it.
+    /// Gives the cells at least so many slots for the items of each population, so that a run goes on which
+    /// ended with a full cell. The states of a run do not depend on it.
     ///
     /// # Errors
     /// None of a model that could be built.
@@ -161,7 +161,8 @@ impl Run {
         Ok(self)
     }
 
-    /// Writes a row of observables and a frame every so many steps, at least 1. One that is resumed does so as often as before.
+    /// Writes a row of observables and a frame every so many steps, at least 1. One that is resumed does so
+    /// as often as before.
     #[must_use]
     pub fn every(self, steps: u64) -> Self {
         Self { outputs: Some(Outputs::Every(steps.max(1))), ..self }
@@ -234,7 +235,8 @@ impl Run {
         report.files = self.recorder.files();
         if let Some(interval) = self.checkpoint_every {
             report.checkpoint_every = Some(interval.to_string());
-            // The first, so that they are gone first when another run takes the folder: without their files they are of no use.
+            // The first, so that they are gone first when another run takes the folder: without their files
+            // they are of no use.
             report.files.insert(0, CheckpointFolder::files());
         }
         report
@@ -274,8 +276,8 @@ impl Run {
     }
 
     /// Goes on from the latest checkpoint in the folder of a run of the same model, on any engine. The files
-    /// become those that the run would have had without the interruption, byte by byte. The number of steps may be larger
-    /// than it was: a run that has come to its end goes on beyond it.
+    /// become those that the run would have had without the interruption, byte by byte. The number of steps
+    /// may be larger than it was: a run that has come to its end goes on beyond it.
     ///
     /// # Errors
     /// Where there is no checkpoint, it is not whole, it is one of another run, or an input file has changed.
@@ -318,7 +320,8 @@ impl Run {
             return Err(BeginError::Past { done: description.step, steps: self.steps });
         }
         self.outputs.get_or_insert(description.run.every);
-        // Items that once needed more slots may need them again; what is no population of the model's is refused below.
+        // Items that once needed more slots may need them again; what is no population of the model's is
+        // refused below.
         for (population, slots) in description.run.slots() {
             if self.recorder.model().slots(population).is_some() {
                 self.recorder.raise_slots(population, slots)?;

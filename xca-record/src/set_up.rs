@@ -28,7 +28,8 @@ pub struct SetUp {
     pub steps: u64,
     /// After which steps something is written; without it, 20 times in the run.
     pub outputs: Option<Outputs>,
-    /// Whether a criterion of the model ends the run, and the number of steps is only the most that it may take.
+    /// Whether a criterion of the model ends the run, and the number of steps is only the most that it may
+    /// take.
     pub is_until_stopped: bool,
     /// How long a step is, in s; without it, time is counted in steps.
     pub time_step: Option<f64>,
@@ -71,9 +72,11 @@ impl SetUp {
         }
     }
 
-    /// A model that is run until it stops itself ([`xca_core::ModelBuilder::stop_when`]), or for so many steps at most.
+    /// A model that is run until it stops itself ([`xca_core::ModelBuilder::stop_when`]), or for so many
+    /// steps at most.
     ///
-    /// No one knows beforehand how long that takes, so states are written ever further apart ([`Outputs::Growing`]).
+    /// No one knows beforehand how long that takes, so states are written ever further apart
+    /// ([`Outputs::Growing`]).
     pub fn until_stopped(model: Model, most: u64) -> Self {
         Self { is_until_stopped: true, outputs: Some(Outputs::Growing), ..Self::new(model, most) }
     }
@@ -85,21 +88,24 @@ impl SetUp {
         self
     }
 
-    /// Writes a row of observables and a frame every so many steps, at least 1, unless the command line says otherwise.
+    /// Writes a row of observables and a frame every so many steps, at least 1, unless the command line says
+    /// otherwise.
     #[must_use]
     pub fn every(self, steps: u64) -> Self {
         Self { outputs: Some(Outputs::Every(steps.max(1))), ..self }
     }
 
-    /// How many seconds a step is: a positive number, or the program refuses to run. Without it, time is counted in steps.
+    /// How many seconds a step is: a positive number, or the program refuses to run. Without it, time is
+    /// counted in steps.
     #[must_use]
     pub fn time_step(mut self, seconds: f64) -> Self {
         self.time_step = Some(seconds);
         self
     }
 
-    /// What is measured before the first step, every so many steps and after the last: always the same quantities in the same order, and
-    /// as a function of the state alone, or a run that is resumed would show others.
+    /// What is measured before the first step, every so many steps and after the last: always the same
+    /// quantities in the same order, and as a function of the state alone, or a run that is resumed would
+    /// show others.
     #[must_use]
     pub fn observables(
         mut self,
@@ -123,12 +129,13 @@ impl SetUp {
         self
     }
 
-    /// Where the space of a model of one layer lies on a map, and which of its cells have no ground: the place of a grid and
-    /// its cells without a value (`&grid`), or a [`Map`].
+    /// Where the space of a model of one layer lies on a map, and which of its cells have no ground: the
+    /// place of a grid and its cells without a value (`&grid`), or a [`Map`].
     ///
-    /// Frames lie at this place. Files, pictures and default observables leave out the cells without ground. The final state
-    /// is written as ESRI ASCII grids too, one for each substate of cells (`final_altitude.asc`); any other model of one layer
-    /// does so with `run --formats +asc`, and its corner is at 0, 0. `--formats +tif` writes GeoTIFF.
+    /// Frames lie at this place. Files, pictures and default observables leave out the cells without ground.
+    /// The final state is written as ESRI ASCII grids too, one for each substate of cells
+    /// (`final_altitude.asc`); any other model of one layer does so with `run --formats +asc`, and its corner
+    /// is at 0, 0. `--formats +tif` writes GeoTIFF.
     #[must_use]
     pub fn map(mut self, map: impl Into<Map>) -> Self {
         self.map = Some(map.into());
@@ -144,7 +151,8 @@ impl SetUp {
         self
     }
 
-    /// A file that the set-up has read. A run never replaces it, and does not go on from a checkpoint once it has changed.
+    /// A file that the set-up has read. A run never replaces it, and does not go on from a checkpoint once it
+    /// has changed.
     #[must_use]
     pub fn input(mut self, path: impl Into<PathBuf>) -> Self {
         self.inputs.push(InputFile::new(path));
@@ -153,8 +161,8 @@ impl SetUp {
 
     /// Warns of something that makes results doubtful but does not forbid the run, such as a large time step.
     ///
-    /// A program prints it on stderr at the start, also with `--quiet`; `run.json` keeps it in `warnings`. Say what is
-    /// wrong, with the number, and what would do.
+    /// A program prints it on stderr at the start, also with `--quiet`; `run.json` keeps it in `warnings`.
+    /// Say what is wrong, with the number, and what would do.
     #[must_use]
     pub fn warning(mut self, text: impl Into<String>) -> Self {
         self.warnings.push(text.into());

@@ -292,24 +292,24 @@ impl<S: Substates> CellView<S> {
         self
     }
 
-    /// Draws over the relief of the ground, whose heights in metres are another substate: where the drawn one is not more than `bare`, the
-    /// ground is seen.
+    /// Draws over the relief of the ground, whose heights in metres are another substate: where the drawn one
+    /// is not more than `bare`, the ground is seen.
     #[must_use]
     pub fn relief<V: HostValue + Into<f64>>(mut self, heights: Substate<S, V>, bare: f64) -> Self {
         self.view.relief = Some((heights.index(), bare));
         self
     }
 
-    /// The values at the ends of the scale. Without it, they are the least and the largest of the initial state, or of the state that is drawn
-    /// where it goes beyond.
+    /// The values at the ends of the scale. Without it, they are the least and the largest of the initial
+    /// state, or of the state that is drawn where it goes beyond.
     #[must_use]
     pub fn range(mut self, low: f64, high: f64) -> Self {
         self.view.range = Some([low, high]);
         self
     }
 
-    /// Whether pictures of layers have axes in metres, in place of a scale. Default: where the cells lie on a map. The
-    /// axes then tell its eastings and northings.
+    /// Whether pictures of layers have axes in metres, in place of a scale. Default: where the cells lie on a
+    /// map. The axes then tell its eastings and northings.
     #[must_use]
     pub fn axes(mut self, are_drawn: bool) -> Self {
         self.view.axes = Some(are_drawn);

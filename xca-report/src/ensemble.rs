@@ -47,7 +47,8 @@ struct Line {
     points: Vec<Point>,
 }
 
-/// The page of all observables over the parameter that is named first; nothing where no parameter is swept or nothing is observed.
+/// The page of all observables over the parameter that is named first; nothing where no parameter is swept or
+/// nothing is observed.
 pub fn page(title: &str, finished: &[Finished]) -> Result<Option<String>, Failure> {
     let Some(parameter) = finished.first().and_then(|first| first.member.parameters.first()) else {
         return Ok(None);

@@ -3,8 +3,8 @@
 use comfy_table::{CellAlignment, ContentLineStyle, LineStyle, Row, Table, TableStyle};
 use std::fmt::Write;
 
-/// A table with a line below its header; the columns with these numbers are aligned to the right. Lines do not end in blanks, and there is no
-/// line end after the last.
+/// A table with a line below its header; the columns with these numbers are aligned to the right. Lines do
+/// not end in blanks, and there is no line end after the last.
 pub fn table(
     header: impl Into<Row>,
     rows: impl IntoIterator<Item = impl Into<Row>>,

@@ -71,8 +71,8 @@ macro_rules! main_of {
     };
 }
 
-/// The command line of a model's program. [`main!`] and [`main_of!`] are the short ways to one with the engines
-/// of the framework.
+/// The command line of a model's program. [`main!`] and [`main_of!`] are the short ways to one with the
+/// engines of the framework.
 pub struct CommandLine<'a> {
     name: &'static str,
     about: &'static str,
@@ -141,7 +141,8 @@ impl<'a> CommandLine<'a> {
         main_of(&self.definition())
     }
 
-    /// Reads arguments, with the configuration that they name. Runs nothing, but gives what `inspect` would print.
+    /// Reads arguments, with the configuration that they name. Runs nothing, but gives what `inspect` would
+    /// print.
     ///
     /// # Errors
     /// What [`CommandLine::main`] would print.
@@ -229,7 +230,8 @@ fn execute(invocation: Invocation<'_>) -> Result<Ended, Unable> {
     }
 }
 
-/// The last panic's message. A panic is a mistake in the program; its user should read a sentence, not a trace, unless he asks for one.
+/// The last panic's message. A panic is a mistake in the program; its user should read a sentence, not a
+/// trace, unless he asks for one.
 struct Panics;
 
 static LAST_PANIC: Mutex<Option<String>> = Mutex::new(None);

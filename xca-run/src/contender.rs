@@ -50,7 +50,8 @@ impl<'a> Choice<'a> {
         self.kind.options().iter().any(|own| own.name == option)
     }
 
-    /// Makes the engine. Where it does not say so itself, `Real` is `precision`, and `options` are chosen as far as it knows them.
+    /// Makes the engine. Where it does not say so itself, `Real` is `precision`, and `options` are chosen as
+    /// far as it knows them.
     pub(crate) fn contender(
         &self,
         engines: &Engines,

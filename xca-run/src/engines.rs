@@ -30,8 +30,8 @@ pub struct Engines {
 }
 
 impl Default for Engines {
-    /// `cpu`, `gpu`, `mpi`, `parts` and `reference`. Without the features `gpu` and `mpi`, the second and the third can
-    /// be named but not made.
+    /// `cpu`, `gpu`, `mpi`, `parts` and `reference`. Without the features `gpu` and `mpi`, the second and the
+    /// third can be named but not made.
     fn default() -> Self {
         Self {
             kinds: vec![
@@ -146,7 +146,8 @@ impl Engines {
         self.kinds().find(|kind| kind.name() == name).ok_or_else(unknown)
     }
 
-    /// Refuses engines that a subcommand cannot use, and such that would do the same in each process of a launcher.
+    /// Refuses engines that a subcommand cannot use, and such that would do the same in each process of a
+    /// launcher.
     pub(crate) fn check<'a>(
         &self,
         names: impl IntoIterator<Item = &'a str>,

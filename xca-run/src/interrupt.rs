@@ -20,10 +20,10 @@ pub struct InterruptError {
 
 /// A flag that a signal raises and the run loop polls.
 ///
-/// The first Ctrl-C (or SIGTERM, or SIGHUP) raises the flag, so the run can end after its step. A second one ends the
-/// program at once with [`EXIT_INTERRUPTED`]; a file that is being written then stays behind under its temporary name.
-/// Of many processes that a launcher has started, only the launcher ends one at once.
-/// On Linux a SIGHUP that is ignored, as below `nohup`, stays ignored.
+/// The first Ctrl-C (or SIGTERM, or SIGHUP) raises the flag, so the run can end after its step. A second one
+/// ends the program at once with [`EXIT_INTERRUPTED`]; a file that is being written then stays behind under
+/// its temporary name. Of many processes that a launcher has started, only the launcher ends one at once. On
+/// Linux a SIGHUP that is ignored, as below `nohup`, stays ignored.
 ///
 /// ```
 /// use xca_run::interrupt::Interrupt;
@@ -94,7 +94,8 @@ impl Interrupt {
 #[cfg(unix)]
 fn listen(raised: Arc<AtomicBool>) -> io::Result<()> {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-    // An ignored SIGINT is taken all the same: a shell that starts a program in the background lets it ignore that, and `kill -INT` should work.
+    // An ignored SIGINT is taken all the same: a shell that starts a program in the background lets it ignore
+    // that, and `kill -INT` should work.
     let mut all = vec![SIGINT, SIGTERM];
     if !is_ignored(SIGHUP) {
         all.push(SIGHUP);

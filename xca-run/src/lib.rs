@@ -1,6 +1,7 @@
 //! The program frame that every xca model's program shares.
 //!
-//! A scientist defines a model with [`xca_core`]; this crate makes a program of it. The whole of Conway's Game of Life:
+//! A scientist defines a model with [`xca_core`]; this crate makes a program of it. The whole of Conway's
+//! Game of Life:
 //!
 //! ```no_run
 //! use xca_run::prelude::*;
@@ -34,7 +35,8 @@
 //! }
 //! ```
 //!
-//! `life run` now does 1000 steps on all cores, shows how far it has come, and leaves in the folder `out/life`:
+//! `life run` now does 1000 steps on all cores, shows how far it has come, and leaves in the folder
+//! `out/life`:
 //!
 //! | file | holds |
 //! |---|---|
@@ -48,9 +50,12 @@
 //! | `final_altitude.tif`, … | with `--formats +tif`, the same as GeoTIFF |
 //! | `run.json` | everything about the run: options, parameters, engine, seed, times, why it ended |
 //!
-//! Every program has the same command line: `--engine`, `--threads`, `--precision`, `--steps`, `--seed`, `--set`, `--config`, `--out`, `--every`, `--formats`,
-//! `--initial`, `--checkpoint-every`, `--quiet`, `--json`; and `life resume out/life` goes on with a run that was interrupted or killed,
-//! `life sweep --seeds 10` runs it many times, `life inspect out/life` tells what it holds, `life render` draws a run and animates it, `life watch` shows it in the terminal, and `life list` tells what there is. A model that has options of its own is a struct that implements [`Program`]; what is saved and drawn is refined with
+//! Every program has the same command line: `--engine`, `--threads`, `--precision`, `--steps`, `--seed`,
+//! `--set`, `--config`, `--out`, `--every`, `--formats`, `--initial`, `--checkpoint-every`, `--quiet`,
+//! `--json`; and `life resume out/life` goes on with a run that was interrupted or killed, `life sweep
+//! --seeds 10` runs it many times, `life inspect out/life` tells what it holds, `life render` draws a run and
+//! animates it, `life watch` shows it in the terminal, and `life list` tells what there is. A model that has
+//! options of its own is a struct that implements [`Program`]; what is saved and drawn is refined with
 //! [`ItemView`] and [`CellView`].
 //!
 //! # The parts

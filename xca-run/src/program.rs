@@ -5,8 +5,8 @@ use std::str::FromStr;
 use xca_core::{ParameterError, Parameters, Precision};
 use xca_record::{Failure, SetUp};
 
-/// A model's program: a struct whose fields are the options that only this model has. A model without such options needs no struct:
-/// see [`crate::main_of!`].
+/// A model's program: a struct whose fields are the options that only this model has. A model without such
+/// options needs no struct: see [`crate::main_of!`].
 ///
 /// [`crate::main!`] makes a whole program of it. The options that all models share (`--engine`, `--steps`,
 /// `--set`, `--out`, …) come with it; no field may be named like one of them. A program whose fields are says
@@ -56,7 +56,8 @@ use xca_record::{Failure, SetUp};
 /// }
 /// ```
 pub trait Program: clap::Args {
-    /// The name of the program, and of the folder below `out` that its runs write to unless they are told another.
+    /// The name of the program, and of the folder below `out` that its runs write to unless they are told
+    /// another.
     const NAME: &'static str;
 
     /// One line that says what the model is.
@@ -65,8 +66,9 @@ pub trait Program: clap::Args {
     /// Command lines to try, for `--help`: the arguments of `run`, one example a line.
     const EXAMPLES: &'static str = "--steps 500 --engine reference";
 
-    /// Makes the model, and says how long it is run and what is shown of it. To resume a run, this is done again, and the state is replaced
-    /// by that of the checkpoint; so the same options must make the same model.
+    /// Makes the model, and says how long it is run and what is shown of it. To resume a run, this is done
+    /// again, and the state is replaced by that of the checkpoint; so the same options must make the same
+    /// model.
     ///
     /// # Errors
     /// Where the options make no sense. The program then ends with exit code 2.
@@ -87,8 +89,8 @@ pub struct Given {
 }
 
 impl Given {
-    /// Parameters with what `--set` says of them. For a set-up that computes something from its parameters; all others leave it
-    /// to the frame, which sets the parameters of the model once it is made.
+    /// Parameters with what `--set` says of them. For a set-up that computes something from its parameters;
+    /// all others leave it to the frame, which sets the parameters of the model once it is made.
     ///
     /// # Errors
     /// Where no parameter has a name that was given, or a text is no value of its type.

@@ -10,8 +10,8 @@ use xca_report::table::table;
 
 /// The line that shows how far a run has come: steps done and to do, steps a second, time left.
 ///
-/// It goes to stderr, and only if that is a terminal. A run whose end is not known (it ends at a criterion) shows no
-/// time left.
+/// It goes to stderr, and only if that is a terminal. A run whose end is not known (it ends at a criterion)
+/// shows no time left.
 ///
 /// ```
 /// use xca_run::progress::Progress;
@@ -81,7 +81,8 @@ impl Progress {
         Self { bar }
     }
 
-    /// `steps` are done. May be called after every step: the line itself is redrawn ten times a second at most.
+    /// `steps` are done. May be called after every step: the line itself is redrawn ten times a second at
+    /// most.
     pub fn at(&self, steps: u64) {
         self.bar.set_position(steps);
     }
@@ -128,9 +129,9 @@ pub struct Diagnostic {
     pub drift: Option<f64>,
 }
 
-/// The table of diagnostics, ready to be printed: quantity, unit, initial and final value to six significant digits, and the drift of what is
-/// conserved.
-/// Lines do not end in blanks; there is no line end after the last.
+/// The table of diagnostics, ready to be printed: quantity, unit, initial and final value to six significant
+/// digits, and the drift of what is conserved. Lines do not end in blanks; there is no line end after the
+/// last.
 #[must_use]
 pub fn summary(diagnostics: &[Diagnostic]) -> String {
     let text = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| significant(value, 6));

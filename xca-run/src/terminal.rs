@@ -1,9 +1,11 @@
 //! The only place where the frame prints.
 //!
-//! Results go to stdout and are left out by `--quiet`; errors and what happens meanwhile go to stderr. A result that is lost, as on a full
-//! disk, is an error; that no one listens any more, as after `| head`, is none.
+//! Results go to stdout and are left out by `--quiet`; errors and what happens meanwhile go to stderr. A
+//! result that is lost, as on a full disk, is an error; that no one listens any more, as after `| head`, is
+//! none.
 //!
-//! What is printed may come from files of anyone: characters that control terminals are escaped, and errors are cut to what one can read.
+//! What is printed may come from files of anyone: characters that control terminals are escaped, and errors
+//! are cut to what one can read.
 
 mod plain;
 

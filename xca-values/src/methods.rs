@@ -1,7 +1,9 @@
-//! The operations behind the methods of numbers, vectors and arrays, in kernels and in what the compiler checks.
+//! The operations behind the methods of numbers, vectors and arrays, in kernels and in what the compiler
+//! checks.
 //!
-//! The macros write `methods::sqrt(x)` for `x.sqrt()`: the receiver may be a literal whose type is found out later, and the bits are those that
-//! every engine gives. Which methods there are is the list of `xca_methods`.
+//! The macros write `methods::sqrt(x)` for `x.sqrt()`: the receiver may be a literal whose type is found out
+//! later, and the bits are those that every engine gives. Which methods there are is the list of
+//! `xca_methods`.
 
 mod floats;
 mod functions;

@@ -37,8 +37,9 @@ impl Schema {
         self.fields.iter().enumerate().find(|(_, field)| field.name == name)
     }
 
-    /// What the components of the field with this number are called in tables: a scalar like the field, others `field_x`,
-    /// `field_3` or `field_3_x` ([`ValueType::component_names`]), those of the position `x`, `y`, `z`.
+    /// What the components of the field with this number are called in tables: a scalar like the field,
+    /// others `field_x`, `field_3` or `field_3_x` ([`ValueType::component_names`]), those of the position
+    /// `x`, `y`, `z`.
     pub fn columns(&self, field: usize) -> Vec<String> {
         let Field { name, value_type, .. } = &self.fields[field];
         let whole = |component: String| match component.as_str() {

@@ -37,8 +37,9 @@ pub enum Precision {
 
 /// The floating type that is chosen when the model is run.
 ///
-/// In a struct that derives `Substates` or `Parameters`, and in a process, write `Real`: the macros see the word and
-/// make one copy for each [`Precision`]. In all other code, on the host, it is `f64`, into which both convert exactly.
+/// In a struct that derives `Substates` or `Parameters`, and in a process, write `Real`: the macros see the
+/// word and make one copy for each [`Precision`]. In all other code, on the host, it is `f64`, into which
+/// both convert exactly.
 pub type Real = f64;
 
 /// A scalar, a small vector of scalars, or an array of either.
@@ -52,8 +53,8 @@ pub struct ValueType {
     pub length: Option<u32>,
 }
 
-/// The machine type of a stored scalar, after `Real` has been resolved by the run's precision. `bool` is stored as 0 or 1 in a `U8`, a
-/// state by its number in a `U8`.
+/// The machine type of a stored scalar, after `Real` has been resolved by the run's precision. `bool` is
+/// stored as 0 or 1 in a `U8`, a state by its number in a `U8`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[expect(missing_docs, reason = "the names say it")]
@@ -77,7 +78,8 @@ pub struct StoredType {
 }
 
 impl ScalarType {
-    /// Whether a number is a value of this type; of floating ones, whether it is finite. `bool` has 0 and 1, states have their numbers.
+    /// Whether a number is a value of this type; of floating ones, whether it is finite. `bool` has 0 and 1,
+    /// states have their numbers.
     pub fn fits(self, number: f64) -> bool {
         let within = |least: f64, largest: f64| number.fract() == 0.0 && (least..=largest).contains(&number);
         match self {
@@ -90,12 +92,14 @@ impl ScalarType {
         }
     }
 
-    /// Whether a number can be what a value of this type has become: as [`Self::fits`], but floating ones may be anything.
+    /// Whether a number can be what a value of this type has become: as [`Self::fits`], but floating ones may
+    /// be anything.
     pub fn holds(self, number: f64) -> bool {
         matches!(self, Self::F32 | Self::F64 | Self::Real) || self.fits(number)
     }
 
-    /// The number that a text means: of `bool` 0 or 1, of a state its number. Nothing where the text is no value of this type.
+    /// The number that a text means: of `bool` 0 or 1, of a state its number. Nothing where the text is no
+    /// value of this type.
     pub fn parse(self, text: &str) -> Option<f64> {
         match self {
             Self::Bool => text.parse().ok().map(|value: bool| value.into()),
@@ -117,7 +121,8 @@ impl ScalarType {
     }
 }
 
-/// A number with the fewest digits that give it back, for messages: with an exponent where it would have many zeros.
+/// A number with the fewest digits that give it back, for messages: with an exponent where it would have many
+/// zeros.
 #[derive(Debug, Clone, Copy)]
 pub struct Shortest(pub f64);
 
@@ -156,7 +161,8 @@ impl StoredScalar {
 }
 
 impl StoredType {
-    /// The size in bytes of one value: its elements one after the other, the lanes of each next to each other.
+    /// The size in bytes of one value: its elements one after the other, the lanes of each next to each
+    /// other.
     pub const fn size(self) -> usize {
         self.scalar.size() * self.components()
     }
@@ -211,8 +217,8 @@ impl ValueType {
         }
     }
 
-    /// What tells the components of a value apart in names: nothing for a scalar, `x` to `w` for the lanes of a vector, the number
-    /// for the elements of an array, both (`3_x`) for an array of vectors.
+    /// What tells the components of a value apart in names: nothing for a scalar, `x` to `w` for the lanes of
+    /// a vector, the number for the elements of an array, both (`3_x`) for an array of vectors.
     pub fn component_names(self) -> Vec<String> {
         let lanes = &["x", "y", "z", "w"][..usize::from(self.lanes)];
         match (self.length, self.lanes) {
@@ -225,8 +231,8 @@ impl ValueType {
         }
     }
 
-    /// What follows the name of a value for each of its components, for people: nothing for a scalar, `.x` for a lane, `[3]` for an
-    /// element, `[3].x` for a lane of an element.
+    /// What follows the name of a value for each of its components, for people: nothing for a scalar, `.x`
+    /// for a lane, `[3]` for an element, `[3].x` for a lane of an element.
     pub fn component_suffixes(self) -> Vec<String> {
         let suffix = |part: &str| match part.parse::<u32>() {
             Ok(element) => format!("[{element}]"),

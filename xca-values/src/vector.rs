@@ -1,6 +1,7 @@
 //! Small vectors for positions, velocities, forces.
 //!
-//! The operations are fixed to the last bit: lane by lane, and [`Vector3::dot`] adds from the first lane to the last.
+//! The operations are fixed to the last bit: lane by lane, and [`Vector3::dot`] adds from the first lane to
+//! the last.
 
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 

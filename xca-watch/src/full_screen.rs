@@ -33,8 +33,8 @@ impl FullScreen {
         terminal.map(|terminal| Self { terminal: ManuallyDrop::new(terminal) }).inspect_err(|_| give_back())
     }
 
-    /// Takes the size that the terminal has now, and forgets what is on the screen: a terminal that has changed its size may have kept
-    /// nothing of it.
+    /// Takes the size that the terminal has now, and forgets what is on the screen: a terminal that has
+    /// changed its size may have kept nothing of it.
     pub(crate) fn resize(&mut self) -> io::Result<()> {
         let size = self.terminal.size()?;
         self.terminal.resize(Rect::from((Position::ORIGIN, size)))

@@ -39,8 +39,8 @@ mod of_unix {
 
     /// The keyboard of the terminal on the standard input.
     ///
-    /// A thread of its own reads it: whoever reads waits until there is a byte, and the end of the terminal is the end
-    /// of what can be read.
+    /// A thread of its own reads it: whoever reads waits until there is a byte, and the end of the terminal
+    /// is the end of what can be read.
     #[derive(Debug)]
     pub(crate) struct Keyboard {
         bytes: Receiver<Vec<u8>>,

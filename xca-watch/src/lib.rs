@@ -1,4 +1,5 @@
-//! A run that is watched in the terminal: pictures of half blocks, and keys that pause, step and look elsewhere.
+//! A run that is watched in the terminal: pictures of half blocks, and keys that pause, step and look
+//! elsewhere.
 //!
 //! The steps are done on a thread of their own ([`Watch::show`]), so that keys are heard during a long one.
 
@@ -51,7 +52,8 @@ pub struct Watch<'a> {
 }
 
 impl Watch<'_> {
-    /// Takes the terminal, and shows the run until it is left by a key, by `interrupt`, or as the terminal is gone.
+    /// Takes the terminal, and shows the run until it is left by a key, by `interrupt`, or as the terminal is
+    /// gone.
     ///
     /// # Errors
     /// Where the terminal cannot be taken or drawn on, or the run fails.

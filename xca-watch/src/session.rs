@@ -144,7 +144,8 @@ impl Session<'_> {
         }
     }
 
-    /// Whether the terminal has gone, which its keys and a signal tell soon after a picture could not be drawn.
+    /// Whether the terminal has gone, which its keys and a signal tell soon after a picture could not be
+    /// drawn.
     fn is_alone(&mut self) -> bool {
         loop {
             match self.keyboard.next(LONG) {

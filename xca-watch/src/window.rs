@@ -31,8 +31,9 @@ impl Default for Place {
 }
 
 impl Window {
-    /// The whole plane, as large as there is room; or, close, a part of it in which a cell is a pixel, or four times as large where it is one
-    /// already. Cells that are drawn have a whole number of pixels, where there are as many. None where there are no cells or no room.
+    /// The whole plane, as large as there is room; or, close, a part of it in which a cell is a pixel, or
+    /// four times as large where it is one already. Cells that are drawn have a whole number of pixels, where
+    /// there are as many. None where there are no cells or no room.
     pub(super) fn new(
         plane: [usize; 2],
         room: [usize; 2],
@@ -66,7 +67,8 @@ impl Window {
         let middle = std::array::from_fn(|i| {
             let (cells, all) = (self.cells[i] as f64, plane[i] as f64);
             let by = f64::from([right, up][i]) * (cells / 4.0).floor().max(1.0);
-            // From what is seen, which is within the plane: so one that was pushed beyond the edge turns at once.
+            // From what is seen, which is within the plane: so one that was pushed beyond the edge turns at
+            // once.
             (self.first[i] as f64 + cells / 2.0 + by) / all
         });
         Place { is_close: true, middle }

@@ -1,4 +1,5 @@
-//! The simulation that is watched, on a thread of its own: a long step must not keep the keys from being heard.
+//! The simulation that is watched, on a thread of its own: a long step must not keep the keys from being
+//! heard.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender};
@@ -166,7 +167,8 @@ impl Worker<'_> {
         Ok(())
     }
 
-    /// The observables and their step: of an earlier one where measuring again would take too large a share of the time.
+    /// The observables and their step: of an earlier one where measuring again would take too large a share
+    /// of the time.
     fn measured(
         &self,
         simulation: &mut Simulation,

@@ -63,8 +63,8 @@ impl Buffer {
         types::loaded(self.value_type.scalar, &format!("{}[{place}]", self.now))
     }
 
-    /// The statements that store a value, indented once; where a variable is given, it becomes true where the value
-    /// changes.
+    /// The statements that store a value, indented once; where a variable is given, it becomes true where the
+    /// value changes.
     pub(crate) fn store(&self, number: &str, value: &str, changed: Option<&str>) -> String {
         let target = self.next.as_ref().unwrap_or(&self.now);
         let components = self.value_type.components();

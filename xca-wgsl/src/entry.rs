@@ -128,8 +128,8 @@ impl Entry<'_> {
         out
     }
 
-    /// Of the faults in a workgroup the first is recorded; of all workgroups the first cell or item is remembered. So
-    /// the result does not depend on the order in which invocations run.
+    /// Of the faults in a workgroup the first is recorded; of all workgroups the first cell or item is
+    /// remembered. So the result does not depend on the order in which invocations run.
     fn with_faults(&self, guard: &str, over: &str, argument: &str) -> String {
         let record = if self.notes_changes() {
             "tile"

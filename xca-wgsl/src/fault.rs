@@ -4,8 +4,9 @@ use xca_core::ir::FunctionKind;
 
 /// What happened, as the record of a fault tells by its number.
 ///
-/// Rust stops a process by a panic where an index lies beyond an array, a division has no result or a range runs in steps of 0. A shader
-/// cannot: it records the fault, goes on with a value in range, and an engine throws the step away.
+/// Rust stops a process by a panic where an index lies beyond an array, a division has no result or a range
+/// runs in steps of 0. A shader cannot: it records the fault, goes on with a value in range, and an engine
+/// throws the step away.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[repr(u32)]
 pub enum FaultKind {

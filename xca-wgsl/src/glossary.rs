@@ -18,7 +18,8 @@ use xca_core::ir::{Constant, Expression};
 pub(crate) struct Glossary {
     /// The functions of the program.
     pub(crate) functions: Vec<String>,
-    /// For each struct of substates the variable with what is loaded of it before the process, if anything is.
+    /// For each struct of substates the variable with what is loaded of it before the process, if anything
+    /// is.
     centres: Vec<Option<String>>,
     /// The structs of parameters that are used, and the variable with each.
     parameters: Vec<(&'static Schema, String)>,

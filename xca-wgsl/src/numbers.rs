@@ -95,7 +95,8 @@ impl Routines {
         }
     }
 
-    /// `%` of floats: multiples of b are taken away, from the largest one that fits. All differences are exact.
+    /// `%` of floats: multiples of b are taken away, from the largest one that fits. All differences are
+    /// exact.
     pub(crate) fn need_remainder(&mut self, type_: &Type, wide: bool) -> String {
         let negative = self.need_number(Operation::IsSignNegative, type_, wide);
         let (name, scalar) = (type_.wgsl(), if wide { "f64" } else { "f32" });

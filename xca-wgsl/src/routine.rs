@@ -56,7 +56,8 @@ impl Routines {
         }
     }
 
-    /// `minimum` or `maximum` of floats: `if b < a { b } else { a }`, so that NaN and signed zeros are the same everywhere.
+    /// `minimum` or `maximum` of floats: `if b < a { b } else { a }`, so that NaN and signed zeros are the
+    /// same everywhere.
     pub(crate) fn need_least(&mut self, word: &str, type_: &Type) -> String {
         let name = format!("{word}_{}", type_.word());
         let condition = if word == "minimum" { "b < a" } else { "a < b" };
@@ -107,8 +108,8 @@ impl Routines {
         })
     }
 
-    /// The value itself. naga computes with constants while it reads a shader, and refuses what is not finite or loses bits;
-    /// it does not look into functions.
+    /// The value itself. naga computes with constants while it reads a shader, and refuses what is not finite
+    /// or loses bits; it does not look into functions.
     pub(crate) fn need_run_time(&mut self, type_: &Type) -> String {
         let type_name = type_.wgsl();
         self.need(format!("runtime_{}", type_.word()), |name| {

@@ -11,12 +11,13 @@ use xca_core::{Boundary, Faces, Parity, Precision, ValueType, ir};
 pub struct Options {
     /// What `Real` stands for.
     pub precision: Precision,
-    /// The number of cells in the neighbourhood with the central one; where it is not given, the shader reads it from the
-    /// description of the space.
+    /// The number of cells in the neighbourhood with the central one; where it is not given, the shader reads
+    /// it from the description of the space.
     pub neighbourhood_size: Option<u32>,
-    /// For each cell of the neighbourhood the difference of its number from that of the central cell, where that is the same for all
-    /// cells. Loops over the neighbours are then written out, each neighbour with its number, which some drivers do not do by
-    /// themselves (Mesa's lavapipe runs a loop over 27 neighbours half as fast).
+    /// For each cell of the neighbourhood the difference of its number from that of the central cell, where
+    /// that is the same for all cells. Loops over the neighbours are then written out, each neighbour with
+    /// its number, which some drivers do not do by themselves (Mesa's lavapipe runs a loop over 27 neighbours
+    /// half as fast).
     pub neighbour_offsets: Option<Vec<i32>>,
     /// The size of a workgroup along x, y and z; of a process over items the product.
     pub workgroup_size: [u32; 3],
@@ -27,8 +28,9 @@ pub struct Options {
     pub boundaries: Faces<Boundary>,
     /// Whether cells in odd rows or columns have another neighbourhood than those in even ones.
     pub parity: Parity,
-    /// Whether float zeros are read from memory. Some drivers take `x + 0.0` for `x` and `x * 0.0` for `0.0` in spite of all
-    /// decorations (Mesa's lavapipe does), which is wrong for `-0.0`, NaN and infinities; a zero that they cannot see keeps the bits.
+    /// Whether float zeros are read from memory. Some drivers take `x + 0.0` for `x` and `x * 0.0` for `0.0`
+    /// in spite of all decorations (Mesa's lavapipe does), which is wrong for `-0.0`, NaN and infinities; a
+    /// zero that they cannot see keeps the bits.
     pub opaque_zero: bool,
 }
 
@@ -72,8 +74,8 @@ pub enum Numbering {
     /// Workgroups are numbered, x running fastest, and workgroup `(x, y)` of the dispatch is number
     /// `x + y * (workgroups along x)`: for more workgroups along an axis than a device has room for.
     Row,
-    /// Workgroups are numbered as in a row, and look up in a list which tile of the space is theirs; they note
-    /// what they change: [`Content::Activity`].
+    /// Workgroups are numbered as in a row, and look up in a list which tile of the space is theirs; they
+    /// note what they change: [`Content::Activity`].
     List,
 }
 
@@ -85,8 +87,8 @@ pub const ACTIVITY_HEAD: u32 = 64;
 pub enum Dispatch {
     /// The cells: one invocation for each, along x, y and z, in workgroups of this size.
     Cells([u32; 3]),
-    /// The items: one invocation for each, in workgroups of this many. Where one dimension does not hold all workgroups, they go
-    /// on along y: workgroup `(x, y)` is number `x + y * (workgroups along x)`.
+    /// The items: one invocation for each, in workgroups of this many. Where one dimension does not hold all
+    /// workgroups, they go on along y: workgroup `(x, y)` is number `x + y * (workgroups along x)`.
     Items(u32),
 }
 
@@ -122,8 +124,8 @@ pub enum Content {
     /// `layer`, `seed` (low word, high word), the number of the `stream` of random numbers; where they are
     /// used, `side`, `covered`, the largest radius of a search, and `zero`, which is 0. A process over cells
     /// can be run for a part of them: the `first` cell, by its indices, the `count` of cells along each axis,
-    /// and the number `base` of the stored cell with which the bound buffers begin. For all cells these are 0,
-    /// the extents, and 0.
+    /// and the number `base` of the stored cell with which the bound buffers begin. For all cells these are
+    /// 0, the extents, and 0.
     Space(Layout),
     /// What changes with the step: `step` (low word, high word) and the number of items of the population.
     Moment(Layout),
@@ -134,8 +136,8 @@ pub enum Content {
         /// Where its fields lie.
         layout: Layout,
     },
-    /// `i32` for each cell of the neighbourhood: the difference of its number from that of the central cell. Where rows or columns
-    /// differ ([`Options::parity`]), first those of even, then those of odd ones.
+    /// `i32` for each cell of the neighbourhood: the difference of its number from that of the central cell.
+    /// Where rows or columns differ ([`Options::parity`]), first those of even, then those of odd ones.
     NeighbourOffsets,
     /// Four `i32` for each cell of the neighbourhood: the displacement along x, y, z and the index of the
     /// opposite neighbour. Where rows or columns differ, as with [`Self::NeighbourOffsets`].
@@ -163,16 +165,17 @@ pub enum Content {
     /// `u32` for each item: where a migration sends it, the linear index of a cell (without halo) or one of
     /// `xca_core::kernel::{STAY, OUTSIDE, NOWHERE}`.
     Destinations,
-    /// Which tiles a process works on, and in which it changes something, as `u32`. A tile is the cells of a workgroup; `n` is
-    /// the number of tiles. At 0 the number of this run, at 1 the length of the list, from [`ACTIVITY_HEAD`] on the list, as
-    /// many words as tiles; then `n` words that are the engine's; then `n` words for each substate that
-    /// the process writes, in the order of the bindings: the number of the last run that changed it in that tile.
+    /// Which tiles a process works on, and in which it changes something, as `u32`. A tile is the cells of a
+    /// workgroup; `n` is the number of tiles. At 0 the number of this run, at 1 the length of the list, from
+    /// [`ACTIVITY_HEAD`] on the list, as many words as tiles; then `n` words that are the engine's; then `n`
+    /// words for each substate that the process writes, in the order of the bindings: the number of the last
+    /// run that changed it in that tile.
     Activity,
-    /// Faults: at 0 a `u32`, the linear index of the first cell (of a process over items: the first item) with a fault, which is
-    /// `u32::MAX` before; at 4 a `u32` that makes the shader do nothing where it is not zero, so that the state at a fault stays;
-    /// from 8 on a record for each workgroup, numbered with x running fastest, which holds the first fault in
-    /// it: `cell`, `label`, and what [`crate::FaultKind`] tells of `kind`, `number`, `limit` and `value`. A
-    /// record that no fault was written to is not touched.
+    /// Faults: at 0 a `u32`, the linear index of the first cell (of a process over items: the first item)
+    /// with a fault, which is `u32::MAX` before; at 4 a `u32` that makes the shader do nothing where it is
+    /// not zero, so that the state at a fault stays; from 8 on a record for each workgroup, numbered with x
+    /// running fastest, which holds the first fault in it: `cell`, `label`, and what [`crate::FaultKind`]
+    /// tells of `kind`, `number`, `limit` and `value`. A record that no fault was written to is not touched.
     Faults(Layout),
 }
 
@@ -190,7 +193,8 @@ pub enum State {
 /// Writes a process as WGSL.
 ///
 /// # Errors
-/// Where something in the process, or in a helper that it calls, cannot be written in WGSL; the error names it.
+/// Where something in the process, or in a helper that it calls, cannot be written in WGSL; the error names
+/// it.
 pub fn shader(process: &ir::Function, options: &Options) -> Result<Shader, Error> {
     let program = Program::collect(process)?;
     module::write(&program, options)

@@ -8,8 +8,8 @@ pub(crate) enum Node<'a> {
     Expression(&'a Expression),
 }
 
-/// Shows each statement and expression of the block to `see`, outer ones before inner ones, in the order of the source.
-/// Where it answers `false`, what is inside is left out.
+/// Shows each statement and expression of the block to `see`, outer ones before inner ones, in the order of
+/// the source. Where it answers `false`, what is inside is left out.
 pub(crate) fn block<'a>(block: &'a Block, see: &mut dyn FnMut(Node<'a>) -> bool) {
     for statement in &block.statements {
         self::statement(statement, see);
@@ -170,7 +170,8 @@ pub(crate) fn breaks(loop_: &Loop) -> bool {
     own || labelled(&loop_.body).any(|jump| jump.is_break && Some(jump.label) == loop_.label)
 }
 
-/// Whether something leaves a turn of the loop early: for the next turn, for what follows the loop, or for a loop around it.
+/// Whether something leaves a turn of the loop early: for the next turn, for what follows the loop, or for a
+/// loop around it.
 pub(crate) fn turns_end_early(loop_: &Loop) -> bool {
     let own = |statement: &Statement| matches!(statement, Statement::Break(None) | Statement::Continue(None));
     has_of_this_loop(&loop_.body, own) || labelled(&loop_.body).any(|jump| !jump.stays)

@@ -169,7 +169,8 @@ fn a_time_step_that_is_too_long_for_a_contact_is_warned_of() {
     assert!(advised.warnings(Precision::F64).is_empty());
 }
 
-/// How long a particle that meets a wall has it within its radius, in s, in steps that are far shorter than a contact.
+/// How long a particle that meets a wall has it within its radius, in s, in steps that are far shorter than a
+/// contact.
 fn bounce(walls: Walls) -> f64 {
     let configuration = Configuration {
         cells: [3; 3],

@@ -1,4 +1,5 @@
-//! CADEM: spheres that fall, collide and come to rest, from the initial states of De Rango et al. or from a file.
+//! CADEM: spheres that fall, collide and come to rest, from the initial states of De Rango et al. or from a
+//! file.
 use cadem::{Case, Configuration, Dem, Diagnostics, Integrator, Opening, PARTICLE, TimeStep, Walls};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use std::path::PathBuf;
@@ -10,10 +11,12 @@ struct Cadem {
     /// The system
     #[arg(long, value_name = "CASE", default_value = "illustration", value_parser = case())]
     case: Case,
-    /// Start from the particles of a CSV file with the header label,x,y,z,vx,vy,vz (SI units), such as the final.csv of a run
+    /// Start from the particles of a CSV file with the header label,x,y,z,vx,vy,vz (SI units), such as the
+    /// final.csv of a run
     #[arg(long, value_name = "FILE")]
     particles: Option<PathBuf>,
-    /// Cells along each side of the domain, instead of the case's; the authors' recipe then fills the larger domain
+    /// Cells along each side of the domain, instead of the case's; the authors' recipe then fills the larger
+    /// domain
     #[arg(long, value_name = "N", value_parser = whole_cells)]
     side: Option<usize>,
     /// How walls act, instead of the case's law
@@ -25,10 +28,12 @@ struct Cadem {
     /// The slots of a cell; 11 in the paper, unless given as many as settled particles need
     #[arg(long, value_name = "N")]
     slots: Option<usize>,
-    /// Let a contact take so many steps: dt = pi sqrt(m / k_n) / N. The paper's eq. 3, instead of 0.1 sqrt(m / k_n)
+    /// Let a contact take so many steps: dt = pi sqrt(m / k_n) / N. The paper's eq. 3, instead of 0.1 sqrt(m
+    /// / k_n)
     #[arg(long, value_name = "N", value_parser = positive_number)]
     subdivisions: Option<f64>,
-    /// Leave a wall open, so that particles leave there: x-low, …, z-high, or some of its cells, z-low:8,8:11,11
+    /// Leave a wall open, so that particles leave there: x-low, …, z-high, or some of its cells,
+    /// z-low:8,8:11,11
     #[arg(long, value_name = "FACE", value_parser = opening)]
     open: Vec<Opening>,
     /// Start even where particles overlap, as in the final state of another run
@@ -72,7 +77,8 @@ impl Program for Cadem {
         let particles = match &self.particles {
             Some(path) => particles(path, &configuration)?,
             None => {
-                // The recipe makes 0.32 particles for each cell; until the run begins each takes some 300 bytes.
+                // The recipe makes 0.32 particles for each cell; until the run begins each takes some 300
+                // bytes.
                 let cells: u128 = configuration.cells.iter().map(|&cells| cells as u128).product();
                 xca_run::check_memory(cells * 100, "the particles of the initial state")?;
                 configuration.authors_particles()?

@@ -72,11 +72,13 @@ struct Landslide {
     /// The ground: a GeoTIFF or ESRI ASCII grid of altitudes, in m; a valley is made up unless it is given
     #[arg(long, value_name = "FILE")]
     dem: Option<PathBuf>,
-    /// The debris: a GeoTIFF or ESRI ASCII grid of its thickness, in m, of the same cells as the ground; no value is 0 m
+    /// The debris: a GeoTIFF or ESRI ASCII grid of its thickness, in m, of the same cells as the ground; no
+    /// value is 0 m
     #[arg(long, value_name = "FILE", requires = "dem")]
     debris: Option<PathBuf>,
-    /// Where debris was found afterwards: a GeoTIFF or ESRI ASCII grid of its thickness, in m, of the same cells as the ground. The observable
-    /// `fitness` then tells how well the debris of the run lies on it: 1 where both cover the same cells, 0 where none
+    /// Where debris was found afterwards: a GeoTIFF or ESRI ASCII grid of its thickness, in m, of the same
+    /// cells as the ground. The observable `fitness` then tells how well the debris of the run lies on it: 1
+    /// where both cover the same cells, 0 where none
     #[arg(long, value_name = "FILE")]
     observed: Option<PathBuf>,
     /// Stop when no cell sends more than this to a neighbour in a step, in m; never where it is below 0
@@ -157,8 +159,8 @@ fn read_observed(path: &Path, map: &Map) -> Result<Vec<bool>, Failure> {
     Ok(found.values().iter().map(|metres| *metres > TRACE).collect())
 }
 
-/// The root of the area that a run and the observation share, divided by the area that either covers: the measure by which SCIDDICA was
-/// calibrated (D'Ambrosio, Spataro and Iovine 2006).
+/// The root of the area that a run and the observation share, divided by the area that either covers: the
+/// measure by which SCIDDICA was calibrated (D'Ambrosio, Spataro and Iovine 2006).
 fn fitness(thickness: &[f64], observed: &[bool]) -> f64 {
     let cells = || thickness.iter().map(|metres| *metres > TRACE).zip(observed.iter().copied());
     let shared = cells().filter(|(run, found)| *run && *found).count();

@@ -1,8 +1,9 @@
 //! The parity rule in three dimensions, which copies whatever it starts from.
 //!
-//! A cell becomes the sum, modulo 2, of the 27 cells of its Moore neighbourhood, itself among them. The rule is linear over the field of two
-//! elements, where (a + b)^2 = a^2 + b^2. So 2^k steps at once are one step of the same rule with the neighbours 2^k cells away: the state
-//! is then 27 copies of the initial figure, shifted by 0 or 2^k cells either way along each axis. On a torus of 2^m cells the copies meet after
+//! A cell becomes the sum, modulo 2, of the 27 cells of its Moore neighbourhood, itself among them. The rule
+//! is linear over the field of two elements, where (a + b)^2 = a^2 + b^2. So 2^k steps at once are one step
+//! of the same rule with the neighbours 2^k cells away: the state is then 27 copies of the initial figure,
+//! shifted by 0 or 2^k cells either way along each axis. On a torus of 2^m cells the copies meet after
 //! 2^(m-1) steps, cancel in pairs, and leave the figure as it was.
 use xca_run::prelude::*;
 

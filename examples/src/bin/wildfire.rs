@@ -5,8 +5,8 @@ use xca_run::prelude::*;
 
 #[derive(Args)]
 struct Wildfire {
-    /// Fuel: a GeoTIFF or ESRI ASCII grid of numbers from 0 (bare) to 1, on flat ground; hills are made up without it.
-    /// The fire begins in the cell with a value that is nearest to a quarter of the map
+    /// Fuel: a GeoTIFF or ESRI ASCII grid of numbers from 0 (bare) to 1, on flat ground; hills are made up
+    /// without it. The fire begins in the cell with a value that is nearest to a quarter of the map
     #[arg(long, value_name = "FILE")]
     fuel: Option<PathBuf>,
 }

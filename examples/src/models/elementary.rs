@@ -1,4 +1,5 @@
-//! Elementary cellular automata (Wolfram, Reviews of Modern Physics 55, 1983): a row of cells that are on or off.
+//! Elementary cellular automata (Wolfram, Reviews of Modern Physics 55, 1983): a row of cells that are on or
+//! off.
 
 use xca_core::prelude::*;
 

@@ -5,8 +5,9 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// The crate compiles as it is written, its test too, with nothing but what its own manifest names. To run it here, all that it depends on
-/// would have to be compiled once more, which takes minutes: that the very same sources pass their test is shown by the crate `tests/new`.
+/// The crate compiles as it is written, its test too, with nothing but what its own manifest names. To run it
+/// here, all that it depends on would have to be compiled once more, which takes minutes: that the very same
+/// sources pass their test is shown by the crate `tests/new`.
 #[test]
 fn a_new_crate_compiles_as_it_is() {
     let place = Workplace::new();

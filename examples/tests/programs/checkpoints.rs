@@ -1,4 +1,5 @@
-//! Checkpoints that a run cannot go on from are refused with the reason, nothing is changed, and another one is offered.
+//! Checkpoints that a run cannot go on from are refused with the reason, nothing is changed, and another one
+//! is offered.
 
 use crate::running::{HEAT, LIFE, MOD2, Workplace, report, results};
 use std::fs;

@@ -1,4 +1,5 @@
-//! Runs that go on otherwise than they were begun: beyond their end, with more slots, from another folder, with other inputs.
+//! Runs that go on otherwise than they were begun: beyond their end, with more slots, from another folder,
+//! with other inputs.
 
 use crate::running::{
     CADEM, LANDSLIDE, LIFE, POND, Table, Workplace, assert_same_results, report, warns_at_most,
@@ -26,8 +27,8 @@ fn refuse(place: &Workplace, program: &str, words: &str) -> String {
     said
 }
 
-/// A run that has come to its end becomes the longer run that it might have been, byte by byte: also the frame of its end
-/// goes, where a longer run has none.
+/// A run that has come to its end becomes the longer run that it might have been, byte by byte: also the
+/// frame of its end goes, where a longer run has none.
 #[test]
 fn a_run_goes_on_beyond_its_end() {
     for (program, options, every) in [
@@ -81,7 +82,8 @@ fn a_run_until_it_stops_goes_on() {
     assert_eq!(report(&place.path("here"))["every"], "growing");
 }
 
-/// A run that is killed on its way beyond its end, before its next checkpoint, goes on without being told again.
+/// A run that is killed on its way beyond its end, before its next checkpoint, goes on without being told
+/// again.
 #[test]
 fn the_later_end_is_remembered() {
     let place = Workplace::new();
@@ -106,8 +108,8 @@ fn no_run_becomes_shorter_or_goes_on_against_its_model() {
     assert_eq!(said, "the run in slide has ended after 20 steps already\n");
 }
 
-/// A third particle falls into a cell on the floor, where the floor takes one of three slots. With more slots the run goes on, to the files of a run that had them all
-/// along. The slots are remembered.
+/// A third particle falls into a cell on the floor, where the floor takes one of three slots. With more slots
+/// the run goes on, to the files of a run that had them all along. The slots are remembered.
 #[test]
 fn a_run_with_a_full_cell_goes_on_with_more_slots() {
     let place = Workplace::new();
@@ -152,7 +154,8 @@ fn inputs_must_be_as_they_were() {
     assert_eq!(inputs[1]["path"], "debris.asc");
 }
 
-/// Relative paths on the command line go from the folder in which it was given; those of `resume` and `render` from theirs.
+/// Relative paths on the command line go from the folder in which it was given; those of `resume` and
+/// `render` from theirs.
 #[test]
 fn a_run_goes_on_from_another_folder() {
     let place = Workplace::new();

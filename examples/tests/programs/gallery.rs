@@ -68,8 +68,8 @@ fn the_sandpile_keeps_its_grains() {
     assert!(series.last("lost") > 0.0);
 }
 
-/// From one cell, rule 90 draws Pascal's triangle modulo 2: by Lucas, a binomial coefficient is odd where the bits of k are
-/// among those of n. All rows are of the same height.
+/// From one cell, rule 90 draws Pascal's triangle modulo 2: by Lucas, a binomial coefficient is odd where the
+/// bits of k are among those of n. All rows are of the same height.
 #[test]
 fn a_model_of_one_row_is_drawn_in_space_and_time() {
     let (width, steps) = (41, 20);
@@ -84,7 +84,8 @@ fn a_model_of_one_row_is_drawn_in_space_and_time() {
         .filter(|(_, pixel)| is_on(pixel))
         .map(|(place, _)| [place % picture.width, place / picture.width])
         .collect();
-    // The legend has the same colour, to the right of the drawing; the triangle begins and ends at its borders.
+    // The legend has the same colour, to the right of the drawing; the triangle begins and ends at its
+    // borders.
     let left = places.iter().map(|[x, _]| *x).min().unwrap();
     let top = places.iter().find(|[x, _]| *x < left + 41 * 18).unwrap()[1];
     let mut checked = 0;

@@ -1,4 +1,5 @@
-//! Maps that lie somewhere and end somewhere: the place of a run, and cells without ground in all that it writes.
+//! Maps that lie somewhere and end somewhere: the place of a run, and cells without ground in all that it
+//! writes.
 
 mod island;
 mod outputs;

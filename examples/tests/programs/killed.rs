@@ -111,7 +111,8 @@ fn a_run_that_is_not_dead_is_not_resumed() {
     assert_eq!(again, said);
 }
 
-/// With checkpoints, Ctrl-C writes one more; the run goes on from the very step, and the end that was recorded is taken back.
+/// With checkpoints, Ctrl-C writes one more; the run goes on from the very step, and the end that was
+/// recorded is taken back.
 #[test]
 fn a_run_goes_on_after_ctrl_c() {
     let place = Workplace::new();

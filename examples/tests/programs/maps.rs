@@ -40,7 +40,8 @@ fn life_begins_from_a_grid_and_leaves_one() {
     let report = report(&place.path("out/life"));
     let files = report["files"].as_array().unwrap();
     assert!(files.iter().any(|file| file == "final_alive.asc"), "{files:?}");
-    // The next run does not want them, and leaves none of an earlier one; and it cannot replace what it begins from.
+    // The next run does not want them, and leaves none of an earlier one; and it cannot replace what it
+    // begins from.
     fs::copy(place.path("out/life/final_alive.asc"), place.path("again.asc")).unwrap();
     place.succeed(LIFE, "--initial alive=again.asc --steps 1");
     assert!(!place.path("out/life/final_alive.asc").exists());
@@ -49,7 +50,8 @@ fn life_begins_from_a_grid_and_leaves_one() {
     assert!(said.contains("the run starts from out/life/final_alive.asc, which it would replace"), "{said}");
 }
 
-/// In either precision the grids hold every bit: a run that begins from them goes on as if there had been no break.
+/// In either precision the grids hold every bit: a run that begins from them goes on as if there had been no
+/// break.
 #[test]
 fn a_landslide_goes_on_from_its_grids() {
     for precision in ["f32", "f64"] {
@@ -66,7 +68,8 @@ fn a_landslide_goes_on_from_its_grids() {
     }
 }
 
-/// Place, holes and coordinate system go through a run, and the numbers are those of the run over the same text grids.
+/// Place, holes and coordinate system go through a run, and the numbers are those of the run over the same
+/// text grids.
 #[test]
 fn a_landslide_runs_from_geotiff_to_geotiff() {
     let place = Workplace::new();
@@ -166,7 +169,8 @@ fn grids_that_do_not_fit_are_refused() {
     assert!(said.contains("empty.asc has no value in column 2, row 1 from the north"), "{said}");
 }
 
-/// The common height to which `mobile` levels out over cells of these heights, found by filling up from the lowest.
+/// The common height to which `mobile` levels out over cells of these heights, found by filling up from the
+/// lowest.
 fn common_level(mut heights: Vec<f64>, mobile: f64) -> f64 {
     heights.sort_by(f64::total_cmp);
     for full in 1..heights.len() {

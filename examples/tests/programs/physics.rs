@@ -46,7 +46,8 @@ fn heat_stops_when_it_is_cool_enough() {
     assert!((15..=25).contains(&series.rows.len()), "{}", series.rows.len());
 }
 
-/// After 2^k steps there are 27 copies of the figure; on a torus of 2^m cells the figure is back after 2^(m-1).
+/// After 2^k steps there are 27 copies of the figure; on a torus of 2^m cells the figure is back after
+/// 2^(m-1).
 #[test]
 fn the_parity_rule_copies_its_figure() {
     const SIZE: usize = 32;

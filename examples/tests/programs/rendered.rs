@@ -64,7 +64,8 @@ fn a_run_becomes_pictures_and_an_animation() {
 #[test]
 fn one_scale_serves_all_pictures() {
     let place = Workplace::new();
-    // The cube cools, so the scale is that of its first state: the hottest colour is gone in the last picture.
+    // The cube cools, so the scale is that of its first state: the hottest colour is gone in the last
+    // picture.
     let (frames, _) = rendered(&place, HEAT, "--size 9 --steps 60 --every 20 --engine reference", "a");
     let colours = |path: &Path| decoded(path).1.into_iter().collect::<BTreeSet<_>>();
     let middle = |path: &Path| {
@@ -77,7 +78,8 @@ fn one_scale_serves_all_pictures() {
     let shown: Vec<u32> = frames.iter().map(|path| lightness(middle(path))).collect();
     assert!(shown.windows(2).all(|pair| pair[0] > pair[1]), "{shown:?}");
     assert!(colours(&frames[0]).contains(&middle(&frames[0])));
-    // With both ends given, the hottest cell of the first picture is as before where the ends are those of the run.
+    // With both ends given, the hottest cell of the first picture is as before where the ends are those of
+    // the run.
     let (other, _) = rendered(&place, HEAT, "--size 9 --steps 0 --range 0,400 --engine reference", "b");
     assert!(lightness(middle(&other[0])) < shown[0]);
 }

@@ -1,4 +1,5 @@
-//! A run that goes on from a checkpoint ends with the files of a run that was never interrupted, byte by byte.
+//! A run that goes on from a checkpoint ends with the files of a run that was never interrupted, byte by
+//! byte.
 
 use crate::running::{
     CADEM, HEAT, LANDSLIDE, LIFE, MOD2, Workplace, assert_same_results, check_files, report, warns_at_most,
@@ -41,8 +42,8 @@ pub(crate) fn compare_on(parts: &[(&str, &str)], program: &str, options: &str, e
         assert_same_results(&place.path("whole"), &run, &name);
         let [older, latest] = checkpoints(&run).try_into().unwrap();
         let wanted = fs::read(&latest).unwrap();
-        // What a run may leave that was killed later than its older checkpoint: rows and frames that come again, a state
-        // in between, half of a file, and no end.
+        // What a run may leave that was killed later than its older checkpoint: rows and frames that come
+        // again, a state in between, half of a file, and no end.
         fs::remove_file(&latest).unwrap();
         let series = run.join("observables.csv");
         let text = fs::read_to_string(&series).unwrap();
@@ -199,7 +200,8 @@ fn a_new_run_does_not_keep_the_checkpoints_of_the_old_one() {
     check_files(&place.path("out/mod2"));
 }
 
-/// Relaxed arithmetic has bits of its own: a run that has begun with it goes on with it, or says that it does not.
+/// Relaxed arithmetic has bits of its own: a run that has begun with it goes on with it, or says that it does
+/// not.
 #[test]
 fn a_run_does_not_change_its_rounding_unawares() {
     let place = Workplace::new();

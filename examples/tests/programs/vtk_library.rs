@@ -26,7 +26,8 @@ struct Run {
 }
 
 impl Run {
-    /// Runs a program, in a folder whose name needs care, and reads all that it leaves; names and times are checked here.
+    /// Runs a program, in a folder whose name needs care, and reads all that it leaves; names and times are
+    /// checked here.
     fn of(place: &Workplace, program: &str, options: &str) -> Self {
         let folder = place.path("Läufe vom 1. März/ein \"Würfel\" & mehr");
         let output = place.command(program, options).arg("--out").arg(&folder).output().unwrap();
@@ -118,7 +119,8 @@ fn array(name: &str, kind: &str, components: usize, tuples: usize, bytes: String
     json!({"name": name, "type": kind, "components": components, "tuples": tuples, "bytes": bytes})
 }
 
-/// A step on a torus: a cell becomes what `rule` makes of itself and of the sum of the cells around it, itself not counted.
+/// A step on a torus: a cell becomes what `rule` makes of itself and of the sum of the cells around it,
+/// itself not counted.
 fn step_on_a_torus(cells: &[u8], extents: [usize; 3], rule: impl Fn(u8, u32) -> u8) -> Vec<u8> {
     let [nx, ny, nz] = extents;
     let around = |index: usize, extent: usize| [index, (index + 1) % extent, (index + extent - 1) % extent];
@@ -381,7 +383,8 @@ fn hexagons_are_polygons_at_their_place() {
     }
 }
 
-/// The values stand in the order of the cells: the altitudes of the last frame are those of the grid of the run.
+/// The values stand in the order of the cells: the altitudes of the last frame are those of the grid of the
+/// run.
 #[test]
 fn the_frames_of_hexagons_hold_the_cells_of_the_run() {
     let place = Workplace::new();

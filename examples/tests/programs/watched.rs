@@ -9,7 +9,8 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// How long a screen may take to become what it should be. It takes a moment; this only ends a test that waits for what never comes.
+/// How long a screen may take to become what it should be. It takes a moment; this only ends a test that
+/// waits for what never comes.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// A program in a terminal.
@@ -104,7 +105,8 @@ impl Terminal {
         step(&self.text()).unwrap()
     }
 
-    /// Waits until the program ends, having given the terminal back. What it says after that is on the screen.
+    /// Waits until the program ends, having given the terminal back. What it says after that is on the
+    /// screen.
     fn ended(&mut self) -> ExitStatus {
         let begin = Instant::now();
         loop {

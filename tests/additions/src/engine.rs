@@ -1,4 +1,5 @@
-//! An engine that does everything several times on the serial one, and fails where that does not give the same bits.
+//! An engine that does everything several times on the serial one, and fails where that does not give the
+//! same bits.
 
 use std::ops::Range;
 use xca::engine::{

@@ -1,4 +1,5 @@
-//! A model in a crate that depends on `xca` alone, and calls it `cellular`: what the macros write has to name it so.
+//! A model in a crate that depends on `xca` alone, and calls it `cellular`: what the macros write has to name
+//! it so.
 
 use cellular::prelude::*;
 

@@ -32,8 +32,8 @@ impl Oracle {
         }
     }
 
-    /// The error of a value in units of the last digit of the exact one. Nothing where the exact value is no number, or zero;
-    /// infinite where one of the two is infinite or NaN, and the other should not be.
+    /// The error of a value in units of the last digit of the exact one. Nothing where the exact value is no
+    /// number, or zero; infinite where one of the two is infinite or NaN, and the other should not be.
     pub fn error(&mut self, function: Function, arguments: [f64; 2], value: f64) -> Option<f64> {
         let exact = self.value(function, arguments);
         if exact.is_nan() || exact.is_inf() || exact.is_zero() {

@@ -14,17 +14,18 @@ use xca_parts::Parts;
 /// The thread counts of the parallel engine that must make no difference.
 pub const THREADS: [usize; 4] = [1, 2, 3, 8];
 
-/// How much further than a search its lists reach, in radii, for each of the thread counts: what the engine finds best, next to nothing, as
-/// is common, and more than there is room for. It must make no difference either.
+/// How much further than a search its lists reach, in radii, for each of the thread counts: what the engine
+/// finds best, next to nothing, as is common, and more than there is room for. It must make no difference
+/// either.
 pub const SKINS: [Option<f64>; 4] = [None, Some(1e-3), Some(0.3), Some(1e9)];
 
-/// The cells of a piece that is left out where nothing can change, for each of the thread counts: what the engine finds best, a single cell, an odd
-/// number, and more than most rows have.
+/// The cells of a piece that is left out where nothing can change, for each of the thread counts: what the
+/// engine finds best, a single cell, an odd number, and more than most rows have.
 pub const TILES: [Option<NonZeroUsize>; 4] =
     [None, NonZeroUsize::new(1), NonZeroUsize::new(3), NonZeroUsize::new(1000)];
 
-/// Steps that are done together where there is room, in columns of so many rows, and how many threads do so. It must
-/// make no difference either.
+/// Steps that are done together where there is room, in columns of so many rows, and how many threads do so.
+/// It must make no difference either.
 pub const STRIDES: [(Option<NonZeroU64>, Option<NonZeroUsize>, usize); 2] =
     [(NonZeroU64::new(2), NonZeroUsize::new(1), 1), (NonZeroU64::new(7), NonZeroUsize::new(4), 3)];
 
@@ -34,8 +35,8 @@ pub const PARTS: [usize; 3] = [2, 3, 7];
 /// Both precisions.
 pub const PRECISIONS: [Precision; 2] = [Precision::F32, Precision::F64];
 
-/// Of so many cases the GPU engine takes part in one: a driver compiles each model anew, which takes far longer than to run it.
-/// Odd, so that both precisions take turns.
+/// Of so many cases the GPU engine takes part in one: a driver compiles each model anew, which takes far
+/// longer than to run it. Odd, so that both precisions take turns.
 pub const GPU_SHARE: usize = 9;
 
 /// The same where there are thousands of cases.
@@ -44,7 +45,8 @@ pub const SMALL_GPU_SHARE: usize = 101;
 /// Of so many cases one runs in parts too: they start many threads. Odd, as above.
 const PARTS_SHARE: usize = 3;
 
-/// The engines for the case with this number: all, those on processors, or those that run the space as a whole.
+/// The engines for the case with this number: all, those on processors, or those that run the space as a
+/// whole.
 pub fn for_case(engines: &[Box<dyn Engine>], number: usize, share: usize) -> &[Box<dyn Engine>] {
     if number.is_multiple_of(share) {
         return engines;
@@ -59,8 +61,8 @@ pub fn on_processors(engines: &[Box<dyn Engine>]) -> &[Box<dyn Engine>] {
     &engines[..engines.len() - 1]
 }
 
-/// A snapshot in which each float that is no number has the same bits: which ones an operation gives is nowhere defined, and processors and
-/// graphics drivers differ.
+/// A snapshot in which each float that is no number has the same bits: which ones an operation gives is
+/// nowhere defined, and processors and graphics drivers differ.
 pub fn with_one_nan(model: &Model, precision: Precision, mut snapshot: Snapshot) -> Snapshot {
     for (group, state) in model.groups().iter().zip(&mut snapshot.groups) {
         let fields = match state {
@@ -133,8 +135,9 @@ pub fn describe(engine: &dyn Engine) -> String {
     format!("{} with {} threads{parts}", engine.name(), engine.threads())
 }
 
-/// Runs a model on each engine and demands that all agree with the first to the last bit, after every step, in a run of all steps at
-/// once, and in a run that goes on from a snapshot of the first. Where the first stops with an error, the others must stop in the same step with the same one; that error is the result.
+/// Runs a model on each engine and demands that all agree with the first to the last bit, after every step,
+/// in a run of all steps at once, and in a run that goes on from a snapshot of the first. Where the first
+/// stops with an error, the others must stop in the same step with the same one; that error is the result.
 ///
 /// # Errors
 /// What the run ends with on all engines.
@@ -272,8 +275,8 @@ fn error_text(error: &RunError) -> String {
     format!("{error}; {error:?}")
 }
 
-/// Changes the state after the first so many processes of the second step, and demands that the rest of the step ends with a fault that a
-/// process reports: the same on every engine. `what` is changed, for messages.
+/// Changes the state after the first so many processes of the second step, and demands that the rest of the
+/// step ends with a fault that a process reports: the same on every engine. `what` is changed, for messages.
 ///
 /// # Errors
 /// Where the change cannot be made.

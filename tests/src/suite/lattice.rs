@@ -1,11 +1,12 @@
 //! What a cell of a self-checking automaton knows of the space around it, in processes' own words.
 //!
-//! Nothing here asks the engine or the geometry: displacements, boundary rules and order are stated a second time, from the
-//! documentation, so that both statements check each other.
+//! Nothing here asks the engine or the geometry: displacements, boundary rules and order are stated a second
+//! time, from the documentation, so that both statements check each other.
 
 use xca_core::prelude::*;
 
-/// What stands in the first lane of the place of a cell that is none; in the others stands the number of the face that it lies beyond.
+/// What stands in the first lane of the place of a cell that is none; in the others stands the number of the
+/// face that it lies beyond.
 pub const NOWHERE: i32 = -7;
 
 /// The neighbourhoods that the automata know, by the number of [`Lattice::shape`].
@@ -188,8 +189,8 @@ pub fn linear(place: Vector3<i32>, extents: Vector3<i32>) -> i32 {
     (place.z * extents.y + place.y) * extents.x + place.x
 }
 
-/// The place with this number in a block of cells `width` by `width`, x fastest, seen from its middle. The middle is left out: numbers
-/// start with 1.
+/// The place with this number in a block of cells `width` by `width`, x fastest, seen from its middle. The
+/// middle is left out: numbers start with 1.
 #[helper]
 fn in_block(n: usize, width: i32, layers: i32) -> Vector3<i32> {
     let half = (width * width * layers - 1) / 2;
@@ -305,7 +306,8 @@ pub fn opposite(p: &Lattice, n: usize, here: Vector3<i32>) -> usize {
     found
 }
 
-/// Where an index beyond the faces leads along one axis; -1 where it leads outside, before the first face, and -2 behind the second.
+/// Where an index beyond the faces leads along one axis; -1 where it leads outside, before the first face,
+/// and -2 behind the second.
 #[helper]
 pub fn fold(index: i32, extent: i32, low: i32, high: i32) -> i32 {
     if index < 0 {

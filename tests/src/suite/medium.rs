@@ -1,4 +1,5 @@
-//! Elementary processes over cells from which random models are put together: each uses the engine in another way.
+//! Elementary processes over cells from which random models are put together: each uses the engine in another
+//! way.
 //!
 //! Their values stay bounded, so that no run ends in infinities that hide differences.
 

@@ -1,8 +1,8 @@
 //! Where the items of the self-checking population are at any time, in processes' own words.
 //!
-//! Each cell has three places at the start, one for each class, some of them taken. Items of class 0 rest; those of class 1 and 2 move by
-//! the same distance in every step, the same for the whole class. So whoever knows the step knows all items of any cell:
-//! for each class those that started in one certain cell.
+//! Each cell has three places at the start, one for each class, some of them taken. Items of class 0 rest;
+//! those of class 1 and 2 move by the same distance in every step, the same for the whole class. So whoever
+//! knows the step knows all items of any cell: for each class those that started in one certain cell.
 
 use super::lattice::{Lattice, linear, mix, neighbour_place};
 use xca_core::prelude::*;
@@ -26,8 +26,9 @@ pub fn is_taken(p: &Lattice, number: i32, class: u32) -> bool {
     mix(number as u32, class + 77) % 16 < p.density
 }
 
-/// The label of the item of a class that starts in the cell with this linear index. Along the rows the labels of the first class ascend, of
-/// the second descend, of the third ascend from the middle of the space, so that cells hold them in many orders.
+/// The label of the item of a class that starts in the cell with this linear index. Along the rows the labels
+/// of the first class ascend, of the second descend, of the third ascend from the middle of the space, so
+/// that cells hold them in many orders.
 #[helper]
 pub fn label_of(number: i32, class: u32, cells: i32) -> u32 {
     let rank = match class {
@@ -100,7 +101,8 @@ pub fn residents(p: &Lattice, here: Vector3<i32>, extents: Vector3<i32>, step: u
     Vector3::new(low.min(c), low.max(high.min(c)), high.max(c))
 }
 
-/// Where on one axis an item is after going so many quarters from the middle of a cell, in quarters from the origin.
+/// Where on one axis an item is after going so many quarters from the middle of a cell, in quarters from the
+/// origin.
 #[helper]
 fn ahead(start: i32, gone: i32, extent: i32, boundary: i32) -> i32 {
     let quarters = 4 * start + 2 + gone;
@@ -161,8 +163,8 @@ fn is_wanted(p: &Lattice, me: u32, other: u32, extents: Vector3<i32>, time: u32)
         || is_near(p, quarters_of(p, me, extents, time), quarters_of(p, other, extents, time), extents)
 }
 
-/// What [`follow`] gives of the items that a cell has after this number of steps, without the item `me`, in order of labels; only of those
-/// nearer than the radius at the given time, which may be a step ahead.
+/// What [`follow`] gives of the items that a cell has after this number of steps, without the item `me`, in
+/// order of labels; only of those nearer than the radius at the given time, which may be a step ahead.
 #[helper]
 pub fn follow_cell(
     p: &Lattice,

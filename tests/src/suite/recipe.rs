@@ -27,8 +27,9 @@ pub struct Recipe {
     pub slots: usize,
     /// How many items the fullest cells have at the start, if there are as many slots.
     pub crowding: usize,
-    /// Whether items start on a grid with three points along each axis of a cell, so that by a radius of a cell side many of them are
-    /// exactly as far apart as the radius, and rounding says whether they are near.
+    /// Whether items start on a grid with three points along each axis of a cell, so that by a radius of a
+    /// cell side many of them are exactly as far apart as the radius, and rounding says whether they are
+    /// near.
     pub aligned: bool,
     /// What the initial state is made of.
     pub salt: u32,
@@ -240,7 +241,8 @@ fn walkers(extents: [usize; 3], side: f64, most: usize, aligned: bool, salt: u32
     items
 }
 
-/// Single cells, whole substates and parameters change between steps. What all reductions say goes into a cell.
+/// Single cells, whole substates and parameters change between steps. What all reductions say goes into a
+/// cell.
 fn steer(state: &mut State<'_>) -> Result<(), SteeringError> {
     let extents = state.geometry().extents();
     let which = state.parameters::<Tuning>()?.salt;

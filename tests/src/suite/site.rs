@@ -1,9 +1,10 @@
 //! The self-checking automaton of cells.
 //!
-//! What every substate of every cell holds after every process is a function of the cell's place, the step and the process alone. So each cell
-//! can verify, in each process, its own indices and the whole state of each of its neighbours, and reports a fault where
-//! something is not as it must be: a wrong neighbour, a stale halo, a substate that changed though no one wrote it, or one
-//! that another process wrote too early. No physics is needed to test an engine.
+//! What every substate of every cell holds after every process is a function of the cell's place, the step
+//! and the process alone. So each cell can verify, in each process, its own indices and the whole state of
+//! each of its neighbours, and reports a fault where something is not as it must be: a wrong neighbour, a
+//! stale halo, a substate that changed though no one wrote it, or one that another process wrote too early.
+//! No physics is needed to test an engine.
 
 use super::around;
 use super::lattice::{Lattice, NOWHERE, Shape, Terrain, mix, neighbour_place, outside_place, terrain_of};
@@ -15,7 +16,8 @@ pub const WRONG_INDEX: u32 = 1;
 pub const WRONG_SIZE: u32 = 2;
 /// The fault of a cell whose own state is not as it must be.
 pub const WRONG_SELF: u32 = 3;
-/// The fault of a cell that finds another cell in the place of a neighbour; the value is the neighbour's number.
+/// The fault of a cell that finds another cell in the place of a neighbour; the value is the neighbour's
+/// number.
 pub const WRONG_PLACE: u32 = 4;
 /// The fault of a cell whose neighbour's state is not as it must be; the value is the neighbour's number.
 pub const WRONG_NEIGHBOUR: u32 = 5;
@@ -65,7 +67,8 @@ pub struct Site {
     pub terrains: [Terrain; 9],
 }
 
-/// What a cell holds after a process, in 32 bits from which all its substates are made. Beyond a face it is always the same.
+/// What a cell holds after a process, in 32 bits from which all its substates are made. Beyond a face it is
+/// always the same.
 #[helper]
 pub fn mark(place: Vector3<i32>, step: u32, process: u32) -> u32 {
     if place.x == NOWHERE {
@@ -114,7 +117,8 @@ pub fn same_place(a: Vector3<i32>, b: Vector3<i32>) -> bool {
 /// The number of [`fourth`], for [`mark`].
 const FOURTH: u32 = 4;
 
-/// Reads neighbours and itself, and writes what it reads at neighbours (so to a second buffer), and one substate more in place.
+/// Reads neighbours and itself, and writes what it reads at neighbours (so to a second buffer), and one
+/// substate more in place.
 #[elementary_process]
 pub fn first(cell: &mut Cell<Site>, p: &Lattice, space: &Space) {
     let here = cell.index();
@@ -164,7 +168,8 @@ pub fn first(cell: &mut Cell<Site>, p: &Lattice, space: &Space) {
     cell.double = double_of(cell.stamp);
 }
 
-/// Looks at its own cell alone, and writes in place: one substate from its old value, two others without looking.
+/// Looks at its own cell alone, and writes in place: one substate from its old value, two others without
+/// looking.
 #[elementary_process]
 pub fn second(cell: &mut Cell<Site>, space: &Space) {
     let here = cell.index();

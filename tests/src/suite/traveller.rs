@@ -1,8 +1,9 @@
 //! The self-checking population.
 //!
-//! Every item knows where it must be and, from [`path`](super::path), which other items every search must find and in which order.
-//! What it holds after each process is a function of its label, the step and the process, so that it can verify the substates of all others
-//! too. Items rest, go on and go back, across toroidal faces and out through flat ones.
+//! Every item knows where it must be and, from [`path`](super::path), which other items every search must
+//! find and in which order. What it holds after each process is a function of its label, the step and the
+//! process, so that it can verify the substates of all others too. Items rest, go on and go back, across
+//! toroidal faces and out through flat ones.
 
 use super::lattice::{Lattice, Shape, Terrain, linear, mix, neighbour_place, terrain_of};
 use super::path::{
@@ -15,11 +16,13 @@ use xca_core::prelude::*;
 pub const WRONG_CELL: u32 = 11;
 /// The fault of an item whose own state is not as it must be.
 pub const WRONG_SELF: u32 = 12;
-/// The fault of an item that a search shows other items, or in another order; the value is the number of the search.
+/// The fault of an item that a search shows other items, or in another order; the value is the number of the
+/// search.
 pub const WRONG_OTHERS: u32 = 13;
 /// The fault of an item that another's state is not as it must be.
 pub const WRONG_STATE: u32 = 14;
-/// The fault of an item that finds its cell's state not as it must be, and of a cell that finds a neighbour's so.
+/// The fault of an item that finds its cell's state not as it must be, and of a cell that finds a neighbour's
+/// so.
 pub const WRONG_GROUND: u32 = 15;
 /// The fault of a cell that holds other items than it must.
 pub const WRONG_CONTENT: u32 = 16;
@@ -175,7 +178,8 @@ pub fn look_around(me: &mut Slot<Traveller>, p: &Lattice, space: &Space) {
     me.awake[1] = now & 2 == 2;
 }
 
-/// The same when all have moved but none has changed its cell: a search goes by the cells of now and the positions of now.
+/// The same when all have moved but none has changed its cell: a search goes by the cells of now and the
+/// positions of now.
 #[elementary_process]
 pub fn look_ahead(me: &mut Slot<Traveller>, p: &Lattice, space: &Space) {
     let here = me.index();
@@ -299,7 +303,8 @@ pub fn at_start(p: &Lattice, extents: [usize; 3]) -> Vec<Item<Traveller>> {
     items
 }
 
-/// How many items there are after this number of steps and how many the fullest cell has, found by following each item.
+/// How many items there are after this number of steps and how many the fullest cell has, found by following
+/// each item.
 pub fn present(p: &Lattice, extents: [usize; 3], step: u32) -> (usize, u32) {
     let whole = Vector3::new(extents[0] as i32, extents[1] as i32, extents[2] as i32);
     let mut counts = HashMap::new();

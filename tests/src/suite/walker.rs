@@ -1,4 +1,5 @@
-//! Elementary processes over items, and between items and their cells, from which random models are put together.
+//! Elementary processes over items, and between items and their cells, from which random models are put
+//! together.
 
 use super::lattice::{Terrain, mix};
 use super::medium::{Medium, Tuning, bounded};

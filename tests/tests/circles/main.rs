@@ -1,9 +1,9 @@
 //! No files of a crate use each other in a circle.
 //!
-//! A file uses another one if its code names something that the other one defines. The name is followed through
-//! re-exports to its definition. So a parent that only declares and re-exports its children is in no circle with
-//! them. Modules that are compiled for tests only do not count. Methods do not count either: a file may hold more
-//! methods of a type that another file defines.
+//! A file uses another one if its code names something that the other one defines. The name is followed
+//! through re-exports to its definition. So a parent that only declares and re-exports its children is in no
+//! circle with them. Modules that are compiled for tests only do not count. Methods do not count either: a
+//! file may hold more methods of a type that another file defines.
 //!
 //! A circle that stays is named in `known.rs`, with its reason.
 

@@ -93,7 +93,8 @@ fn paths(tokens: TokenStream, found: &mut Vec<Vec<String>>) {
             TokenTree::Group(group) => {
                 found.push(std::mem::take(&mut path));
                 after_point = false;
-                // An attribute and a visibility are in groups too; their paths name modules, which are no uses.
+                // An attribute and a visibility are in groups too; their paths name modules, which are no
+                // uses.
                 let is_visibility = group.delimiter() == Delimiter::Parenthesis
                     && group.stream().to_string().starts_with("in ");
                 if !is_visibility {

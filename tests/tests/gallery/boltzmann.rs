@@ -1,12 +1,13 @@
-//! Fluids: a shear wave fades as the Navier-Stokes equations say, at second order; the cavity has the velocities of Ghia et al. 1982.
+//! Fluids: a shear wave fades as the Navier-Stokes equations say, at second order; the cavity has the
+//! velocities of Ghia et al. 1982.
 
 use crate::common::{assert_same_bits, run};
 use std::f64::consts::TAU;
 use xca_core::prelude::*;
 use xca_examples::models::{boltzmann, cavity};
 
-/// A wave of the velocity along y that changes along x and z: the exact solution fades by `exp(-viscosity k² t)`. With half the cells' side,
-/// four times as many steps reach the same time.
+/// A wave of the velocity along y that changes along x and z: the exact solution fades by `exp(-viscosity k²
+/// t)`. With half the cells' side, four times as many steps reach the same time.
 fn shear_error(size: usize) -> f64 {
     let (viscosity, steps) = (0.05, (size * size / 4) as u64);
     let (amplitude, k) = (0.32 / size as f64, TAU / size as f64);
@@ -40,13 +41,15 @@ fn a_shear_wave_fades_at_second_order() {
     assert!(fine < 0.015, "{fine}");
 }
 
-/// Ghia, Ghia and Shin, Journal of Computational Physics 48, 1982: u on the vertical line through the middle, in parts of the lid's speed.
+/// Ghia, Ghia and Shin, Journal of Computational Physics 48, 1982: u on the vertical line through the middle,
+/// in parts of the lid's speed.
 const GHIA: [(f64, [(f64, f64); 5]); 2] = [
     (100.0, [(0.9766, 0.84123), (0.9531, 0.68717), (0.7344, 0.00332), (0.5, -0.20581), (0.1719, -0.10150)]),
     (400.0, [(0.9766, 0.75837), (0.9531, 0.55892), (0.7344, 0.16256), (0.5, -0.11477), (0.2813, -0.32726)]),
 ];
 
-/// The velocity along x at a height of the middle line, between cells; the lid and the floor are half a cell beyond the last ones.
+/// The velocity along x at a height of the middle line, between cells; the lid and the floor are half a cell
+/// beyond the last ones.
 fn along_x(state: &State<'_>, size: usize, height: f64) -> f64 {
     let row = |y: usize| {
         let [left, right] =

@@ -1,4 +1,5 @@
-//! Debris over hexagons: soil and debris together are kept, flat ground spreads alike in six directions, and each step is that of an oracle.
+//! Debris over hexagons: soil and debris together are kept, flat ground spreads alike in six directions, and
+//! each step is that of an oracle.
 
 use crate::common::{assert_same_bits, run};
 use xca_core::prelude::*;

@@ -3,7 +3,8 @@
 use crate::common::{assert_same_bits, run};
 use xca_examples::models::ising::{Lattice, exact_magnetisation, model};
 
-/// Onsager's energy of a spin in units of J: by the complete elliptic integral, as an arithmetic-geometric mean.
+/// Onsager's energy of a spin in units of J: by the complete elliptic integral, as an arithmetic-geometric
+/// mean.
 fn exact_energy(temperature: f64) -> f64 {
     let coupling = 1.0 / temperature;
     let modulus = 2.0 * (2.0 * coupling).sinh() / (2.0 * coupling).cosh().powi(2);

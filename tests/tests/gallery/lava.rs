@@ -1,4 +1,5 @@
-//! Lava: none is lost, heat is kept but for what is radiated, cooling follows the formula, and each step is that of an oracle written another way.
+//! Lava: none is lost, heat is kept but for what is radiated, cooling follows the formula, and each step is
+//! that of an oracle written another way.
 
 use crate::common::{assert_same_bits, run};
 use xca_core::prelude::*;

@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 use xca_core::prelude::*;
 use xca_examples::models::reaction::{Mixture, Rates, model};
 
-/// Without `v` the scheme is linear in `1 - u`: a wave of k along x fades by `1 - feed - 2 D (1 - cos k)` a step.
+/// Without `v` the scheme is linear in `1 - u`: a wave of k along x fades by `1 - feed - 2 D (1 - cos k)` a
+/// step.
 #[test]
 fn a_wave_fades_as_the_scheme_says() {
     let (size, steps) = (32, 60);
@@ -20,7 +21,8 @@ fn a_wave_fades_as_the_scheme_says() {
     }
 }
 
-/// In a well stirred dish both substances follow the map of one cell; the rates have a steady state where it says.
+/// In a well stirred dish both substances follow the map of one cell; the rates have a steady state where it
+/// says.
 #[test]
 fn spots_grow_and_both_shares_stay_between_0_and_1() {
     let begin = |site: Site| {

@@ -14,7 +14,8 @@ fn plain(
     }
 }
 
-/// Fire passes from each of k burning neighbours with probability p, so that a cell catches fire with `1 - (1 - p)^k`.
+/// Fire passes from each of k burning neighbours with probability p, so that a cell catches fire with `1 -
+/// (1 - p)^k`.
 #[test]
 fn a_front_passes_with_the_probability_of_the_rule() {
     let size = 200;
@@ -33,8 +34,8 @@ fn a_front_passes_with_the_probability_of_the_rule() {
     assert!((caught - whole * probability).abs() < 4.0 * spread, "{caught} of {whole}: not {probability}");
 }
 
-/// On a line one cell wide, with a fire that goes out after a step, a front runs on with probability p in each step: it comes g cells far with
-/// probability `p^g`.
+/// On a line one cell wide, with a fire that goes out after a step, a front runs on with probability p in
+/// each step: it comes g cells far with probability `p^g`.
 #[test]
 fn a_fire_along_a_line_comes_as_far_as_the_rule_says() {
     let (rows, length) = (999, 12);
@@ -60,7 +61,8 @@ fn a_fire_along_a_line_comes_as_far_as_the_rule_says() {
     }
 }
 
-/// The numbers of the paper: wind of 10 m/s from behind, from the side, against; a slope of 45 degrees up and down.
+/// The numbers of the paper: wind of 10 m/s from behind, from the side, against; a slope of 45 degrees up and
+/// down.
 #[test]
 fn wind_and_slope_are_those_of_the_paper() {
     let weather = Weather { wind: Vector2::new(10.0, 0.0), ..Weather::default() };

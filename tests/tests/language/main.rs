@@ -12,7 +12,8 @@ use xca_tests::suite::engines::{self, assert_same_runs};
 
 type TestResult = Result<(), Box<dyn Error>>;
 
-/// Runs a model for a step on all engines, which must agree, and gives the state of the reference engine to the test.
+/// Runs a model for a step on all engines, which must agree, and gives the state of the reference engine to
+/// the test.
 fn on_all_engines(
     model: &Model,
     precision: Precision,

@@ -122,7 +122,8 @@ pub enum Fault {
         /// The indices of its cell.
         cell: [usize; 3],
     },
-    /// A substate that is to stay finite ([`crate::ModelBuilder::watch_finite`]) does not: the first by substate, cell and label.
+    /// A substate that is to stay finite ([`crate::ModelBuilder::watch_finite`]) does not: the first by
+    /// substate, cell and label.
     NotFinite {
         /// The struct and the substate, with the component: `Lava.outflow[3]`.
         substate: String,

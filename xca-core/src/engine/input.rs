@@ -99,8 +99,8 @@ pub fn check_substate(model: &Model, substate: SubstateId) -> Result<(), InputEr
     checked_group(model, substate).map(|_| ())
 }
 
-/// Checks the values that are to replace all values of a substate. `items` is how many items the group has, if
-/// it is a population.
+/// Checks the values that are to replace all values of a substate. `items` is how many items the group has,
+/// if it is a population.
 ///
 /// # Errors
 /// Where the model does not have the substate, or the values take another number of bytes.
@@ -122,7 +122,8 @@ pub fn check_values(
 /// Checks the values that are to replace those of a substate of cells in a part of the space.
 ///
 /// # Errors
-/// Where the model does not have the substate, it is none of cells, or the values take another number of bytes.
+/// Where the model does not have the substate, it is none of cells, or the values take another number of
+/// bytes.
 pub fn check_values_of_part(
     model: &Model,
     precision: Precision,
@@ -178,8 +179,8 @@ pub fn check_values_of_cells(
 /// Checks the items that are to replace those of a population.
 ///
 /// # Errors
-/// [`Fault::CellFull`] where a cell has more items than slots; [`InputError`] where the group is no population,
-/// or counts, labels and fields do not agree.
+/// [`Fault::CellFull`] where a cell has more items than slots; [`InputError`] where the group is no
+/// population, or counts, labels and fields do not agree.
 pub fn check_population(
     model: &Model,
     precision: Precision,

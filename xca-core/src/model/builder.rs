@@ -92,14 +92,16 @@ impl ModelBuilder {
         self.boundaries(Faces::all(boundary))
     }
 
-    /// The boundaries of all faces: along x, y, z, as in `[Boundary::Toroidal, Boundary::Flat, Boundary::Flat]`, or for each face, as in
-    /// `Faces { north: Boundary::Flat, ..Faces::all(Boundary::Reflecting) }`.
+    /// The boundaries of all faces: along x, y, z, as in `[Boundary::Toroidal, Boundary::Flat,
+    /// Boundary::Flat]`, or for each face, as in `Faces { north: Boundary::Flat,
+    /// ..Faces::all(Boundary::Reflecting) }`.
     pub fn boundaries(mut self, boundaries: impl Into<Faces<Boundary>>) -> Self {
         self.boundaries = boundaries.into();
         self
     }
 
-    /// The boundary of one face, in place of what was said of it before. A toroidal boundary joins two faces, so both of an axis need it.
+    /// The boundary of one face, in place of what was said of it before. A toroidal boundary joins two faces,
+    /// so both of an axis need it.
     pub fn face(mut self, face: Face, boundary: Boundary) -> Self {
         self.boundaries[face] = boundary;
         self
@@ -115,10 +117,11 @@ impl ModelBuilder {
         self.add_group::<S>(GroupKind::Cells { outside: Faces::all(encoder(outside)) })
     }
 
-    /// Gives the substates `S` of cells values of their own beyond one flat face: a lid that moves, an inflow.
+    /// Gives the substates `S` of cells values of their own beyond one flat face: a lid that moves, an
+    /// inflow.
     ///
-    /// A neighbour that lies beyond several flat faces shows the value of the one along z before that along y, and of the one along y
-    /// before that along x.
+    /// A neighbour that lies beyond several flat faces shows the value of the one along z before that along
+    /// y, and of the one along y before that along x.
     pub fn outside<S: Substates>(mut self, face: Face, outside: S) -> Self {
         let substates = S::SCHEMA.name;
         let group = self.groups.iter_mut().find(|group| group.type_id == TypeId::of::<S>());
@@ -165,14 +168,15 @@ impl ModelBuilder {
         self
     }
 
-    /// Adds a struct of parameters, with their values at the start. A model may have several; one of the same type replaces the earlier.
+    /// Adds a struct of parameters, with their values at the start. A model may have several; one of the same
+    /// type replaces the earlier.
     pub fn parameters<P: Parameters>(mut self, parameters: P) -> Self {
         self.parameters.add(parameters);
         self
     }
 
-    /// Computes parameters of the struct `P` from others of it, whenever one of them is set, wherever from. Mark them in the struct as
-    /// `#[parameter(computed)]`: then they cannot be set by themselves.
+    /// Computes parameters of the struct `P` from others of it, whenever one of them is set, wherever from.
+    /// Mark them in the struct as `#[parameter(computed)]`: then they cannot be set by themselves.
     pub fn compute_parameters<P: Parameters>(
         mut self,
         computation: impl Fn(&mut P) + Send + Sync + 'static,
@@ -181,7 +185,8 @@ impl ModelBuilder {
         self
     }
 
-    /// Adds an elementary process or a migration, or several of them in parentheses. They run in the order in which they are added.
+    /// Adds an elementary process or a migration, or several of them in parentheses. They run in the order in
+    /// which they are added.
     pub fn process<P: Processes>(mut self, _processes: P) -> Self {
         P::add_to(&mut self.processes);
         self
@@ -200,7 +205,8 @@ impl ModelBuilder {
         self
     }
 
-    /// Adds processes that run so many times in each step, one after the other: `repeat(4, (red, black))` is red, black, four times.
+    /// Adds processes that run so many times in each step, one after the other: `repeat(4, (red, black))` is
+    /// red, black, four times.
     pub fn repeat<P: Processes>(mut self, times: u32, _processes: P) -> Self {
         if times == 0 {
             self.mistake.get_or_insert(ModelError::ZeroRepeats);
@@ -238,8 +244,9 @@ impl ModelBuilder {
 
     /// Stops the run when the condition gives a reason.
     ///
-    /// A condition that asks for a reduction and gets NaN decides nothing. Where a substate is NaN or infinite then, the run
-    /// ends with the fault [`crate::Fault::NotFinite`], which names the cell; substates of [`Self::allow_non_finite`] are exempt.
+    /// A condition that asks for a reduction and gets NaN decides nothing. Where a substate is NaN or
+    /// infinite then, the run ends with the fault [`crate::Fault::NotFinite`], which names the cell;
+    /// substates of [`Self::allow_non_finite`] are exempt.
     pub fn stop_when(
         self,
         schedule: Schedule,
@@ -254,18 +261,20 @@ impl ModelBuilder {
         })
     }
 
-    /// Checks at these times that all floating substates of cells and items are finite. NaN or an infinity is a fault that names step,
-    /// substate, cell and item ([`crate::Fault::NotFinite`]).
+    /// Checks at these times that all floating substates of cells and items are finite. NaN or an infinity is
+    /// a fault that names step, substate, cell and item ([`crate::Fault::NotFinite`]).
     ///
-    /// A check comes before the steering of its step, so no stop criterion sees a NaN; that of `Start` follows the initial state, that of
-    /// `End` the last steering. It reads each substate once. [`crate::Simulation::check_finite`] checks at any other time.
+    /// A check comes before the steering of its step, so no stop criterion sees a NaN; that of `Start`
+    /// follows the initial state, that of `End` the last steering. It reads each substate once.
+    /// [`crate::Simulation::check_finite`] checks at any other time.
     pub fn watch_finite(mut self, schedule: Schedule) -> Self {
         self.check_schedule(&schedule);
         self.watches.push(schedule);
         self
     }
 
-    /// Says that a substate may be NaN or infinite, for which it has a meaning of its own. No check looks at it.
+    /// Says that a substate may be NaN or infinite, for which it has a meaning of its own. No check looks at
+    /// it.
     pub fn allow_non_finite<S: Substates, V: HostValue>(mut self, substate: Substate<S, V>) -> Self {
         match self.groups.iter().position(|group| group.type_id == TypeId::of::<S>()) {
             Some(group) => self.may_be_non_finite.push(SubstateId { group, field: substate.index() }),

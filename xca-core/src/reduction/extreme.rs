@@ -1,7 +1,8 @@
 //! The smallest and the largest of many numbers, several at a time.
 //!
-//! One after the other, a number takes the place of the best so far where it is better, and a NaN always does. So what is left is the last
-//! NaN, or the first of the numbers that equal the best. Which one is first matters for zeros alone, whose signs may differ.
+//! One after the other, a number takes the place of the best so far where it is better, and a NaN always
+//! does. So what is left is the last NaN, or the first of the numbers that equal the best. Which one is first
+//! matters for zeros alone, whose signs may differ.
 
 use bytemuck::Pod;
 

@@ -72,13 +72,15 @@ impl ReferenceExecution {
             let destinations =
                 if process.kind == ProcessKind::Migration { Some(&mut answers[own.0..own.1]) } else { None };
             let origin = indices.map(|index| index as u32);
-            // SAFETY: `entries` follow the process's accesses. Of cells, `read` is the gathered list of as many values as offsets, or
-            // the cell's own value where no neighbour is read; `write` is one value, of this cell, in memory apart from the gathered
-            // list. Of items, `read` starts a plane of as many values as labels, and `write` is this cell's part of it, or of another
-            // plane where others are read. Ranges are lists of as many values as offsets. All of it outlives the row, and
+            // SAFETY: `entries` follow the process's accesses. Of cells, `read` is the gathered list of as
+            // many values as offsets, or the cell's own value where no neighbour is read; `write` is one
+            // value, of this cell, in memory apart from the gathered list. Of items, `read` starts a plane of
+            // as many values as labels, and `write` is this cell's part of it, or of another plane where
+            // others are read. Ranges are lists of as many values as offsets. All of it outlives the row, and
             // nothing else touches it meanwhile: pointers were taken last from each buffer.
             let row = unsafe { Row::new(&frame, &entries, items, destinations, &scratch, origin, 1) };
-            // A fault, and a panic too, leaves an unfinished step behind. What was reported before a panic comes first.
+            // A fault, and a panic too, leaves an unfinished step behind. What was reported before a panic
+            // comes first.
             let panic = catch_unwind(AssertUnwindSafe(|| kernel(&row))).err();
             if let Some(fault) = row.first_fault() {
                 return Err(Fault::reported(process, fault, &geometry));

@@ -9,9 +9,9 @@ use xca_values::Field;
 
 /// The whole state of a run between two steps: equal snapshots are equal to the last bit.
 ///
-/// Together with the model and the [`RunOptions`] it is everything that the rest of the run depends on, whatever the engine: random
-/// numbers are a function of seed and step, and schedules one of the step. What steering operations and observables keep to themselves,
-/// in a `Mutex` for example, is not part of it.
+/// Together with the model and the [`RunOptions`] it is everything that the rest of the run depends on,
+/// whatever the engine: random numbers are a function of seed and step, and schedules one of the step. What
+/// steering operations and observables keep to themselves, in a `Mutex` for example, is not part of it.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Snapshot {
     /// The number of steps done.
@@ -84,8 +84,8 @@ impl Simulation {
 
     /// Puts a model on an engine in the state of a snapshot; the initial state is not made.
     ///
-    /// With the options of the simulation that the snapshot was taken of, the run goes on as that one would have, to the last bit,
-    /// on any engine.
+    /// With the options of the simulation that the snapshot was taken of, the run goes on as that one would
+    /// have, to the last bit, on any engine.
     ///
     /// ```
     /// use xca_core::prelude::*;
@@ -100,7 +100,8 @@ impl Simulation {
     ///     cell.count += 1;
     /// }
     ///
-    /// let model = Model::builder("counters").extents([4, 1, 1]).substates::<Counter>().process(count).build()?;
+    /// let builder = Model::builder("counters").extents([4, 1, 1]);
+    /// let model = builder.substates::<Counter>().process(count).build()?;
     /// let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
     /// simulation.run(3)?;
     /// let snapshot = simulation.snapshot()?;
@@ -130,8 +131,8 @@ impl Simulation {
     /// Replaces the state by that of a snapshot, also after a fault.
     ///
     /// # Errors
-    /// [`RunError::Snapshot`] where it is a snapshot of another model or another precision, or was taken after a fault. The state is then
-    /// what it was.
+    /// [`RunError::Snapshot`] where it is a snapshot of another model or another precision, or was taken
+    /// after a fault. The state is then what it was.
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), RunError> {
         snapshot.check(&self.model, self.options)?;
         for (group, state) in snapshot.groups.iter().enumerate() {

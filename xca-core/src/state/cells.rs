@@ -47,8 +47,8 @@ impl State<'_> {
         self.set_cells(substate, [(cell, value)])
     }
 
-    /// Sets the values of a substate in some cells. The engine writes them at once; of a cell that stands twice,
-    /// the last value stays.
+    /// Sets the values of a substate in some cells. The engine writes them at once; of a cell that stands
+    /// twice, the last value stays.
     ///
     /// # Errors
     /// Where the model does not have the substate, or the space one of the cells. Nothing is set then.
@@ -63,8 +63,8 @@ impl State<'_> {
         self.set_values_of(id, &numbers, &values)
     }
 
-    /// Changes the values of a substate in some cells: adds lava at the vents, heat at a source. The engine reads
-    /// them at once, and writes them at once; a cell that stands twice is changed twice.
+    /// Changes the values of a substate in some cells: adds lava at the vents, heat at a source. The engine
+    /// reads them at once, and writes them at once; a cell that stands twice is changed twice.
     ///
     /// ```
     /// use xca_core::prelude::*;

@@ -13,7 +13,8 @@ struct State {
     bits: u32,
 }
 
-/// A row of six cells, whose neighbours are the left one, then the right one; beyond the ends lie cells of value 100.
+/// A row of six cells, whose neighbours are the left one, then the right one; beyond the ends lie cells of
+/// value 100.
 fn row() -> ModelBuilder {
     Model::builder("row")
         .extents([6, 1, 1])

@@ -1,4 +1,5 @@
-//! Several structs of cells and of parameters in one process; processes that run in some steps, or several times in one.
+//! Several structs of cells and of parameters in one process; processes that run in some steps, or several
+//! times in one.
 
 use crate::common::{PRECISIONS, cells};
 use xca_core::prelude::*;

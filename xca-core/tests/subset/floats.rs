@@ -79,7 +79,8 @@ fn extremes(cell: &mut Cell<Numbers>) {
     cell.single = cell.single.min(0.0);
 }
 
-/// `max` and `min` are comparisons, on all engines alike: a receiver that is NaN stays, for nothing is greater.
+/// `max` and `min` are comparisons, on all engines alike: a receiver that is NaN stays, for nothing is
+/// greater.
 #[test]
 fn comparisons_with_nan_are_fixed() {
     for precision in PRECISIONS {

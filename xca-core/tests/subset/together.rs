@@ -1,4 +1,5 @@
-//! Constants of processes, labels, loops over arrays and tuples together with several structs, states and compositions.
+//! Constants of processes, labels, loops over arrays and tuples together with several structs, states and
+//! compositions.
 
 use crate::common::{PRECISIONS, cells};
 use xca_core::ElementaryProcess;
@@ -51,7 +52,8 @@ fn shares<const N: usize>(values: [Real; N], growth: &Growth) -> (Real, Real, Ki
     (sum * growth.rate, product, kind)
 }
 
-/// Works on cells of one colour; reads another struct, there and at neighbours, and two structs of parameters.
+/// Works on cells of one colour; reads another struct, there and at neighbours, and two structs of
+/// parameters.
 #[elementary_process]
 fn update<const COLOUR: i32>(cell: &mut Cell<Ground>, weather: &Cell<Weather>, soil: &Soil, growth: &Growth) {
     if cell.colour != COLOUR {

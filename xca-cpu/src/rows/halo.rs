@@ -16,10 +16,13 @@ impl Pass<'_> {
             let copies = starts.flat_map(|start| self.continuation.iter().map(move |copy| (start, copy)));
             for (start, (target, source)) in copies {
                 // SAFETY:
-                // - Source and target are cells of one padded line of a plane: the source in the row, the target in the halo beside it.
-                // - No kernel writes the halo, and this is the only thread that has the row, so no one writes either of them meanwhile.
-                // - No one reads the target meanwhile: a plane that is read elsewhere in this pass is written to the second buffer, of which
-                //   nothing is read, or not written at all (`stages`). Another pass is at rows that see this one only before or after (`Wavefront`).
+                // - Source and target are cells of one padded line of a plane: the source in the row, the
+                //   target in the halo beside it.
+                // - No kernel writes the halo, and this is the only thread that has the row, so no one writes
+                //   either of them meanwhile.
+                // - No one reads the target meanwhile: a plane that is read elsewhere in this pass is written
+                //   to the second buffer, of which nothing is read, or not written at all (`stages`). Another
+                //   pass is at rows that see this one only before or after (`Wavefront`).
                 unsafe {
                     copy_value(element, start.offset(source * size), start.offset(target * size));
                 }
@@ -40,9 +43,11 @@ impl Pass<'_> {
                 let [from, to] = [source.start, target.start]
                     .map(|start| shared.write.wrapping_add((plane + start) * element));
                 // SAFETY:
-                // - Both are padded lines of a plane, of one length: the one of the row, and another in the halo.
+                // - Both are padded lines of a plane, of one length: the one of the row, and another in the
+                //   halo.
                 // - A line of the halo shows one row, whose only thread this is; no kernel writes it.
-                // - It is read from rows that see the row, and those are read and written by no pass meanwhile (`Wavefront`).
+                // - It is read from rows that see the row, and those are read and written by no pass
+                //   meanwhile (`Wavefront`).
                 unsafe {
                     std::ptr::copy_nonoverlapping(from, to, source.len() * element);
                 }

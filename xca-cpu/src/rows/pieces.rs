@@ -78,7 +78,8 @@ impl Pass<'_> {
     }
 }
 
-/// The bytes of a piece in each plane that a process writes, and those that stood there before where these are in other memory.
+/// The bytes of a piece in each plane that a process writes, and those that stood there before where these
+/// are in other memory.
 fn planes<'a>(shared: &'a Shared, piece: &Cells) -> impl Iterator<Item = Plane<'a>> {
     let element = shared.memory.element;
     let (first, bytes) = (piece.first * element, piece.length * element);
@@ -88,8 +89,9 @@ fn planes<'a>(shared: &'a Shared, piece: &Cells) -> impl Iterator<Item = Plane<'
         MemoryOf::Items { .. } => [0, 0],
     };
     (0..planes).map(move |number| {
-        // SAFETY: the cells of the piece, in a plane that the process writes, and in the one that it reads where this is another. They are this
-        // thread's alone, as the row is; what it reads no one writes. The kernel has not begun or has ended.
+        // SAFETY: the cells of the piece, in a plane that the process writes, and in the one that it reads
+        // where this is another. They are this thread's alone, as the row is; what it reads no one writes.
+        // The kernel has not begun or has ended.
         unsafe {
             let now = shared.write.wrapping_add(first + number * write_stride * element).cast_const();
             let before = shared.read.wrapping_add(first + number * read_stride * element);

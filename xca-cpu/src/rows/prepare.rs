@@ -16,13 +16,14 @@ pub(super) struct Ready<'a> {
     pub(super) written: Vec<(SubstateId, bool)>,
     pub(super) searches: Searches,
     pub(super) measured: Vec<Measured>,
-    /// Whether rows are continued beyond the faces along y and z, too, as passes that follow in the wake see them there.
+    /// Whether rows are continued beyond the faces along y and z, too, as passes that follow in the wake see
+    /// them there.
     pub(super) continues_lines: bool,
 }
 
 impl<'a> Ready<'a> {
-    /// After this the groups are as the pass will leave them: what it writes to second buffers is read from now
-    /// on, by passes that are made ready after it. `in_wake` says that there are such.
+    /// After this the groups are as the pass will leave them: what it writes to second buffers is read from
+    /// now on, by passes that are made ready after it. `in_wake` says that there are such.
     pub(super) fn new(
         Ground { model, layout, precision }: Ground<'a>,
         groups: &mut [Group],
@@ -59,7 +60,8 @@ impl<'a> Ready<'a> {
     }
 }
 
-/// Fills halos that will be read and makes second buffers; gives the substates that the pass writes, and whether to a second buffer.
+/// Fills halos that will be read and makes second buffers; gives the substates that the pass writes, and
+/// whether to a second buffer.
 fn prepare_buffers(
     model: &Model,
     layout: &Layout,

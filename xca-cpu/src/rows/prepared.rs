@@ -20,7 +20,8 @@ pub(super) struct Shared {
     pub(super) continued: bool,
 }
 
-// SAFETY: the pointers lead to memory that is written through rows alone, and rows are disjoint, see `pass.rs`.
+// SAFETY: the pointers lead to memory that is written through rows alone, and rows are disjoint, see
+// `pass.rs`.
 unsafe impl Send for Shared {}
 // SAFETY: as above.
 unsafe impl Sync for Shared {}

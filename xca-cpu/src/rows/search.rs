@@ -45,7 +45,8 @@ pub(super) fn prepare(
 ) -> Searches {
     let populations = searched(model, processes);
     let mut searches = Searches { populations, filter: None, listed: vec![None; groups.len()] };
-    // In a part the places of items that are seen across its borders are of a stage alone: lists do not know them.
+    // In a part the places of items that are seen across its borders are of a stage alone: lists do not know
+    // them.
     if searches.populations.is_empty() || layout.borders() != Faces::all(false) {
         return searches;
     }
@@ -91,7 +92,8 @@ unsafe impl Send for Measured {}
 unsafe impl Sync for Measured {}
 
 impl Measured {
-    /// The populations that are searched and whose positions or cells a pass changes; not those whose positions go to a second buffer.
+    /// The populations that are searched and whose positions or cells a pass changes; not those whose
+    /// positions go to a second buffer.
     pub(super) fn all(
         model: &Model,
         groups: &mut [Group],

@@ -32,13 +32,13 @@ pub(crate) struct Code {
     pub(crate) buffers: Vec<Access>,
     /// Where the driver must not change float arithmetic: which operations are corrected.
     pub(crate) strict: Option<Corrections>,
-    /// Where loops that the device ends early are to be told: the number that is written to one more buffer, which
-    /// stands behind the others.
+    /// Where loops that the device ends early are to be told: the number that is written to one more buffer,
+    /// which stands behind the others.
     pub(crate) watched: Option<NonZeroU32>,
 }
 
-/// The operations that the driver does not round correctly, and that are made correct by other operations: of floats
-/// of 32 bits, then of 64 bits.
+/// The operations that the driver does not round correctly, and that are made correct by other operations: of
+/// floats of 32 bits, then of 64 bits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub(crate) struct Corrections {
     pub(crate) divisions: [bool; 2],
@@ -62,8 +62,8 @@ impl fmt::Debug for Pipeline {
 
 /// What has to be said to be given shader passthrough.
 pub(super) fn experimental_features() -> wgpu::ExperimentalFeatures {
-    // SAFETY: the only experimental feature that is ever asked for is the passthrough of shaders, which is used in one place, below,
-    // where its own conditions are met.
+    // SAFETY: the only experimental feature that is ever asked for is the passthrough of shaders, which is
+    // used in one place, below, where its own conditions are met.
     unsafe { wgpu::ExperimentalFeatures::enabled() }
 }
 
@@ -148,11 +148,11 @@ impl Device {
             name: "main".into(),
             workgroup_size: code.workgroup.into(),
         }];
-        // SAFETY: the words are valid SPIR-V: naga wrote them from a module that it had checked, and only decorations were added. They
-        // are of the version that Vulkan 1.1 takes. Arrays in a process are indexed within their bounds; buffers are indexed by
-        // the engine's own numbers of cells and items, which lie in the buffers that it binds, and within
-        // these by elements of their arrays, which the text of the process proves or checks. Loops end where
-        // they end on the CPU, or at a fault.
+        // SAFETY: the words are valid SPIR-V: naga wrote them from a module that it had checked, and only
+        // decorations were added. They are of the version that Vulkan 1.1 takes. Arrays in a process are
+        // indexed within their bounds; buffers are indexed by the engine's own numbers of cells and items,
+        // which lie in the buffers that it binds, and within these by elements of their arrays, which the
+        // text of the process proves or checks. Loops end where they end on the CPU, or at a fault.
         unsafe {
             self.device.create_shader_module_passthrough(wgpu::ShaderModuleDescriptorPassthrough {
                 label: Some(&code.name),

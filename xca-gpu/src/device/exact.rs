@@ -1,7 +1,7 @@
 //! Code whose float operations the driver may not change: SPIR-V with `NoContraction` on each of them.
 //!
-//! WGSL lets a driver contract `a * b + c` to one rounding, and reorder sums. SPIR-V forbids both for operations that are decorated so,
-//! which WGSL cannot say; hence this detour over naga's own SPIR-V.
+//! WGSL lets a driver contract `a * b + c` to one rounding, and reorder sums. SPIR-V forbids both for
+//! operations that are decorated so, which WGSL cannot say; hence this detour over naga's own SPIR-V.
 
 use super::rewrite::Checked;
 use naga::back::spv;

@@ -36,7 +36,8 @@ impl Device {
         Ok(bytes)
     }
 
-    /// Writes bytes to ranges, one after the other, as one piece of work; ranges begin and end at multiples of four.
+    /// Writes bytes to ranges, one after the other, as one piece of work; ranges begin and end at multiples
+    /// of four.
     pub(crate) fn scatter(
         &self,
         buffer: &Buffer,

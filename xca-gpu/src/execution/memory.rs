@@ -88,7 +88,8 @@ pub(super) fn groups_of(
     Ok(Groups::new(device, groups, records(space, programs, |_| 0))?)
 }
 
-/// The bytes of the records of faults: one for each workgroup of a process over cells, or over the items that there are.
+/// The bytes of the records of faults: one for each workgroup of a process over cells, or over the items that
+/// there are.
 pub(super) fn records(space: &Space, programs: &[Program], items: impl Fn(&Program) -> usize) -> u64 {
     let of = |program: &Program| {
         let layout = program.shader.bindings.iter().find_map(|binding| match &binding.content {

@@ -1,5 +1,5 @@
-// Fills the halo of a substate that cannot be reached at once: words are picked up from its parts and set down in its parts. One
-// invocation for each word.
+// Fills the halo of a substate that cannot be reached at once: words are picked up from its parts and set
+// down in its parts. One invocation for each word.
 
 @group(0) @binding(0) var<storage, read> crossings: array<vec2<u32>>;
 @group(0) @binding(1) var<storage, read_write> part: array<u32>;

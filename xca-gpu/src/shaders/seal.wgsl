@@ -1,5 +1,6 @@
-// After a process that may stop the run: if it did, nothing more is changed. One invocation. What else is taken down is told by the file that
-// follows; it has to be now, because where things lie later depends on the steps that were recorded already.
+// After a process that may stop the run: if it did, nothing more is changed. One invocation. What else is
+// taken down is told by the file that follows; it has to be now, because where things lie later depends on
+// the steps that were recorded already.
 
 struct Stamp {
     process: u32,

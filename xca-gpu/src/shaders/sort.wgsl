@@ -1,4 +1,5 @@
-// Sorts the items of each cell by label, and looks whether they are too many. One invocation for each stored cell.
+// Sorts the items of each cell by label, and looks whether they are too many. One invocation for each stored
+// cell.
 
 @group(0) @binding(0) var<uniform> space: Space;
 @group(0) @binding(1) var<storage, read_write> journal: Journal;

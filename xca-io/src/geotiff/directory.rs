@@ -1,4 +1,5 @@
-//! The first directory of a TIFF, before it is decoded: the decoder makes room for as many values as a tag claims.
+//! The first directory of a TIFF, before it is decoded: the decoder makes room for as many values as a tag
+//! claims.
 
 use std::io::{self, Read, Seek, SeekFrom};
 
@@ -12,7 +13,8 @@ struct Layout {
 const CLASSIC: Layout = Layout { tag: 12, offset: 4, count: 2 };
 const BIG: Layout = Layout { tag: 20, offset: 8, count: 8 };
 
-/// Whether no tag claims more values than a file of so many bytes can hold. What is no TIFF at all is for the decoder to say.
+/// Whether no tag claims more values than a file of so many bytes can hold. What is no TIFF at all is for the
+/// decoder to say.
 pub(super) fn fits(file: &mut (impl Read + Seek), bytes: u64) -> io::Result<bool> {
     let result = match find(file)? {
         Some(directory) => directory.fits(file, bytes)?,

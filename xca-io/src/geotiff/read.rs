@@ -58,7 +58,8 @@ pub(super) fn read(path: &Path, on: Option<Placement>) -> Result<Raster, ReadGeo
     }
     let undecoded = |source| ReadGeoTiffError::Decode { path: path.to_owned(), source };
     let most = usize::try_from(bytes).unwrap_or(usize::MAX);
-    // The header of a damaged file can tell any size: nothing is longer than the file, but for what is compressed.
+    // The header of a damaged file can tell any size: nothing is longer than the file, but for what is
+    // compressed.
     let mut limits = Limits::default();
     limits.decoding_buffer_size = most.saturating_mul(size_of::<Value>()).saturating_add(SHORT);
     limits.intermediate_buffer_size = most.min(LARGEST_CHUNK);

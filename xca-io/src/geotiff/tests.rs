@@ -139,7 +139,8 @@ fn nodata_is_what_the_tag_says() {
     );
 }
 
-/// The tag has decimals. Among samples of `f32` it means the nearest `f32`, among those of `f64` no other number.
+/// The tag has decimals. Among samples of `f32` it means the nearest `f32`, among those of `f64` no other
+/// number.
 #[test]
 fn nodata_among_f32_is_the_nearest_of_them() {
     const NODATA: f64 = -9999.9;

@@ -42,7 +42,8 @@ impl ColumnType<'_> {
         }
     }
 
-    /// The number as a text that [`Self::parse`] reads back. A number that stands for no state stays a number.
+    /// The number as a text that [`Self::parse`] reads back. A number that stands for no state stays a
+    /// number.
     pub fn text(&self, number: f64) -> String {
         match *self {
             Self::Number => format!("{number:.16e}"),

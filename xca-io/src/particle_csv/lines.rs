@@ -3,8 +3,8 @@
 use crate::lines::read_line;
 use std::io::{self, BufRead, Read};
 
-/// Passes on the lines of `source` that are neither blank nor comments (`#`), each ending in `\n` alone, and remembers
-/// which they were: a CSV reader on top counts only what it is given.
+/// Passes on the lines of `source` that are neither blank nor comments (`#`), each ending in `\n` alone, and
+/// remembers which they were: a CSV reader on top counts only what it is given.
 pub(super) struct MeaningfulLines<R> {
     source: R,
     /// The line being passed on, and how much of it is gone.
@@ -13,8 +13,8 @@ pub(super) struct MeaningfulLines<R> {
     /// Lines read and lines kept so far.
     read: u64,
     kept: u64,
-    /// Where lines were left out: `(k, skipped)` says that before the kept line `k` (from 1) and those after it
-    /// `skipped` lines in all were left out.
+    /// Where lines were left out: `(k, skipped)` says that before the kept line `k` (from 1) and those after
+    /// it `skipped` lines in all were left out.
     gaps: Vec<(u64, u64)>,
 }
 

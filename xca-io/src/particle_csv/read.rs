@@ -19,7 +19,8 @@ pub struct ParticleTable {
     pub labels: Vec<u32>,
     /// The values, `columns[c][i]` for column `c` (in the order asked for) and particle `i`; all are finite.
     pub columns: Vec<Vec<f64>>,
-    /// The line of the file that each particle stands on, from 1, for the errors that only the model can find.
+    /// The line of the file that each particle stands on, from 1, for the errors that only the model can
+    /// find.
     pub lines: Vec<u64>,
 }
 

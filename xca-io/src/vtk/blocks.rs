@@ -1,7 +1,7 @@
 //! Values as VTK compresses them: in blocks, each a zlib stream of its own.
 //!
-//! Before the streams stand, as `u64`: how many blocks there are, how long each is before compression, how long the last one is if it is
-//! shorter (0 if not), and how long each stream is.
+//! Before the streams stand, as `u64`: how many blocks there are, how long each is before compression, how
+//! long the last one is if it is shorter (0 if not), and how long each stream is.
 
 use crate::deflate::can_hold;
 use flate2::Compression;
@@ -136,7 +136,8 @@ impl<R: Read> Source<R> {
         Ok(lengths)
     }
 
-    /// Expands the next values, which are `length` bytes. No more than these are ever in memory, and one block.
+    /// Expands the next values, which are `length` bytes. No more than these are ever in memory, and one
+    /// block.
     pub(super) fn expanded(&mut self, length: usize) -> Result<Vec<u8>, Broken> {
         let lengths = self.lengths(length)?;
         let mut values = Vec::with_capacity(length);

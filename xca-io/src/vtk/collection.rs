@@ -10,9 +10,10 @@ use super::appended::escaped;
 
 /// A ParaView collection (`.pvd`): which file shows which time.
 ///
-/// The file is complete after each addition, so ParaView can open it while the run goes on, and after a run that was
-/// killed. An addition is one write over the closing tags: of the new entry and of the tags again. A machine that fails
-/// meanwhile can leave a file without its last entry or without its closing tags; [`Collection::of`] makes it anew.
+/// The file is complete after each addition, so ParaView can open it while the run goes on, and after a run
+/// that was killed. An addition is one write over the closing tags: of the new entry and of the tags again. A
+/// machine that fails meanwhile can leave a file without its last entry or without its closing tags;
+/// [`Collection::of`] makes it anew.
 ///
 /// A run with particles and dense substates makes one collection of each.
 ///
@@ -74,7 +75,8 @@ impl Collection {
     /// below, so that the folder can be moved; both paths must begin alike.
     ///
     /// # Errors
-    /// [`VtkError::OutsideFolder`], [`VtkError::Geometry`] for a time that is not finite, [`VtkError::Write`].
+    /// [`VtkError::OutsideFolder`], [`VtkError::Geometry`] for a time that is not finite,
+    /// [`VtkError::Write`].
     pub fn add(&mut self, time: f64, file: &Path) -> Result<(), VtkError> {
         let entry = self.entry(time, file)?;
         if self.is_as_written() {

@@ -44,8 +44,8 @@ pub(super) fn hidden_cells(ghost_types: &[u8]) -> Vec<bool> {
     ghost_types.iter().map(|ghost| ghost & HIDDEN != 0).collect()
 }
 
-/// Writes dense substates to `path` (`.vti`) as cell data: every array has one entry a cell, x fastest, then y, then z.
-/// `time` is the simulated time.
+/// Writes dense substates to `path` (`.vti`) as cell data: every array has one entry a cell, x fastest, then
+/// y, then z. `time` is the simulated time.
 ///
 /// # Errors
 /// [`VtkError::ArrayLength`], [`VtkError::RepeatedArray`], [`VtkError::TooMany`], [`VtkError::Geometry`] and
@@ -111,7 +111,8 @@ mod tests {
 </ImageData>
 <AppendedData encoding="raw">
 _"#;
-        // One block of 8 bytes and one of 6, each with the length of its stream; a zlib stream of little begins with 0x78.
+        // One block of 8 bytes and one of 6, each with the length of its stream; a zlib stream of little
+        // begins with 0x78.
         let bytes = fs::read(&path).unwrap();
         // The offset has as many digits as these letters.
         let of_time = 32 + bytes[expected.len() + 24] as usize;

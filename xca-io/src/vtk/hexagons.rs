@@ -75,14 +75,14 @@ pub(super) fn grid(
     is_whole.then(|| HexagonGrid { cells: extents.map(|n| n as usize), lattice, corner, side })
 }
 
-/// Writes dense substates on hexagons to `path` (`.vtp`) as cell data: every array has one entry a cell, x fastest, then
-/// y, then z. `time` is the simulated time.
+/// Writes dense substates on hexagons to `path` (`.vtp`) as cell data: every array has one entry a cell, x
+/// fastest, then y, then z. `time` is the simulated time.
 ///
 /// Each cell is a polygon with six points of its own. The layers are planes, one side apart.
 ///
 /// # Errors
-/// [`VtkError::ArrayLength`], [`VtkError::RepeatedArray`], [`VtkError::TooMany`], [`VtkError::Geometry`] (of squares too)
-/// and [`VtkError::Write`], each with the path.
+/// [`VtkError::ArrayLength`], [`VtkError::RepeatedArray`], [`VtkError::TooMany`], [`VtkError::Geometry`] (of
+/// squares too) and [`VtkError::Write`], each with the path.
 pub fn write_hexagons(
     path: &Path,
     time: f64,

@@ -8,8 +8,8 @@ use super::{super::atomic::write_atomically, VtkError};
 
 /// Writes particles to `path` (`.vtp`): `n` vertices at `positions`, each with an entry of every array.
 ///
-/// `positions` are `n` 3-vectors of `f32` or `f64`, such as `&[[f64; 3]]`; every array has `n` entries; `time` is the
-/// simulated time. In ParaView choose *Point Gaussian*, or the glyph filter, to see spheres.
+/// `positions` are `n` 3-vectors of `f32` or `f64`, such as `&[[f64; 3]]`; every array has `n` entries;
+/// `time` is the simulated time. In ParaView choose *Point Gaussian*, or the glyph filter, to see spheres.
 ///
 /// # Errors
 /// [`VtkError::Positions`], [`VtkError::ArrayLength`], [`VtkError::RepeatedArray`], [`VtkError::TooMany`],
@@ -72,8 +72,8 @@ mod tests {
     use std::fs;
     use std::io::Read;
 
-    /// Reads a file written with appended raw data by the letter of the format: the attributes of every `DataArray`
-    /// and its bytes, and where the last of them end. Shares nothing with the writer.
+    /// Reads a file written with appended raw data by the letter of the format: the attributes of every
+    /// `DataArray` and its bytes, and where the last of them end. Shares nothing with the writer.
     fn parse(bytes: &[u8]) -> (Vec<(String, Vec<u8>)>, usize) {
         let marker = b"<AppendedData encoding=\"raw\">";
         let end_of_head = bytes.windows(marker.len()).position(|w| w == marker).unwrap();

@@ -86,7 +86,8 @@ pub fn read_particles(path: &Path, most: u64) -> Result<ParticleFile, ReadVtkErr
     particles(Parts::read(path, "PolyData", most)?)
 }
 
-/// Reads dense substates on hexagons from `path` (`.vtp`), whose values may take at most `most` bytes of memory.
+/// Reads dense substates on hexagons from `path` (`.vtp`), whose values may take at most `most` bytes of
+/// memory.
 ///
 /// # Errors
 /// [`ReadVtkError`] where the file is not one that [`super::write_hexagons`] has written, or is too large.
@@ -254,7 +255,8 @@ impl<'a> Parts<'a> {
         Ok(elements)
     }
 
-    /// The time, and all arrays; the time is the first of them in the file. How many values they have: see [`Self::elements`].
+    /// The time, and all arrays; the time is the first of them in the file. How many values they have: see
+    /// [`Self::elements`].
     fn arrays(mut self, first: &[usize], count: usize) -> Result<(f64, Vec<ReadArray>), ReadVtkError> {
         let elements = self.elements(first, count)?;
         let states = self.states();

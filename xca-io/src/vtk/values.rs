@@ -8,7 +8,8 @@ use super::VtkError;
 
 /// The values of an array: scalars, or vectors stored one after the other.
 ///
-/// Made from a slice of scalars (`&[f64]`), a slice of vectors (`&[[f64; 3]]`), or with [`Values::interleaved`].
+/// Made from a slice of scalars (`&[f64]`), a slice of vectors (`&[[f64; 3]]`), or with
+/// [`Values::interleaved`].
 #[derive(Debug, Clone, Copy)]
 pub struct Values<'a> {
     data: Data<'a>,

@@ -25,7 +25,8 @@ pub(crate) fn may_be_states(word: &str) -> bool {
 
 const VECTORS: [&str; 3] = ["Vector2", "Vector3", "Vector4"];
 
-/// Whether the words of a type are those of a substate or parameter. What they mean is proved by the code that the derive writes.
+/// Whether the words of a type are those of a substate or parameter. What they mean is proved by the code
+/// that the derive writes.
 pub(super) fn check_type(type_: &Type) -> Result<()> {
     if let Type::Array(array) = type_ {
         if let Type::Array(inner) = &*array.elem {

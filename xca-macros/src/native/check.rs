@@ -64,7 +64,8 @@ pub(super) fn check(function: &Function, original: &syn::ItemFn) -> TokenStream 
     }
 }
 
-/// A constant that the function is generic in, with a value for the check: any that is no length of an array by chance.
+/// A constant that the function is generic in, with a value for the check: any that is no length of an array
+/// by chance.
 fn representative(constant: &syn::ConstParam) -> TokenStream {
     let (name, type_) = (&constant.ident, &constant.ty);
     let value = if quote!(#type_).to_string() == "bool" { quote!(false) } else { quote!(61) };
@@ -95,9 +96,10 @@ fn copy(function: &Function, original: &syn::ItemFn) -> TokenStream {
     }
 }
 
-/// Writes `a += b` as `a = a + b`: the fields of a cell are reached through `DerefMut`, and in a compound assignment of vectors that
-/// would borrow the cell while the right-hand side reads it. For the same reason an index of what is assigned to gets a name before.
-/// Methods become the functions that they mean, which take literals of any type. And each call of a function checks that it is a helper.
+/// Writes `a += b` as `a = a + b`: the fields of a cell are reached through `DerefMut`, and in a compound
+/// assignment of vectors that would borrow the cell while the right-hand side reads it. For the same reason
+/// an index of what is assigned to gets a name before. Methods become the functions that they mean, which
+/// take literals of any type. And each call of a function checks that it is a helper.
 struct SpellOut<'a>(&'a [Call]);
 
 /// Gives names to the indices of a place, outermost last, but for numbers and names.
@@ -169,8 +171,8 @@ impl VisitMut for SpellOut<'_> {
     }
 }
 
-/// A helper as ordinary code: its methods are those of a process, so that it computes the same everywhere. In a constant function they are those
-/// of Rust.
+/// A helper as ordinary code: its methods are those of a process, so that it computes the same everywhere. In
+/// a constant function they are those of Rust.
 pub(super) fn ordinary(original: &syn::ItemFn) -> syn::ItemFn {
     let mut ordinary = original.clone();
     if original.sig.constness.is_none() {
@@ -214,11 +216,11 @@ fn as_function(call: &syn::ExprMethodCall) -> Option<syn::Expr> {
     }))
 }
 
-/// Names for the helpers that are called: of the helper's own type, or, where the function is no helper and has no such type,
-/// of one that says so.
+/// Names for the helpers that are called: of the helper's own type, or, where the function is no helper and
+/// has no such type, of one that says so.
 ///
-/// It comes after everything that the user wrote: its macros exist only so that there is something to import where the user
-/// calls a function that does not exist, and must not be seen from there.
+/// It comes after everything that the user wrote: its macros exist only so that there is something to import
+/// where the user calls a function that does not exist, and must not be seen from there.
 pub(super) fn aliases(function: &Function) -> TokenStream {
     let calls = &function.mentions.calls;
     if calls.is_empty() {

@@ -1,7 +1,7 @@
 //! The loop over a row, with the substates that the body uses loaded before and stored after it.
 //!
-//! Each substate is an argument of its own of the inner function: that tells the compiler that what is written is apart from
-//! what is read, without which it would not vectorise.
+//! Each substate is an argument of its own of the inner function: that tells the compiler that what is
+//! written is apart from what is read, without which it would not vectorise.
 
 use super::blocks::Blocks;
 use super::body::{Writer, own_name, read_name, write_name};
@@ -98,7 +98,8 @@ pub(super) fn row(function: &Function, uses: &Uses, real: &TokenStream) -> Token
     }
 }
 
-/// Whether the old values are read through an argument of their own: not where they are only replaced in place.
+/// Whether the old values are read through an argument of their own: not where they are only replaced in
+/// place.
 fn reads(access: &Access) -> bool {
     access.others || !access.write
 }
@@ -149,7 +150,8 @@ fn cells(function: &Function, uses: &Uses, real: &TokenStream, shape: &Ident) ->
         read: read_name,
     };
     let fetches = fetches(function, &names);
-    // A copy is read before the loop, also where only some cells use it; without it the loop could not be vectorised.
+    // A copy is read before the loop, also where only some cells use it; without it the loop could not be
+    // vectorised.
     let own_parameters = parameters(function).map(|(name, _)| quote!(let #name = &{ *#name };));
     quote! {
         #(#own_parameters)*

@@ -1,9 +1,11 @@
 //! Short loops written out.
 //!
-//! The compiler writes out a loop only up to a size that it chooses. A loop over the directions of a lattice is beyond that, and what is
-//! left as a loop keeps its arrays in memory and the cells from being computed side by side.
+//! The compiler writes out a loop only up to a size that it chooses. A loop over the directions of a lattice
+//! is beyond that, and what is left as a loop keeps its arrays in memory and the cells from being computed
+//! side by side.
 //!
-//! Loops that count to the number of neighbours stay loops: there are kernels for many neighbourhoods, and few of these are large.
+//! Loops that count to the number of neighbours stay loops: there are kernels for many neighbourhoods, and
+//! few of these are large.
 
 use super::body::Writer;
 use super::loops::hidden_label;
@@ -42,7 +44,8 @@ fn turn() -> Lifetime {
 }
 
 impl Writer<'_> {
-    /// A loop over a range, written out where its ends are known to the compiler and near, and no loop stands in it.
+    /// A loop over a range, written out where its ends are known to the compiler and near, and no loop stands
+    /// in it.
     pub(super) fn range_loop(
         &mut self,
         label: Option<&Lifetime>,

@@ -36,8 +36,8 @@ pub(super) struct Typed {
 
 /// A kernel's work on a row.
 ///
-/// Each substate is an argument of its own of the inner function: that tells the compiler that what is written is apart from what is read,
-/// without which it would not vectorise.
+/// Each substate is an argument of its own of the inner function: that tells the compiler that what is
+/// written is apart from what is read, without which it would not vectorise.
 pub(super) struct Work<'a> {
     pub(super) function: &'a Function,
     pub(super) arguments: Vec<Argument>,

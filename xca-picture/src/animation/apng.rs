@@ -5,12 +5,14 @@ use std::io;
 use std::path::{Path, PathBuf};
 use xca_io::atomic::{WriteError, write_atomically};
 
-/// Makes one animated PNG, which is played for ever, of pictures in PNG files; all must have the size of the first, in RGB with 8 bits.
+/// Makes one animated PNG, which is played for ever, of pictures in PNG files; all must have the size of the
+/// first, in RGB with 8 bits.
 ///
 /// Only what changes from one picture to the next is stored.
 ///
 /// # Errors
-/// [`WriteError::File`] with the path of the animation, where it cannot be written or a picture cannot be read.
+/// [`WriteError::File`] with the path of the animation, where it cannot be written or a picture cannot be
+/// read.
 pub fn write_apng(path: &Path, pictures: &[PathBuf], pictures_a_second: u16) -> Result<(), WriteError> {
     write_atomically(path, |file| {
         let film = Film::new(pictures)?;

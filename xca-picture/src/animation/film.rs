@@ -77,8 +77,8 @@ pub(super) fn read(path: &Path) -> io::Result<Picture> {
     Ok(Picture::new(width as usize, height as usize, rgb))
 }
 
-/// Corner and size of the least rectangle with all pixels that two pictures of the same size do not share; one pixel where there are none, as a
-/// picture of an animation cannot be empty.
+/// Corner and size of the least rectangle with all pixels that two pictures of the same size do not share;
+/// one pixel where there are none, as a picture of an animation cannot be empty.
 fn changed(before: &Picture, now: &Picture) -> [[usize; 2]; 2] {
     let width = now.width();
     let (mut low, mut high) = ([usize::MAX; 2], [0; 2]);

@@ -8,13 +8,16 @@ use std::io;
 use std::path::{Path, PathBuf};
 use xca_io::atomic::{WriteError, write_atomically};
 
-/// Makes one animated GIF, which is played for ever, of pictures in PNG files; all must have the size of the first, in RGB with 8 bits.
+/// Makes one animated GIF, which is played for ever, of pictures in PNG files; all must have the size of the
+/// first, in RGB with 8 bits.
 ///
-/// All pictures share one palette: their own colours, where these are not more than 256, else those that are there most often, and others that
-/// come near to the rest. A colour is shown alike in all pictures, and no pixels are mixed, so that nothing flickers that does not change.
+/// All pictures share one palette: their own colours, where these are not more than 256, else those that are
+/// there most often, and others that come near to the rest. A colour is shown alike in all pictures, and no
+/// pixels are mixed, so that nothing flickers that does not change.
 ///
 /// # Errors
-/// [`WriteError::File`] with the path of the animation, where it cannot be written or a picture cannot be read.
+/// [`WriteError::File`] with the path of the animation, where it cannot be written or a picture cannot be
+/// read.
 pub fn write_gif(path: &Path, pictures: &[PathBuf], pictures_a_second: u16) -> Result<(), WriteError> {
     write_atomically(path, |file| {
         let film = Film::new(pictures)?;
@@ -46,7 +49,8 @@ pub fn write_gif(path: &Path, pictures: &[PathBuf], pictures_a_second: u16) -> R
     })
 }
 
-/// How long a picture is shown, in hundredths of a second: whole ones, which are as near to the wanted times as can be.
+/// How long a picture is shown, in hundredths of a second: whole ones, which are as near to the wanted times
+/// as can be.
 fn delay(picture: u64, pictures_a_second: u16) -> u16 {
     let rate = u64::from(pictures_a_second.max(1));
     let end = |pictures: u64| (200 * pictures + rate) / (2 * rate);

@@ -10,7 +10,8 @@ type Colour = [u8; 3];
 /// How many colours a GIF can have.
 const MOST: usize = 256;
 
-/// How many of the most frequent colours stay as they are where there are more: paper, ink, and the large areas.
+/// How many of the most frequent colours stay as they are where there are more: paper, ink, and the large
+/// areas.
 const KEPT: usize = 64;
 
 /// How often each colour is there.
@@ -31,7 +32,8 @@ impl Histogram {
     /// The colours of the palette, and which of them stands for each colour that was counted.
     pub(super) fn palette(self) -> Palette {
         let mut all: Vec<(Colour, u64)> = self.counts.into_iter().collect();
-        // The most frequent first; an order of those that are equally frequent makes the same file of the same pictures.
+        // The most frequent first; an order of those that are equally frequent makes the same file of the
+        // same pictures.
         all.sort_unstable_by_key(|(colour, count)| (std::cmp::Reverse(*count), *colour));
         let colours =
             if all.len() <= MOST { all.iter().map(|(colour, _)| *colour).collect() } else { few(&all) };
@@ -82,7 +84,8 @@ fn nearest(colours: &[Colour], wanted: Colour) -> u8 {
 mod tests {
     use super::*;
 
-    /// The largest difference of a channel between colours and what stands for them, and the mean of the differences.
+    /// The largest difference of a channel between colours and what stands for them, and the mean of the
+    /// differences.
     fn error(colours: &[Colour]) -> (u8, f64) {
         let mut histogram = Histogram::default();
         histogram.add(colours.as_flattened());

@@ -52,7 +52,8 @@ fn an_apng_shows_each_picture() {
     assert_eq!(sizes, [[9, 6], [5, 3], [1, 1], [7, 5]]);
 }
 
-/// The size of a GIF, how often it is played, and of each frame its delay, its corner and size, and all that is shown then.
+/// The size of a GIF, how often it is played, and of each frame its delay, its corner and size, and all that
+/// is shown then.
 type Played = ([usize; 2], ::gif::Repeat, Vec<(u16, [u16; 4], Vec<u8>)>);
 
 fn played(path: &Path) -> Played {

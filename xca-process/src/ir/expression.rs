@@ -19,9 +19,11 @@ pub enum Expression {
         /// Its value.
         value: Constant,
     },
-    /// A substate of the cell or item that the process runs for: what the process has written already, if it has.
+    /// A substate of the cell or item that the process runs for: what the process has written already, if it
+    /// has.
     Own(&'static str),
-    /// A substate that another struct of the cell has (`&Cell<S>`): of the cell that the process runs for, or that its item stands in.
+    /// A substate that another struct of the cell has (`&Cell<S>`): of the cell that the process runs for, or
+    /// that its item stands in.
     OfCell {
         /// The number of the struct among those of substates that the process takes.
         argument: usize,
@@ -46,7 +48,8 @@ pub enum Expression {
         /// The substate.
         field: &'static str,
     },
-    /// `name.field` where `name` is the variable of [`super::LoopKind::Others`] or [`super::LoopKind::Items`].
+    /// `name.field` where `name` is the variable of [`super::LoopKind::Others`] or
+    /// [`super::LoopKind::Items`].
     Other {
         /// The number of the struct.
         argument: usize,

@@ -1,7 +1,8 @@
 //! How kernels reach the substates of a row's cells and of their neighbours.
 //!
-//! What a kernel reads is had from a [`super::Row`] only. It is asked for by the tokens [`Column`] and [`Offset`], which come from the row too:
-//! so a kernel needs no unsafe code, and cannot reach memory that is not its own.
+//! What a kernel reads is had from a [`super::Row`] only. It is asked for by the tokens [`Column`] and
+//! [`Offset`], which come from the row too: so a kernel needs no unsafe code, and cannot reach memory that is
+//! not its own.
 
 use super::values::{KernelElement, KernelValue};
 use super::written::BLOCK_BYTES;
@@ -111,8 +112,9 @@ impl<'r, T: KernelValue> AroundRead<'r, T> {
     fn read(&self, cell: Column<'r>, offset: Offset<'r>, element: usize) -> T::Element {
         assert!(element < T::LENGTH, "an element beyond the value");
         let place = cell.number() as isize + offset.distance + (element * self.stride) as isize;
-        // SAFETY: `Row::new`: each plane can be read at every cell of the row and, if these can be had, at all offsets of the neighbourhood
-        // from there. The column and the offset are of this row, and there are `LENGTH` planes.
+        // SAFETY: `Row::new`: each plane can be read at every cell of the row and, if these can be had, at
+        // all offsets of the neighbourhood from there. The column and the offset are of this row, and there
+        // are `LENGTH` planes.
         #[allow(unsafe_code)]
         <T::Element as KernelElement>::from_memory(unsafe { *self.first.offset(place) })
     }
@@ -145,7 +147,8 @@ impl<'r, T: KernelElement, const N: usize> AroundRead<'r, [T; N]> {
         let next = columns.numbers().end as isize + offset.distance + (element * self.stride) as isize;
         let first = self.first.wrapping_offset(next).cast::<u8>();
         let bytes = columns.lanes.len() * size_of::<T::Memory>();
-        // A row that is one block has no next one, and is long enough for the processor to foresee what follows.
+        // A row that is one block has no next one, and is long enough for the processor to foresee what
+        // follows.
         if bytes <= BLOCK_BYTES {
             announce_bytes(first, bytes);
         }

@@ -3,7 +3,8 @@
 use crate::float::Float;
 use crate::states::States;
 
-/// A constant of the user's code as a kernel of precision `R` sees it: `f64`, which is `Real` there, becomes `R`.
+/// A constant of the user's code as a kernel of precision `R` sees it: `f64`, which is `Real` there, becomes
+/// `R`.
 pub trait KernelConstant<R> {
     /// The type in the kernel.
     type Native;

@@ -6,8 +6,8 @@ use std::cell::Cell;
 
 /// The random numbers of a row, and whether one of them or the number of the step has been asked for.
 ///
-/// A kernel has one of its own, a copy of all that numbers depend on: what only the kernel knows stays in registers, and
-/// the loop can be vectorised even where only some cells draw.
+/// A kernel has one of its own, a copy of all that numbers depend on: what only the kernel knows stays in
+/// registers, and the loop can be vectorised even where only some cells draw.
 #[derive(Debug)]
 pub struct Draws {
     stream: Stream,

@@ -1,4 +1,5 @@
-//! Where the substates of a row lie, and how a kernel is handed them: each is compared with what the kernel takes it for, once a row.
+//! Where the substates of a row lie, and how a kernel is handed them: each is compared with what the kernel
+//! takes it for, once a row.
 
 use super::Row;
 use super::cells::{AroundRead, CentreRead};
@@ -9,10 +10,12 @@ use std::marker::PhantomData;
 /// One substate as a kernel reaches it.
 #[derive(Debug, Clone, Copy)]
 pub struct Entry {
-    /// Of cells: the first element's value in the row's first cell. Of items: the value of the first item of all. Null where the kernel
-    /// reads through `write`: where the process writes the substate and reads it at the centre only.
+    /// Of cells: the first element's value in the row's first cell. Of items: the value of the first item of
+    /// all. Null where the kernel reads through `write`: where the process writes the substate and reads it
+    /// at the centre only.
     pub read: *const u8,
-    /// Where results go: of cells, the row's first cell; of items, the row's first item. Null where the process does not write.
+    /// Where results go: of cells, the row's first cell; of items, the row's first item. Null where the
+    /// process does not write.
     pub write: *mut u8,
     /// What lies there.
     pub memory: Memory,
@@ -64,7 +67,8 @@ impl Row<'_> {
         entry
     }
 
-    /// The entry of items with this number, which must be those of the row; whether others than its own can be read, and how many there are.
+    /// The entry of items with this number, which must be those of the row; whether others than its own can
+    /// be read, and how many there are.
     #[inline(always)]
     fn item_entry<T: KernelValue>(&self, number: usize) -> (&Entry, bool, usize) {
         let entry = self.entry::<T>(number);
@@ -107,8 +111,9 @@ impl Row<'_> {
         };
         self.take(number);
         let planes = Planes { first: entry.write.cast(), stride, cells: self.length };
-        // SAFETY: `Row::new`: where it can be written, each plane has `length` elements, aligned, this row's alone. It is, and is asked for
-        // once, see `take`; it is not read through the entry but where `read` is other memory.
+        // SAFETY: `Row::new`: where it can be written, each plane has `length` elements, aligned, this row's
+        // alone. It is, and is asked for once, see `take`; it is not read through the entry but where `read`
+        // is other memory.
         unsafe { T::Written::new(planes) }
     }
 
@@ -145,15 +150,16 @@ impl Row<'_> {
         }
     }
 
-    /// A substate of the row's own items, to be written; element 0 belongs to item [`Self::first_item`]. Each can be asked for once.
+    /// A substate of the row's own items, to be written; element 0 belongs to item [`Self::first_item`]. Each
+    /// can be asked for once.
     #[inline(always)]
     #[allow(clippy::mut_from_ref, reason = "each written entry is asked for once, see `take`")]
     pub fn write_items<T: KernelValue>(&self, number: usize) -> &mut [T::Memory] {
         let (entry, ..) = self.item_entry::<T>(number);
         self.take(number);
         let (first, end) = self.items.map_or((0, 0), |items| items.own);
-        // SAFETY: `Row::new`: where they can be written, the row's own items, aligned, this row's alone. They are, and are asked for once,
-        // see `take`.
+        // SAFETY: `Row::new`: where they can be written, the row's own items, aligned, this row's alone. They
+        // are, and are asked for once, see `take`.
         unsafe { std::slice::from_raw_parts_mut(entry.write.cast(), end - first) }
     }
 }

@@ -9,8 +9,8 @@ pub enum Instructions {
     Plain = 1,
     /// AVX2, registers of 256 bits.
     Avx2 = 2,
-    /// AVX-512, registers of 512 bits. Only on processors that keep their clock with it: those since Ice Lake and
-    /// Zen 4.
+    /// AVX-512, registers of 512 bits. Only on processors that keep their clock with it: those since Ice Lake
+    /// and Zen 4.
     Avx512 = 3,
 }
 
@@ -29,8 +29,8 @@ impl Instructions {
         }
     }
 
-    /// From now on kernels use this set at most, in the whole process. The set that they use then is the result. Results
-    /// do not change: this is for tests, which have to see that.
+    /// From now on kernels use this set at most, in the whole process. The set that they use then is the
+    /// result. Results do not change: this is for tests, which have to see that.
     pub fn limit(self) -> Self {
         let set = Self::widest().min(self);
         PRESENT.store(set as u8, Ordering::Relaxed);

@@ -1,8 +1,9 @@
 //! Searches in lists that an engine keeps over many passes.
 //!
-//! A list holds for each item those that were nearer than some radius when it was made. As long as no two items can have come closer by more
-//! than what that radius is larger, a search in the list finds what a search in the cells finds. Items are known to the lists by a number
-//! that they keep when they change their place.
+//! A list holds for each item those that were nearer than some radius when it was made. As long as no two
+//! items can have come closer by more than what that radius is larger, a search in the list finds what a
+//! search in the cells finds. Items are known to the lists by a number that they keep when they change their
+//! place.
 
 use super::search::{CellFilter, reach};
 use super::{Column, Row, RowItems, announce};
@@ -63,7 +64,8 @@ struct Lists<'a> {
 }
 
 impl Row<'_> {
-    /// Whether searches within this radius, whose number of bits is given, are looked up in what has been found by the lists.
+    /// Whether searches within this radius, whose number of bits is given, are looked up in what has been
+    /// found by the lists.
     #[inline(always)]
     pub(super) fn is_walked(&self, bits: u64) -> bool {
         self.walked.get() == Some(bits)
@@ -75,7 +77,8 @@ impl Row<'_> {
         self.walked.get().is_some()
     }
 
-    /// The lists, if there are any for this radius, and whether what is within it is surely in cells of the neighbourhood.
+    /// The lists, if there are any for this radius, and whether what is within it is surely in cells of the
+    /// neighbourhood.
     #[inline(always)]
     fn lists_within<R: Float>(&self, radius: R) -> Option<Lists<'_>> {
         let items = self.items.as_ref()?;
@@ -174,7 +177,8 @@ impl Row<'_> {
         }
     }
 
-    /// Leaves out what is in no cell of the neighbourhood, and brings the rest into the order of neighbour index, then label.
+    /// Leaves out what is in no cell of the neighbourhood, and brings the rest into the order of neighbour
+    /// index, then label.
     #[cold]
     fn order(&self, near: &NearLists<'_>, filter: &CellFilter, walk: &mut Walk) {
         let geometry = self.frame.geometry;
@@ -206,8 +210,8 @@ impl Row<'_> {
 }
 
 impl Walk {
-    /// Finds what is near each own item. Items that the lists know by successive numbers have their lists one after the other: one loop goes
-    /// through them, without a branch on whose they are or on what is near.
+    /// Finds what is near each own item. Items that the lists know by successive numbers have their lists one
+    /// after the other: one loop goes through them, without a branch on whose they are or on what is near.
     #[inline(always)]
     fn fill<R: Float>(
         &mut self,
@@ -285,7 +289,8 @@ struct Pairs<'a, R> {
     positions: &'a [Vector3<R>],
 }
 
-/// Keeps the pairs that are near, of which it gives the count. What is written is an argument of its own: it is apart from what is read.
+/// Keeps the pairs that are near, of which it gives the count. What is written is an argument of its own: it
+/// is apart from what is read.
 #[inline(never)]
 fn keep<R: Float>(
     Pairs { candidates, owners, base, own, places, positions }: Pairs<'_, R>,

@@ -1,7 +1,7 @@
 //! Where the neighbours of a row's cells lie.
 //!
-//! Kernels are generic in the [shape](crate::neighbourhood::shapes) of the neighbourhood. Of a known one, numbers, opposites and
-//! displacements are constants of the kernel.
+//! Kernels are generic in the [shape](crate::neighbourhood::shapes) of the neighbourhood. Of a known one,
+//! numbers, opposites and displacements are constants of the kernel.
 
 use super::Row;
 use super::cells::Offset;
@@ -10,7 +10,8 @@ use crate::neighbourhood::shapes::{self, ANY, HEXAGONAL, Shape, ShapeNumber};
 use std::marker::PhantomData;
 use xca_values::Vector3;
 
-/// The neighbourhood of a row's cells as distances in memory. An index beyond it is a fault, and means the cell itself.
+/// The neighbourhood of a row's cells as distances in memory. An index beyond it is a fault, and means the
+/// cell itself.
 #[derive(Debug, Clone, Copy)]
 pub struct Offsets<'a, const SHAPE: ShapeNumber> {
     /// Those of a known shape.
@@ -53,8 +54,8 @@ impl<const SHAPE: ShapeNumber> Offsets<'_, SHAPE> {
     }
 }
 
-/// The neighbourhood of a row's cells as directions. An index beyond it is the same fault as for a neighbour's
-/// substate, and means the cell itself.
+/// The neighbourhood of a row's cells as directions. An index beyond it is the same fault as for a
+/// neighbour's substate, and means the cell itself.
 #[derive(Debug, Clone, Copy)]
 pub struct Directions<'a, const SHAPE: ShapeNumber> {
     displacements: &'a [[i32; 3]],

@@ -1,7 +1,8 @@
 //! The search for other items.
 //!
-//! The result is defined by the present positions alone: the items of the reached cells that are nearer than the radius, in the order
-//! neighbour index, then label. An engine may therefore leave out cells that are too far away ([`CellFilter`]).
+//! The result is defined by the present positions alone: the items of the reached cells that are nearer than
+//! the radius, in the order neighbour index, then label. An engine may therefore leave out cells that are too
+//! far away ([`CellFilter`]).
 
 use super::near::Walk;
 use super::wide::{self, Wide};
@@ -45,10 +46,12 @@ impl Drop for Found<'_> {
     }
 }
 
-/// Says which cells of a neighbourhood can hold items within a radius of a position, and where their items lie together.
+/// Says which cells of a neighbourhood can hold items within a radius of a position, and where their items
+/// lie together.
 ///
-/// Where every item is at most `slack` metres outside its cell, a cell whose box is further from the position than radius and slack
-/// holds none. For a radius of half a cell side that leaves 8 of 27 cells, whose items lie in 4 strips of a row each.
+/// Where every item is at most `slack` metres outside its cell, a cell whose box is further from the position
+/// than radius and slack holds none. For a radius of half a cell side that leaves 8 of 27 cells, whose items
+/// lie in 4 strips of a row each.
 #[derive(Debug, Clone)]
 pub struct CellFilter {
     displacements: Vec<[i32; 3]>,
@@ -71,14 +74,15 @@ struct Touched {
 }
 
 impl CellFilter {
-    /// For a neighbourhood that is the same for all cells, and items at most so far outside their cells, in metres; nothing where that
-    /// is no number, or too much round a torus.
+    /// For a neighbourhood that is the same for all cells, and items at most so far outside their cells, in
+    /// metres; nothing where that is no number, or too much round a torus.
     ///
-    /// `steps` are the offsets from a cell to the next one along y and along z. An engine that gives this filter stores the items of each
-    /// row of the space together, in the order of its cells.
+    /// `steps` are the offsets from a cell to the next one along y and along z. An engine that gives this
+    /// filter stores the items of each row of the space together, in the order of its cells.
     pub fn new(geometry: &Geometry, precision: Precision, steps: [isize; 2], slack: f64) -> Option<Self> {
         let neighbourhood = geometry.neighbourhood();
-        // Round a torus, an item far outside its cell may be near to others on the far side, where a sphere around it does not reach.
+        // Round a torus, an item far outside its cell may be near to others on the far side, where a sphere
+        // around it does not reach.
         let far_side = geometry.toroidal().contains(&true) && slack > SLACK_ROUND_TORUS * geometry.side();
         if !slack.is_finite() || far_side || neighbourhood.parity() != Parity::None {
             return None;
@@ -99,13 +103,15 @@ impl CellFilter {
         })
     }
 
-    /// How far items that lie as near to each other as a search can find may be apart, in metres, so that each is in a cell of the
-    /// other's neighbourhood, whatever the cells; nothing where the cells have to be looked at.
+    /// How far items that lie as near to each other as a search can find may be apart, in metres, so that
+    /// each is in a cell of the other's neighbourhood, whatever the cells; nothing where the cells have to be
+    /// looked at.
     pub fn room(&self, covered: f64) -> Option<f64> {
         self.steps.map(|_| covered - 2.0 * self.beyond)
     }
 
-    /// Whether items within this radius are surely in cells of the neighbourhood, and the order of their places that of a search.
+    /// Whether items within this radius are surely in cells of the neighbourhood, and the order of their
+    /// places that of a search.
     #[inline(always)]
     pub(super) fn holds(&self, covered: f64, radius: f64) -> bool {
         !self.torus && radius <= covered - 2.0 * self.beyond
@@ -138,19 +144,24 @@ impl CellFilter {
 /// The slack with which cells can still be left out round a torus, in sides of a cell.
 const SLACK_ROUND_TORUS: f64 = 1e-4;
 
-/// How much further than radius and slack a cell has to be, in metres, so that rounding cannot bring its items near.
+/// How much further than radius and slack a cell has to be, in metres, so that rounding cannot bring its
+/// items near.
 ///
-/// Let a cell not be touched along an axis: between the position and every item of the cell there are at least radius and margin. The
-/// item is near where `fl(d^2) < fl(r^2)`, `d` being the computed vector. Products and sums of what is not negative are rounded
-/// monotonically, so it is not near if the component of `d` along the axis is not below `r`. That component is
-/// - without a torus the rounded difference of two positions: not below `r`, which is a number of the precision, if the true one is not.
-///   It remains that `f64` rounds the faces of cells here and where the slack is measured, by some units in the last place of the
-///   axis' length: below 1e-5 of a cell for any number of cells that an index can count.
-/// - round a torus of length L perhaps that difference and a period, `n * side`, each of the three rounded, as is `side`, and their sum.
-///   Each error is at most half an epsilon of L, and a slack more: in all below 3 epsilon L. The item may also be compared the other way
-///   round. With 2 reach + 1 cells along the axis that is no shorter way than radius and margin, less two slacks.
+/// Let a cell not be touched along an axis: between the position and every item of the cell there are at
+/// least radius and margin. The item is near where `fl(d^2) < fl(r^2)`, `d` being the computed vector.
+/// Products and sums of what is not negative are rounded monotonically, so it is not near if the component of
+/// `d` along the axis is not below `r`. That component is
+/// - without a torus the rounded difference of two positions: not below `r`, which is a number of the
+///   precision, if the true one is not. It remains that `f64` rounds the faces of cells here and where the
+///   slack is measured, by some units in the last place of the axis' length: below 1e-5 of a cell for any
+///   number of cells that an index can count.
+/// - round a torus of length L perhaps that difference and a period, `n * side`, each of the three rounded,
+///   as is `side`, and their sum. Each error is at most half an epsilon of L, and a slack more: in all below
+///   3 epsilon L. The item may also be compared the other way round. With 2 reach + 1 cells along the axis
+///   that is no shorter way than radius and margin, less two slacks.
 ///
-/// So a thousandth of a cell is enough for the faces and for two slacks of [`SLACK_ROUND_TORUS`], and 4 epsilon L for the torus.
+/// So a thousandth of a cell is enough for the faces and for two slacks of [`SLACK_ROUND_TORUS`], and 4
+/// epsilon L for the torus.
 fn margin(geometry: &Geometry, precision: Precision) -> f64 {
     let epsilon = match precision {
         Precision::F32 => f64::from(f32::EPSILON),
@@ -183,8 +194,8 @@ impl<'a> Row<'a> {
         });
     }
 
-    /// Fills the list with those items of the reached cells whose position is nearer to `position` than `radius`, without the
-    /// item itself.
+    /// Fills the list with those items of the reached cells whose position is nearer to `position` than
+    /// `radius`, without the item itself.
     #[inline]
     pub fn others_within<R: Float, const REACH: u8>(
         &self,
@@ -273,8 +284,8 @@ impl<'a> Row<'a> {
         allowed
     }
 
-    /// Hands over the ranges of items in the reached cells (of those touched, where that is known) in order of the neighbour index, joined
-    /// where one continues the other.
+    /// Hands over the ranges of items in the reached cells (of those touched, where that is known) in order
+    /// of the neighbour index, joined where one continues the other.
     #[inline(always)]
     fn ranges<const REACH: u8>(
         &self,
@@ -328,8 +339,8 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// Tells the processor what the next row's searches are the first to read: the positions after those of the
-    /// last row of the neighbourhood. Searches jump, so the processor does not see it coming.
+    /// Tells the processor what the next row's searches are the first to read: the positions after those of
+    /// the last row of the neighbourhood. Searches jump, so the processor does not see it coming.
     pub(super) fn fetch<R: Float>(&self, positions: &[Vector3<R>]) {
         let Some(&last) = self.frame.offsets.last() else { return };
         let end = self.length.saturating_sub(1 + self.frame.geometry.neighbourhood().reach()[0]);
@@ -381,8 +392,8 @@ pub(super) fn length_squared<R: Float>(vector: Vector3<R>) -> R {
 
 /// Adds the items of a range whose positions are near, without the item itself.
 ///
-/// Whether an item is near is a toss of a coin for the processor, so there is no branch on it: each number is written, and the
-/// list grows only where it is kept.
+/// Whether an item is near is a toss of a coin for the processor, so there is no branch on it: each number is
+/// written, and the list grows only where it is kept.
 #[inline(always)]
 pub(super) fn keep<R: Float>(
     range: Range<usize>,
@@ -401,7 +412,8 @@ pub(super) fn keep<R: Float>(
     let places = found.as_mut_ptr();
     for (index, other) in positions[range].iter().enumerate() {
         let number = first + index;
-        // SAFETY: `length` grows at most by one a turn, from the length before, and there is room for as many as turns.
+        // SAFETY: `length` grows at most by one a turn, from the length before, and there is room for as many
+        // as turns.
         unsafe { places.add(length).write(number as u32) };
         length += usize::from(near(*other) & (number != item));
     }

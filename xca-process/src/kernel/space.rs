@@ -68,8 +68,8 @@ impl<'a, R: Float> NativeSpace<'a, R> {
 
     /// The position inside the space, as far as the axes are toroidal.
     ///
-    /// What counts is the number of the cell: a position so little outside that it would be rounded to the opposite face itself, which
-    /// belongs to no cell, becomes 0.
+    /// What counts is the number of the cell: a position so little outside that it would be rounded to the
+    /// opposite face itself, which belongs to no cell, becomes 0.
     #[inline(always)]
     pub fn wrapped(&self, position: Vector3<R>) -> Vector3<R> {
         self.along_toroidal(position, |value, axis| {

@@ -1,7 +1,7 @@
 //! Values as kernels compute with them, and how they stand in memory.
 //!
-//! An engine keeps each substate of cells as planes: one for a single value, one for each element of an array, a fixed stride apart. Of items
-//! it keeps whole values one after the other.
+//! An engine keeps each substate of cells as planes: one for a single value, one for each element of an
+//! array, a fixed stride apart. Of items it keeps whole values one after the other.
 
 use super::written::{Lanes, Stage, Written, WrittenArrays, staged};
 use crate::states::States;

@@ -1,7 +1,7 @@
 //! The comparison of distances, four items at a time, on processors that can.
 //!
-//! Each lane does the operations of the plain loop in the same order, with the same rounding and no fused operation, so the result is the
-//! same to the last item.
+//! Each lane does the operations of the plain loop in the same order, with the same rounding and no fused
+//! operation, so the result is the same to the last item.
 
 use super::instructions::Instructions;
 use std::ops::Range;
@@ -106,7 +106,8 @@ mod avx2 {
         use crate::random::philox;
         use xca_values::Vector3;
 
-        /// The plain loop is the oracle, for ranges of every length at every place, distances on the edge among them.
+        /// The plain loop is the oracle, for ranges of every length at every place, distances on the edge
+        /// among them.
         #[test]
         fn as_the_plain_loop() {
             let Some(wide) = Wide::detect() else { return };

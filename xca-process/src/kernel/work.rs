@@ -1,7 +1,7 @@
 //! The work of a kernel, with the widest instructions of the processor, and hints for it.
 //!
-//! They change the time that a kernel takes and nothing else: each lane does the operations of the plain code in the same order, with the
-//! same rounding and no fused operation.
+//! They change the time that a kernel takes and nothing else: each lane does the operations of the plain code
+//! in the same order, with the same rounding and no fused operation.
 
 use super::instructions::Instructions;
 

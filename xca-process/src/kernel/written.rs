@@ -1,8 +1,8 @@
 //! How kernels write the substates of a row's cells.
 //!
-//! A kernel works through a row in blocks. Single values it writes where they belong. Arrays it writes to a stage on the stack, lane by
-//! lane, and each block is then copied to the planes: the compiler would not vectorise a loop whose writes go to many planes, as it cannot
-//! know that these are apart from what is read.
+//! A kernel works through a row in blocks. Single values it writes where they belong. Arrays it writes to a
+//! stage on the stack, lane by lane, and each block is then copied to the planes: the compiler would not
+//! vectorise a loop whose writes go to many planes, as it cannot know that these are apart from what is read.
 
 use super::values::{KernelElement, KernelValue};
 use bytemuck::{Pod, Zeroable};
@@ -40,8 +40,8 @@ pub trait Written<'r, T: KernelValue>: Sized {
     /// Takes the planes of a row.
     ///
     /// # Safety
-    /// For `'r` each of the planes, `stride` elements apart, is aligned, has so many cells from the first on, and no one else reads
-    /// or writes them.
+    /// For `'r` each of the planes, `stride` elements apart, is aligned, has so many cells from the first on,
+    /// and no one else reads or writes them.
     #[allow(unsafe_code)]
     unsafe fn new(planes: Planes<<T::Element as KernelElement>::Memory>) -> Self;
 
@@ -72,7 +72,8 @@ pub const fn block(most: &[usize]) -> usize {
 
 /// The values of a block of cells, to be written.
 pub trait Lanes<T: KernelValue> {
-    /// The same of the first lanes. That their number is known where they are used lets the compiler leave out checks.
+    /// The same of the first lanes. That their number is known where they are used lets the compiler leave
+    /// out checks.
     fn first(self, lanes: usize) -> Self;
 
     /// The value of a cell.
@@ -176,7 +177,8 @@ impl<'r, T: KernelElement, const N: usize> Written<'r, [T; N]> for WrittenArrays
     fn load(&self, stage: &mut Stage<T::Memory, N>, block: &Range<usize>) {
         for (element, lanes) in stage.elements_mut().enumerate() {
             let from = self.place(block, element).cast_const();
-            // SAFETY: `new`: `N` planes, aligned, each with the cells that `place` lets through; a stage has as many lanes.
+            // SAFETY: `new`: `N` planes, aligned, each with the cells that `place` lets through; a stage has
+            // as many lanes.
             #[allow(unsafe_code)]
             unsafe {
                 copy(from, lanes.as_mut_ptr(), block.len());

@@ -78,7 +78,8 @@ pub(super) fn two_product(a: Real, b: Real) -> Vector2<Real> {
     Vector2::new(product, (((x.x * y.x - product) + x.x * y.y) + x.y * y.x) + x.y * y.y)
 }
 
-/// `a / b` as the rounded quotient and what it lacks; both are in two parts, and far from the limits of the type.
+/// `a / b` as the rounded quotient and what it lacks; both are in two parts, and far from the limits of the
+/// type.
 #[helper]
 pub(super) fn two_quotient(a: Vector2<Real>, b: Vector2<Real>) -> Vector2<Real> {
     let quotient = a.x / b.x;

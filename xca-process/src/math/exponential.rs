@@ -9,7 +9,8 @@ use crate::{Real, Vector2, helper};
 
 const LOG2_E: Real = core::f64::consts::LOG2_E;
 
-// log(2) in three parts. The first two have 15 digits each, so that their products with an exponent are exact in `f32` as well.
+// log(2) in three parts. The first two have 15 digits each, so that their products with an exponent are exact
+// in `f32` as well.
 const LOG_2_FIRST: Real = 0.693145751953125;
 const LOG_2_SECOND: Real = 1.4285906217992306e-6;
 const LOG_2_THIRD: Real = 1.619851018665656e-11;
@@ -28,7 +29,8 @@ pub(super) const HALF_WAY: Real = 0.549_306_144_334_054_8;
 
 /// e^x.
 ///
-/// The error is below 0.80 units of the last digit. What is too large for the type is infinite, what is too small 0.
+/// The error is below 0.80 units of the last digit. What is too large for the type is infinite, what is too
+/// small 0.
 #[helper]
 pub fn exp(x: Real) -> Real {
     exp_of_sum(x, 0.0)
@@ -53,8 +55,9 @@ pub fn log(x: Real) -> Real {
 
 /// x^y.
 ///
-/// The error is below 0.80 units of the last digit in `f32`, 0.85 in `f64`. Of a negative x there are powers with whole y only; others are NaN.
-/// `pow(x, 0.0)` and `pow(1.0, y)` are 1, also of NaN; zeros and infinities give what they give in C.
+/// The error is below 0.80 units of the last digit in `f32`, 0.85 in `f64`. Of a negative x there are powers
+/// with whole y only; others are NaN. `pow(x, 0.0)` and `pow(1.0, y)` are 1, also of NaN; zeros and
+/// infinities give what they give in C.
 #[helper]
 pub fn pow(x: Real, y: Real) -> Real {
     if y == 0.0 || x == 1.0 {
@@ -133,10 +136,12 @@ pub(super) fn exp_of_sum(x: Real, rest: Real) -> Real {
     value * (1_u32 << (exponent - 3 * part)) as Real * factor * factor * factor
 }
 
-/// The logarithm of a positive finite number, as the rounded value and what it lacks, with some ten digits more than the type has.
+/// The logarithm of a positive finite number, as the rounded value and what it lacks, with some ten digits
+/// more than the type has.
 #[helper]
 pub(super) fn log_in_parts(x: Real) -> Vector2<Real> {
-    // First x = m * 2^n with m from 1 to 2^32. The loop is bounded, should a processor take tiny numbers for zero.
+    // First x = m * 2^n with m from 1 to 2^32. The loop is bounded, should a processor take tiny numbers for
+    // zero.
     let mut m = x;
     let mut n: Real = 0.0;
     for _ in 0..35 {
@@ -150,7 +155,8 @@ pub(super) fn log_in_parts(x: Real) -> Vector2<Real> {
             break;
         }
     }
-    // Then from the root of 1/2 to that of 2: the first binary digit of m says by which power of two to divide.
+    // Then from the root of 1/2 to that of 2: the first binary digit of m says by which power of two to
+    // divide.
     let mut digits = m as u32;
     digits |= digits >> 1;
     digits |= digits >> 2;

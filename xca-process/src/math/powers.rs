@@ -16,7 +16,8 @@ const LN_10_REST_DOUBLE: Real = -2.1707562233822494e-16;
 
 /// 2^x.
 ///
-/// The error is below 0.80 units of the last digit. What is too large for the type is infinite, what is too small 0.
+/// The error is below 0.80 units of the last digit. What is too large for the type is infinite, what is too
+/// small 0.
 #[helper]
 pub fn exp2(x: Real) -> Real {
     let exponent = x.clamp(-1100.0, 1100.0);
@@ -58,7 +59,8 @@ pub fn log10(x: Real) -> Real {
 
 /// The natural logarithm of 1 + x, exact also near zero.
 ///
-/// The error is below 0.80 units of the last digit. -1 gives minus infinity, what is below NaN, -0.0 gives -0.0.
+/// The error is below 0.80 units of the last digit. -1 gives minus infinity, what is below NaN, -0.0 gives
+/// -0.0.
 #[helper]
 pub fn log_1p(x: Real) -> Real {
     if x == 0.0 {

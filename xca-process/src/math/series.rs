@@ -1,5 +1,6 @@
-//! Three series serve all functions: they are those of sine and cosine, and of the inverse tangent. With the sign of the
-//! argument changed they are those of the hyperbolic functions, and so of the exponential and the logarithm.
+//! Three series serve all functions: they are those of sine and cosine, and of the inverse tangent. With the
+//! sign of the argument changed they are those of the hyperbolic functions, and so of the exponential and the
+//! logarithm.
 
 use super::exact::is_single;
 use crate::{Real, helper};
@@ -34,7 +35,8 @@ const TWENTY_THIRD: Real = 1.0 / 23.0;
 const TWENTY_FIFTH: Real = 1.0 / 25.0;
 const TWENTY_SEVENTH: Real = 1.0 / 27.0;
 
-/// `1/3! + z/5! + z^2/7! + …`, for `|z| < 0.62`: `sinh(x) = x + x z odd_factorials(z)` with `z = x^2`, `sin(x)` with `z = -x^2`.
+/// `1/3! + z/5! + z^2/7! + …`, for `|z| < 0.62`: `sinh(x) = x + x z odd_factorials(z)` with `z = x^2`,
+/// `sin(x)` with `z = -x^2`.
 #[helper]
 pub(super) fn odd_factorials(z: Real) -> Real {
     let mut rest: Real = 0.0;
@@ -44,7 +46,8 @@ pub(super) fn odd_factorials(z: Real) -> Real {
     FACTORIAL_3 + z * (FACTORIAL_5 + z * (FACTORIAL_7 + z * (FACTORIAL_9 + rest)))
 }
 
-/// `1/4! + z/6! + z^2/8! + …`, for `|z| < 0.62`: `cosh(x) = 1 + z/2 + z^2 even_factorials(z)` with `z = x^2`, `cos(x)` with `z = -x^2`.
+/// `1/4! + z/6! + z^2/8! + …`, for `|z| < 0.62`: `cosh(x) = 1 + z/2 + z^2 even_factorials(z)` with `z = x^2`,
+/// `cos(x)` with `z = -x^2`.
 #[helper]
 pub(super) fn even_factorials(z: Real) -> Real {
     let mut rest: Real = 0.0;
@@ -54,7 +57,8 @@ pub(super) fn even_factorials(z: Real) -> Real {
     FACTORIAL_4 + z * (FACTORIAL_6 + z * (FACTORIAL_8 + z * (FACTORIAL_10 + rest)))
 }
 
-/// `1/5 + z/7 + z^2/9 + …`, for `|z| < 0.056`: `artanh(x) = x (1 + z/3 + z^2 odd_numbers(z))` with `z = x^2`, `atan(x)` with `z = -x^2`.
+/// `1/5 + z/7 + z^2/9 + …`, for `|z| < 0.056`: `artanh(x) = x (1 + z/3 + z^2 odd_numbers(z))` with `z = x^2`,
+/// `atan(x)` with `z = -x^2`.
 #[helper]
 pub(super) fn odd_numbers(z: Real) -> Real {
     let mut rest: Real = 0.0;

@@ -21,8 +21,8 @@ const ANGLE_OF_HALF_REST: Real = 5.012158655276756e-9;
 
 /// The sine of an angle in radians.
 ///
-/// The error is below 0.95 units of the last digit for angles up to 4096 in `f32` and 2^20 in `f64`. Beyond that it is
-/// below one unit of the last digit of 1, and beyond 2^24 and 2^40 the result is NaN.
+/// The error is below 0.95 units of the last digit for angles up to 4096 in `f32` and 2^20 in `f64`. Beyond
+/// that it is below one unit of the last digit of 1, and beyond 2^24 and 2^40 the result is NaN.
 #[helper]
 pub fn sin(x: Real) -> Real {
     if x.abs() < TINY {
@@ -39,8 +39,8 @@ pub fn sin(x: Real) -> Real {
 
 /// The cosine of an angle in radians.
 ///
-/// The error is below 0.90 units of the last digit for angles up to 4096 in `f32` and 2^20 in `f64`. Beyond that it is
-/// below one unit of the last digit of 1, and beyond 2^24 and 2^40 the result is NaN.
+/// The error is below 0.90 units of the last digit for angles up to 4096 in `f32` and 2^20 in `f64`. Beyond
+/// that it is below one unit of the last digit of 1, and beyond 2^24 and 2^40 the result is NaN.
 #[helper]
 pub fn cos(x: Real) -> Real {
     let angle = reduced(x);
@@ -54,8 +54,8 @@ pub fn cos(x: Real) -> Real {
 
 /// The tangent of an angle in radians.
 ///
-/// The error is below 1.20 units of the last digit for angles up to 4096 in `f32` and 2^20 in `f64`. Beyond that it is
-/// that of a quotient of such a sine and cosine, and beyond 2^24 and 2^40 the result is NaN.
+/// The error is below 1.20 units of the last digit for angles up to 4096 in `f32` and 2^20 in `f64`. Beyond
+/// that it is that of a quotient of such a sine and cosine, and beyond 2^24 and 2^40 the result is NaN.
 #[helper]
 pub fn tan(x: Real) -> Real {
     if x.abs() < TINY {
@@ -86,8 +86,8 @@ pub fn atan(x: Real) -> Real {
 
 /// The angle in radians, between -pi and pi, of the direction (x, y).
 ///
-/// The error is below 0.60 units of the last digit. Zeros count with their signs, and two infinities make a diagonal, as in C:
-/// `atan2(0.0, -1.0)` is pi, `atan2(-0.0, -1.0)` is -pi.
+/// The error is below 0.60 units of the last digit. Zeros count with their signs, and two infinities make a
+/// diagonal, as in C: `atan2(0.0, -1.0)` is pi, `atan2(-0.0, -1.0)` is -pi.
 #[helper]
 pub fn atan2(y: Real, x: Real) -> Real {
     if is_nan(x) || is_nan(y) {
@@ -155,7 +155,8 @@ fn angle_below_diagonal(y: Real, x: Real) -> Vector2<Real> {
     if slope < TINY {
         return Vector2::new(slope, 0.0);
     }
-    // Far from the limits of the type, by powers of two; bounded, should a processor take tiny numbers for zero.
+    // Far from the limits of the type, by powers of two; bounded, should a processor take tiny numbers for
+    // zero.
     let mut size = Vector2::new(x, y);
     for _ in 0..18 {
         if size.x >= 18_446_744_073_709_551_616.0 {
@@ -166,7 +167,8 @@ fn angle_below_diagonal(y: Real, x: Real) -> Vector2<Real> {
             break;
         }
     }
-    // Turned back by an angle that is known: of tangent 0, 1/2 or 1. What remains has the tangent (y - t x) / (x + t y).
+    // Turned back by an angle that is known: of tangent 0, 1/2 or 1. What remains has the tangent (y - t x) /
+    // (x + t y).
     let mut turn: Real = 0.0;
     let mut known = Vector2::splat(0.0);
     if slope > 0.72 {
@@ -212,7 +214,8 @@ fn nearest(x: Real) -> i32 {
     (x + if x < 0.0 { -0.5 } else { 0.5 }) as i32
 }
 
-/// An angle less a number of right angles. The parts of pi/2 have so few digits that the products are exact, but for the last.
+/// An angle less a number of right angles. The parts of pi/2 have so few digits that the products are exact,
+/// but for the last.
 #[helper]
 fn turned_back(angle: Vector2<Real>, turns: Real) -> Vector2<Real> {
     let a = two_sum(angle.x, -turns * by_precision(1.5703125, 1.5707963267341256));

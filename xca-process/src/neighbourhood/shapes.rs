@@ -1,4 +1,5 @@
-//! Neighbourhoods that kernels know when they are compiled, so that their loops over neighbours need no table.
+//! Neighbourhoods that kernels know when they are compiled, so that their loops over neighbours need no
+//! table.
 
 /// The number of a shape, as a constant that kernels are generic in.
 pub type ShapeNumber = u8;

@@ -9,7 +9,8 @@ use xca_checkpoint::Exact;
 /// `initial.png` and `final.png` of the first view, `initial_NAME.png` and `final_NAME.png` of the others.
 #[derive(Debug, Default)]
 pub(super) struct Pictures {
-    /// For each view of cells, the scale of the first picture. Items have a scale of their own in each picture.
+    /// For each view of cells, the scale of the first picture. Items have a scale of their own in each
+    /// picture.
     scales: Vec<Option<[f64; 2]>>,
 }
 

@@ -9,8 +9,8 @@ use std::collections::BTreeMap;
 use xca_checkpoint::Exact;
 use xca_core::Model;
 
-/// `final_spacetime.png` of the first view of cells, `final_spacetime_NAME.png` of the others: a row of the picture for each
-/// recorded state, the initial one on top.
+/// `final_spacetime.png` of the first view of cells, `final_spacetime_NAME.png` of the others: a row of the
+/// picture for each recorded state, the initial one on top.
 #[derive(Debug, Default)]
 pub(super) struct SpaceTime {
     /// By the numbers of the views.

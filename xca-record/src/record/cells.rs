@@ -66,7 +66,8 @@ impl<'a> CellState<'a> {
         self.ground.missing
     }
 
-    /// All substates, the index along x fastest. Where there is no ground, floats are NaN and whole numbers 0.
+    /// All substates, the index along x fastest. Where there is no ground, floats are NaN and whole
+    /// numbers 0.
     pub fn substates(&self) -> Vec<SubstateValues> {
         let fields = self.group.schema().fields.iter().zip(self.fields);
         let values = fields.map(|(field, bytes)| {

@@ -1,7 +1,7 @@
 //! The one door to folders: a command writes to a folder only after it has got it here.
 //!
-//! A folder has an owner, who is told by its report. Only a command of the same kind may replace the owner's files, and no command
-//! replaces others. While a command writes, the folder is locked.
+//! A folder has an owner, who is told by its report. Only a command of the same kind may replace the owner's
+//! files, and no command replaces others. While a command writes, the folder is locked.
 
 mod error;
 mod owner;
@@ -64,7 +64,8 @@ impl Kind {
 #[derive(Debug, Clone)]
 pub struct LockedFolder {
     pub top: OutputFolder,
-    /// The folder itself, locked until the command ends in whatever way; nothing where the system does not lock folders.
+    /// The folder itself, locked until the command ends in whatever way; nothing where the system does not
+    /// lock folders.
     _lock: Option<Arc<File>>,
 }
 
@@ -157,7 +158,8 @@ pub struct RunFolder {
 }
 
 impl RunFolder {
-    /// Makes the folder, and removes what an earlier run left there: the files that its `run.json` lists, and no others.
+    /// Makes the folder, and removes what an earlier run left there: the files that its `run.json` lists, and
+    /// no others.
     pub fn prepare(path: &Path, claim: &Claim<'_>) -> Result<Self, FolderError> {
         let locked = LockedFolder::open(path)?;
         let old = claim.replaced(path)?;

@@ -65,8 +65,8 @@ impl<'a> ItemState<'a> {
 
     /// Where the items are; those without a position are in the centres of their cells.
     ///
-    /// A model takes its cells for boxes, also where they are hexagons. An item is as far from the centre of its
-    /// hexagon as it is from that of its box.
+    /// A model takes its cells for boxes, also where they are hexagons. An item is as far from the centre of
+    /// its hexagon as it is from that of its box.
     fn positions(&self) -> Plane {
         let field = self.group.schema().position;
         let position = field.map(|field| self.plane(field));

@@ -41,8 +41,8 @@ pub(super) struct Field<'a> {
 }
 
 impl Shown {
-    /// What has to be said of a picture of this view beside its step. That layers are counted along z goes without saying, unless there are
-    /// `others` beside it.
+    /// What has to be said of a picture of this view beside its step. That layers are counted along z goes
+    /// without saying, unless there are `others` beside it.
     pub(super) fn details(&self, model: &Model, seen: &Seen, others: bool) -> Option<String> {
         match (&self.view, seen) {
             (AnyView::Items(view), Seen::Items { positions, .. }) => {
@@ -220,7 +220,8 @@ impl Field<'_> {
         across.map(|axis| SpaceAxis { name: names[axis], begin: begins[axis] })
     }
 
-    /// Draws all cells, or those that are not 0 where the substate is a whole number; one layer over its relief.
+    /// Draws all cells, or those that are not 0 where the substate is a whole number; one layer over its
+    /// relief.
     fn block(&self, frame: Frame<'_>, present: Option<[f64; 2]>) -> Result<Picture, PictureError> {
         let kinds = self.kinds(frame.range);
         if let Some((heights, (_, bare))) = self.heights.zip(self.view.relief) {

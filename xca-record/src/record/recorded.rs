@@ -40,7 +40,8 @@ impl Recorder {
         })
     }
 
-    /// Goes on where a recorder of the same model was. What was written after that is removed; it will be written again.
+    /// Goes on where a recorder of the same model was. What was written after that is removed; it will be
+    /// written again.
     pub fn resume(&mut self, folder: RunFolder, recorded: &Recorded) -> Result<(), RecordError> {
         self.first = recorded.first.iter().map(observable).collect();
         self.last = recorded.last.iter().map(observable).collect();

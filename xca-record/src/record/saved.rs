@@ -261,7 +261,8 @@ impl<'a> Arrays<'a> {
 }
 
 impl Arrays<'_> {
-    /// All substates of so many cells or items, as a simulation stores them. The file has the positions of items apart.
+    /// All substates of so many cells or items, as a simulation stores them. The file has the positions of
+    /// items apart.
     fn all(&self, positions: Option<&Plane>, count: usize) -> Result<AllStored, SavedError> {
         let schema = self.group.schema();
         // The types of `Real` tell the precision of the run.

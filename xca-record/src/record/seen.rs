@@ -8,8 +8,8 @@ const FAST: f64 = 0.02;
 /// The values of one state that a view draws.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Seen {
-    /// Of a layer, or of all cells; with the heights of the ground, where the layer is drawn over one, and with a mask of the
-    /// cells without ground, whose values and heights are NaN.
+    /// Of a layer, or of all cells; with the heights of the ground, where the layer is drawn over one, and
+    /// with a mask of the cells without ground, whose values and heights are NaN.
     Cells { is_float: bool, values: Vec<f64>, heights: Option<Vec<f64>>, hidden: Option<Vec<bool>> },
     /// The items by label; there are no values where nothing colours them.
     Items { positions: Vec<[f64; 3]>, values: Vec<f64> },

@@ -50,7 +50,8 @@ pub enum Subject {
 }
 
 impl Recorder {
-    /// The view of a look; an axis is allowed for items, too, which have no layers but are looked at along it.
+    /// The view of a look; an axis is allowed for items, too, which have no layers but are looked at along
+    /// it.
     pub fn sighting(&self, look: &Look) -> Result<Panel, LookError> {
         match self.panel(look) {
             Err(LookError::NotLayered) if look.layer.is_none() => {

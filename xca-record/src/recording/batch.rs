@@ -2,8 +2,8 @@
 
 use std::time::Duration;
 
-/// How many steps are done at a time: an engine with threads does many faster than one by one, but Ctrl-C and the line that shows how far
-/// the run has come must not wait for long.
+/// How many steps are done at a time: an engine with threads does many faster than one by one, but Ctrl-C and
+/// the line that shows how far the run has come must not wait for long.
 #[derive(Debug)]
 pub struct Batch {
     pub steps: u64,

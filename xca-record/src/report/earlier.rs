@@ -40,7 +40,8 @@ pub fn read(path: &Path) -> Result<Option<Value>, ReadReportError> {
     serde_json::from_slice(&bytes).map(Some).map_err(syntax)
 }
 
-/// The parts of a report that a command wants; the error names the key of the first one that is missing or wrong.
+/// The parts of a report that a command wants; the error names the key of the first one that is missing or
+/// wrong.
 pub fn parts<T: DeserializeOwned>(path: &Path, report: &Value) -> Result<T, ReadReportError> {
     serde_path_to_error::deserialize(report).map_err(|error| {
         let key = match error.path().to_string().as_str() {

@@ -44,7 +44,8 @@ pub enum ViewError {
     },
 }
 
-/// The given views, with the number of the group that each shows, and after them plain views of what no one shows.
+/// The given views, with the number of the group that each shows, and after them plain views of what no one
+/// shows.
 pub(crate) fn complete(model: &Model, given: Vec<AnyView>) -> Result<Vec<(usize, AnyView)>, ViewError> {
     let mut views = Vec::new();
     for view in given {

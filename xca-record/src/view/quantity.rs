@@ -1,4 +1,5 @@
-//! What colours the cells or the items of a view: a substate, a component of one, or a number computed of all of them.
+//! What colours the cells or the items of a view: a substate, a component of one, or a number computed of all
+//! of them.
 
 use std::fmt;
 use std::sync::Arc;

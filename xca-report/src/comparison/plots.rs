@@ -21,7 +21,8 @@ const LINES: [RGBColor; 7] = [
     RGBColor(0x55, 0x55, 0x55),
 ];
 
-/// A plot, drawn once for wide pages and once for narrow ones: shrunk to the width of a phone, its text could not be read.
+/// A plot, drawn once for wide pages and once for narrow ones: shrunk to the width of a phone, its text could
+/// not be read.
 #[derive(Debug)]
 pub(super) struct Plot {
     pub(super) wide: String,
@@ -162,7 +163,8 @@ fn draw_bars(bars: &[Bar], longest: f64, what: &str, width: u32) -> Result<Strin
     Ok(svg)
 }
 
-/// How far an engine is from the first one over time: a line for each substate, in powers of ten. Nothing where it never is.
+/// How far an engine is from the first one over time: a line for each substate, in powers of ten. Nothing
+/// where it never is.
 pub(super) fn divergence(engine: &EngineResult) -> Result<Option<Plot>, ReportError> {
     let lines = lines(&engine.history);
     let all = || lines.iter().flat_map(|(_, points)| points).map(|(_, value)| *value);
@@ -226,7 +228,8 @@ fn draw_lines(
 /// A substate, with steps and logarithms of a distance.
 type Line = (String, Vec<(f64, f64)>);
 
-/// The substates that ever differ, each with the steps at which it does and the logarithm of how far it is away.
+/// The substates that ever differ, each with the steps at which it does and the logarithm of how far it is
+/// away.
 fn lines(history: &[Check]) -> Vec<Line> {
     let mut lines: Vec<Line> = Vec::new();
     for check in history {

@@ -24,9 +24,9 @@ pub(crate) struct ModelArguments {
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<Assignment>,
 
-    /// Start a substate of a one-layer model from a GeoTIFF or an ESRI ASCII grid; can be given several times. NAME can be
-    /// a component: outflow.3. bool is 0 or 1 in a grid, a state its number. NAME:0=FILE takes 0 where the
-    /// grid has no value
+    /// Start a substate of a one-layer model from a GeoTIFF or an ESRI ASCII grid; can be given several
+    /// times. NAME can be a component: outflow.3. bool is 0 or 1 in a grid, a state its number. NAME:0=FILE
+    /// takes 0 where the grid has no value
     #[arg(long, value_name = "NAME=FILE")]
     pub(crate) initial: Vec<Initial>,
 
@@ -50,17 +50,18 @@ pub(crate) struct RunArguments {
     #[arg(long, value_name = "N", value_parser = interval)]
     pub(crate) every: Option<u64>,
 
-    /// Write a checkpoint every so many steps (500) or after so much time (30s, 10min, 2h), from which `resume` goes on; the last two are
-    /// kept. None unless it is given
+    /// Write a checkpoint every so many steps (500) or after so much time (30s, 10min, 2h), from which
+    /// `resume` goes on; the last two are kept. None unless it is given
     #[arg(long, value_name = "N|TIME")]
     pub(crate) checkpoint_every: Option<Interval>,
 
-    /// Write these formats, as `list` tells them: vtk,png. With a + before each name, write them beside those of
-    /// the model: +asc
+    /// Write these formats, as `list` tells them: vtk,png. With a + before each name, write them beside those
+    /// of the model: +asc
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     pub(crate) formats: Vec<String>,
 
-    /// Run on where a substate becomes NaN or infinite. Without it, that ends the run at the next output or checkpoint
+    /// Run on where a substate becomes NaN or infinite. Without it, that ends the run at the next output or
+    /// checkpoint
     #[arg(long)]
     pub(crate) allow_non_finite: bool,
 
@@ -83,16 +84,18 @@ pub(crate) struct ResumeArguments {
     #[arg(long, value_name = "FILE")]
     pub(crate) checkpoint: Option<PathBuf>,
 
-    /// How many steps the run has in the end, also more than it was begun with; as the run was told unless it is given
+    /// How many steps the run has in the end, also more than it was begun with; as the run was told unless it
+    /// is given
     #[arg(long, value_name = "N", value_parser = steps)]
     pub(crate) steps: Option<u64>,
 
-    /// Give the cells at least so many slots for items, where the run ended with a full cell; as before unless it is given
+    /// Give the cells at least so many slots for items, where the run ended with a full cell; as before
+    /// unless it is given
     #[arg(long, value_name = "N", value_parser = slots)]
     pub(crate) slots: Option<usize>,
 
-    /// Go on although the engine rounds floating numbers otherwise than the one that the run was begun on; the files will not be those of
-    /// an uninterrupted run
+    /// Go on although the engine rounds floating numbers otherwise than the one that the run was begun on;
+    /// the files will not be those of an uninterrupted run
     #[arg(long)]
     pub(crate) allow_rounding: bool,
 
@@ -100,7 +103,8 @@ pub(crate) struct ResumeArguments {
     #[arg(long)]
     pub(crate) allow_non_finite: bool,
 
-    /// Write a checkpoint every so many steps or after so much time; as often as the run was told unless it is given
+    /// Write a checkpoint every so many steps or after so much time; as often as the run was told unless it
+    /// is given
     #[arg(long, value_name = "N|TIME")]
     pub(crate) checkpoint_every: Option<Interval>,
 

@@ -24,8 +24,8 @@ pub(super) enum ClashError {
 /// Stands for the options of the model.
 const MARK: &str = "options of the model";
 
-/// Finds what of the options of engines and of the model is taken by the frame, in whichever subcommand: at once, not when that subcommand
-/// is used.
+/// Finds what of the options of engines and of the model is taken by the frame, in whichever subcommand: at
+/// once, not when that subcommand is used.
 pub(super) fn check(definition: &Definition<'_>) -> Result<(), ClashError> {
     check_engines(definition)?;
     let own = (definition.options)(Command::new(definition.name));

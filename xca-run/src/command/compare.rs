@@ -29,8 +29,8 @@ const ABOUT: &str =
 /// Which engines are compared, and how.
 #[derive(Args, Debug, Clone)]
 pub(super) struct CompareArguments {
-    /// The engines; the others are compared with the first. Each as --engine of `run` takes it, with a precision after an @:
-    /// reference, cpu:2, gpu:llvmpipe, parts:3:cpu, cpu@f32
+    /// The engines; the others are compared with the first. Each as --engine of `run` takes it, with a
+    /// precision after an @: reference, cpu:2, gpu:llvmpipe, parts:3:cpu, cpu@f32
     #[arg(long, value_name = "ENGINE,…", value_delimiter = ',', default_value = "reference,cpu")]
     engines: Vec<String>,
 
@@ -42,17 +42,18 @@ pub(super) struct CompareArguments {
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = repeats)]
     repeats: usize,
 
-    /// Compare the states every so many steps; the exact step of a difference is searched for in between. 50 times in the run, and after
-    /// every step of a short one, unless it is given
+    /// Compare the states every so many steps; the exact step of a difference is searched for in between. 50
+    /// times in the run, and after every step of a short one, unless it is given
     #[arg(long, value_name = "N", value_parser = interval)]
     check_every: Option<u64>,
 
-    /// How far floating numbers may be apart to count as rounding, in relation to the largest value of their substate; 1e-9 unless it is
-    /// given, 1e-4 where f32 takes part
+    /// How far floating numbers may be apart to count as rounding, in relation to the largest value of their
+    /// substate; 1e-9 unless it is given, 1e-4 where f32 takes part
     #[arg(long, value_name = "X", value_parser = number_in(0.0..))]
     tolerance: Option<f64>,
 
-    /// The folder of the files; out/NAME-compare unless it is given. Files of an earlier comparison there are replaced
+    /// The folder of the files; out/NAME-compare unless it is given. Files of an earlier comparison there are
+    /// replaced
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
@@ -157,7 +158,8 @@ impl Monitor for Terminal<'_> {
     }
 }
 
-/// The engines that take part. What is chosen for all of them is for those that know it, of which there must be one.
+/// The engines that take part. What is chosen for all of them is for those that know it, of which there must
+/// be one.
 fn choices<'a>(
     engines: &'a Engines,
     named: &[String],

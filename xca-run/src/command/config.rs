@@ -31,8 +31,8 @@ pub enum ConfigError {
     Value { path: PathBuf, message: String },
 }
 
-/// The options of a configuration file as arguments for `command`, which has been given `matches` already: what stands on the command
-/// line is left out.
+/// The options of a configuration file as arguments for `command`, which has been given `matches` already:
+/// what stands on the command line is left out.
 pub(super) fn arguments(
     path: &Path,
     command: &Command,

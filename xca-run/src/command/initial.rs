@@ -27,7 +27,8 @@ pub(super) enum GridError {
     Values { path: PathBuf, source: InitialError },
 }
 
-/// A grid that a substate begins with: `NAME=FILE`, or `NAME:VALUE=FILE` with a value for the cells where the grid has none.
+/// A grid that a substate begins with: `NAME=FILE`, or `NAME:VALUE=FILE` with a value for the cells where the
+/// grid has none.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Initial {
     substate: String,

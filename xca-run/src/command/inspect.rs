@@ -26,8 +26,8 @@ const ABOUT: &str = "Tell what the folder of a run or a checkpoint holds";
 /// What is looked at, and how it is told.
 #[derive(Args, Debug, Clone)]
 pub(super) struct InspectArguments {
-    /// The folder of a run, or a checkpoint. The state that is told of is that of the latest checkpoint, and where there is none, what the
-    /// last frames hold
+    /// The folder of a run, or a checkpoint. The state that is told of is that of the latest checkpoint, and
+    /// where there is none, what the last frames hold
     #[arg(value_name = "DIR|CHECKPOINT")]
     path: PathBuf,
 

@@ -19,7 +19,8 @@ pub(super) const NAME: &str = "new";
 
 const ABOUT: &str = "Write a starter crate: a model, its program, and a test on all engines";
 
-/// The files of the crate, and what is in them. The crate `tests/new` of this workspace is built of the same ones, and tests them.
+/// The files of the crate, and what is in them. The crate `tests/new` of this workspace is built of the same
+/// ones, and tests them.
 const FILES: [(&str, &str); 6] = [
     ("Cargo.toml", include_str!("new/Cargo.toml.template")),
     ("README.md", include_str!("new/README.md.template")),
@@ -115,7 +116,8 @@ fn write(folder: &Path, files: &[(&str, String)]) -> Result<(), NewError> {
 
 /// A file of the crate.
 fn filled(template: &str, name: &str, source: &Source) -> String {
-    // The source comes last: a path may hold the words that a name stands for. The name without hyphens comes first, for the same reason.
+    // The source comes last: a path may hold the words that a name stands for. The name without hyphens comes
+    // first, for the same reason.
     template
         .replace("new_model", &name.replace('-', "_"))
         .replace("new-model", name)

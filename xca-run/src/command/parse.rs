@@ -95,7 +95,8 @@ pub(super) fn invocation<'a>(
     complete(definition, &command, &arguments)
 }
 
-/// Reads a command line to which nothing is to be added: that of an earlier run, as a file of this kind tells it.
+/// Reads a command line to which nothing is to be added: that of an earlier run, as a file of this kind tells
+/// it.
 pub(super) fn recorded<'a>(
     definition: &'a Definition<'a>,
     command_line: &[String],
@@ -178,8 +179,8 @@ fn words(arguments: &[OsString]) -> Vec<String> {
     arguments.iter().map(|argument| argument.to_string_lossy().into_owned()).collect()
 }
 
-/// The configuration file that the command line names. Mistakes on the command line are found before the file is read; only what is missing may
-/// come from the file.
+/// The configuration file that the command line names. Mistakes on the command line are found before the file
+/// is read; only what is missing may come from the file.
 fn config_file(command: &Command, arguments: &[OsString]) -> Result<Option<PathBuf>, Unable> {
     let matches = match command.clone().try_get_matches_from(arguments) {
         Err(error) if error.kind() == ErrorKind::MissingRequiredArgument => {

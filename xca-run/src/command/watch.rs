@@ -1,4 +1,5 @@
-//! The subcommand `watch`. Its options are known in each program; what shows the run is built with the feature `terminal`.
+//! The subcommand `watch`. Its options are known in each program; what shows the run is built with the
+//! feature `terminal`.
 
 #[cfg(feature = "terminal")]
 mod show;
@@ -42,8 +43,8 @@ pub(super) struct WatchArguments {
     #[arg(long, value_name = "N", value_parser = steps)]
     steps: Option<u64>,
 
-    /// Draw a picture every so many steps, sooner where they take longer than half a second; a thousandth of the steps of the model
-    /// unless it is given
+    /// Draw a picture every so many steps, sooner where they take longer than half a second; a thousandth of
+    /// the steps of the model unless it is given
     #[arg(long, value_name = "N", value_parser = interval)]
     every: Option<u64>,
 

@@ -1,5 +1,5 @@
-//! The engine for graphics adapters. All that the command line knows of adapters is here, also of a program that
-//! was built without the engine.
+//! The engine for graphics adapters. All that the command line knows of adapters is here, also of a program
+//! that was built without the engine.
 
 use super::kind::{Devices, EngineKind};
 use super::options::{EngineOption, EngineOptions};

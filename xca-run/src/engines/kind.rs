@@ -55,7 +55,8 @@ pub trait EngineKind: fmt::Debug + Send + Sync {
         &[]
     }
 
-    /// What stands after its name and a colon, as in `cpu:2`: the first of its options unless it says otherwise.
+    /// What stands after its name and a colon, as in `cpu:2`: the first of its options unless it says
+    /// otherwise.
     fn detail(&self) -> Option<EngineDetail> {
         self.options().first().map(|option| EngineDetail { option: *option, is_required: false })
     }
@@ -75,8 +76,8 @@ pub trait EngineKind: fmt::Debug + Send + Sync {
         false
     }
 
-    /// What this process does where it is only there to help another one, which runs the model; nothing where it
-    /// runs the model itself.
+    /// What this process does where it is only there to help another one, which runs the model; nothing where
+    /// it runs the model itself.
     ///
     /// # Errors
     /// Where the processes do not find each other.

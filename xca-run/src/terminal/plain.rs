@@ -9,7 +9,8 @@ const LONGEST_TEXT: usize = 2000;
 /// The most characters of a line of what is told about a file.
 const LONGEST_LINE: usize = 4000;
 
-/// A text whose characters that control a terminal, or the direction of writing, are written as JSON writes them: `\u001b`.
+/// A text whose characters that control a terminal, or the direction of writing, are written as JSON writes
+/// them: `\u001b`.
 pub(super) fn escaped(text: &str) -> Cow<'_, str> {
     let is_harmful = |character: char| {
         (character.is_control() && !"\n\t".contains(character))
@@ -40,7 +41,8 @@ pub(crate) fn short_lines(text: &str) -> String {
     text.split('\n').map(|line| cut(line, LONGEST_LINE)).collect::<Vec<_>>().join("\n")
 }
 
-/// A text of at most so many characters: of a longer one the beginning and the end, which tell where it is from.
+/// A text of at most so many characters: of a longer one the beginning and the end, which tell where it is
+/// from.
 fn cut(text: &str, most: usize) -> Cow<'_, str> {
     let length = text.chars().count();
     if length <= most {

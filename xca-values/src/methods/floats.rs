@@ -52,7 +52,8 @@ macro_rules! floating {
 
             #[inline(always)]
             fn round(self) -> Self {
-                // As a shader has it, and without a call of the mathematical library; the difference is exact.
+                // As a shader has it, and without a call of the mathematical library; the difference is
+                // exact.
                 let whole = self.trunc();
                 if (self - whole).abs() >= 0.5 { whole + $type::signum(self) } else { whole }
             }

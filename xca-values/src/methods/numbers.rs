@@ -8,7 +8,8 @@ use crate::vector::{Vector2, Vector3, Vector4};
     label = "this is neither a number nor a vector"
 )]
 pub trait Comparable: Copy {
-    /// `if other < self { other } else { self }`, whatever a processor's own minimum does with NaN and signed zeros.
+    /// `if other < self { other } else { self }`, whatever a processor's own minimum does with NaN and signed
+    /// zeros.
     fn min(self, other: Self) -> Self;
 
     /// `if self < other { other } else { self }`

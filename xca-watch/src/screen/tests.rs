@@ -80,7 +80,8 @@ impl Watched {
         watched
     }
 
-    /// Has all orders so far carried out again on a new worker, of which the last answer is shown: so no state is kept but the screen's.
+    /// Has all orders so far carried out again on a new worker, of which the last answer is shown: so no
+    /// state is kept but the screen's.
     fn obey(&mut self, is_picture_due: bool) {
         let before = self.orders.len();
         while let Some(order) = self.screen.take_order(is_picture_due && self.orders.len() == before) {
@@ -151,8 +152,8 @@ fn halves(buffer: &Buffer, area: Rect) -> Vec<Vec<Option<Color>>> {
     rows
 }
 
-/// Demands that these cells, and no others, are alive in a space of 8 by 8 cells that is drawn with a pixel each. A screen of 8 by 5 characters
-/// has one line of words, and 4 of the picture.
+/// Demands that these cells, and no others, are alive in a space of 8 by 8 cells that is drawn with a pixel
+/// each. A screen of 8 by 5 characters has one line of words, and 4 of the picture.
 fn assert_alive(watched: &mut Watched, alive: &[[usize; 2]]) {
     let buffer = watched.drawn(8, 5);
     let wanted: Vec<Vec<Option<Color>>> = (0..8)

@@ -1,8 +1,8 @@
 //! Finds again the types that Rust infers.
 //!
-//! The data of a body holds only the types that the user wrote. Here each expression gets a type: unknown ones are
-//! variables that are made one wherever the language demands the same type. What depends on a type that is not known yet
-//! (is `a * b` a vector times a number?) waits until it is.
+//! The data of a body holds only the types that the user wrote. Here each expression gets a type: unknown
+//! ones are variables that are made one wherever the language demands the same type. What depends on a type
+//! that is not known yet (is `a * b` a vector times a number?) waits until it is.
 
 mod expressions;
 mod operators;

@@ -178,7 +178,8 @@ impl Table {
         }
     }
 
-    /// The type, with Rust's own choice where nothing has decided it: `i32` for integers and `f64` for fractions.
+    /// The type, with Rust's own choice where nothing has decided it: `i32` for integers and `f64` for
+    /// fractions.
     pub(super) fn resolve(&self, variable: Variable) -> Type {
         match self.term(variable) {
             Term::Any | Term::Unit => Type::Unit,

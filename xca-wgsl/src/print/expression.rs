@@ -1,4 +1,5 @@
-//! Expressions. What WGSL has no expression for (an `if` with a value, a block) is computed in statements before.
+//! Expressions. What WGSL has no expression for (an `if` with a value, a block) is computed in statements
+//! before.
 
 use super::text::{Level, Text};
 use super::{Target, Writer};
@@ -122,8 +123,8 @@ impl Writer<'_, '_> {
         }
     }
 
-    /// Several values, computed from the first to the last: where a later one needs statements that could change an earlier
-    /// one, the earlier one is kept.
+    /// Several values, computed from the first to the last: where a later one needs statements that could
+    /// change an earlier one, the earlier one is kept.
     pub(super) fn operands(&mut self, values: &[&Expression]) -> Result<Vec<Text>, Problem> {
         let mut texts = Vec::new();
         for (position, value) in values.iter().enumerate() {

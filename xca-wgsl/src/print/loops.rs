@@ -1,4 +1,5 @@
-//! Loops. WGSL has no labels: a jump to a loop further out sets a flag and ends the loops in between, one by one.
+//! Loops. WGSL has no labels: a jump to a loop further out sets a flag and ends the loops in between, one by
+//! one.
 
 use super::expression::is_simple;
 use super::range::Range as Numbers;
@@ -162,7 +163,8 @@ impl Writer<'_, '_> {
         Ok(())
     }
 
-    /// The indices of a loop over neighbours that is written out: where their places are known, and nothing leaves a turn of it early.
+    /// The indices of a loop over neighbours that is written out: where their places are known, and nothing
+    /// leaves a turn of it early.
     fn written_out(&self, range: &Range, loop_: &Loop) -> Option<std::ops::Range<usize>> {
         let offsets = self.shared.options.neighbour_offsets.as_ref()?;
         let whole = !range.inclusive && !range.reversed && range.step.is_none();
@@ -242,7 +244,8 @@ impl Writer<'_, '_> {
         Ok(())
     }
 
-    /// A range that runs backwards or in steps. It counts the turns that are left, so that no number goes beyond its type.
+    /// A range that runs backwards or in steps. It counts the turns that are left, so that no number goes
+    /// beyond its type.
     fn for_counted_range(
         &mut self,
         statement: &Statement,

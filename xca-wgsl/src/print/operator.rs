@@ -149,8 +149,8 @@ impl Writer<'_, '_> {
         Text::primary(format!("{routine}({})", value.plain()))
     }
 
-    /// Whether naga would compute the value while it reads the shader, and perhaps refuse it: a float that is not finite, an integer
-    /// that loses bits.
+    /// Whether naga would compute the value while it reads the shader, and perhaps refuse it: a float that is
+    /// not finite, an integer that loses bits.
     fn overflows(&self, operator: BinaryOperator, left: &Expression, right: &Expression) -> bool {
         if !(is_constant(left) && is_constant(right)) {
             return false;

@@ -35,7 +35,8 @@ impl Writer<'_, '_> {
         radius: Option<&Expression>,
         loop_: &Loop,
     ) -> Result<(), Problem> {
-        // What stands before the loop stays visible after it: only the variable of the loop has a scope of its own.
+        // What stands before the loop stays visible after it: only the variable of the loop has a scope of
+        // its own.
         let near = radius.map(|radius| self.near(reach, radius)).transpose()?;
         if reach == Reach::Cell {
             return self.items_of("here", statement, variable, near.as_ref(), None, loop_);

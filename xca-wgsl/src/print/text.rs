@@ -1,7 +1,7 @@
 //! Pieces of text that know where they need parentheses.
 
-/// How tightly an expression holds together. WGSL allows fewer mixtures than Rust; where it does not, or where a reader would
-/// have to think, there are parentheses.
+/// How tightly an expression holds together. WGSL allows fewer mixtures than Rust; where it does not, or
+/// where a reader would have to think, there are parentheses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Level {
     Or,

@@ -1,4 +1,5 @@
-//! The functions of `xca_core::math`, which have the names of functions of WGSL and must not be taken for them.
+//! The functions of `xca_core::math`, which have the names of functions of WGSL and must not be taken for
+//! them.
 
 use crate::common::{accepted, function, written, written_with};
 use xca_core::Precision;

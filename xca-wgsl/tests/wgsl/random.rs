@@ -1,7 +1,7 @@
 //! Processes made at random: whatever is written must be accepted by naga.
 //!
-//! They are well typed but senseless, with blocks, branches and loops as values, shadowed names and mixed types everywhere.
-//! The environment variable `SEEDS` says how many are made.
+//! They are well typed but senseless, with blocks, branches and loops as values, shadowed names and mixed
+//! types everywhere. The environment variable `SEEDS` says how many are made.
 
 mod expressions;
 mod source;

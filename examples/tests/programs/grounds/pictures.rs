@@ -20,7 +20,8 @@ fn pixels(path: &Path) -> (usize, Vec<[u8; 3]>) {
 /// The colours of the pixel in the middle of each cell of a slice of a map.
 fn colours(path: &Path, [columns, rows]: [usize; 2]) -> Vec<[u8; 3]> {
     let (width, pixels) = pixels(path);
-    // The drawing begins 96 pixels from the left and 120 from the top; a cell has the same whole number of pixels each way.
+    // The drawing begins 96 pixels from the left and 120 from the top; a cell has the same whole number of
+    // pixels each way.
     let side = 768 / columns.max(rows);
     let colour = |cell: usize| {
         let (x, y) =

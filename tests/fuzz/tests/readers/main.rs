@@ -1,5 +1,5 @@
-//! Every reader is given damaged files: it may refuse them, but never panic, take more memory than a file is worth, or
-//! take long.
+//! Every reader is given damaged files: it may refuse them, but never panic, take more memory than a file is
+//! worth, or take long.
 //!
 //! `XCA_FUZZ_INPUTS` says how many files each reader is given.
 

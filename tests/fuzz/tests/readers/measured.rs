@@ -51,8 +51,8 @@ impl Subject<'_> {
     /// Where a file cannot be written.
     ///
     /// # Panics
-    /// Where the reader does, or takes too much memory or time. Also where it takes all files, or nearly none: then
-    /// mutations do not reach its checks.
+    /// Where the reader does, or takes too much memory or time. Also where it takes all files, or nearly
+    /// none: then mutations do not reach its checks.
     pub(crate) fn check(&self, read: impl Fn(&Path, &mut Mutator) -> TestResult) -> TestResult {
         let inputs = std::env::var("XCA_FUZZ_INPUTS").ok().and_then(|text| text.parse().ok());
         let inputs = inputs.unwrap_or(INPUTS).div_ceil(self.cost);

@@ -1,4 +1,5 @@
-//! States of a run in the formats that are read as the model stores them: frames of hexagons, rasters, extended XYZ.
+//! States of a run in the formats that are read as the model stores them: frames of hexagons, rasters,
+//! extended XYZ.
 
 use crate::measured::{BESIDES, Subject, TestResult, alone, container};
 use crate::model::{set_up, set_up_on};

@@ -20,8 +20,8 @@ pub struct ListedFile {
 /// Reads which files a collection (`.pvd`) lists, in its order.
 ///
 /// # Errors
-/// [`ReadVtkError`] where the file is not one that [`super::super::Collection`] has written, or names a file that is
-/// neither in its folder nor below.
+/// [`ReadVtkError`] where the file is not one that [`super::super::Collection`] has written, or names a file
+/// that is neither in its folder nor below.
 pub fn read_collection(path: &Path) -> Result<Vec<ListedFile>, ReadVtkError> {
     let failed = |source| ReadVtkError::Read { path: path.to_owned(), source };
     let mut source = BufReader::new(regular_file::open(path).map_err(failed)?);

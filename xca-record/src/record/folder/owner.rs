@@ -31,8 +31,8 @@ impl Owner {
         Ok(owners)
     }
 
-    /// The files that are there of those that the report lists: as far as a command can have made them. A report that someone has
-    /// edited must not lead out of the folder, nor to files of others in it.
+    /// The files that are there of those that the report lists: as far as a command can have made them. A
+    /// report that someone has edited must not lead out of the folder, nor to files of others in it.
     ///
     /// Beside the formats of the framework, a run has those of the files that `others` name.
     pub(super) fn files(&self, folder: &Path, others: &[String]) -> Vec<PathBuf> {

@@ -59,7 +59,8 @@ fn seen(text: &str) -> Vec<Value> {
     let folder = tempfile::tempdir().unwrap();
     let policy = "default-src 'none'; ";
     assert!(text.contains(policy));
-    // The page forbids scripts; this copy allows the one that measures, and forbids as much else as the page does.
+    // The page forbids scripts; this copy allows the one that measures, and forbids as much else as the page
+    // does.
     let measured = text.replace(policy, &format!("{policy}script-src 'unsafe-inline'; "));
     let script = format!("<script>{}</script></head>", include_str!("measure.js"));
     fs::write(folder.path().join("page.html"), measured.replace("</head>", &script)).unwrap();

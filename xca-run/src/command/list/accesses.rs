@@ -10,7 +10,8 @@ pub(super) fn subject(process: &Process) -> &'static str {
     }
 }
 
-/// The substates that a process reads of its own cell or item, those that it reads elsewhere, and those that it writes.
+/// The substates that a process reads of its own cell or item, those that it reads elsewhere, and those that
+/// it writes.
 ///
 /// Where it takes several structs, the names of these stand before those of the substates.
 pub(super) fn accesses(model: &Model, number: usize) -> [Vec<String>; 3] {

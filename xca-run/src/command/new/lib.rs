@@ -1,6 +1,7 @@
 //! An epidemic: people infect their neighbours, recover, and are immune for some time.
 //!
-//! It is a model of the SIRS kind (susceptible, infected, recovered, susceptible again) with one person in each cell.
+//! It is a model of the SIRS kind (susceptible, infected, recovered, susceptible again) with one person in
+//! each cell.
 
 use xca::prelude::*;
 

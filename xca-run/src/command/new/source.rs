@@ -102,7 +102,8 @@ fn is_xca(folder: &Path) -> bool {
     name.and_then(Value::as_str) == Some("xca")
 }
 
-/// Finds xca without being told: upward from the current folder, then from the program that runs, else as published.
+/// Finds xca without being told: upward from the current folder, then from the program that runs, else as
+/// published.
 pub(super) fn found() -> Source {
     // The new crate stands one folder below the current one.
     let here = std::env::current_dir().ok();

@@ -94,8 +94,8 @@ pub(in crate::command) struct RenderArguments {
     #[arg(long, value_name = "N", default_value_t = 12, value_parser = clap::value_parser!(u16).range(1..=100))]
     pub(super) fps: u16,
 
-    /// The folder of the pictures; out/NAME_pictures unless it is given, and DIR_pictures of the folder of a run. Pictures that are there are
-    /// replaced
+    /// The folder of the pictures; out/NAME_pictures unless it is given, and DIR_pictures of the folder of a
+    /// run. Pictures that are there are replaced
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
 

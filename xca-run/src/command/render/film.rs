@@ -9,7 +9,8 @@ pub(super) type Look<'a> = dyn FnMut(u64, &[Seen]) -> Result<(), Failure> + 'a;
 
 /// The states that are drawn.
 pub(super) trait States {
-    /// Looks at each, in the order of their steps: at the same ones each time. Gives the last step that was reached.
+    /// Looks at each, in the order of their steps: at the same ones each time. Gives the last step that was
+    /// reached.
     fn each(&self, doing: &str, look: &mut Look<'_>) -> Result<u64, Failure>;
 }
 

@@ -104,7 +104,8 @@ impl<'a> Kept<'a> {
 
     /// The recorder of the run, which knows its model and its views.
     ///
-    /// The processes may be others than they were: what they have done is there to be seen. The parameters may not, as views depend on them.
+    /// The processes may be others than they were: what they have done is there to be seen. The parameters
+    /// may not, as views depend on them.
     pub(super) fn recorder(&self, definition: &Definition<'_>) -> Result<Recorder, Unable> {
         let identity = self.identity.each_ref().map(String::as_str);
         self.same(other_program(identity, definition.identity()))?;
@@ -131,8 +132,8 @@ impl<'a> Kept<'a> {
     }
 }
 
-/// The formats of the program that has left a folder, if it is this one and its model can be made again. A program can have
-/// formats of its own.
+/// The formats of the program that has left a folder, if it is this one and its model can be made again. A
+/// program can have formats of its own.
 pub(in crate::command) fn formats_of(definition: &Definition<'_>, folder: &Path) -> Option<Formats> {
     let KeptRun { kept, .. } = Kept::of_folder(folder).ok()?;
     Some(kept.recorder(definition).ok()?.into_formats())

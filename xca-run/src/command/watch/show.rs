@@ -10,7 +10,8 @@ use std::io::{IsTerminal, stdin, stdout};
 use xca_core::Simulation;
 use xca_watch::Watch;
 
-/// In how many pictures the steps of the model are shown, unless the command line says how many there are from one to the next.
+/// In how many pictures the steps of the model are shown, unless the command line says how many there are
+/// from one to the next.
 const PICTURES: u64 = 1000;
 
 /// Shows a run in the terminal.

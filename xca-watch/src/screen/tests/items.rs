@@ -43,7 +43,8 @@ fn grains() -> SetUp {
         .items(ItemView::named("grains").radius(0.4).colour(Grain::VELOCITY, "speed"))
 }
 
-/// The items that are seen, as column and row of the pixel and their place on the scale: the places that are not those of the background.
+/// The items that are seen, as column and row of the pixel and their place on the scale: the places that are
+/// not those of the background.
 fn seen(watched: &mut Watched) -> Vec<(usize, usize)> {
     let rows = halves(&watched.drawn(8, 5), Rect::new(0, 1, 8, 4));
     let behind = rows[0][0];
@@ -60,7 +61,8 @@ fn items_are_seen_from_the_front_the_nearest_first() {
     assert!(watched.text().contains("3 items, seen along y"), "{}", watched.text());
     assert!(watched.text().contains(&format!("speed  0 {} 2", "█".repeat(24))), "{}", watched.text());
     assert_eq!(seen(&mut watched), [(2, 1), (5, 4)]);
-    // The first, which stands still, hides the second: its colour is that of 0 (Oklab 0.37, 0.145, 300°), a little darker by its distance.
+    // The first, which stands still, hides the second: its colour is that of 0 (Oklab 0.37, 0.145, 300°), a
+    // little darker by its distance.
     let rows = halves(&watched.drawn(8, 5), Rect::new(0, 1, 8, 4));
     let linear = |byte: f64| ((byte / 255.0 + 0.055) / 1.055).powf(2.4);
     let encoded = |x: f64| (1.055 * x.powf(1.0 / 2.4) - 0.055) * 255.0;
