@@ -46,7 +46,7 @@
 //! ```
 //!
 //! # A program
-//! With `cargo add xca --features run` the same model becomes a program with a command line, pictures and
+//! With the feature `run` the same model becomes a program with a command line, pictures and
 //! checkpoints. `fn main() -> ExitCode` calls the macro `xca::run::main_of!` or `xca::run::main!`.
 //!
 //! The GPU engine and `watch` bring many dependencies. A program has them if it is built with the features:
