@@ -43,7 +43,7 @@ pub const GPU_SHARE: usize = 9;
 pub const SMALL_GPU_SHARE: usize = 101;
 
 /// Of so many cases one runs in parts too: they start many threads. Odd, as above.
-const PARTS_SHARE: usize = 3;
+const PARTS_SHARE: usize = 7;
 
 /// The engines for the case with this number: all, those on processors, or those that run the space as a
 /// whole.
