@@ -1,12 +1,10 @@
 //! Tiles of the space in which nothing can change, and in which processes need not run.
 //!
-//! A tile is the cells of a workgroup. Each process notes for each substate that it writes the tiles in
-//! which it has
-//! changed a bit, by the number of its run. Before it runs again the device looks up the tiles in which
-//! something has
-//! changed since that it reads there or within reach, or writes; only these are dispatched. In the others its
-//! results would be what stands there already, in both buffers where there are two. See
-//! `docs/architecture.md`.
+//! A tile is the cells of a workgroup. Each process notes for each substate that it writes the tiles in which
+//! it has changed a bit, by the number of its run. Before it runs again the device looks up the tiles in
+//! which something has changed since that it reads there or within reach, or writes; only these are
+//! dispatched. In the others its results would be what stands there already, in both buffers where there are
+//! two. See `docs/architecture.md`.
 
 use crate::device::{Binding, Bindings, Buffer, Device, DeviceError, Recorder};
 use crate::error::NotOnDevice;
@@ -221,8 +219,7 @@ impl Activity {
 }
 
 /// Whether the result of a process follows from the substates of cells and the parameters alone: it draws no
-/// random numbers, and
-/// has nothing to do with items.
+/// random numbers, and has nothing to do with items.
 fn can_be_selected(program: &Program) -> bool {
     let of_step_or_items = |content: &Content| {
         matches!(
@@ -240,8 +237,7 @@ fn can_be_selected(program: &Program) -> bool {
 }
 
 /// For each substate that a process uses and each process that writes it: where that notes its changes, in
-/// words, and
-/// whether the substate is read at neighbours.
+/// words, and whether the substate is read at neighbours.
 fn sources(
     model: &Model,
     place: usize,

@@ -25,9 +25,8 @@ fn main() {
 }
 ";
 
-/// How many turns the loops of an invocation may take together, where the device ends them early: of one
-/// long loop, and of
-/// many short ones.
+/// How many turns the loops of an invocation may take together, where the device ends them early: of one long
+/// loop, and of many short ones.
 pub(crate) fn limit(device: &Device) -> Result<Option<u32>, DeviceError> {
     let mut least = None;
     let side = TRIED.isqrt();

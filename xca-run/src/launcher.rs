@@ -3,8 +3,7 @@
 use std::env;
 
 /// The number of processes: of Open MPI, of MPICH and its kin, and of a step of Slurm. A batch script of
-/// Slurm is
-/// one process, whatever `SLURM_NTASKS` says in it.
+/// Slurm is one process, whatever `SLURM_NTASKS` says in it.
 const PROCESSES: [&str; 3] = ["OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"];
 
 /// The number of a process among them.

@@ -1,9 +1,8 @@
 // The tiles in which something has changed that a process reads or writes since it ran there last. One
 // workgroup.
 
-// For each substate of the process and each process that writes it: where that notes its changes, and
-// whether the substate is read at
-// neighbours.
+// For each substate of the process and each process that writes it: where that notes its changes, and whether
+// the substate is read at neighbours.
 @group(0) @binding(0) var<storage, read> sources: array<vec2<u32>>;
 @group(0) @binding(1) var<storage, read_write> activity: array<u32>;
 // The size of the dispatch.

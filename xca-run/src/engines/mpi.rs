@@ -1,6 +1,5 @@
 //! The engine whose parts are the processes of an MPI job. All that the command line knows of MPI is here,
-//! also of
-//! a program that was built without it.
+//! also of a program that was built without it.
 
 use super::cpu;
 use super::kind::{EngineDetail, EngineKind, Helper};

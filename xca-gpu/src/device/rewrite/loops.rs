@@ -2,15 +2,12 @@
 //!
 //! Some devices end loops after so many turns and go on behind them. So each loop gets a variable that says
 //! that it is open. Wherever the code leaves the loop the variable becomes 0, and in front of each turn and
-//! behind
-//! the loop it is looked at. The loop has no other way out, so that behind it the variable is 0, unless the
-//! device cut it.
+//! behind the loop it is looked at. The loop has no other way out, so that behind it the variable is 0,
+//! unless the device cut it.
 //!
 //! A driver's compiler knows that too, and would take the look behind the loop for idle. So the variable
-//! begins
-//! with a word from memory, and is compared in another way behind the loop than in it. Whether that is
-//! enough is
-//! tried when the device is opened.
+//! begins with a word from memory, and is compared in another way behind the loop than in it. Whether that is
+//! enough is tried when the device is opened.
 
 use naga::{
     AddressSpace, BinaryOperator, Block, Expression, Function, GlobalVariable, Handle, Literal,
@@ -19,8 +16,7 @@ use naga::{
 };
 
 /// Has all loops watched: the first that the device ends early writes the number, which is not 0, to the
-/// first word of
-/// the buffer with this binding. The buffer holds [`super::UNTOUCHED`].
+/// first word of the buffer with this binding. The buffer holds [`super::UNTOUCHED`].
 pub(super) fn watch(module: &mut Module, binding: u32, number: u32) {
     let mut type_ = |inner| module.types.insert(Type { name: None, inner }, Span::default());
     let word = type_(TypeInner::Scalar(Scalar::U32));

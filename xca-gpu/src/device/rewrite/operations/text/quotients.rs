@@ -18,8 +18,7 @@ pub(super) fn text(manner: Manner, width: u8) -> String {
 }
 
 /// Off by more than any driver, upwards and downwards: so far that the last steps of a correction in f32 are
-/// needed now
-/// and then.
+/// needed now and then.
 fn rough(width: u8) -> String {
     let [t, up, down] = if width == 8 {
         ["f64", "1.0000000000004547lf", "0.9999999999995453lf"]
