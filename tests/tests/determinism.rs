@@ -42,6 +42,7 @@ fn everything() -> Recipe {
         },
         open: true,
         steered: false,
+        calm: None,
     }
 }
 

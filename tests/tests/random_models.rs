@@ -11,7 +11,7 @@ use xca_core::prelude::*;
 use xca_tests::suite::engines::{self, PRECISIONS, assert_same_runs, assert_same_state, outcome_text};
 use xca_tests::suite::lattice::{Shape, terrain_of};
 use xca_tests::suite::medium::Tuning;
-use xca_tests::suite::recipe::{PROCESSES, Recipe};
+use xca_tests::suite::recipe::{CALM, PROCESSES, Recipe};
 
 /// So many cases, always the same ones, where the environment does not say something else.
 fn config(cases: u32) -> Config {
@@ -47,6 +47,7 @@ fn tunings() -> impl Strategy<Value = Tuning> {
                 pace,
                 drift,
                 salt,
+                calm: None,
                 rarity,
                 greed,
                 torus: Vector3::splat(0),
@@ -113,6 +114,17 @@ fn recipes() -> impl Strategy<Value = Recipe> {
     )
 }
 
+/// Models in which nearly all cells are at rest at first, in rows of many pieces.
+fn calm_recipes() -> impl Strategy<Value = Recipe> {
+    let extents = prop_oneof![[30_usize..80, 1..5, 1..4], [1_usize..6, 20..40, 1..3]];
+    let processes = proptest::collection::vec(proptest::sample::select(CALM.to_vec()), 1..=4);
+    (recipes(), extents, processes, 20_u32..200).prop_map(|(mut recipe, extents, processes, rarity)| {
+        recipe.tuning.rains = false;
+        recipe.crowding = 1;
+        Recipe { extents, processes, calm: Some(rarity), ..recipe }
+    })
+}
+
 fn options() -> impl Strategy<Value = RunOptions> {
     (proptest::sample::select(PRECISIONS.to_vec()), any::<u64>())
         .prop_map(|(precision, seed)| RunOptions { precision, seed })
@@ -125,6 +137,21 @@ fn same_bits_on_every_engine() {
     proptest!(config(1200), |(recipe in recipes(), options in options(), steps in 1_u64..7)| {
         cases.set(cases.get() + 1);
         let engines = engines::for_case(&all, cases.get(), engines::GPU_SHARE);
+        match assert_same_runs(&recipe.build()?, engines, options, steps) {
+            Ok(()) | Err(RunError::Fault { .. }) => {}
+            Err(error) => return Err(TestCaseError::fail(error.to_string())),
+        }
+    });
+}
+
+/// What is at rest is woken by its neighbours, beyond faces too, by steering, by parameters and by items.
+#[test]
+fn what_is_at_rest_wakes_up_on_every_engine() {
+    let all = engines::all().expect("engines");
+    let cases = Cell::new(0);
+    proptest!(config(400), |(recipe in calm_recipes(), options in options(), steps in 6_u64..16)| {
+        cases.set(cases.get() + 1);
+        let engines = engines::for_case(&all, cases.get(), engines::SMALL_GPU_SHARE);
         match assert_same_runs(&recipe.build()?, engines, options, steps) {
             Ok(()) | Err(RunError::Fault { .. }) => {}
             Err(error) => return Err(TestCaseError::fail(error.to_string())),

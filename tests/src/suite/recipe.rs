@@ -1,7 +1,7 @@
 //! Models put together from what chance says.
 
 use super::cover::covered;
-use super::lattice::{mix, terrain_of};
+use super::lattice::{Terrain, mix, terrain_of};
 use super::medium::{self, Medium, Tuning};
 use super::reduced;
 use super::walker::{self, Walker};
@@ -33,6 +33,9 @@ pub struct Recipe {
     pub aligned: bool,
     /// What the initial state is made of.
     pub salt: u32,
+    /// One cell in so many has a state by chance, the others have none, and beyond the faces is none either: most
+    /// processes leave it alone until something reaches it.
+    pub calm: Option<u32>,
     /// What the processes are told.
     pub tuning: Tuning,
     /// Whether items may leave the space.
@@ -45,6 +48,9 @@ pub struct Recipe {
 pub const OVER_CELLS: usize = 14;
 /// How many processes [`add`] knows.
 pub const PROCESSES: usize = 28;
+
+/// Processes that leave nothing as nothing. The last of them are told by items, and move these.
+pub const CALM: [usize; 13] = [0, 1, 2, 4, 5, 6, 7, 9, 11, 19, 20, 23, 25];
 
 /// Adds the process with this number.
 pub fn add(builder: ModelBuilder, number: usize) -> ModelBuilder {
@@ -96,10 +102,12 @@ impl Recipe {
             .neighbourhood(recipe.neighbourhood)
             .boundaries(recipe.boundaries)
             .parameters(recipe.tuning)
-            .substates_with_outside(medium_of(mix(salt, 17)))
+            .substates_with_outside(if recipe.calm.is_some() { NOTHING } else { medium_of(mix(salt, 17)) })
             .fill(move |site| {
                 let [x, y, z] = site.cell().map(|index| index as u32);
-                medium_of(mix(mix(mix(salt, x), y), z))
+                let salt = mix(mix(mix(salt, x), y), z);
+                let is_calm = recipe.calm.is_some_and(|rarity| !mix(salt, 99).is_multiple_of(rarity));
+                if is_calm { NOTHING } else { medium_of(salt) }
             });
         for (face, number) in Face::ALL.into_iter().zip(0..) {
             let is_apart = recipe.outsides && mix(salt, number).is_multiple_of(2);
@@ -120,7 +128,9 @@ impl Recipe {
                 builder = add(builder, number);
             }
         }
-        if recipe.steered {
+        if recipe.steered && recipe.calm.is_some() {
+            builder = builder.steer(Schedule::Every(3), nudge);
+        } else if recipe.steered {
             builder = builder.steer(Schedule::Every(2), steer);
             if slots > 0 {
                 builder = builder.steer(Schedule::Every(1), steer_items);
@@ -177,6 +187,26 @@ impl Recipe {
 fn fraction(salt: u32, number: u32) -> f64 {
     f64::from(mix(salt, number) >> 8) / 16_777_216.0
 }
+
+/// What [`medium::breed`], `relax`, `trade`, `slope`, `swirl`, `settle_down`, `blend`, `peek` and `erode` without rain
+/// leave alone.
+const NOTHING: Medium = Medium {
+    life: 0,
+    charge: 0,
+    bits: 0,
+    heat: 0.0,
+    energy: 0.0,
+    level: 0.0,
+    flow: Vector3 { x: 0.0, y: 0.0, z: 0.0 },
+    pair: Vector2 { x: 0, y: 0 },
+    blend: Vector4 { x: 0.0, y: 0.0, z: 0.0, w: 0.0 },
+    terrain: Terrain::Rock,
+    wet: false,
+    flows: [0.0; 3],
+    paths: [Vector2 { x: 0, y: 0 }; 2],
+    marks: [false; 4],
+    long: [0; 11],
+};
 
 fn medium_of(salt: u32) -> Medium {
     let part = |number| fraction(salt, number) * 2.0 - 1.0;
@@ -267,6 +297,24 @@ fn steer(state: &mut State<'_>) -> Result<(), SteeringError> {
     state.write(Medium::FLOWS, &flows)?;
     state.set(Medium::MARKS, [0; 3], [rains, true, false, !rains])?;
     state.set(Medium::TERRAIN, extents.map(|extent| extent - 1), terrain_of(which))?;
+    Ok(())
+}
+
+/// Another cell each time wakes up, or a parameter changes; all else stays as it is.
+fn nudge(state: &mut State<'_>) -> Result<(), SteeringError> {
+    let extents = state.geometry().extents();
+    let mut tuning = state.parameters::<Tuning>()?;
+    let turn = state.step() as u32 / 3;
+    let cell = [0, 1, 2].map(|axis| mix(mix(tuning.salt, turn), axis as u32) as usize % extents[axis]);
+    match turn % 4 {
+        0 => state.set(Medium::LIFE, cell, 3)?,
+        1 => {
+            tuning.rate = 0.75 - tuning.rate;
+            state.set_parameters(tuning)?;
+        }
+        2 => state.set_cells(Medium::LEVEL, [(cell, 4.5)])?,
+        _ => state.set(Medium::TERRAIN, cell, Terrain::Water)?,
+    }
     Ok(())
 }
 
