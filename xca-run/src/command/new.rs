@@ -38,7 +38,7 @@ pub(super) struct NewArguments {
     name: String,
 
     /// Folder of xca that the crate depends on. Without --xca-path and --xca-git the crate depends on the
-    /// same xca as the package around the current folder, else as this program, else on the published one
+    /// same xca as the package around the current folder, else as the package around this program
     #[arg(long, value_name = "PATH")]
     xca_path: Option<PathBuf>,
 
@@ -63,6 +63,11 @@ enum NewError {
     Exists(PathBuf),
     #[error("{} is not a folder of xca: it has no crate `xca`", .0.display())]
     NotXca(PathBuf),
+    #[error(
+        "no xca found around the current folder or this program; give its folder with --xca-path PATH, \
+         or its git repository with --xca-git URL"
+    )]
+    NoSource,
     #[error("cannot write {}", path.display())]
     Write { path: PathBuf, source: io::Error },
 }
@@ -75,13 +80,13 @@ pub(super) fn new(arguments: &NewArguments) -> Result<Ended, Unable> {
             Source::of_path(path).ok_or_else(|| Unable::refused(NewError::NotXca(path.clone())))?
         }
         (None, Some(url)) => Source::of_git(url),
-        (None, None) => source::found(),
+        (None, None) => source::found().ok_or_else(|| Unable::refused(NewError::NoSource))?,
     };
     let files = FILES.map(|(file, template)| (file, filled(template, name, &source)));
     let folder = PathBuf::from(name);
     write(&folder, &files).map_err(|error| match error {
         NewError::Write { .. } => Unable::failed(error),
-        NewError::Exists(_) | NewError::NotXca(_) => Unable::refused(error),
+        NewError::Exists(_) | NewError::NotXca(_) | NewError::NoSource => Unable::refused(error),
     })?;
     let paths: Vec<PathBuf> = files.iter().map(|(file, _)| folder.join(file)).collect();
     let text = || {
@@ -131,7 +136,7 @@ mod tests {
     #[test]
     fn templates_are_filled_to_the_last_word() {
         let git = "https://o'hara@example.org/\"xca\" 1\\new-model";
-        for source in [Source::published(), Source::of_git(git)] {
+        for source in [Source::of_git("https://example.org/xca"), Source::of_git(git)] {
             for (file, template) in &FILES[1..] {
                 let text = filled(template, "my-waves", &source);
                 for word in ["new-model", "new_model", "{xca"] {
@@ -145,7 +150,7 @@ mod tests {
             assert_eq!(&dependency, source.table());
         }
         // A name that has the word in it that it replaces.
-        let text = filled("new-model new_model", "a-new_model-b", &Source::published());
+        let text = filled("new-model new_model", "a-new_model-b", &Source::of_git(git));
         assert_eq!(text, "a-new_model-b a_new_model_b");
     }
 
