@@ -75,18 +75,13 @@ enum NewError {
 /// Writes the crate.
 pub(super) fn new(arguments: &NewArguments) -> Result<Ended, Unable> {
     let NewArguments { name, xca_path, xca_git, voice } = arguments;
-    let source = match (xca_path, xca_git) {
-        (Some(path), _) => {
-            Source::of_path(path).ok_or_else(|| Unable::refused(NewError::NotXca(path.clone())))?
-        }
-        (None, Some(url)) => Source::of_git(url),
-        (None, None) => source::found().ok_or_else(|| Unable::refused(NewError::NoSource))?,
-    };
+    let source = source_of(xca_path.as_deref(), xca_git.as_deref(), source::found);
+    let source = source.map_err(Unable::refused)?;
     let files = FILES.map(|(file, template)| (file, filled(template, name, &source)));
     let folder = PathBuf::from(name);
     write(&folder, &files).map_err(|error| match error {
         NewError::Write { .. } => Unable::failed(error),
-        NewError::Exists(_) | NewError::NotXca(_) | NewError::NoSource => Unable::refused(error),
+        _ => Unable::refused(error),
     })?;
     let paths: Vec<PathBuf> = files.iter().map(|(file, _)| folder.join(file)).collect();
     let text = || {
@@ -98,6 +93,19 @@ pub(super) fn new(arguments: &NewArguments) -> Result<Ended, Unable> {
     };
     voice.tell(&json!({ "crate": name, "xca": source.table(), "files": paths }), text)?;
     Ok(Ended::Done)
+}
+
+/// Where the crate gets xca from: as the options say, else as is found.
+fn source_of(
+    path: Option<&Path>,
+    git: Option<&str>,
+    found: impl FnOnce() -> Option<Source>,
+) -> Result<Source, NewError> {
+    match (path, git) {
+        (Some(path), _) => Source::of_path(path).ok_or_else(|| NewError::NotXca(path.to_owned())),
+        (None, Some(url)) => Ok(Source::of_git(url)),
+        (None, None) => found().ok_or(NewError::NoSource),
+    }
 }
 
 /// Writes files to a new folder; leaves nothing behind if one cannot be written.
@@ -152,6 +160,19 @@ mod tests {
         // A name that has the word in it that it replaces.
         let text = filled("new-model new_model", "a-new_model-b", &Source::of_git(git));
         assert_eq!(text, "a-new_model-b a_new_model_b");
+    }
+
+    #[test]
+    fn without_a_source_the_error_says_what_to_give() {
+        let git = || Source::of_git("https://example.org/xca");
+        assert_eq!(source_of(None, None, || Some(git())).unwrap(), git());
+        let given = source_of(None, Some("https://example.org/xca"), || panic!("it was given"));
+        assert_eq!(given.unwrap(), git());
+        let place = tempfile::tempdir().unwrap();
+        let error = source_of(Some(place.path()), None, || Some(git())).unwrap_err();
+        assert!(matches!(error, NewError::NotXca(_)), "{error}");
+        let error = source_of(None, None, || None).unwrap_err().to_string();
+        assert!(error.contains("--xca-path PATH") && error.contains("--xca-git URL"), "{error}");
     }
 
     #[test]

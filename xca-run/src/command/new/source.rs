@@ -1,7 +1,7 @@
 //! Where a new crate gets xca from.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use toml::{Table, Value};
 
 /// A dependency on the crate `xca`, as a manifest has it, without features.
