@@ -33,6 +33,10 @@ pub mod opencal_page {}
 #[doc = include_str!("../../docs/cookbook.md")]
 pub mod cookbook_page {}
 
+/// The README of the crate `xca`, whose program is run as a test of the documentation.
+#[doc = include_str!("../../xca/README.md")]
+pub mod xca_readme {}
+
 /// The recipes for maps, files, runs and engines.
 #[doc = include_str!("../../docs/cookbook-runs.md")]
 pub mod cookbook_runs_page {}

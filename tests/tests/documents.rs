@@ -18,7 +18,14 @@ struct Document {
 impl Document {
     fn all() -> Result<Vec<Self>, Box<dyn std::error::Error>> {
         let mut paths = Vec::new();
-        for folder in [root(), root().join("docs")] {
+        let mut folders = vec![root(), root().join("docs")];
+        for entry in fs::read_dir(root())? {
+            let folder = entry?.path();
+            if folder.join("Cargo.toml").exists() {
+                folders.push(folder);
+            }
+        }
+        for folder in folders {
             for entry in fs::read_dir(folder)? {
                 let path = entry?.path();
                 if path.extension().is_some_and(|extension| extension == "md") {

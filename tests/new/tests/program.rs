@@ -24,6 +24,9 @@ fn refuse(folder: &Path, words: &[&str]) -> String {
     String::from_utf8(output.stderr).expect("it says text")
 }
 
+/// This checkout, named so that the tests also pass where the programs are built outside of it.
+const CHECKOUT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+
 fn manifest(text: &str) -> toml::Table {
     text.parse().expect("a manifest")
 }
@@ -74,7 +77,7 @@ fn what_is_not_built_in_is_told() {
 #[test]
 fn new_writes_this_crate() {
     let folder = tempfile::tempdir().expect("a folder");
-    run(folder.path(), &["new", "new-model"]);
+    run(folder.path(), &["new", "new-model", "--xca-path", CHECKOUT]);
     let written =
         |file: &str| fs::read_to_string(folder.path().join("new-model").join(file)).expect("a file");
     for (file, built) in [
@@ -102,11 +105,10 @@ fn new_writes_this_crate() {
 #[test]
 fn the_crate_resolves() {
     let folder = tempfile::tempdir().expect("a folder");
-    let checkout = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
-    run(folder.path(), &["new", "my-waves", "--xca-path", checkout]);
+    run(folder.path(), &["new", "my-waves", "--xca-path", CHECKOUT]);
     let crate_folder = folder.path().join("my-waves");
     // The versions that are known here, as a test must not depend on a network.
-    fs::copy(format!("{checkout}/Cargo.lock"), crate_folder.join("Cargo.lock")).expect("a lock file");
+    fs::copy(format!("{CHECKOUT}/Cargo.lock"), crate_folder.join("Cargo.lock")).expect("a lock file");
     for (features, has_gpu) in [("", false), ("gpu,terminal", true)] {
         let output = Command::new(env!("CARGO"))
             .args(["tree", "--offline", "--edges", "normal", "--prefix", "none", "--features", features])
@@ -163,7 +165,8 @@ fn new_refuses_before_it_writes() {
         assert!(said.contains(reason), "{words:?}: {said}");
     }
     assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);
-    run(folder.path(), &["new", "waves"]);
-    let said = refuse(folder.path(), &["new", "waves"]);
+    let new = ["new", "waves", "--xca-path", CHECKOUT];
+    run(folder.path(), &new);
+    let said = refuse(folder.path(), &new);
     assert!(said.contains("waves is there already"), "{said}");
 }

@@ -38,7 +38,7 @@ pub(super) struct NewArguments {
     name: String,
 
     /// Folder of xca that the crate depends on. Without --xca-path and --xca-git the crate depends on the
-    /// same xca as the package around the current folder, else as this program, else on the published one
+    /// same xca as the package around the current folder, else as the package around this program
     #[arg(long, value_name = "PATH")]
     xca_path: Option<PathBuf>,
 
@@ -63,6 +63,11 @@ enum NewError {
     Exists(PathBuf),
     #[error("{} is not a folder of xca: it has no crate `xca`", .0.display())]
     NotXca(PathBuf),
+    #[error(
+        "no xca found around the current folder or this program; give its folder with --xca-path PATH, \
+         or its git repository with --xca-git URL"
+    )]
+    NoSource,
     #[error("cannot write {}", path.display())]
     Write { path: PathBuf, source: io::Error },
 }
@@ -70,18 +75,13 @@ enum NewError {
 /// Writes the crate.
 pub(super) fn new(arguments: &NewArguments) -> Result<Ended, Unable> {
     let NewArguments { name, xca_path, xca_git, voice } = arguments;
-    let source = match (xca_path, xca_git) {
-        (Some(path), _) => {
-            Source::of_path(path).ok_or_else(|| Unable::refused(NewError::NotXca(path.clone())))?
-        }
-        (None, Some(url)) => Source::of_git(url),
-        (None, None) => source::found(),
-    };
+    let source = source_of(xca_path.as_deref(), xca_git.as_deref(), source::found);
+    let source = source.map_err(Unable::refused)?;
     let files = FILES.map(|(file, template)| (file, filled(template, name, &source)));
     let folder = PathBuf::from(name);
     write(&folder, &files).map_err(|error| match error {
         NewError::Write { .. } => Unable::failed(error),
-        NewError::Exists(_) | NewError::NotXca(_) => Unable::refused(error),
+        _ => Unable::refused(error),
     })?;
     let paths: Vec<PathBuf> = files.iter().map(|(file, _)| folder.join(file)).collect();
     let text = || {
@@ -93,6 +93,19 @@ pub(super) fn new(arguments: &NewArguments) -> Result<Ended, Unable> {
     };
     voice.tell(&json!({ "crate": name, "xca": source.table(), "files": paths }), text)?;
     Ok(Ended::Done)
+}
+
+/// Where the crate gets xca from: as the options say, else as is found.
+fn source_of(
+    path: Option<&Path>,
+    git: Option<&str>,
+    found: impl FnOnce() -> Option<Source>,
+) -> Result<Source, NewError> {
+    match (path, git) {
+        (Some(path), _) => Source::of_path(path).ok_or_else(|| NewError::NotXca(path.to_owned())),
+        (None, Some(url)) => Ok(Source::of_git(url)),
+        (None, None) => found().ok_or(NewError::NoSource),
+    }
 }
 
 /// Writes files to a new folder; leaves nothing behind if one cannot be written.
@@ -131,7 +144,7 @@ mod tests {
     #[test]
     fn templates_are_filled_to_the_last_word() {
         let git = "https://o'hara@example.org/\"xca\" 1\\new-model";
-        for source in [Source::published(), Source::of_git(git)] {
+        for source in [Source::of_git("https://example.org/xca"), Source::of_git(git)] {
             for (file, template) in &FILES[1..] {
                 let text = filled(template, "my-waves", &source);
                 for word in ["new-model", "new_model", "{xca"] {
@@ -145,8 +158,21 @@ mod tests {
             assert_eq!(&dependency, source.table());
         }
         // A name that has the word in it that it replaces.
-        let text = filled("new-model new_model", "a-new_model-b", &Source::published());
+        let text = filled("new-model new_model", "a-new_model-b", &Source::of_git(git));
         assert_eq!(text, "a-new_model-b a_new_model_b");
+    }
+
+    #[test]
+    fn without_a_source_the_error_says_what_to_give() {
+        let git = || Source::of_git("https://example.org/xca");
+        assert_eq!(source_of(None, None, || Some(git())).unwrap(), git());
+        let given = source_of(None, Some("https://example.org/xca"), || panic!("it was given"));
+        assert_eq!(given.unwrap(), git());
+        let place = tempfile::tempdir().unwrap();
+        let error = source_of(Some(place.path()), None, || Some(git())).unwrap_err();
+        assert!(matches!(error, NewError::NotXca(_)), "{error}");
+        let error = source_of(None, None, || None).unwrap_err().to_string();
+        assert!(error.contains("--xca-path PATH") && error.contains("--xca-git URL"), "{error}");
     }
 
     #[test]

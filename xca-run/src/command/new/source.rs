@@ -1,7 +1,7 @@
 //! Where a new crate gets xca from.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use toml::{Table, Value};
 
 /// A dependency on the crate `xca`, as a manifest has it, without features.
@@ -21,11 +21,6 @@ impl Source {
     /// A git repository that has the crate.
     pub(super) fn of_git(url: &str) -> Self {
         Self::one("git", url)
-    }
-
-    /// The published version that this program was built with.
-    pub(super) fn published() -> Self {
-        Self::one("version", env!("CARGO_PKG_VERSION"))
     }
 
     /// The dependency of the nearest manifest upward from a folder, seen from `seen_from` of that folder.
@@ -102,17 +97,20 @@ fn is_xca(folder: &Path) -> bool {
     name.and_then(Value::as_str) == Some("xca")
 }
 
-/// Finds xca without being told: upward from the current folder, then from the program that runs, else as
-/// published.
-pub(super) fn found() -> Source {
-    // The new crate stands one folder below the current one.
+/// Finds xca upward from the current folder, then from the program that runs.
+///
+/// A version alone would not do: the name `xca` of the registry belongs to another crate.
+pub(super) fn found() -> Option<Source> {
     let here = std::env::current_dir().ok();
-    let here = here.and_then(|here| Source::above(&here, Path::new("..")));
-    let of_program = || {
-        let folder = std::env::current_exe().ok()?.parent().map(PathBuf::from)?;
-        Source::above(&folder, &folder)
-    };
-    here.or_else(of_program).unwrap_or_else(Source::published)
+    let program = std::env::current_exe().ok();
+    found_from(here.as_deref(), program.as_deref().and_then(Path::parent))
+}
+
+/// Finds xca upward from the folder in which the new crate is made, then from that of a program.
+fn found_from(here: Option<&Path>, program: Option<&Path>) -> Option<Source> {
+    // The new crate stands one folder below the current one.
+    let near = here.and_then(|here| Source::above(here, Path::new("..")));
+    near.or_else(|| program.and_then(|folder| Source::above(folder, folder)))
 }
 
 #[cfg(test)]
@@ -147,6 +145,22 @@ mod tests {
         assert_eq!(text("member", &absolute), format!("path = \"{}\"", root.join("parts/xca").display()));
         assert_eq!(text("member/git/src/bin", below), "git = \"g\", rev = \"r\"");
         assert_eq!(text("member/git/plain", below), "version = \"0.7\"");
+    }
+
+    #[test]
+    fn the_current_folder_comes_before_the_program_and_nothing_after_it() {
+        let root = tempfile::tempdir().unwrap();
+        let root = root.path();
+        written(root, "here/Cargo.toml", "[dependencies]\nxca = { path = \"near\" }");
+        written(root, "program/Cargo.toml", "[dependencies]\nxca = { path = \"far\" }");
+        written(root, "other/Cargo.toml", "[dependencies]\nserde = \"1\"");
+        let [here, program, other] = ["here", "program", "other"].map(|folder| root.join(folder));
+        let text = |here, program| found_from(here, program).map(|source| source.text());
+        assert_eq!(text(Some(&*here), Some(&*program)).as_deref(), Some("path = \"../near\""));
+        let far = format!("path = \"{}\"", program.join("far").display());
+        assert_eq!(text(Some(&*other), Some(&*program)), Some(far));
+        assert_eq!(text(Some(&*other), Some(&*other)), None);
+        assert_eq!(text(None, None), None);
     }
 
     #[test]
