@@ -351,7 +351,7 @@ pub use xca_record as record;
 #[doc(no_inline)]
 pub use xca_run as run;
 
-/// What a model's source needs.
+/// Everything that the source of a model needs: `use xca::prelude::*;`.
 pub mod prelude {
     #[doc(no_inline)]
     pub use xca_core::prelude::*;

@@ -6,7 +6,7 @@ use crate::steering::{Schedule, Steering};
 use xca_values::ValueType;
 use xca_values::{Field, Schema};
 
-/// Initial values that a substate cannot have.
+/// An error of [`Model::set_initial`].
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum InitialError {
@@ -61,16 +61,32 @@ pub enum InitialError {
 }
 
 impl Model {
-    /// Replaces the initial values of a substate of cells, or of one component of it, by these (by linear
-    /// index, x fastest). They are set after all that the model does to make its initial state. A cell for
-    /// which `None` is given keeps the model's own value.
+    /// Replaces the initial values of a substate of cells, or of one of its components: a map read from a
+    /// file, for example. Values come by linear index, x fastest.
     ///
-    /// The substate is named by its field, or by struct and field (`Heat.temperature`); a component of a
-    /// vector or an array by what follows: `velocity.x`, `outflow.3`, `paths.1.x`. `bool` is given as 0 or 1,
-    /// a state by its number.
+    /// ```
+    /// use xca_core::prelude::*;
+    ///
+    /// #[derive(Substates, Clone, Copy)]
+    /// struct Ground {
+    ///     altitude: Real,
+    /// }
+    ///
+    /// let mut model = Model::builder("slope").extents([3, 1, 1]).substates::<Ground>().build()?;
+    /// model.set_initial("altitude", [Some(10.0), None, Some(30.0)])?;
+    /// let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
+    /// assert_eq!(simulation.state().read(Ground::ALTITUDE)?, [10.0, 0.0, 30.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// They replace what the model's own initial state sets. A cell with `None` keeps the model's value.
+    ///
+    /// Name a substate by its field, or by struct and field (`Heat.temperature`). Name a component by what
+    /// follows: `velocity.x`, `outflow.3`, `paths.1.x`. `bool` is 0 or 1, a state is its number.
     ///
     /// # Errors
-    /// Where there is no such substate, or the values are not one for each cell and of its type.
+    /// Returns an error if the substate is unknown or ambiguous, the number of values is not that of the
+    /// cells, or a value does not fit the type.
     pub fn set_initial(
         &mut self,
         substate: &str,
