@@ -60,7 +60,7 @@ pub enum StateError {
     /// A cell that the space does not have.
     #[error("the space of {extents:?} cells has no cell {cell:?}")]
     NoSuchCell {
-        /// The indices that were asked for.
+        /// The indices of the cell.
         cell: [usize; 3],
         /// The extents.
         extents: [usize; 3],

@@ -1,4 +1,4 @@
-//! Initial values that come from outside of the model, from a file for example.
+//! Initial values from outside the model, such as from a file.
 
 use super::{Group, GroupKind, Model};
 use crate::engine::SubstateId;
@@ -13,20 +13,20 @@ pub enum InitialError {
     /// No substate has this name.
     #[error("no substate of cells is called `{name}`; there are {known}")]
     Unknown {
-        /// The name that was asked for.
+        /// The name.
         name: String,
-        /// Those that there are.
+        /// The known names.
         known: String,
     },
     /// Several structs of substates have a field of this name.
     #[error("several substates are called `{name}`; say which one: {known}")]
     Ambiguous {
-        /// The name that was asked for.
+        /// The name.
         name: String,
-        /// Those that it may mean.
+        /// The substates of that name.
         known: String,
     },
-    /// The substate is a vector or an array, and no component of it is named.
+    /// The substate is a vector or an array, and the name lacks the component.
     #[error("`{name}` is a {value_type}; give one of its components, such as `{name}.{component}`")]
     Several {
         /// The substate.
@@ -36,17 +36,17 @@ pub enum InitialError {
         /// The name of its first component.
         component: String,
     },
-    /// Not as many values as cells.
+    /// The number of values differs from that of the cells.
     #[error("`{name}` has {cells} values, one for each cell, but {given} are given")]
     WrongNumber {
         /// The substate.
         name: String,
-        /// How many cells there are.
+        /// The number of cells.
         cells: usize,
-        /// How many values were given.
+        /// The number of values.
         given: usize,
     },
-    /// A number that is no value of the substate's type.
+    /// A number is not a value of the substate's type.
     #[error("{value} in cell {cell:?} is no value for `{name}`, which is {}", value_type.described())]
     Value {
         /// The substate.
