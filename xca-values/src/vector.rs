@@ -166,7 +166,7 @@ vector!(
     ///
     /// ```
     /// # use xca_values::Vector2;
-    /// let velocity = Vector2::new(3.0, 4.0);
+    /// let velocity = Vector2::new(3.0_f64, 4.0);
     /// assert_eq!(velocity.length(), 5.0);
     /// assert_eq!(2.0 * velocity, Vector2 { x: 6.0, y: 8.0 });
     /// ```
