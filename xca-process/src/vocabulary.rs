@@ -30,8 +30,8 @@ use xca_values::Vector3;
 /// }
 /// ```
 ///
-/// Its substates are its fields: `cell.temperature` reads, `cell.temperature = …` writes. A process reads back
-/// what it has written. It can write the central cell only.
+/// Its substates are its fields: `cell.temperature` reads, `cell.temperature = …` writes. A process reads
+/// back what it has written. It can write the central cell only.
 #[derive(Debug)]
 pub struct Cell<S> {
     never: Infallible,
@@ -335,8 +335,8 @@ impl Space {
         match self.never {}
     }
 
-    /// Wraps a position into the space on each toroidal axis. It may lie beyond a face by less than the length
-    /// of the space. Other axes do not change.
+    /// Wraps a position into the space on each toroidal axis. It may lie beyond a face by less than the
+    /// length of the space. Other axes do not change.
     pub fn wrapped(&self, _position: Vector3<Real>) -> Vector3<Real> {
         match self.never {}
     }
