@@ -1,4 +1,4 @@
-//! What an engine is to a simulation.
+//! The interface between simulations and engines.
 
 mod fault;
 pub(crate) mod input;
@@ -20,48 +20,46 @@ use std::sync::Arc;
 use xca_process::Face;
 use xca_values::Precision;
 
-/// A way to run models: a value that a program chooses, and that a model never names.
+/// A way to run models. A program chooses one; a model never names one.
 pub trait Engine: fmt::Debug + Send + Sync {
-    /// The name as on a command line: `reference`, `cpu`.
+    /// The name on the command line: `reference`, `cpu`.
     fn name(&self) -> &str;
 
-    /// How many threads it uses.
+    /// The number of threads.
     fn threads(&self) -> usize;
 
-    /// What a report says of the engine beside its name and its threads, its device for example: what it is,
-    /// and which.
+    /// Further entries of a report, such as the device: names and values.
     fn facts(&self) -> Vec<(&'static str, String)> {
         Vec::new()
     }
 
-    /// What a user has to know to judge times or results, if there is something.
+    /// A caveat for the times or results of this engine, if there is one.
     fn note(&self) -> Option<String> {
         None
     }
 
-    /// The bytes that a model takes at least when it is started, so that a program can compare them with the
-    /// memory there is before it asks for them. Items count where room for them is made in advance; an engine
-    /// that does not know says 0.
+    /// A lower bound of the memory that a model takes, in bytes, so that a program can check it in advance.
+    /// Items count if their memory is allocated in advance. 0 means unknown.
     fn least_memory(&self, _model: &Model, _precision: Precision) -> u128 {
         0
     }
 
-    /// Makes room for the state of a model. All substates are zero and all populations empty.
+    /// Allocates the state of a model. All substates are zero, and all populations are empty.
     ///
     /// # Errors
-    /// Where the engine cannot run this model at this precision.
+    /// Returns an error if the engine cannot run this model at this precision.
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError>;
 
-    /// Makes room for a part of the state of a model; other executions have the other parts, and all do the
-    /// same at the same time.
+    /// Allocates a part of the state of a model. Other executions hold the other parts, and all make the same
+    /// calls at the same time.
     ///
-    /// The [`Execution`] knows the rows of its part alone. It reads and writes all values of these rows, and
+    /// The [`Execution`] holds the rows of its part only. It reads and writes all values of these rows, and
     /// names cells by their linear indices in the whole space. Steps, random numbers, positions and faults
-    /// are those of the whole space too. Each change of a state, such as [`Execution::write_cells`], is made
-    /// of all parts, if only of no cell in some of them.
+    /// are those of the whole space. Every change of a state, such as [`Execution::write_cells`], is called
+    /// on all parts, with no cells where there are none.
     ///
     /// # Errors
-    /// Where the engine cannot run this model at this precision, this part of it, or no part at all.
+    /// Returns an error if the engine cannot run this model at this precision, this part of it, or any part.
     fn start_part(
         &self,
         _model: &Model,
@@ -74,47 +72,48 @@ pub trait Engine: fmt::Debug + Send + Sync {
     }
 }
 
-/// The way from a part of a space to the others. What is sent arrives, in order; what it means is between the
-/// engines.
+/// The connection of a part of a space to the other parts. Messages arrive in order. The engines define their
+/// content.
 pub trait Border: Send {
-    /// Sends bytes to the part beyond this face of the own part. It does not wait until they arrive.
+    /// Sends bytes to the part beyond this face. Does not wait for their arrival.
     ///
     /// # Errors
-    /// [`EngineFailure::Elsewhere`] where another part has ended, and where the way is broken.
+    /// Returns [`EngineFailure::Elsewhere`] if another part has ended, or an error if the connection is
+    /// broken.
     fn send(&mut self, face: Face, bytes: Vec<u8>) -> Result<(), EngineFailure>;
 
-    /// Waits for the bytes that the part beyond this face has sent to the own part across the same face.
+    /// Waits for the bytes that the part beyond this face has sent across it.
     ///
     /// # Errors
     /// As [`Self::send`].
     fn receive(&mut self, face: Face) -> Result<Vec<u8>, EngineFailure>;
 
-    /// The least of the numbers that all parts give.
+    /// The minimum of the numbers of all parts.
     ///
     /// # Errors
     /// As [`Self::send`].
     fn least(&mut self, number: u64) -> Result<u64, EngineFailure>;
 }
 
-/// An engine that cannot run a model.
+/// A model that an engine cannot run.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StartError {
-    /// More memory or more cells than the engine can number.
+    /// The model needs more memory or more cells than the engine can address.
     #[error(
         "the {engine} engine cannot hold this model: {what} would be {wanted}, at most {limit} can be; use fewer cells or slots"
     )]
     TooLarge {
         /// The engine.
         engine: String,
-        /// What is too many.
+        /// The quantity that is too large.
         what: String,
-        /// How many there would be.
+        /// The required amount.
         wanted: u128,
-        /// How many there can be.
+        /// The largest possible amount.
         limit: u128,
     },
-    /// A space whose lengths are no positive numbers of the run's precision.
+    /// The lengths of the space are not positive numbers at the precision of the run.
     #[error(
         "a cell side of {side} m with {extents:?} cells overflows or vanishes in {precision}; run in f64"
     )]
@@ -126,10 +125,10 @@ pub enum StartError {
         /// The precision of the run.
         precision: Precision,
     },
-    /// A part that the model cannot be run on.
+    /// The part does not fit the model.
     #[error(transparent)]
     Part(#[from] PartError),
-    /// An engine that cannot run a part of the model's space.
+    /// The engine cannot run a part of the model's space.
     #[error("the {engine} engine cannot run a part of the space: {reason}")]
     NoParts {
         /// The engine.
@@ -137,7 +136,7 @@ pub enum StartError {
         /// Why.
         reason: String,
     },
-    /// Anything else, such as threads that could not be started.
+    /// Any other reason, such as threads that failed to start.
     #[error("the {engine} engine cannot start: {reason}")]
     Other {
         /// The engine.
@@ -147,25 +146,25 @@ pub enum StartError {
     },
 }
 
-/// Threads that wait for work.
+/// The threads of an engine.
 ///
-/// A run of many steps moves to one of them as a whole; else each step would have to wake them and to wait
-/// for them to fall asleep.
+/// A run of many steps moves to one of them as a whole. Otherwise each step would wake them and wait for them
+/// to sleep.
 pub trait Workers: Send + Sync {
-    /// Does the work on one of the threads, and waits for it.
+    /// Runs the work on one of the threads, and waits for it.
     fn run(&self, work: &mut (dyn FnMut() + Send));
 }
 
 /// A substate of a model: the number of its group, and of the field in the group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 pub struct SubstateId {
-    /// The number of the group in the order in which the model names them.
+    /// The number of the group, in the order of the model.
     pub group: usize,
     /// The number of the field.
     pub field: usize,
 }
 
-/// What the processes of a step need beside the state.
+/// The inputs of a step, in addition to the state.
 #[derive(Debug, Clone, Copy)]
 pub struct StepContext<'a> {
     /// The number of the step, from 0.
@@ -174,23 +173,23 @@ pub struct StepContext<'a> {
     pub seed: u64,
     /// `P::Native<R>` of each struct of parameters.
     pub parameters: &'a [Arc<dyn Any + Send + Sync>],
-    /// The same parameters by name, for engines that lay them out themselves.
+    /// The same parameters by name, for engines with their own layout.
     pub values: &'a ParameterSet,
 }
 
 /// A fault in one of several steps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Interruption {
-    /// How many of the steps were done before.
+    /// The number of complete steps before it.
     pub done: u64,
-    /// What stopped the next one.
+    /// The fault.
     pub fault: Fault,
 }
 
-/// All items of a population, in the order of cells, then labels.
+/// All items of a population, by cell and label.
 #[derive(Debug, Clone, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 pub struct Population {
-    /// How many items each cell has.
+    /// The number of items in each cell.
     pub counts: Vec<u32>,
     /// The labels.
     pub labels: Vec<u32>,
@@ -198,60 +197,59 @@ pub struct Population {
     pub fields: Vec<Vec<u8>>,
 }
 
-/// A figure of how an engine works, such as how often it has made lists anew.
+/// A figure of how an engine works, such as how often it made lists anew.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
-    /// What it is, in words that can be a key: `grain_lists_made`.
+    /// Its name, usable as a key: `grain_lists_made`.
     pub name: String,
-    /// How much.
+    /// Its value.
     pub value: f64,
 }
 
-/// The state of a model on an engine. Values pass as stored bytes: of cells in the order of linear indices,
-/// of items cell after cell and by label.
+/// The state of a model on an engine. Values pass as stored bytes: cells by linear index, items by cell and
+/// label.
 ///
-/// Nothing may carry over from step to step but what these methods give and take: a run goes on from a
-/// snapshot made of them, on this engine or another, as if it had never been interrupted.
+/// An execution has no other memory than what these methods read and write. A run therefore resumes from a
+/// snapshot on any engine, as if it had never been interrupted.
 pub trait Execution: Send {
-    /// Runs those of these processes that are due in the step ([`crate::Process::is_due`]), by their numbers
-    /// in the model, in order.
+    /// Runs the processes with these numbers in the model, in order, if they are due in the step
+    /// ([`crate::Process::is_due`]).
     ///
     /// # Errors
-    /// The first fault, by process, then cell, then label. The state is then that of an unfinished step.
+    /// Returns the first fault, by process, then cell, then label. The state is then that of an unfinished
+    /// step.
     fn run(&mut self, processes: std::ops::Range<usize>, context: &StepContext<'_>) -> Result<(), Fault>;
 
-    /// Runs so many whole steps, with nothing to do between them; the context is that of the first.
+    /// Runs several whole steps, with nothing between them. The context is that of the first.
     ///
     /// # Errors
-    /// The first fault, with the number of steps done before it. The state is then of no use: steps after the
-    /// one with the fault may have begun.
+    /// Returns the first fault, with the number of steps before it. The state is then useless: later steps
+    /// may have begun.
     fn run_steps(&mut self, steps: u64, context: &StepContext<'_>) -> Result<(), Interruption>;
 
     /// All values of a substate.
     ///
     /// # Errors
-    /// Where [`check_substate`] refuses it, or the engine cannot reach its state any more; so with all that
-    /// follows.
+    /// Returns an error if [`check_substate`] does, or the engine lost its state.
     fn read(&self, substate: SubstateId) -> Result<Vec<u8>, EngineFailure>;
 
-    /// Replaces all values of a substate; as many bytes as [`Self::read`] gives.
+    /// Replaces all values of a substate, with as many bytes as [`Self::read`] returns.
     ///
     /// # Errors
-    /// Where [`check_values`] refuses them, and as [`Self::read`].
+    /// Returns an error if [`check_values`] does, or as [`Self::read`].
     fn write(&mut self, substate: SubstateId, values: &[u8]) -> Result<(), EngineFailure>;
 
-    /// The values of a substate in these cells, given by their linear indices in any order, one value after
-    /// the other.
+    /// The values of a substate in the cells with these linear indices, in their order.
     ///
     /// # Errors
-    /// Where [`check_cells`] refuses them, and as [`Self::read`].
+    /// Returns an error if [`check_cells`] does, or as [`Self::read`].
     fn read_cells(&self, substate: SubstateId, cells: &[usize]) -> Result<Vec<u8>, EngineFailure>;
 
-    /// Replaces the values of a substate in these cells, given by their linear indices in any order. Of a
-    /// cell that is given twice the last value stays.
+    /// Replaces the values of a substate in the cells with these linear indices, in any order. If a cell is
+    /// listed twice, the last value counts.
     ///
     /// # Errors
-    /// Where [`check_values_of_cells`] refuses them, and as [`Self::read`]. Nothing is written then.
+    /// Returns an error if [`check_values_of_cells`] does, or as [`Self::read`]. Nothing is then written.
     fn write_cells(
         &mut self,
         substate: SubstateId,
@@ -268,16 +266,16 @@ pub trait Execution: Send {
     /// Replaces all items of a population.
     ///
     /// # Errors
-    /// Where [`check_population`] refuses them, [`Fault::CellFull`] among it, and as [`Self::read`].
+    /// Returns an error if [`check_population`] does, such as [`Fault::CellFull`], or as [`Self::read`].
     fn set_population(&mut self, group: usize, population: &Population) -> Result<(), Fault>;
 
-    /// How many items a population has; 0 of substates of cells.
+    /// The number of items of a population; 0 for substates of cells.
     fn items(&self, group: usize) -> usize;
 
-    /// How many items have left the space.
+    /// The number of items that left the space.
     fn left(&self, group: usize) -> u64;
 
-    /// The most items in one cell.
+    /// The largest number of items in a cell.
     ///
     /// # Errors
     /// As [`Self::read`].
@@ -289,7 +287,7 @@ pub trait Execution: Send {
     /// As [`Self::read`].
     fn reduce_rows(&self, substate: SubstateId, reduction: &Reduction) -> Result<ReducedRows, EngineFailure>;
 
-    /// Reduces a substate, component by component: the results of its rows in order.
+    /// Reduces a substate, component by component, from the results of its rows in order.
     ///
     /// # Errors
     /// As [`Self::read`].
@@ -297,11 +295,11 @@ pub trait Execution: Send {
         Ok(self.reduce_rows(substate, reduction)?.combined(reduction))
     }
 
-    /// The bytes that the state takes.
+    /// The size of the state in bytes.
     fn memory(&self) -> usize;
 
-    /// What there is to tell of how the state is computed, for reports. None of it is a result: engines,
-    /// threads and machines differ in it.
+    /// Figures of how the state is computed, for reports. They are not results: they differ between engines,
+    /// threads and machines.
     fn figures(&self) -> Vec<Figure> {
         Vec::new()
     }
@@ -312,10 +310,10 @@ pub trait Execution: Send {
     }
 }
 
-/// Runs steps one after the other, for an engine that gains nothing from knowing how many follow.
+/// Runs steps one by one, for an engine that does not combine steps.
 ///
 /// # Errors
-/// The first fault.
+/// Returns the first fault.
 pub fn step_by_step(
     steps: u64,
     context: &StepContext<'_>,

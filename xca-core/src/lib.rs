@@ -1,10 +1,15 @@
 //! Extended Cellular Automata: write a model once, run it on every engine.
 //!
-//! An Extended Cellular Automaton is a space of cells, each with a state that is made of named *substates*;
-//! *parameters* that all cells share; a *neighbourhood*; *elementary processes* that change the state of all
-//! cells at once, one after the other; and *steering*, global operations between steps (Di Gregorio and
-//! Serra, *Future Generation Computer Systems* 16, 1999). Cells can have *slots* that hold items, particles
-//! for example; all items of a kind are a *population*.
+//! An Extended Cellular Automaton is a space of cells (Di Gregorio and Serra, *Future Generation Computer
+//! Systems* 16, 1999):
+//!
+//! - the state of a cell consists of named *substates*;
+//! - *parameters* are the same in all cells;
+//! - a *neighbourhood* says which cells a cell sees;
+//! - *elementary processes* change the state of all cells at once, one process after the other;
+//! - *steering* works on the whole state between steps.
+//!
+//! Cells can have *slots* that hold items, such as particles. All items of one struct are a *population*.
 //!
 //! # A model
 //! A fire that spreads through a forest:
@@ -68,25 +73,25 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! | to | see |
+//! | task | items |
 //! |---|---|
-//! | know what a process can say | [`elementary_process`], [`Cell`], [`Slot`] |
+//! | write a process | [`elementary_process`], [`Cell`], [`Slot`] |
 //! | share code between processes | [`helper`] |
-//! | compute `exp`, `sin` and their kin | [`math`] |
-//! | have items that move from cell to cell | [`ModelBuilder::population`], [`migration`] |
-//! | put a model together | [`ModelBuilder`], [`Neighbourhood`], [`directions`], [`Boundary`], [`Face`] |
-//! | look at a state and change it | [`State`] |
+//! | compute `exp`, `sin` and others | [`math`] |
+//! | move items from cell to cell | [`ModelBuilder::population`], [`migration`] |
+//! | define a model | [`ModelBuilder`], [`Neighbourhood`], [`directions`], [`Boundary`], [`Face`] |
+//! | read and change a state | [`State`] |
 //! | run | [`Simulation`], [`Reference`], and the crate `xca-cpu` |
 //!
 //! # A step
-//! Processes run in the order in which they were added; each sees the state that the previous one left. A
-//! process writes its own cell only: neighbours show the state from before this process, the own cell what
-//! the process has written already. So the result does not depend on the order of cells, and every engine
-//! gives the same bits at any number of threads.
+//! Processes run in the order of their addition. Each sees the state that the previous one left. A process
+//! writes only its own cell. It sees neighbours as they were before the process, and its own cell as it has
+//! written it. The result therefore does not depend on the order of cells. Every engine gives the same bits,
+//! at any number of threads.
 //!
 //! # For engines and generated code
 //! The modules [`engine`], [`ir`], [`kernel`], [`plan`] and [`storage`] are not part of the interface for
-//! models. They change with the engines and the macros, in any version.
+//! models. They may change in any version, with the engines and the macros.
 
 // The macros name this crate by its outer name, also in its own tests and documentation.
 extern crate self as xca_core;
@@ -129,7 +134,7 @@ pub use xca_values::{
     UnknownPrecision, ValueType, Vector2, Vector3, Vector4,
 };
 
-/// What a model's source needs.
+/// Everything that the source of a model needs: `use xca_core::prelude::*;`.
 pub mod prelude {
     pub use crate::{
         Boundary, Cell, Destination, Engine, Face, Faces, Hexagons, Item, Model, ModelBuilder, ModelError,

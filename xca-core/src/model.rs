@@ -25,8 +25,45 @@ use xca_process::{ParameterError, Parameters};
 use xca_values::{Field, Schema};
 use xca_values::{Precision, ScalarType, StoredType};
 
-/// An Extended Cellular Automaton in three dimensions (or two: one layer of cells), built by
-/// [`Model::builder`] and checked when it is built.
+/// An Extended Cellular Automaton, checked and ready to run on any engine.
+///
+/// [`Model::builder`] defines one. Its parameters and slots can change before a run:
+///
+/// ```
+/// use xca_core::prelude::*;
+///
+/// #[derive(Substates, Clone, Copy)]
+/// struct Colony {
+///     size: Real,
+/// }
+///
+/// #[derive(Parameters, Clone, Debug)]
+/// struct Growth {
+///     #[parameter(range = 0.0..)]
+///     rate: Real,
+/// }
+///
+/// #[elementary_process]
+/// fn grow(cell: &mut Cell<Colony>, p: &Growth) {
+///     cell.size += p.rate * cell.size;
+/// }
+///
+/// let mut model = Model::builder("growth")
+///     .extents([4, 4, 1])
+///     .substates::<Colony>()
+///     .parameters(Growth { rate: 0.5 })
+///     .process(grow)
+///     .fill(|_| Colony { size: 1.0 })
+///     .build()?;
+/// model.set_parameter("rate", "1.0")?;
+/// let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
+/// simulation.step()?;
+/// assert_eq!(simulation.state().get(Colony::SIZE, [0, 0, 0])?, 2.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// The space has three dimensions. A two-dimensional model is one layer of cells. Simulations copy the model,
+/// so one model serves many runs.
 #[derive(Clone, Debug)]
 pub struct Model {
     name: String,
@@ -43,7 +80,7 @@ pub struct Model {
     fault_texts: Vec<(u32, String)>,
 }
 
-/// The substates of a model that belong to one struct.
+/// The substates of one struct, in a model.
 #[derive(Clone)]
 pub struct Group {
     type_id: TypeId,
@@ -53,10 +90,10 @@ pub struct Group {
     kind: GroupKind,
 }
 
-/// Writes the value of the field with this number in the type that it is stored in.
+/// Writes the value of the field with this number, in its stored type.
 pub type WriteOutside = dyn Fn(usize, Precision, &mut [u8]) + Send + Sync;
 
-/// What a group's substates belong to.
+/// The owners of a group's substates.
 #[derive(Clone)]
 pub enum GroupKind {
     /// The cells.
@@ -95,7 +132,7 @@ impl Group {
         self.schema
     }
 
-    /// What they belong to.
+    /// Whether the substates belong to cells or to a population.
     pub fn kind(&self) -> &GroupKind {
         &self.kind
     }
@@ -105,7 +142,7 @@ impl Group {
         self.schema.fields.iter().map(|field| field.value_type.stored(precision)).collect()
     }
 
-    /// The stored bytes of a field of cells beyond each face, if the face is flat; nothing of a population.
+    /// The stored bytes of a field beyond each flat face. `None` for a population.
     pub fn outside(&self, field: usize, precision: Precision) -> Option<Faces<Vec<u8>>> {
         let GroupKind::Cells { outside } = &self.kind else { return None };
         let size = self.schema.fields[field].value_type.stored(precision).size();
@@ -139,22 +176,22 @@ impl Model {
         &self.geometry
     }
 
-    /// The structs of substates in the order in which the builder was told of them.
+    /// The structs of substates, in the order of their addition.
     pub fn groups(&self) -> &[Group] {
         &self.groups
     }
 
-    /// The elementary processes in order.
+    /// The elementary processes, in the order in which they run.
     pub fn processes(&self) -> &[Process] {
         &self.processes
     }
 
-    /// The parameters at the start.
+    /// The initial parameters.
     pub fn parameters(&self) -> &ParameterSet {
         &self.parameters
     }
 
-    /// What follows from the processes, for engines.
+    /// The plan that engines derive from the processes.
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
@@ -181,17 +218,17 @@ impl Model {
         all.filter(|substate| !self.may_be_non_finite.contains(substate))
     }
 
-    /// What the model says of a fault code.
+    /// The model's message for a fault code.
     pub fn fault_text(&self, code: u32) -> Option<&str> {
         self.fault_texts.iter().find(|(known, _)| *known == code).map(|(_, text)| text.as_str())
     }
 
-    /// The number of the group of this type.
+    /// The number of the group of this type, if the model has it.
     pub fn group_number(&self, type_id: TypeId) -> Option<usize> {
         self.groups.iter().position(|group| group.type_id == type_id)
     }
 
-    /// The group that the struct `S` is, if the model has it.
+    /// The number of the group of the struct `S`, if the model has it.
     pub fn group_of<S: Substates>(&self) -> Option<usize> {
         self.group_number(TypeId::of::<S>())
     }
@@ -201,16 +238,16 @@ impl Model {
         self.groups[substate.group].schema.fields[substate.field].value_type.stored(precision)
     }
 
-    /// The same model with other parameters of the struct `P`. What the initial state makes of them follows.
+    /// Replaces the parameters of the struct `P`. Initial states that use them change with them.
     ///
     /// # Errors
-    /// Where the model has no parameters of this type, or one is out of its range.
+    /// Returns an error if the model has no parameters of this type, or a value is out of its range.
     pub fn with_parameters<P: Parameters>(mut self, parameters: P) -> Result<Self, ParameterError> {
         self.parameters.replace(Precision::F64, parameters)?;
         Ok(self)
     }
 
-    /// How many slots a cell has for the items of a population, by the name of its substates.
+    /// The number of slots in a cell for the items of a population, by the name of its struct.
     pub fn slots(&self, population: &str) -> Option<usize> {
         let group = self.groups.iter().find(|group| group.schema.name == population)?;
         match group.kind {
@@ -219,11 +256,22 @@ impl Model {
         }
     }
 
-    /// Sets how many slots a cell has for the items of a population, by the name of its substates, before it
-    /// is run. A run does not depend on it, as long as no cell is full.
+    /// Sets the number of slots in a cell for the items of a population, by the name of its struct.
+    ///
+    /// ```
+    /// # use xca_core::prelude::*;
+    /// # #[derive(Substates, Clone, Copy)]
+    /// # struct Fish { age: u32 }
+    /// let mut model = Model::builder("sea").extents([8, 8, 1]).population::<Fish>(2).build()?;
+    /// model.set_slots("Fish", 6)?;
+    /// assert_eq!(model.slots("Fish"), Some(6));
+    /// # Ok::<(), ModelError>(())
+    /// ```
+    ///
+    /// The result of a run does not depend on it, as long as no cell is full.
     ///
     /// # Errors
-    /// Where no population has the name, or no slot is left.
+    /// Returns an error if no population has the name, or `slots` is 0.
     pub fn set_slots(&mut self, population: &str, slots: usize) -> Result<(), ModelError> {
         for group in &mut self.groups {
             if let (true, GroupKind::Population { slots: own, .. }) =
@@ -239,11 +287,11 @@ impl Model {
         Err(ModelError::NoPopulation { model: self.name.clone(), population: population.to_owned() })
     }
 
-    /// Sets a parameter of the model by name, before it is run. What the initial state makes of it follows.
+    /// Sets a parameter by name, from text. Initial states that use it change with it.
     ///
     /// # Errors
-    /// Where no parameter has the name or several have, it is computed, or the text is no value of its type
-    /// or its range.
+    /// Returns an error if the name is unknown or ambiguous, the parameter is computed, or the text is not a
+    /// value of its type and range.
     pub fn set_parameter(&mut self, name: &str, text: &str) -> Result<(), ParameterError> {
         self.parameters.change(Precision::F64, |parameters| parameters.set_by_name(name, text))
     }

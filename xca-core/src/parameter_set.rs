@@ -7,10 +7,33 @@ use xca_process::{AnyParameters, ParameterError, ParameterValue, Parameters};
 use xca_values::Precision;
 use xca_values::{Field, Schema};
 
-/// All parameters of a model, numbered through all structs in their order.
+/// All parameters of a model, numbered in the order of the structs and their fields.
 ///
-/// A parameter is named by its field (`rate`), or by struct and field (`Flow.rate`) where several structs
-/// have one of that name.
+/// ```
+/// use xca_core::prelude::*;
+///
+/// #[derive(Substates, Clone, Copy)]
+/// struct Air {
+///     speed: Real,
+/// }
+///
+/// #[derive(Parameters, Clone, Debug)]
+/// struct Flow {
+///     rate: Real,
+/// }
+///
+/// let model = Model::builder("flow")
+///     .extents([4, 4, 1])
+///     .substates::<Air>()
+///     .parameters(Flow { rate: 0.5 })
+///     .build()?;
+/// assert_eq!(model.parameters().names(), ["rate"]);
+/// assert_eq!(model.parameters().value_by_name("Flow.rate")?.components(), [0.5]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// A parameter is named by its field (`rate`). If several structs have a field of that name, use struct and
+/// field (`Flow.rate`).
 #[derive(Clone, Default)]
 pub struct ParameterSet {
     structs: Vec<Box<dyn AnyParameters>>,
@@ -75,7 +98,7 @@ impl ParameterSet {
         self.fields().zip(self.values()).try_for_each(|(field, value)| value.check(field, precision))
     }
 
-    /// The structs, in the order in which the model was told of them.
+    /// The structs, in the order of their addition.
     pub fn structs(&self) -> impl Iterator<Item = &dyn AnyParameters> {
         self.structs.iter().map(|parameters| &**parameters)
     }
@@ -93,7 +116,7 @@ impl ParameterSet {
     /// The values of the struct `P`.
     ///
     /// # Errors
-    /// Where there is none.
+    /// Returns an error if the model has no parameters of this type.
     pub fn typed<P: Parameters>(&self) -> Result<&P, ParameterError> {
         self.get().ok_or_else(|| ParameterError::OtherStruct { wanted: P::SCHEMA.name, given: self.listed() })
     }
@@ -130,7 +153,7 @@ impl ParameterSet {
         self.schemas().flat_map(|schema| schema.fields)
     }
 
-    /// The names of all parameters: of struct and field where the field's is not enough.
+    /// The names of all parameters, with the struct if the field's name is not unique.
     pub fn names(&self) -> Vec<String> {
         let all: Vec<(&Schema, &Field)> = self
             .schemas()
@@ -147,7 +170,7 @@ impl ParameterSet {
         all.iter().map(name).collect()
     }
 
-    /// How many parameters there are.
+    /// The number of parameters.
     pub fn count(&self) -> usize {
         self.fields().count()
     }
@@ -174,14 +197,14 @@ impl ParameterSet {
         (0..self.count()).filter_map(|number| self.value(number))
     }
 
-    /// The components of each parameter, as the bits of an `f64`, into which every scalar type fits exactly.
+    /// The components of each parameter, as the bits of an `f64`, which holds every scalar type exactly.
     pub fn bits(&self) -> Vec<Vec<u64>> {
         let bits = |value: ParameterValue| value.components().iter().map(|number| number.to_bits()).collect();
         self.values().map(bits).collect()
     }
 
-    /// Sets all parameters to what [`Self::bits`] of the same structs has given. Nothing is checked or
-    /// computed; a parameter stays as it is where its bits are none of its type.
+    /// Sets all parameters from the [`Self::bits`] of the same structs, without checks and computations.
+    /// Skips bits that are not a value of the parameter's type.
     pub fn set_bits(&mut self, bits: &[Vec<u64>]) {
         let fields: Vec<&Field> = self.fields().collect();
         for (number, (bits, field)) in bits.iter().zip(fields).enumerate() {
@@ -218,8 +241,8 @@ impl ParameterSet {
     /// The value of the parameter with this name.
     ///
     /// # Errors
-    /// [`ParameterError::Unknown`] where no parameter has the name, [`ParameterError::Ambiguous`] where
-    /// several have.
+    /// Returns [`ParameterError::Unknown`] or [`ParameterError::Ambiguous`] if the name does not match
+    /// exactly one parameter.
     pub fn value_by_name(&self, name: &str) -> Result<ParameterValue, ParameterError> {
         let Place { struct_, field } = self.find_place(name)?;
         Ok(self.structs[struct_].value_of(field))
@@ -235,7 +258,7 @@ impl ParameterSet {
         self.structs[struct_].set_by_name(field.name, text)
     }
 
-    /// What kernels of this precision see of each struct.
+    /// The view of each struct that kernels of this precision take.
     pub fn kernel_views(&self, precision: Precision) -> Vec<Arc<dyn Any + Send + Sync>> {
         self.structs().map(|parameters| parameters.kernel_view(precision)).collect()
     }

@@ -1,41 +1,40 @@
-//! What follows from a model's processes, worked out once for all engines: which substates a process reads
-//! elsewhere or writes, which population it goes through, which parameters it takes. This module is for
-//! engines; models do not need it.
+//! The plan of a model: the substates that each process reads and writes, and its population. For engines;
+//! models do not need it.
 //!
-//! The reference engine asks the processes themselves, on purpose: it is to find what is wrong here.
+//! The reference engine does not use the plan, so that comparisons with it find errors in the plan.
 
 use crate::engine::SubstateId;
 use crate::model::Group;
 use std::any::TypeId;
 use xca_process::{Argument, Process};
 
-/// What follows from the processes of a model.
+/// The plan of a model, derived from its processes.
 #[derive(Debug, Clone, Default)]
 pub struct Plan {
     processes: Vec<ProcessPlan>,
 }
 
-/// What follows from one process.
+/// The plan of one process.
 #[derive(Debug, Clone)]
 pub struct ProcessPlan {
-    /// The substate that each access of the process means, in their order.
+    /// The substate of each access, in the order of the process.
     pub accesses: Vec<SubstateId>,
-    /// The substates that it uses, each once.
+    /// The substates in use, each once.
     pub uses: Vec<SubstateUse>,
-    /// The group of the population whose items it runs for or goes through.
+    /// The group of the population whose items it visits.
     pub population: Option<usize>,
 }
 
-/// How a process uses a substate.
+/// The use of a substate by a process.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SubstateUse {
     /// The substate.
     pub substate: SubstateId,
-    /// Whether it reads it, here or elsewhere.
+    /// Whether the process reads it, anywhere.
     pub read: bool,
-    /// Whether it reads it at neighbours or of other items.
+    /// Whether the process reads it at neighbours or of other items.
     pub elsewhere: bool,
-    /// Whether it writes it.
+    /// Whether the process writes it.
     pub written: bool,
 }
 
@@ -51,7 +50,7 @@ impl Plan {
         Self { processes: processes.iter().map(|process| ProcessPlan::new(process, groups)).collect() }
     }
 
-    /// What follows from the process with this number.
+    /// The plan of the process with this number.
     pub fn process(&self, number: usize) -> &ProcessPlan {
         &self.processes[number]
     }

@@ -1,13 +1,12 @@
 //! Reductions: one value out of a whole substate.
 //!
-//! A reduction is done row by row (of items: those of the cells of a row, by cell and label), and the rows'
-//! results are combined in order, so that it gives the same bits whoever works on which row. A row without
-//! items gives nothing, which changes no result. Floating numbers are added up in `f64`, integers in `i64`,
-//! which wraps around.
+//! Rows are reduced one by one, then combined in order. All engines therefore give the same bits, at any
+//! number of threads. The items of a row come by cell and label. A row without items has no effect.
+//! Floating-point numbers add in `f64`. Integers add in `i64`, and wrap around.
 //!
-//! NaN is never lost: a sum, product, minimum or maximum of values with a NaN among them is NaN. It equals no
-//! value, so [`Reduction::CountEqual`] does not count it, and it is not zero, so logical reductions take it
-//! for true. [`Reduction::CountNonFinite`] counts NaN and infinities.
+//! NaN is never lost: if any value is NaN, so is the sum, product, minimum or maximum.
+//! [`Reduction::CountEqual`] does not count NaN, as it equals no value. Logical reductions treat NaN as true.
+//! [`Reduction::CountNonFinite`] counts NaN and infinities.
 
 mod extreme;
 
@@ -15,48 +14,73 @@ use extreme::extreme;
 use xca_process::HostValue;
 use xca_values::{StoredScalar, StoredType};
 
-/// What is made of the values.
+/// An operation over all values of a substate, for [`crate::State::reduce`].
+///
+/// ```
+/// use xca_core::prelude::*;
+/// use xca_core::reduction::{Reduced, Reduction};
+///
+/// #[derive(Substates, Clone, Copy)]
+/// struct Wind {
+///     velocity: Vector2<Real>,
+/// }
+///
+/// let model = Model::builder("wind")
+///     .extents([4, 1, 1])
+///     .substates::<Wind>()
+///     .fill(|site| Wind { velocity: Vector2::new(site.cell()[0] as f64, 0.0) })
+///     .build()?;
+/// let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
+/// let state = simulation.state();
+/// let largest = state.reduce(Wind::VELOCITY, &Reduction::Maximum)?;
+/// assert_eq!(largest, [Reduced::Float(3.0), Reduced::Float(0.0)]);
+/// let moving = state.reduce(Wind::VELOCITY, &Reduction::LogicalOr)?;
+/// assert_eq!(moving, [Reduced::Integer(1), Reduced::Integer(0)]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// [`crate::State::sum`], [`crate::State::minimum`], [`crate::State::count`] and others return typed values.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum Reduction {
     /// The sum.
     Sum,
     /// The product.
     Product,
-    /// The smallest; NaN where any value is NaN.
+    /// The smallest value, or NaN if any is NaN.
     Minimum,
-    /// The largest; NaN where any value is NaN.
+    /// The largest value, or NaN if any is NaN.
     Maximum,
-    /// How many equal this value, given as the stored bytes of one lane; the two zeros are equal.
+    /// The number of values equal to this one, the stored bytes of one component. The two zeros are equal.
     CountEqual(Vec<u8>),
-    /// How many are NaN or infinite; 0 of integers.
+    /// The number of NaN and infinities; 0 for integers.
     CountNonFinite,
-    /// 1 where all are non-zero, else 0.
+    /// 1 if all values are non-zero, else 0.
     LogicalAnd,
-    /// 1 where any is non-zero, else 0.
+    /// 1 if any value is non-zero, else 0.
     LogicalOr,
-    /// 1 where an odd number are non-zero, else 0.
+    /// 1 if an odd number of values are non-zero, else 0.
     LogicalXor,
-    /// Bit by bit, of integers.
+    /// Bitwise "and" of integers.
     BitAnd,
-    /// Bit by bit, of integers.
+    /// Bitwise "or" of integers.
     BitOr,
-    /// Bit by bit, of integers.
+    /// Bitwise "exclusive or" of integers.
     BitXor,
 }
 
-/// The result of a reduction of one lane.
+/// The result of a reduction, for one component.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum Reduced {
     /// There was no value.
     Nothing,
-    /// Of integers, counts and logical values.
+    /// The result for integers, counts and logical reductions.
     Integer(i64),
-    /// Of floating numbers.
+    /// The result for floating-point numbers.
     Float(f64),
 }
 
 impl Reduced {
-    /// The result of two results.
+    /// Combines two results.
     #[inline(always)]
     pub fn combine(self, other: Self, reduction: &Reduction) -> Self {
         match (self, other) {
@@ -83,7 +107,7 @@ impl Reduced {
         }
     }
 
-    /// The number as `f64`, if there is one.
+    /// The result as `f64`; `None` if there was no value.
     pub fn number(self) -> Option<f64> {
         match self {
             Self::Nothing => None,
@@ -148,14 +172,14 @@ fn sum(scalar: StoredScalar, values: &[u8]) -> Reduced {
 /// The results of all rows, one row after the other.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ReducedRows {
-    /// How many results a row has: those of its components.
+    /// The number of results in a row, one for each component.
     pub components: usize,
     /// The results. Those of a row without items are [`Reduced::Nothing`].
     pub results: Vec<Reduced>,
 }
 
 impl ReducedRows {
-    /// Combines the results of rows in their order: for each component one result.
+    /// Combines the rows in order: one result for each component.
     pub fn combined(&self, reduction: &Reduction) -> Vec<Reduced> {
         let mut results = vec![Reduced::Nothing; self.components];
         for row in self.results.chunks_exact(self.components.max(1)) {
@@ -224,14 +248,14 @@ pub trait Reducible: HostValue {
     /// of these.
     type Sum;
 
-    /// The sum or product from the results of the components; where there was no value, in each what it is of
-    /// nothing: 0 or 1.
+    /// The sum or product from the results of the components. `of_nothing` is the result without values: 0 or
+    /// 1.
     fn total(results: &[Reduced], of_nothing: u8) -> Self::Sum;
 
-    /// A component as what it adds to a sum.
+    /// The contribution of a component to a sum.
     fn reduced(&self, component: usize) -> Reduced;
 
-    /// A value of the same type from the results of the components; nothing where there was no value.
+    /// A value of the same type from the results of the components; `None` if there was no value.
     fn same(results: &[Reduced]) -> Option<Self>;
 }
 
@@ -265,8 +289,7 @@ macro_rules! reducible {
 
 reducible!(u8 => Integer(i64), i32 => Integer(i64), u32 => Integer(i64), f32 => Float(f64), f64 => Float(f64));
 
-/// The sum is how many are `true`, the product whether all are, the minimum and the maximum are "and" and
-/// "or".
+/// The sum is the number of `true`. The product and the minimum are "and", the maximum is "or".
 impl Reducible for bool {
     type Sum = i64;
 

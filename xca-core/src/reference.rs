@@ -1,9 +1,8 @@
 //! The reference engine: serial, plain, dense slots.
 //!
-//! It is the oracle for all other engines and the baseline of every speed-up. Each process is a pass of its
-//! own over all cells; for each cell the neighbourhood is gathered by the boundary rules, one neighbour after
-//! the other; every cell holds all its slots, as in De Rango et al., section III. Nothing is clever here, and
-//! nothing is shared with the other engines but the processes.
+//! Tests compare all other engines with it, and speed-ups are relative to it. Each process is one pass over
+//! all cells. For each cell the boundary rules find the neighbours, one by one. Every cell holds all its
+//! slots, as in De Rango et al., section III. The other engines share only the processes with it.
 
 mod execution;
 mod migration;
@@ -15,7 +14,17 @@ use xca_process::storage::Buffer;
 use xca_process::{Face, Faces, Geometry, Reached};
 use xca_values::{Precision, StoredType};
 
-/// The serial engine.
+/// The serial reference engine: one core, the definition of the result that all other engines match.
+///
+/// ```
+/// # use xca_core::prelude::*;
+/// # #[derive(Substates, Clone, Copy)]
+/// # struct Heat { temperature: Real }
+/// # let model = Model::builder("heat").extents([8, 8, 1]).substates::<Heat>().build()?;
+/// let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
+/// simulation.run(10)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Reference;
 

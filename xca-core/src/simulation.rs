@@ -15,39 +15,46 @@ use xca_process::Geometry;
 use xca_process::ParameterError;
 use xca_values::Precision;
 
-/// How a model is run.
+/// The options of a run: precision and seed. Default: `f64`, seed 0.
+///
+/// ```
+/// use xca_core::prelude::*;
+///
+/// let options = RunOptions { precision: Precision::F32, ..RunOptions::default() };
+/// assert_eq!(options.seed, 0);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct RunOptions {
-    /// What `Real` is.
+    /// The type that `Real` stands for.
     pub precision: Precision,
     /// The seed of random numbers.
     pub seed: u64,
 }
 
-/// Why a run ended.
+/// The reason why [`Simulation::run`] returned.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Outcome {
     /// All steps are done.
     StepsDone,
-    /// A steering operation ended it.
+    /// A stop criterion or another steering operation ended the run.
     Stopped {
-        /// The reason that it gave.
+        /// The reason that the operation gave.
         reason: String,
     },
 }
 
-/// What makes a run end early.
+/// An error that ends a run.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RunError {
     /// The engine cannot run the model.
     #[error(transparent)]
     Start(#[from] StartError),
-    /// A parameter that is out of its range in the precision of the run.
+    /// A parameter is out of its range in the precision of the run.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
-    /// The engine cannot reach its state any more.
+    /// The engine lost its state.
     #[error(transparent)]
     Engine(#[from] EngineFailure),
     /// A fault within a step.
@@ -55,7 +62,7 @@ pub enum RunError {
     Fault {
         /// The number of the step, from 1 for the first.
         step: u64,
-        /// What the model says of the code.
+        /// The model's message for the fault code.
         text: Option<String>,
         /// The fault.
         fault: Fault,
@@ -68,7 +75,7 @@ pub enum RunError {
         /// Its error.
         source: SteeringError,
     },
-    /// A step after a fault.
+    /// A step was asked for after a fault.
     #[error(
         "the run ended with a fault in step {step} and cannot go on; restore a snapshot of an earlier step"
     )]
@@ -76,20 +83,52 @@ pub enum RunError {
         /// The number of that step.
         step: u64,
     },
-    /// A process that the model does not have.
+    /// The model has no process with this number.
     #[error("the model has {processes} processes, no process {index}")]
     NoSuchProcess {
-        /// The number that was asked for, from 0.
+        /// The number, from 0.
         index: usize,
-        /// How many there are.
+        /// The number of processes.
         processes: usize,
     },
-    /// A snapshot that the simulation cannot go on from.
+    /// The simulation cannot continue from the snapshot.
     #[error(transparent)]
     Snapshot(#[from] SnapshotError),
 }
 
-/// A model with its state on an engine.
+/// One run of a model on an engine.
+///
+/// ```
+/// use xca_core::prelude::*;
+///
+/// #[derive(Substates, Clone, Copy)]
+/// struct Counter {
+///     count: u32,
+/// }
+///
+/// #[elementary_process]
+/// fn count(cell: &mut Cell<Counter>) {
+///     cell.count += 1;
+/// }
+///
+/// let model = Model::builder("counters")
+///     .extents([4, 4, 1])
+///     .substates::<Counter>()
+///     .process(count)
+///     .stop_when(Schedule::Every(1), |state| {
+///         Ok((state.step() == 20).then(|| "twenty".to_owned()))
+///     })
+///     .build()?;
+/// let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
+/// simulation.step()?;
+/// assert_eq!(simulation.state().get(Counter::COUNT, [0, 0, 0])?, 1);
+/// assert_eq!(simulation.run(9)?, Outcome::StepsDone);
+/// assert_eq!(simulation.run(90)?, Outcome::Stopped { reason: "twenty".to_owned() });
+/// assert_eq!(simulation.step_number(), 20);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// [`Simulation::snapshot`] saves the state, and [`Simulation::resume`] continues from it on any engine.
 pub struct Simulation {
     model: Model,
     execution: Box<dyn Execution>,
@@ -105,10 +144,10 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Puts a model on an engine and makes its initial state.
+    /// Starts a model on an engine and makes its initial state.
     ///
     /// # Errors
-    /// Where the engine cannot run the model, or making the initial state fails.
+    /// Returns an error if the engine cannot run the model, or the initial state fails.
     pub fn new(model: &Model, engine: &dyn Engine, options: RunOptions) -> Result<Self, RunError> {
         let mut simulation = Self::empty(model, engine, options)?;
         simulation.steer(|schedule| *schedule == Schedule::Start)?;
@@ -138,7 +177,7 @@ impl Simulation {
         &self.model
     }
 
-    /// How it is run.
+    /// The precision and the seed of the run.
     pub fn options(&self) -> RunOptions {
         self.options
     }
@@ -148,23 +187,23 @@ impl Simulation {
         self.step
     }
 
-    /// Why a steering operation ended the run, if one did.
+    /// The reason of the steering operation that ended the run, if one did.
     pub fn stop_reason(&self) -> Option<&str> {
         self.stop.as_deref()
     }
 
-    /// The bytes that the state takes.
+    /// The size of the state in bytes.
     pub fn memory(&self) -> usize {
         self.execution.memory()
     }
 
-    /// What the engine tells of how it computes the state. None of it is a result: engines, threads and
-    /// machines differ in it.
+    /// Measurements of the engine, such as work that it skipped. They are not results: they differ between
+    /// engines, threads and machines.
     pub fn figures(&self) -> Vec<Figure> {
         self.execution.figures()
     }
 
-    /// The state, to look at or to change.
+    /// The state, to read or to change.
     pub fn state(&mut self) -> State<'_> {
         self.state_for(u32::MAX)
     }
@@ -267,16 +306,16 @@ impl Simulation {
         due.map(|step| step - self.step).fold(most, u64::min)
     }
 
-    /// Does one step: all processes in order, then the checks and the steering that are due.
+    /// Runs one step: all processes in order, then the checks and the steering that are due.
     ///
     /// # Errors
-    /// A fault of a process, a substate that is not finite where the model watches it, or an error of a
-    /// steering operation.
+    /// Returns an error if a process faults, a steering operation fails, or a watched substate is not finite.
     pub fn step(&mut self) -> Result<(), RunError> {
         self.leap(1)
     }
 
-    /// Does at most so many steps; fewer where a steering operation ends the run, and none once one has.
+    /// Runs up to `steps` steps. Returns earlier if a steering operation stops the run. A stopped run does no
+    /// more steps.
     ///
     /// # Errors
     /// As [`Self::step`].
@@ -303,17 +342,17 @@ impl Simulation {
     /// Runs the steering of [`Schedule::End`].
     ///
     /// # Errors
-    /// Of a steering operation, and a substate that is not finite, where the model watches it at the end.
+    /// Returns an error if a steering operation fails, or a substate watched at the end is not finite.
     pub fn finish(&mut self) -> Result<(), RunError> {
         self.steer(|schedule| *schedule == Schedule::End)?;
         self.watch(|schedule| *schedule == Schedule::End)
     }
 
-    /// Runs one process alone, by its number in the model, for debugging; nothing happens where it is not due
-    /// in the step that is under way, to which it belongs: steps are not counted.
+    /// Runs a single process, by its number in the model, for debugging. The process belongs to the next
+    /// step; the step number does not change. Does nothing if the process is not due in that step.
     ///
     /// # Errors
-    /// A fault of the process, or a number that no process has.
+    /// Returns an error if the process faults, or no process has the number.
     pub fn run_process(&mut self, index: usize) -> Result<(), RunError> {
         let processes = self.model.processes().len();
         if index >= processes {

@@ -4,9 +4,25 @@ use xca_process::Geometry;
 use xca_process::{Draw, Stream, uniform};
 use xca_values::Vector3;
 
-/// A cell whose initial state, or whose items, are about to be made: where it lies, and its random numbers.
+/// A cell whose initial state is being made: its place and its random numbers.
 ///
-/// [`crate::ModelBuilder::fill`] and [`crate::ModelBuilder::populate`] give one for each cell.
+/// [`crate::ModelBuilder::fill`] and [`crate::ModelBuilder::populate`] pass one for each cell:
+///
+/// ```
+/// # use xca_core::prelude::*;
+/// # #[derive(Substates, Clone, Copy)]
+/// # struct Hill { altitude: Real, wood: bool }
+/// # let builder = Model::builder("hill").extents([9, 9, 1]).cell_side(10.0).substates::<Hill>();
+/// let model = builder
+///     .fill(|site| {
+///         let from_centre = (site.centre() - Vector3::new(45.0, 45.0, 5.0)).length();
+///         Hill { altitude: 100.0 - from_centre, wood: site.random(0) < 0.3 && site.cell()[1] > 4 }
+///     })
+///     .build()?;
+/// # let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
+/// # assert_eq!(simulation.state().get(Hill::ALTITUDE, [4, 4, 0])?, 100.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Site {
     cell: [usize; 3],
@@ -53,22 +69,22 @@ impl Site {
     /// The centre of the cell in metres, from the corner of the space: `(index + 0.5) * side` along each
     /// axis.
     ///
-    /// So too with hexagons: this is the centre of the cell that [`crate::Space::cell_containing`] finds,
-    /// without the shift of odd rows or columns.
+    /// Hexagons have the same formula, without the shift of odd rows or columns.
+    /// [`crate::Space::cell_containing`] finds the cell of this position.
     pub fn centre(&self) -> Vector3<f64> {
         self.centre
     }
 
-    /// A random number in [0, 1): a function of the seed, the struct of substates, the cell and `draw`, the
-    /// same on every engine. It is independent of what processes draw. It has 53 bits in every run; an `f32`
-    /// run rounds what is made of it.
+    /// A random number in [0, 1): a function of seed, struct of substates, cell and `draw`. It is the same on
+    /// every engine, and independent of the draws of processes.
     ///
-    /// The function [`crate::State::fill`] draws other numbers at other steps.
+    /// It has 53 bits in either precision. An `f32` run rounds the values made of it. [`crate::State::fill`]
+    /// draws other numbers in other steps.
     pub fn random(&self, draw: usize) -> f64 {
         uniform(self.words(draw))
     }
 
-    /// 32 random bits, as [`Self::random`], whose number is made of the same ones.
+    /// The 32 random bits of which [`Self::random`] makes its number.
     pub fn random_bits(&self, draw: usize) -> u32 {
         self.words(draw)[0]
     }

@@ -15,7 +15,7 @@ use xca_process::{ParameterError, ParameterValue, Parameters};
 use xca_process::{Substate, Substates};
 use xca_values::{Precision, StoredScalar};
 
-/// The state between steps. Values of `Real` pass as `f64`, whatever the precision of the run.
+#[doc = include_str!("../docs/state.md")]
 pub struct State<'a> {
     pub(crate) model: &'a Model,
     pub(crate) execution: &'a mut dyn Execution,
@@ -33,7 +33,7 @@ pub struct State<'a> {
     pub(crate) undecided: bool,
 }
 
-/// An item of a population on the host.
+/// An item of a population, as [`State::items`] returns it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Item<S> {
     /// Its label.
@@ -44,7 +44,7 @@ pub struct Item<S> {
     pub state: S,
 }
 
-/// A question or an order that the model has no answer to.
+/// A request that does not fit the model.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StateError {
@@ -60,22 +60,22 @@ pub enum StateError {
     /// A cell that the space does not have.
     #[error("the space of {extents:?} cells has no cell {cell:?}")]
     NoSuchCell {
-        /// The indices that were asked for.
+        /// The indices of the cell.
         cell: [usize; 3],
         /// The extents.
         extents: [usize; 3],
     },
-    /// As many values as cells or items are needed.
+    /// The number of values differs from that of the cells or items.
     #[error("`{substate}` has {wanted} values, but {given} are given")]
     WrongNumber {
         /// The substate.
         substate: &'static str,
-        /// How many there are.
+        /// The number of cells or items.
         wanted: usize,
-        /// How many were given.
+        /// The number of values.
         given: usize,
     },
-    /// Bit by bit, of floating numbers.
+    /// A bitwise reduction of floating-point numbers.
     #[error(
         "`{0}` holds floating numbers, whose bits cannot be reduced; use a logical reduction, or a substate of integers"
     )]
@@ -86,7 +86,7 @@ pub enum StateError {
     /// A parameter that cannot be read or set.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
-    /// The engine cannot reach its state any more.
+    /// The engine lost its state.
     #[error(transparent)]
     Engine(#[from] EngineFailure),
     /// Items that do not fit.
@@ -115,13 +115,25 @@ impl State<'_> {
         self.model.geometry()
     }
 
-    /// A random number in [0, 1) for steering: a function of the seed, the step, the operation and `draw`. It
-    /// is independent of what processes and initial states draw. It has 53 bits in every run.
+    /// A random number in [0, 1) for steering: a function of seed, step, operation and `draw`.
+    ///
+    /// ```
+    /// # use xca_core::prelude::*;
+    /// # #[derive(Substates, Clone, Copy)]
+    /// # struct Rain { depth: Real }
+    /// # let builder = Model::builder("rain").extents([8, 8, 1]).substates::<Rain>();
+    /// builder.steer(Schedule::Every(1), |state| {
+    ///     let x = (8.0 * state.random(0)) as usize;
+    ///     Ok(state.update(Rain::DEPTH, &[[x, 0, 0]], |_cell, depth| depth + 1.0)?)
+    /// });
+    /// ```
+    ///
+    /// It is independent of the draws of processes and initial states. It has 53 bits in either precision.
     pub fn random(&self, draw: usize) -> f64 {
         uniform(self.words(draw))
     }
 
-    /// 32 random bits, as [`Self::random`], whose number is made of the same ones.
+    /// The 32 random bits of which [`Self::random`] makes its number.
     pub fn random_bits(&self, draw: usize) -> u32 {
         self.words(draw)[0]
     }
@@ -131,7 +143,7 @@ impl State<'_> {
         Draw { stream, step, owner, number: draw as u32 }.words(self.seed)
     }
 
-    /// Ends the run, with a reason for the report.
+    /// Ends the run. The reason appears in the report.
     pub fn stop(&mut self, reason: impl Into<String>) {
         self.stop.get_or_insert(reason.into());
     }
@@ -167,10 +179,10 @@ impl State<'_> {
         }
     }
 
-    /// All values of a substate: of cells by linear index (x fastest), of items cell after cell and by label.
+    /// All values of a substate. Cells come by linear index (x fastest), items by cell and label.
     ///
     /// # Errors
-    /// Where the model does not have the substate.
+    /// Returns an error if the model does not have the substate.
     pub fn read<S: Substates, V: HostValue>(&self, substate: Substate<S, V>) -> Result<Vec<V>, StateError> {
         let id = self.id(substate)?;
         let stored = self.model.stored(id, self.precision);
@@ -185,7 +197,7 @@ impl State<'_> {
     /// Replaces all values of a substate, in the order of [`Self::read`].
     ///
     /// # Errors
-    /// Where the model does not have the substate, or there are not as many values as cells or items.
+    /// Returns an error if the model does not have the substate, or the number of values is wrong.
     pub fn write<S: Substates, V: HostValue>(
         &mut self,
         substate: Substate<S, V>,
@@ -208,10 +220,22 @@ impl State<'_> {
         Ok(self.execution.write(id, &bytes)?)
     }
 
-    /// The items of a population, cell after cell and by label.
+    /// The items of a population, by cell and label.
+    ///
+    /// ```
+    /// # use xca_core::prelude::*;
+    /// # #[derive(Substates, Clone, Copy)]
+    /// # struct Fish { age: u32 }
+    /// # let builder = Model::builder("sea").extents([4, 4, 1]).population::<Fish>(2);
+    /// # let model = builder.populate(|_| [Fish { age: 3 }]).build()?;
+    /// # let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
+    /// let old = simulation.state().items::<Fish>()?.iter().filter(|item| item.state.age > 2).count();
+    /// # assert_eq!(old, 16);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
-    /// Where the model does not have the population.
+    /// Returns an error if the model does not have the population.
     pub fn items<S: Substates>(&self) -> Result<Vec<Item<S>>, StateError> {
         let group = self.population_of::<S>()?;
         let sizes: Vec<usize> =
@@ -229,11 +253,11 @@ impl State<'_> {
         Ok(items)
     }
 
-    /// Replaces the items of a population, given in any order.
+    /// Replaces the items of a population, in any order.
     ///
     /// # Errors
-    /// Where the model does not have the population, two items have one label, a cell lies outside the space
-    /// or has too few slots.
+    /// Returns an error if the model does not have the population, two items have one label, or a cell is
+    /// outside the space or has too few slots.
     pub fn set_items<S: Substates>(&mut self, mut items: Vec<Item<S>>) -> Result<(), StateError> {
         let group = self.population_of::<S>()?;
         let mut labels: Vec<u32> = items.iter().map(|item| item.label).collect();
@@ -260,35 +284,35 @@ impl State<'_> {
         Ok(self.execution.set_population(group, &Population { counts, labels, fields })?)
     }
 
-    /// How many items a population has.
+    /// The number of items of a population.
     ///
     /// # Errors
-    /// Where the model does not have the population.
+    /// As [`Self::items`].
     pub fn count_items<S: Substates>(&self) -> Result<usize, StateError> {
         Ok(self.execution.items(self.population_of::<S>()?))
     }
 
-    /// How many items of a population have left the space.
+    /// The number of items of a population that left the space.
     ///
     /// # Errors
-    /// Where the model does not have the population.
+    /// As [`Self::items`].
     pub fn count_left<S: Substates>(&self) -> Result<u64, StateError> {
         let group = self.population_of::<S>()?;
         Ok(self.left_before[group].wrapping_add(self.execution.left(group)))
     }
 
-    /// The most items that a cell holds.
+    /// The largest number of items in a cell.
     ///
     /// # Errors
-    /// Where the model does not have the population.
+    /// As [`Self::items`].
     pub fn largest_occupancy<S: Substates>(&self) -> Result<u32, StateError> {
         Ok(self.execution.largest_occupancy(self.population_of::<S>()?)?)
     }
 
-    /// Any reduction of a substate, component by component.
+    /// Applies any [`Reduction`] to a substate, component by component.
     ///
     /// # Errors
-    /// Where the model does not have the substate, or bits of floating numbers are asked for.
+    /// Returns an error if the model does not have the substate, or for bits of floating-point numbers.
     pub fn reduce<S: Substates, V: HostValue>(
         &self,
         substate: Substate<S, V>,
@@ -303,25 +327,36 @@ impl State<'_> {
         Ok(self.noted(self.execution.reduce(id, reduction)?))
     }
 
-    /// The results of a reduction, of which a stop criterion may hear.
+    /// Remembers for stop criteria whether a result is NaN.
     fn noted(&self, results: Vec<Reduced>) -> Vec<Reduced> {
         let is_nan = |result: &Reduced| result.number().is_some_and(f64::is_nan);
         self.reduced_nan.set(self.reduced_nan.get() || results.iter().any(is_nan));
         results
     }
 
-    /// The sum of a substate: in `f64`, or in `i64` of integers.
+    /// The sum of a substate: `f64`, or `i64` for integers.
+    ///
+    /// ```
+    /// # use xca_core::prelude::*;
+    /// # #[derive(Substates, Clone, Copy)]
+    /// # struct Pond { depth: Real }
+    /// # let builder = Model::builder("pond").extents([4, 4, 1]).substates::<Pond>();
+    /// # let model = builder.fill(|_| Pond { depth: 0.5 }).build()?;
+    /// # let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
+    /// assert_eq!(simulation.state().sum(Pond::DEPTH)?, 8.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
-    /// Where the model does not have the substate.
+    /// As [`Self::read`].
     pub fn sum<S: Substates, V: Reducible>(&self, substate: Substate<S, V>) -> Result<V::Sum, StateError> {
         Ok(V::total(&self.reduce(substate, &Reduction::Sum)?, 0))
     }
 
-    /// The product of a substate: in `f64`, or in `i64` of integers; 1 of an empty population.
+    /// The product of a substate: `f64`, or `i64` for integers. 1 for an empty population.
     ///
     /// # Errors
-    /// Where the model does not have the substate.
+    /// As [`Self::read`].
     pub fn product<S: Substates, V: Reducible>(
         &self,
         substate: Substate<S, V>,
@@ -329,10 +364,10 @@ impl State<'_> {
         Ok(V::total(&self.reduce(substate, &Reduction::Product)?, 1))
     }
 
-    /// The smallest value of a substate, component by component; nothing of an empty population.
+    /// The smallest value of a substate, component by component. `None` for an empty population.
     ///
     /// # Errors
-    /// Where the model does not have the substate.
+    /// As [`Self::read`].
     pub fn minimum<S: Substates, V: Reducible>(
         &self,
         substate: Substate<S, V>,
@@ -340,10 +375,10 @@ impl State<'_> {
         Ok(V::same(&self.reduce(substate, &Reduction::Minimum)?))
     }
 
-    /// The largest value of a substate, component by component; nothing of an empty population.
+    /// The largest value of a substate, component by component. `None` for an empty population.
     ///
     /// # Errors
-    /// Where the model does not have the substate.
+    /// As [`Self::read`].
     pub fn maximum<S: Substates, V: Reducible>(
         &self,
         substate: Substate<S, V>,
@@ -351,10 +386,10 @@ impl State<'_> {
         Ok(V::same(&self.reduce(substate, &Reduction::Maximum)?))
     }
 
-    /// How many cells or items have this value of a scalar substate.
+    /// The number of cells or items with this value of a scalar substate.
     ///
     /// # Errors
-    /// Where the model does not have the substate.
+    /// As [`Self::read`].
     pub fn count<S: Substates, V: HostValue<Scalar = V> + HostScalar>(
         &self,
         substate: Substate<S, V>,
@@ -373,7 +408,7 @@ impl State<'_> {
     /// The parameters of the struct `P`.
     ///
     /// # Errors
-    /// Where the model has none of this type.
+    /// Returns an error if the model has no parameters of this type.
     pub fn parameters<P: Parameters>(&self) -> Result<P, StateError> {
         Ok(self.parameters.typed::<P>()?.clone())
     }
@@ -381,7 +416,7 @@ impl State<'_> {
     /// Replaces the parameters of the struct `P`, from the next step on.
     ///
     /// # Errors
-    /// Where the model has none of this type, or one is out of its range.
+    /// Returns an error if the model has no parameters of this type, or a value is out of its range.
     pub fn set_parameters<P: Parameters>(&mut self, parameters: P) -> Result<(), StateError> {
         Ok(self.parameters.replace(self.precision, parameters)?)
     }
@@ -389,16 +424,16 @@ impl State<'_> {
     /// The value of a parameter by name.
     ///
     /// # Errors
-    /// Where no parameter has the name, or several have.
+    /// Returns an error if the name is unknown or ambiguous.
     pub fn parameter(&self, name: &str) -> Result<ParameterValue, StateError> {
         Ok(self.parameters.value_by_name(name)?)
     }
 
-    /// Sets a parameter by name, from the next step on.
+    /// Sets a parameter by name, from text, from the next step on.
     ///
     /// # Errors
-    /// Where no parameter has the name or several have, it is computed, or the text is no value of its type
-    /// or its range.
+    /// Returns an error if the name is unknown or ambiguous, the parameter is computed, or the text is not a
+    /// value of its type and range.
     pub fn set_parameter(&mut self, name: &str, text: &str) -> Result<(), StateError> {
         Ok(self.parameters.change(self.precision, |parameters| parameters.set_by_name(name, text))?)
     }

@@ -4,23 +4,34 @@ use crate::state::State;
 use std::fmt;
 use std::sync::Arc;
 
-/// When a steering operation runs. Steps are counted from the initial state, which is step 0.
+/// When a steering operation runs. Step numbers count from the initial state, which is step 0.
+///
+/// ```
+/// use xca_core::prelude::*;
+///
+/// assert!(Schedule::Every(10).is_due(30));
+/// assert!(!Schedule::Every(10).is_due(0));
+/// assert!(Schedule::EveryFromStart(10).is_due(0));
+/// assert!(Schedule::At(vec![3, 50]).is_due(50));
+/// ```
+///
+/// An interval must be at least 1 step.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Schedule {
-    /// Before the first step, to make the initial state.
+    /// Before the first step, for the initial state.
     Start,
-    /// After n, 2n, 3n … steps.
+    /// After every n-th step: n, 2n, 3n and so on.
     Every(u64),
-    /// On the initial state, and after n, 2n, 3n … steps.
+    /// On the initial state, and after every n-th step.
     EveryFromStart(u64),
-    /// After these numbers of steps; 0 is before the first.
+    /// After these steps. 0 is the initial state.
     At(Vec<u64>),
-    /// When the run is over, which the host says by [`crate::Simulation::finish`].
+    /// At the end of the run, when the host calls [`crate::Simulation::finish`].
     End,
 }
 
 impl Schedule {
-    /// Whether it is time after this number of steps.
+    /// Whether it is due after this step. `Start` and `End` are not steps: always `false`.
     pub fn is_due(&self, step: u64) -> bool {
         match self {
             Self::Start | Self::End => false,
@@ -42,7 +53,7 @@ impl Schedule {
     }
 }
 
-/// What went wrong in a steering operation: any error.
+/// The error of a steering operation: any error.
 pub type SteeringError = Box<dyn std::error::Error + Send + Sync>;
 
 type Operation = dyn Fn(&mut State<'_>) -> Result<(), SteeringError> + Send + Sync;

@@ -1,4 +1,6 @@
-//! Many runs of a model, with other parameters and seeds, and one table of what comes of them.
+//! Ensembles: many runs of a model with different parameters and seeds, and one table of their results.
+//!
+//! See [`Ensemble`] for an example.
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
@@ -25,17 +27,17 @@ use xca_record::SetUp;
 use xca_record::record::{Claim, ENSEMBLE, FolderError, Kind, LockedFolder};
 use xca_record::report::{self, ReadReportError};
 
-/// The file that has a row for each member.
+/// The table with a row for each member.
 pub const MEMBERS: &str = "members.csv";
-/// The file that has mean and spread over the seeds.
+/// The table with mean and spread over the seeds.
 pub const SUMMARY: &str = "summary.csv";
 /// The file in which the command line draws them.
 const PAGE: &str = "summary.html";
 
-/// Many runs of a model: all combinations of the values of some parameters, each with some seeds.
+/// Many runs of a model: all combinations of parameter values, each with several seeds.
 ///
-/// Runs are done side by side, each by an engine of its own. A run that fails does not end the others. The
-/// table is written while they go on, and an ensemble whose table is there already does only what is missing.
+/// Runs work in parallel, each on its own engine. A failed run does not end the others. The table grows while
+/// they run. An ensemble that was interrupted resumes with the missing runs.
 ///
 /// ```
 /// # let temporary = tempfile::tempdir()?;
@@ -120,19 +122,19 @@ struct Told {
     files: Vec<String>,
 }
 
-/// Is told what becomes of the members, and asked whether to go on. `()` watches nothing.
+/// Follows an ensemble, and can end it. `()` does neither.
 pub trait EnsembleMonitor {
-    /// So many members were done before, of so many in all.
+    /// Called before the runs, with the number of members already done and of all.
     fn begin(&mut self, done: usize, all: usize) {
         let _ = (done, all);
     }
 
-    /// A member has come to its end.
+    /// Called at the end of a member.
     fn ended(&mut self, member: &Finished) {
         let _ = member;
     }
 
-    /// Whether to end: members under way are given up, and done again when the ensemble goes on.
+    /// Whether to end now. Members in progress are discarded; they run again when the ensemble resumes.
     fn is_interrupted(&self) -> bool {
         false
     }
@@ -140,7 +142,7 @@ pub trait EnsembleMonitor {
 
 impl EnsembleMonitor for () {}
 
-/// An ensemble that cannot be run or written.
+/// An error that ends an ensemble.
 #[derive(Debug, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages explain the fields")]
 #[non_exhaustive]
@@ -179,12 +181,18 @@ impl Default for Ensemble {
 }
 
 impl Ensemble {
-    /// One run with the model's own parameters and the seed 0, and as many jobs as there are cores.
+    /// One run with the model's parameters and seed 0, with as many jobs as cores.
     pub fn new() -> Self {
         Self::default()
     }
 
     /// Gives a parameter these values, in all combinations with those of other parameters.
+    ///
+    /// ```
+    /// # use xca_ensemble::Ensemble;
+    /// let ensemble = Ensemble::new().sweep("rate", [0.1, 0.2]).sweep("cells", [16, 32]).seeds(7, 5);
+    /// assert_eq!(ensemble.members().len(), 20);
+    /// ```
     #[must_use]
     pub fn sweep<V: ToString>(
         mut self,
@@ -196,14 +204,14 @@ impl Ensemble {
         self
     }
 
-    /// Runs each combination with so many seeds, at least 1, counted from the first.
+    /// Runs each combination with `count` seeds, at least 1, counted from `first`.
     #[must_use]
     pub fn seeds(self, first: u64, count: u64) -> Self {
         Self { first_seed: first, seeds: count.max(1), ..self }
     }
 
-    /// Does so many runs side by side, at least 1. Each has an engine of its own, so the threads of an engine
-    /// times the jobs should not be more than the cores.
+    /// Sets the number of parallel runs, at least 1. Each has its own engine. The jobs times the threads of
+    /// an engine should not exceed the number of cores.
     #[must_use]
     pub fn jobs(self, jobs: usize) -> Self {
         Self { jobs: jobs.max(1), ..self }
@@ -215,7 +223,7 @@ impl Ensemble {
         Self { precision, ..self }
     }
 
-    /// Does so many steps, in place of those of the set-up.
+    /// Sets the number of steps, in place of that of the set-up.
     #[must_use]
     pub fn steps(self, steps: u64) -> Self {
         Self { steps: Some(steps), ..self }
@@ -228,7 +236,7 @@ impl Ensemble {
         Self { identity, ..self }
     }
 
-    /// All members in the order of the table: the seeds vary fastest, then the last parameter.
+    /// All members in the order of the table: seeds vary fastest, then the last parameter.
     pub fn members(&self) -> Vec<Member> {
         let mut combinations = vec![Vec::new()];
         for axis in &self.axes {
@@ -247,16 +255,15 @@ impl Ensemble {
         pairs.enumerate().map(|(number, (parameters, seed))| Member { number, seed, parameters }).collect()
     }
 
-    /// Runs the members that are not in the table of the folder yet, and gives all that have come to their
-    /// end.
+    /// Runs the members that the table in the output directory lacks. Returns all finished members.
     ///
-    /// `set_up` makes the model of a member, on the calling thread; its parameters are set after that. It is
-    /// called once more for the first member, to see whether the table is one of this model.
-    /// `engine` makes an engine, on the thread that uses it.
+    /// `set_up` makes the model of a member, on the calling thread. The parameters of the member are set
+    /// afterwards. It is called once more for the first member, to check that the table belongs to this
+    /// model. `engine` makes an engine, on the thread that uses it.
     ///
     /// # Errors
-    /// Where the folder holds something else, or a table cannot be written. What goes wrong in a member is
-    /// in its row.
+    /// Returns an error if the directory holds something else, or a table cannot be written. The errors of a
+    /// member are in its row.
     pub fn run(
         &self,
         folder: &Path,

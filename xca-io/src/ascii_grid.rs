@@ -1,9 +1,10 @@
 //! ESRI ASCII grids (`.asc`): one number for each cell of a layer, with its place on the map.
 //!
-//! Every geographic information system reads and writes them. A header says how many columns and rows there
-//! are, where the south-west corner lies, how long the side of a cell is, and which number stands for "no
-//! value here"; then come the rows, the northernmost first. Here, as in a model, rows count from the south:
-//! `[0, 0]` is the cell in the south-west.
+//! Every geographic information system reads and writes them. A header has the number of columns and rows,
+//! the south-west corner, the side of a cell, and the number for NODATA. The rows follow, the northernmost
+//! first. Here, as in a model, rows count from the south: `[0, 0]` is the cell in the south-west.
+//!
+//! [`crate::raster::Raster`] has an example.
 
 mod error;
 mod header;
@@ -19,14 +20,15 @@ use std::path::Path;
 
 /// Reads a grid.
 ///
-/// Keys may stand in any order and in any case, on lines of their own or on one; values in lines of any
-/// length. `xllcenter` and `yllcenter` serve in place of `xllcorner` and `yllcorner`, and `dx` and `dy` that
-/// are equal in place of `cellsize`. Without a `NODATA_value`, -9999 stands for no value, as the format says.
-/// A value that is the same in `f32` stands for it too, as does any beyond 1e38 where it is beyond 1e38:
-/// programs write such numbers with few digits.
+/// Keys may have any order and case, on one line or several. `xllcenter` and `yllcenter` can replace
+/// `xllcorner` and `yllcorner`. Equal `dx` and `dy` can replace `cellsize`. Lines of values may have any
+/// length. Without a `NODATA_value`, -9999 is NODATA, as the format says.
+///
+/// Some programs write NODATA with few digits. A value that is equal in `f32` therefore is NODATA too. So is
+/// any value of the same sign beyond 1e38 if NODATA is beyond 1e38.
 ///
 /// # Errors
-/// [`ReadGridError`] with the path, and with the line where a line is to blame.
+/// Returns [`ReadGridError`] with the path and, for errors in the text, the line.
 pub fn read(path: &Path) -> Result<Raster, ReadGridError> {
     read::read(path, None)
 }
@@ -37,11 +39,11 @@ pub(crate) fn read_placed(path: &Path, on: Option<Placement>) -> Result<Raster, 
     read::read(path, on)
 }
 
-/// Writes a raster as a grid, each number with as many digits as it takes to read it back to the last bit.
-/// The format has no room for a coordinate system. The file appears complete or not at all.
+/// Writes a raster as a grid. Numbers are exact to the last bit. The format has no coordinate system. The
+/// file appears complete or not at all.
 ///
 /// # Errors
-/// [`WriteError`] with the path.
+/// Returns [`WriteError`] with the path.
 pub fn write(path: &Path, raster: &Raster) -> Result<(), WriteError> {
     let values = raster.values();
     let nothing = unused_value(values);

@@ -1,26 +1,26 @@
 //! Readers and writers of scientific files.
 //!
-//! Every module takes plain data (slices of numbers, texts) and writes one kind of file. A file either
-//! appears complete under its name or not at all ([`atomic`]); the one exception is the time series
-//! ([`table_csv`]), which grows by whole rows. No simulation is needed.
+//! Each module reads or writes one kind of file, from plain data: slices of numbers, texts. No simulation is
+//! needed. A file appears complete or not at all ([`atomic`]). Time series ([`table_csv`]) grow by whole
+//! rows.
 //!
-//! | module | file | for |
+//! | module | file | purpose |
 //! |---|---|---|
-//! | [`particle_csv`] | `.csv` | particles, exact to the last bit; can be read back as an initial state |
+//! | [`particle_csv`] | `.csv` | particles, exact to the last bit; also as initial state |
 //! | [`extended_xyz`] | `.xyz` | particles for OVITO and ASE |
 //! | [`table_csv`] | `.csv` | time series |
-//! | [`raster`] | | a layer of cells, of whichever of the next two formats |
-//! | [`ascii_grid`] | `.asc` | a layer of cells for geographic information systems, also to begin from |
+//! | [`raster`] | `.asc`, `.tif` | a layer of cells, in either of the next two formats |
+//! | [`ascii_grid`] | `.asc` | a layer of cells for geographic information systems |
 //! | [`geotiff`] | `.tif` | the same in binary, with a coordinate system |
-//! | [`map`] | | where a layer of cells lies, and which of its cells have no ground |
-//! | [`lattice`] | | how squares and hexagons lie in a layer |
-//! | [`vtk`] | `.vtp`, `.vti`, `.pvd` | particles and dense substates in ParaView |
-//! | [`regular_file`] | | how files are opened to be read: regular ones alone |
-//! | [`deflate`] | | how much a compressed stream can hold |
-//! | [`numbered`] | | files that are numbered by their names |
-//! | [`numbers`] | | numbers as people read them |
+//! | [`map`] | | the place of a layer, and its cells without ground |
+//! | [`lattice`] | | the geometry of squares and hexagons in a layer |
+//! | [`vtk`] | `.vtp`, `.vti`, `.pvd` | particles and dense substates for ParaView |
+//! | [`regular_file`] | | opens regular files only |
+//! | [`deflate`] | | the largest content of a compressed stream |
+//! | [`numbered`] | | files with numbers in their names |
+//! | [`numbers`] | | numbers formatted for people |
 //!
-//! Pictures are made by the crate `xca-picture`.
+//! The crate `xca-picture` makes pictures.
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 

@@ -1,4 +1,4 @@
-//! A layer of square cells with a number for each, as geographic information systems have it.
+//! Rasters of geographic information systems: a layer of square cells, each with a number.
 //!
 //! [`Raster::read`] reads GeoTIFF and ESRI ASCII grids; [`crate::geotiff::write`] and
 //! [`crate::ascii_grid::write`] write them. Rows count from the south, as in a model: `[0, 0]` is the cell in
@@ -13,6 +13,22 @@ use crate::placement::Placement;
 use std::sync::Arc;
 
 /// A layer of square cells, each with a number or without one.
+///
+/// ```
+/// # let temporary = tempfile::tempdir()?;
+/// # let path = temporary.path().join("dem.asc");
+/// use xca_io::ascii_grid;
+/// use xca_io::raster::Raster;
+///
+/// let altitudes = vec![10.0, 11.0, f64::NAN, 20.0, 21.0, 22.0];
+/// let raster = Raster::new([3, 2], 5.0, altitudes).ok_or("no raster")?.with_corner([1000.0, 2000.0]);
+/// assert_eq!(raster.value([1, 0]), Some(11.0));
+/// assert_eq!(raster.value([2, 0]), None); // NODATA
+///
+/// ascii_grid::write(&path, &raster)?;
+/// assert_eq!(Raster::read(&path)?.value([2, 1]), Some(22.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Raster {
     pub(crate) placement: Placement,
@@ -22,11 +38,10 @@ pub struct Raster {
 }
 
 impl Raster {
-    /// A raster of so many columns and rows. `values` has one number for each cell, x fastest, from the
-    /// south; NaN stands for NODATA. The south-west corner is at 0, 0 unless [`Raster::with_corner`] moves
-    /// it.
+    /// A raster with this number of columns and rows. `values` has one number for each cell, x fastest, from
+    /// the south; NaN is NODATA. The south-west corner is at 0, 0; [`Raster::with_corner`] moves it.
     ///
-    /// None if the number of values differs from that of the cells, or the side is not a positive number.
+    /// `None` if the number of values is not that of the cells, or the side is not a positive number.
     #[must_use]
     pub fn new(extents: [usize; 2], side: f64, values: Vec<f64>) -> Option<Self> {
         let cells = extents[0].checked_mul(extents[1])?;
@@ -35,19 +50,19 @@ impl Raster {
         fits.then_some(Self { placement, values, coordinate_system: None })
     }
 
-    /// The same raster with its south-west corner elsewhere.
+    /// Moves the south-west corner.
     #[must_use]
     pub fn with_corner(self, corner: [f64; 2]) -> Self {
         Self { placement: Placement { corner, ..self.placement }, ..self }
     }
 
-    /// The same raster in this coordinate system, or in none.
+    /// Sets the coordinate system.
     #[must_use]
     pub fn with_coordinate_system(self, coordinate_system: Option<Arc<GeoKeys>>) -> Self {
         Self { coordinate_system, ..self }
     }
 
-    /// Where its cells lie.
+    /// The position and size of the cells on the map.
     pub fn placement(&self) -> Placement {
         self.placement
     }
@@ -67,7 +82,7 @@ impl Raster {
         self.placement.side
     }
 
-    /// The coordinate system of the map, if the file names one.
+    /// The coordinate system of the map, if there is one.
     pub fn coordinate_system(&self) -> Option<&Arc<GeoKeys>> {
         self.coordinate_system.as_ref()
     }
@@ -77,14 +92,14 @@ impl Raster {
         &self.values
     }
 
-    /// The value of a cell, if it has one and lies in the raster.
+    /// The value of a cell. `None` for NODATA and outside the raster.
     pub fn value(&self, [x, y]: [usize; 2]) -> Option<f64> {
         let [columns, rows] = self.placement.extents;
         let inside = x < columns && y < rows;
         inside.then(|| self.values[y * columns + x]).filter(|value| !value.is_nan())
     }
 
-    /// The same raster with this value in the cells that have none.
+    /// Replaces NODATA by this value.
     #[must_use]
     pub fn filled(mut self, value: f64) -> Self {
         self.values.iter_mut().filter(|own| own.is_nan()).for_each(|own| *own = value);

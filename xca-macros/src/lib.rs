@@ -34,21 +34,21 @@ pub fn helper(attribute: TokenStream, item: TokenStream) -> TokenStream {
     expand(attribute, item, Wanted::Helper)
 }
 
-/// Makes a struct the substates of a cell or of an item; the trait of the same name says how.
+/// Derives the trait `Substates` for a struct: the state of a cell or an item.
 #[proc_macro_derive(Substates, attributes(position, substate, parameter))]
 pub fn substates(item: TokenStream) -> TokenStream {
     let item = syn::parse_macro_input!(item as syn::DeriveInput);
     finished(fields::substates(&item))
 }
 
-/// Makes an enum without fields a type of substates and parameters; the trait of the same name says how.
+/// Derives the trait `States` for an enum without fields, so that substates and parameters can have its type.
 #[proc_macro_derive(States)]
 pub fn states(item: TokenStream) -> TokenStream {
     let item = syn::parse_macro_input!(item as syn::DeriveInput);
     finished(states::states(&item))
 }
 
-/// Makes a struct the parameters of a model; the trait of the same name says how.
+/// Derives the trait `Parameters` for a struct: the parameters of a model.
 #[proc_macro_derive(Parameters, attributes(parameter, substate))]
 pub fn parameters(item: TokenStream) -> TokenStream {
     let item = syn::parse_macro_input!(item as syn::DeriveInput);

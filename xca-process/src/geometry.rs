@@ -9,17 +9,45 @@ use crate::neighbourhood::Neighbourhood;
 use std::fmt;
 use xca_values::Precision;
 
-/// What lies beyond a face of the space.
+/// What a cell at a face sees beyond it.
+///
+/// ```
+/// use xca_core::prelude::*;
+/// # #[derive(Substates, Clone, Copy)]
+/// # struct Sand { height: Real }
+/// # #[elementary_process]
+/// # fn shift(cell: &mut Cell<Sand>) {
+/// #     cell.height = cell.neighbour(directions::von_neumann_2d::WEST).height;
+/// # }
+///
+/// let first_after_one_step = |boundary| -> Result<f64, Box<dyn std::error::Error>> {
+///     let model = Model::builder("belt")
+///         .extents([4, 1, 1])
+///         .neighbourhood(Neighbourhood::von_neumann_2d(1))
+///         .boundaries([boundary, Boundary::Flat, Boundary::Flat])
+///         .substates_with_outside(Sand { height: 9.0 })
+///         .process(shift) // each cell takes the value of its western neighbour
+///         .fill(|site| Sand { height: site.cell()[0] as f64 })
+///         .build()?;
+///     let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
+///     simulation.step()?;
+///     Ok(simulation.state().get(Sand::HEIGHT, [0, 0, 0])?)
+/// };
+/// assert_eq!(first_after_one_step(Boundary::Flat)?, 9.0);
+/// assert_eq!(first_after_one_step(Boundary::Toroidal)?, 3.0);
+/// assert_eq!(first_after_one_step(Boundary::Reflecting)?, 0.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Boundary {
-    /// Cells that hold a fixed value, the outside value of the face.
+    /// A fixed value, the outside value of the face.
     #[default]
     Flat,
-    /// The opposite side. The face on that side is toroidal too.
+    /// Periodic: the cells of the opposite side. The opposite face is toroidal too.
     Toroidal,
-    /// The mirror image: beyond cell 0 lies cell 0, then cell 1. With a reach of one cell the gradient across
-    /// the face is zero.
+    /// The mirror image: beyond cell 0 lies cell 0, then cell 1. With a reach of one cell, the gradient
+    /// across the face is zero.
     Reflecting,
 }
 
@@ -49,16 +77,16 @@ impl fmt::Display for Faces<Boundary> {
     }
 }
 
-/// Where a displacement leads.
+/// The place to which a displacement leads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reached {
-    /// To the cell with these indices.
+    /// The cell with these indices.
     Cell([usize; 3]),
-    /// Beyond this flat face.
+    /// Outside the space, beyond this flat face.
     Outside(Face),
 }
 
-/// The shape of the cellular space.
+/// The cellular space: extents, cell side, boundaries and neighbourhood.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Geometry {
     extents: [usize; 3],
@@ -92,7 +120,7 @@ impl Geometry {
         self.side
     }
 
-    /// What lies beyond each face.
+    /// The boundary of each face.
     pub fn boundaries(&self) -> Faces<Boundary> {
         self.boundaries
     }
@@ -103,19 +131,20 @@ impl Geometry {
         Face::ALONG.map(|[low, _]| self.boundaries[low] == Boundary::Toroidal)
     }
 
-    /// Which cells a cell sees.
+    /// The cells that a process sees.
     pub fn neighbourhood(&self) -> &Neighbourhood {
         &self.neighbourhood
     }
 
-    /// The largest radius of a search for other items, in metres, as a run of this precision computes it. A
-    /// search with a larger one is a fault.
+    /// The largest radius of a search for other items, in metres, at this precision. A search with a larger
+    /// one is a fault.
     ///
-    /// It is the distance from a cell to the nearest cell of the space that is not in its neighbourhood,
-    /// cells being boxes: within it, an item that is inside its cell finds all others that are inside theirs.
-    /// A Moore neighbourhood of radius `r` covers `r` sides of a cell; von Neumann and hexagonal
-    /// neighbourhoods of radius 1 cover 0, as they lack cells that touch at an edge or a corner. It is
-    /// infinite where the neighbourhood holds the whole space.
+    /// It is the distance from a cell to the nearest cell of the space that is not in its neighbourhood. A
+    /// Moore neighbourhood of radius `r` covers `r` cell sides. Von Neumann and hexagonal neighbourhoods of
+    /// radius 1 cover 0: they lack cells that touch at an edge or a corner. It is infinite if the
+    /// neighbourhood holds the whole space.
+    ///
+    /// Within this radius an item finds all others, as long as every item is inside its cell.
     #[inline]
     pub fn covered_radius(&self, precision: Precision) -> f64 {
         match precision {
@@ -140,13 +169,13 @@ impl Geometry {
         [linear % width, linear / width % height, linear / (width * height)]
     }
 
-    /// The centre of a cell in metres, from the corner of the space; of hexagons too without the shift of odd
-    /// rows or columns.
+    /// The centre of a cell in metres, from the corner of the space. It ignores the shift of odd rows or
+    /// columns of hexagons.
     pub fn centre(&self, cell: [usize; 3]) -> [f64; 3] {
         cell.map(|index| (index as f64 + 0.5) * self.side)
     }
 
-    /// The indices of the cell that contains a position, where there is one.
+    /// The indices of the cell that contains a position, if there is one.
     pub fn cell_containing(&self, position: [f64; 3]) -> Option<[usize; 3]> {
         let mut cell = [0; 3];
         for axis in 0..3 {
@@ -159,10 +188,9 @@ impl Geometry {
         Some(cell)
     }
 
-    /// Where a displacement leads from a cell, by the boundary rules.
+    /// The place to which a displacement leads, by the boundary rules.
     ///
-    /// Each axis follows its own rule. Beyond several flat faces, that along z counts before that along y,
-    /// and that along y before that along x.
+    /// Each axis follows its own rule. Beyond several flat faces, z counts before y, and y before x.
     pub fn reach(&self, cell: [usize; 3], displacement: [i32; 3]) -> Reached {
         let mut target = [0; 3];
         for axis in [2, 1, 0] {
@@ -174,7 +202,7 @@ impl Geometry {
         Reached::Cell(target)
     }
 
-    /// The cell at a displacement, by the boundary rules; nothing where it lies beyond a flat face.
+    /// The cell at a displacement, by the boundary rules; `None` beyond a flat face.
     pub fn at(&self, cell: [usize; 3], displacement: [i32; 3]) -> Option<[usize; 3]> {
         match self.reach(cell, displacement) {
             Reached::Cell(cell) => Some(cell),

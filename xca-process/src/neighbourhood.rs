@@ -6,12 +6,25 @@ use std::fmt;
 
 pub(crate) mod shapes;
 
-/// The cells that a process sees, as displacements from the central cell, which has index 0.
+/// The cells that a process sees, as displacements from the central cell. The central cell has index 0.
 ///
-/// In the ready-made neighbourhoods the others follow with z slowest and x fastest, from the negative to the
-/// positive side: the seven of [`Neighbourhood::von_neumann`] are centre, -z, -y, -x, +x, +y, +z. Only with
-/// [`Hexagons::SideUp`] y is fastest, so that an index means the same direction in all columns. A custom list
-/// keeps its order.
+/// ```
+/// use xca_core::prelude::*;
+///
+/// let cross = Neighbourhood::von_neumann_2d(1);
+/// assert_eq!(cross.size(), 5);
+/// let expected = [[0, 0, 0], [0, -1, 0], [-1, 0, 0], [1, 0, 0], [0, 1, 0]];
+/// assert_eq!(cross.displacements([0, 0, 0]), expected);
+///
+/// let knight = Neighbourhood::custom(vec![[0, 0, 0], [1, 2, 0], [-1, -2, 0]])?;
+/// assert_eq!(knight.reach(), [1, 2, 0]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// Ready-made neighbourhoods sort the other cells by z, then y, then x, from the negative to the positive
+/// side. The seven of [`Neighbourhood::von_neumann`] are centre, -z, -y, -x, +x, +y, +z.
+/// [`crate::directions`] has names for the indices. [`Hexagons::SideUp`] sorts by z, then x, then y, so that
+/// an index means the same direction in all columns. A custom list keeps its order.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Neighbourhood {
     name: String,
@@ -23,40 +36,40 @@ pub struct Neighbourhood {
     shape: ShapeNumber,
 }
 
-/// What the displacements depend on.
+/// The rows or columns in which displacements differ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Parity {
-    /// Nothing: all cells have the same.
+    /// All cells have the same displacements.
     None,
-    /// On whether the row, y, is even or odd.
+    /// Even and odd rows (y) differ.
     Row,
-    /// On whether the column, x, is even or odd.
+    /// Even and odd columns (x) differ.
     Column,
 }
 
-/// How the hexagons of a hexagonal grid stand.
+/// The orientation of the hexagons in a hexagonal grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Hexagons {
-    /// With a corner up: cells stand in straight rows, and odd rows are shifted half a cell towards +x.
+    /// A corner points up. Cells form straight rows; odd rows are shifted half a cell towards +x.
     CornerUp,
-    /// With a side up: cells stand in straight columns, and odd columns are shifted half a cell towards +y.
+    /// A side is up. Cells form straight columns; odd columns are shifted half a cell towards +y.
     SideUp,
 }
 
-/// A list of displacements that is no neighbourhood.
+/// An invalid list of displacements.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NeighbourhoodError {
-    /// Index 0 is the central cell.
+    /// The first displacement is not the central cell.
     #[error("a neighbourhood starts with the central cell: put [0, 0, 0] first")]
     NoCentre,
-    /// The same displacement twice.
+    /// A displacement is listed twice.
     #[error("the displacement {0:?} stands twice in the neighbourhood")]
     Twice([i32; 3]),
 }
 
 impl Neighbourhood {
-    /// The cells that are at most `radius` steps away along the axes: 7 for radius 1.
+    /// The cells at most `radius` steps away along the axes: 7 for radius 1.
     pub fn von_neumann(radius: u8) -> Self {
         Self::ball(format!("von Neumann, radius {radius}"), radius, radius, |[x, y, z]| {
             x.unsigned_abs() + y.unsigned_abs() + z.unsigned_abs() <= radius.into()
@@ -80,9 +93,18 @@ impl Neighbourhood {
         Self::ball(format!("Moore 2D, radius {radius}"), radius, 0, |_| true)
     }
 
-    /// The six touching hexagons of a cell in one layer, 7 with itself. An index means the same direction in
-    /// even and odd rows or columns: with a corner up the two below, those at the sides, the two above; with
-    /// a side up the same with x and y exchanged.
+    /// The six touching hexagons of a cell in one layer, and the cell itself.
+    ///
+    /// ```
+    /// use xca_core::prelude::*;
+    ///
+    /// let hexagons = Neighbourhood::hexagonal(Hexagons::CornerUp);
+    /// let east = directions::hexagonal::corner_up::EAST;
+    /// assert_eq!(hexagons.displacements([4, 7, 0])[east], [1, 0, 0]);
+    /// ```
+    ///
+    /// An index means the same direction in all rows or columns. With a corner up, the two cells below come
+    /// first, then those at the sides, then the two above. With a side up, x and y are exchanged.
     pub fn hexagonal(hexagons: Hexagons) -> Self {
         // In even rows the two neighbours below and above stand at x - 1 and x, in odd rows at x and x + 1.
         let rows = |shift: i32| {
@@ -107,10 +129,10 @@ impl Neighbourhood {
         }
     }
 
-    /// Any list of displacements; the first is the central cell.
+    /// Any list of displacements. The first is the central cell.
     ///
     /// # Errors
-    /// Where the first is not `[0, 0, 0]`, or one stands twice.
+    /// Returns an error if the first displacement is not `[0, 0, 0]`, or one is listed twice.
     pub fn custom(displacements: Vec<[i32; 3]>) -> Result<Self, NeighbourhoodError> {
         if displacements.first() != Some(&[0, 0, 0]) {
             return Err(NeighbourhoodError::NoCentre);
@@ -148,12 +170,12 @@ impl Neighbourhood {
         Self { name, displacements, parity, opposites, shape }
     }
 
-    /// The number of cells, with the central one.
+    /// The number of cells, including the central one.
     pub fn size(&self) -> usize {
         self.displacements[0].len()
     }
 
-    /// The displacements along x, y, z for a cell with these indices.
+    /// The displacements along x, y, z, for a cell with these indices.
     pub fn displacements(&self, cell: [usize; 3]) -> &[[i32; 3]] {
         let odd = match self.parity {
             Parity::None => 0,
@@ -163,8 +185,8 @@ impl Neighbourhood {
         &self.displacements[odd]
     }
 
-    /// The index of the neighbour at a displacement from the cell with these indices; `None` where the
-    /// neighbourhood does not hold it. Only in hexagonal grids does the cell matter.
+    /// The index of the neighbour at a displacement from the cell, or `None`. Only hexagonal grids depend on
+    /// the cell.
     ///
     /// ```
     /// use xca_core::prelude::*;
@@ -177,9 +199,10 @@ impl Neighbourhood {
         self.displacements(cell).iter().position(|known| *known == displacement)
     }
 
-    /// The index of the neighbour in the opposite direction: seen from neighbour `index`, the cell itself has
-    /// this index. 0 for 0. `None` where a custom neighbourhood lacks the opposite displacement, and for an
-    /// index beyond the neighbourhood.
+    /// The index of the opposite direction: neighbour `index` sees the cell under this index. 0 for 0.
+    ///
+    /// `None` if a custom neighbourhood lacks the opposite displacement, and for an index beyond the
+    /// neighbourhood.
     pub fn opposite(&self, index: usize) -> Option<usize> {
         self.opposites.get(index).copied().flatten()
     }
@@ -200,7 +223,7 @@ impl Neighbourhood {
         self.displacements[0].get(first).copied()
     }
 
-    /// What the displacements depend on.
+    /// The rows or columns in which displacements differ.
     pub fn parity(&self) -> Parity {
         self.parity
     }

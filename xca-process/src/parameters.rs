@@ -9,12 +9,11 @@ use xca_values::Interval;
 use xca_values::{Field, Schema};
 use xca_values::{Precision, ScalarType, Shortest, ValueType};
 
-/// A struct whose fields are parameters; derive it.
+/// A struct whose fields are parameters. Derive it.
 ///
-/// Fields are of the types that substates have: `bool`, `u8`, `i32`, `u32`, `f32`, `f64`, `Real`, small
-/// vectors of a number, enums that derive `States`, and arrays of these. They can be read and set by name,
-/// from a number, `true` or `false`, the name of a state, or as many of them as a vector or an array has,
-/// separated by commas:
+/// Field types are those of substates: `bool`, `u8`, `i32`, `u32`, `f32`, `f64`, `Real`; vectors of a number;
+/// enums that derive `States`; arrays of these. Read and set them by name. The text is a number, `true` or
+/// `false`, or the name of a state. Separate the components of a vector or an array by commas:
 ///
 /// ```
 /// use xca_core::prelude::*;
@@ -34,8 +33,8 @@ use xca_values::{Precision, ScalarType, Shortest, ValueType};
 /// # Ok::<(), ParameterError>(())
 /// ```
 ///
-/// A field can say more of itself. The range holds for each component, wherever a value comes from, in the
-/// precision of the run; NaN is never a value of a parameter.
+/// Attributes add a unit and a range, or mark a parameter as computed. Every value must be in the range, in
+/// the precision of the run; for vectors and arrays, every component. NaN is never valid.
 ///
 /// ```
 /// use xca_core::prelude::*;
@@ -49,7 +48,7 @@ use xca_values::{Precision, ScalarType, Shortest, ValueType};
 ///     viscosity: Real,
 ///     #[parameter(range = 0.0..=1.0)]
 ///     shares: [Real; 2],
-///     /// Follows from the others: see `ModelBuilder::compute_parameters`.
+///     /// See `ModelBuilder::compute_parameters`.
 ///     #[parameter(computed)]
 ///     relaxation: Real,
 /// }
@@ -73,28 +72,29 @@ pub trait Parameters: Clone + fmt::Debug + Send + Sync + 'static {
     /// The same struct as a kernel of precision `R` sees it.
     type Native<R: Float>: Copy + Send + Sync + 'static;
 
-    /// Converts to what a kernel sees.
+    /// Converts to the struct that a kernel sees.
     fn native<R: Float>(&self) -> Self::Native<R>;
 
     /// The value of the field with this number.
     fn value(&self, field: usize) -> ParameterValue;
 
-    /// Sets the field with this number; the value has as many components as the field and fits its type.
+    /// Sets the field with this number. The value must have the type of the field.
     fn set_value(&mut self, field: usize, value: &ParameterValue);
 
     /// The value of the parameter with this name.
     ///
     /// # Errors
-    /// [`ParameterError::Unknown`] where no parameter has the name.
+    /// Returns [`ParameterError::Unknown`] if no parameter has the name.
     fn get(&self, name: &str) -> Result<ParameterValue, ParameterError> {
         find(Self::SCHEMA, name).map(|(index, _)| self.value(index))
     }
 
-    /// Sets the parameter with this name from text: a number, `true` or `false`, the name of a state, or as
-    /// many of them as the value has components, separated by commas.
+    /// Sets the parameter with this name from text: a number, `true` or `false`, or the name of a state.
+    /// Separate the components of a vector or an array by commas.
     ///
     /// # Errors
-    /// Where no parameter has the name, it is computed, or the text is no value of its type or its range.
+    /// Returns an error if the name is unknown, the parameter is computed, or the text is not a value of its
+    /// type and range.
     fn set(&mut self, name: &str, text: &str) -> Result<(), ParameterError> {
         let (index, field) = find(Self::SCHEMA, name)?;
         if field.computed {
@@ -109,7 +109,7 @@ pub trait Parameters: Clone + fmt::Debug + Send + Sync + 'static {
     /// Checks that all values are in their ranges.
     ///
     /// # Errors
-    /// [`ParameterError::OutOfRange`] with the first that is not.
+    /// Returns [`ParameterError::OutOfRange`] for the first that is not.
     fn check(&self) -> Result<(), ParameterError> {
         let mut fields = Self::SCHEMA.fields.iter().enumerate();
         fields.try_for_each(|(number, field)| self.value(number).check(field, Precision::F64))
@@ -120,7 +120,22 @@ fn find(schema: &'static Schema, name: &str) -> Result<(usize, &'static Field), 
     schema.field(name).ok_or_else(|| ParameterError::Unknown { name: name.to_owned(), known: schema.names() })
 }
 
-/// The value of a parameter, with its type. Every scalar type fits exactly into the `f64` of its components.
+/// The value of a parameter, with its type. Components are `f64`, which holds every scalar type exactly.
+///
+/// ```
+/// use xca_core::prelude::*;
+///
+/// #[derive(Parameters, Clone, Debug)]
+/// struct Wind {
+///     velocity: Vector2<Real>,
+/// }
+///
+/// let wind = Wind { velocity: Vector2::new(3.0, -1.0) };
+/// let value = wind.get("velocity")?;
+/// assert_eq!(value.components(), [3.0, -1.0]);
+/// assert_eq!(value.to_string(), "3, -1");
+/// # Ok::<(), ParameterError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct ParameterValue {
     value_type: ValueType,
@@ -135,8 +150,7 @@ impl ParameterValue {
         Self { value_type, components }
     }
 
-    /// A value with these components; nothing where the type has another number of them, or one is no value
-    /// of it.
+    /// A value with these components. `None` if their number is wrong, or one is not a value of the type.
     pub fn from_components(value_type: ValueType, components: Vec<f64>) -> Option<Self> {
         let all_fit = components.iter().all(|number| value_type.scalar.holds(*number));
         (components.len() == value_type.components() && all_fit).then_some(Self { value_type, components })
@@ -155,12 +169,15 @@ impl ParameterValue {
         self.value_type
     }
 
-    /// The components: one of a scalar, the lanes of a vector, those of all elements of an array.
+    /// The components: one for a scalar, the lanes of a vector, those of all elements of an array.
     pub fn components(&self) -> &[f64] {
         &self.components
     }
 
-    /// Checks that the value, as a run of this precision has it, lies in the range of its field.
+    /// Checks that the value is in the range of its field, at this precision.
+    ///
+    /// # Errors
+    /// Returns [`ParameterError::OutOfRange`] if it is not.
     pub fn check(&self, field: &'static Field, precision: Precision) -> Result<(), ParameterError> {
         let is_real = matches!(self.value_type.scalar, ScalarType::Real);
         let precision = if is_real { precision } else { Precision::F64 };
@@ -205,14 +222,14 @@ impl fmt::Display for ParameterValue {
     }
 }
 
-/// A parameter that cannot be read or set.
+/// An error in reading or setting a parameter.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ParameterError {
     /// The model has no parameters of this type.
     #[error("the model has no parameters `{wanted}`; it has: {given}")]
     OtherStruct {
-        /// The type that was asked for.
+        /// The requested type.
         wanted: &'static str,
         /// The types that the model has.
         given: String,
@@ -220,40 +237,40 @@ pub enum ParameterError {
     /// No parameter has this name.
     #[error("no parameter is called `{name}`; known parameters: {known}")]
     Unknown {
-        /// The name that was asked for.
+        /// The name.
         name: String,
-        /// The names that there are.
+        /// The known names.
         known: String,
     },
-    /// Parameters of several structs have this name.
+    /// Several structs have a parameter of this name.
     #[error("several parameters are called `{name}`; say which: {known}")]
     Ambiguous {
-        /// The name that was asked for.
+        /// The name.
         name: String,
-        /// What it may mean.
+        /// The parameters of that name.
         known: String,
     },
-    /// A parameter that follows from others.
+    /// The parameter is computed from others.
     #[error("the parameter `{name}` is computed from others; set those")]
     Computed {
         /// Its name.
         name: &'static str,
     },
-    /// A number that the parameter cannot be.
+    /// The number is out of the parameter's range.
     #[error("the parameter `{name}` is {}{}, but must be {range}{unit}", Shortest(*number), in_precision(*number, *precision))]
     OutOfRange {
         /// Its name.
         name: &'static str,
         /// The number.
         number: f64,
-        /// The precision of the run, in which the number may be another one.
+        /// The precision of the run, to which the number is rounded.
         precision: Precision,
-        /// Which numbers it can be.
+        /// The range.
         range: Interval,
-        /// Its unit in parentheses, if it has one.
+        /// Its unit in parentheses, or nothing.
         unit: String,
     },
-    /// The text is no value of the parameter's type.
+    /// The text is not a value of the parameter's type.
     #[error("`{text}` is no value for the parameter `{name}`, which is {}", value_type.described())]
     Invalid {
         /// The parameter.

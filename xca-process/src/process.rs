@@ -6,7 +6,7 @@ use std::any::TypeId;
 use xca_values::Precision;
 use xca_values::Schema;
 
-/// What a process is run for.
+/// The subject of a process.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ProcessKind {
     /// Each cell.
@@ -17,18 +17,18 @@ pub enum ProcessKind {
     Migration,
 }
 
-/// A struct that a process takes.
+/// A struct of substates among the arguments of a process.
 #[derive(Debug, Clone, Copy)]
 pub struct Argument {
     /// The type of the struct.
     pub type_id: fn() -> TypeId,
     /// Its fields.
     pub schema: &'static Schema,
-    /// What it holds.
+    /// The owner of the substates.
     pub holds: Holds,
 }
 
-/// What a struct that a process takes holds.
+/// The owner of the substates of an argument.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Holds {
     /// Substates of cells.
@@ -37,30 +37,29 @@ pub enum Holds {
     Items,
 }
 
-/// Everything that an engine knows about a process; written by `#[elementary_process]` and `#[migration]`.
+/// The data of a process for engines. `#[elementary_process]` and `#[migration]` generate it.
 #[derive(Debug, Clone, Copy)]
 pub struct Process {
     /// The name of the function.
     pub name: &'static str,
-    /// The module that the function stands in.
+    /// The module of the function.
     pub module: &'static str,
-    /// What it is run for.
+    /// The subject of the process.
     pub kind: ProcessKind,
-    /// In which steps it is run: in every one, or in every so many, the first time as the last of so many.
+    /// The interval of steps. With 10 the process runs in step 10, 20 and so on.
     pub every: u64,
-    /// The structs of substates that it takes: first that of what it is run for, which alone it can write.
+    /// The structs of substates among its arguments. The first is that of its subject, and the only writable
+    /// one.
     pub substates: &'static [Argument],
-    /// The structs of parameters that it takes, with their types.
+    /// The structs of parameters among its arguments.
     pub parameters: &'static [ParametersArgument],
-    /// Whether it looks at neighbours.
+    /// Whether it reads neighbours.
     pub local_interaction: bool,
-    /// Whether it asks for the opposite of a neighbour.
+    /// Whether it uses `opposite`.
     pub uses_opposite: bool,
-    /// Whether its text asks for random numbers or for the number of the step; a helper may do so too, which
-    /// only a kernel notes.
+    /// Whether its text uses random numbers or the step. A helper may use them too; only kernels report that.
     pub uses_step: bool,
-    /// How it uses each substate; a substate may stand in two accesses, one of which is the position for a
-    /// search.
+    /// Its uses of substates. A substate may have two entries, one of them as the position of a search.
     pub access: &'static [Access],
     /// Its body as data.
     pub body: fn() -> ir::Function,
@@ -70,7 +69,7 @@ pub struct Process {
     pub row_f64: RowKernel,
 }
 
-/// A struct of parameters that a process takes.
+/// A struct of parameters among the arguments of a process.
 #[derive(Debug, Clone, Copy)]
 pub struct ParametersArgument {
     /// The type of the struct.
@@ -88,17 +87,17 @@ impl Process {
         }
     }
 
-    /// The struct of what it is run for.
+    /// The struct of its subject.
     pub fn subject(&self) -> &'static Argument {
         &self.substates[0]
     }
 
-    /// The population whose items it runs for or goes through.
+    /// The population whose items it visits.
     pub fn population(&self) -> Option<&'static Argument> {
         self.substates.iter().find(|argument| argument.holds == Holds::Items)
     }
 
-    /// Whether it is run in the step with this number, from 0.
+    /// Whether it runs in the step with this number, from 0.
     pub fn is_due(&self, step: u64) -> bool {
         (step % self.every) + 1 == self.every
     }
@@ -106,19 +105,19 @@ impl Process {
 
 /// A function marked `#[elementary_process]` or `#[migration]`.
 ///
-/// Its name is a value that a model takes, as in `.process(evolve)`, and therefore not free for variables in
-/// the same module.
+/// Its name is a value for a model, as in `.process(evolve)`. Variables of the same module cannot have that
+/// name.
 #[diagnostic::on_unimplemented(
     message = "this is no elementary process",
     label = "not marked as an elementary process",
     note = "write `#[elementary_process]` or `#[migration]` above the function, and name it here: `.process(evolve)`"
 )]
 pub trait ElementaryProcess: 'static {
-    /// What an engine knows about it.
+    /// The data of the process for engines.
     fn process() -> Process;
 }
 
-/// One process, or several in parentheses that run one after the other: `relax`, `(flow, balance, cool)`.
+/// One process, or a tuple of processes in order: `relax`, `(flow, balance, cool)`.
 #[diagnostic::on_unimplemented(
     message = "this is no elementary process",
     label = "not marked as an elementary process",

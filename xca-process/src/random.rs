@@ -1,8 +1,7 @@
 //! Counter-based random numbers: Philox 4x32-10.
 //!
 //! J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw: "Parallel random numbers: as easy as 1, 2, 3", SC11. A
-//! number is a function of its counter and key alone, so that it does not matter who draws it, when, or in
-//! which order.
+//! number is a function of its counter and key alone. Threads may therefore draw in any order.
 
 use crate::float::Float;
 
@@ -10,7 +9,7 @@ const MULTIPLIERS: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];
 const KEY_INCREMENTS: [u32; 2] = [0x9E37_79B9, 0xBB67_AE85];
 const ROUNDS: usize = 10;
 
-/// The four words that belong to this counter and key.
+/// The four words of this counter and key.
 #[inline]
 pub fn philox(mut counter: [u32; 4], mut key: [u32; 2]) -> [u32; 4] {
     for round in 0..ROUNDS {
@@ -29,29 +28,29 @@ pub fn philox(mut counter: [u32; 4], mut key: [u32; 2]) -> [u32; 4] {
     counter
 }
 
-/// A sequence of random numbers that is independent of all others: one for each process of a step, one for
-/// the initial state of each struct of substates, one for steering.
+/// An independent sequence of random numbers. Each process of a step has one, the initial state of each
+/// struct of substates has one, and steering has one.
 ///
-/// A stream is 16 bits of the counter. Those below 2^15 belong to the processes by their places in the step,
-/// so that two runs of one process in a step are independent too. From 2^15 on they belong to the initial
-/// states; the last one belongs to steering.
+/// A stream is 16 bits of the counter. Numbers below 2^15 are the places of processes in the step, so two
+/// runs of one process in a step are independent too. Initial states follow from 2^15 on. The last number is
+/// steering.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Stream(u16);
 
 impl Stream {
-    /// The most processes that a step can have.
+    /// The largest number of processes in a step.
     pub const PROCESSES: usize = 0x8000;
-    /// The most structs of substates that a model can have.
+    /// The largest number of structs of substates in a model.
     pub const GROUPS: usize = 0x7FFF;
     /// The stream of steering.
     pub const STEERING: Self = Self(u16::MAX);
 
-    /// The stream of the process at this place in the step, which is below [`Self::PROCESSES`].
+    /// The stream of the process at this place in the step, below [`Self::PROCESSES`].
     pub const fn process(place: usize) -> Self {
         Self(place as u16 & 0x7FFF)
     }
 
-    /// The stream of the initial state of the group with this number, which is below [`Self::GROUPS`].
+    /// The stream of the initial state of the group with this number, below [`Self::GROUPS`].
     pub const fn initial(group: usize) -> Self {
         Self(group as u16 | 0x8000)
     }
@@ -62,16 +61,16 @@ impl Stream {
     }
 }
 
-/// One draw of random bits: together with the seed everything that they depend on.
+/// One draw of random bits. With the seed it determines the bits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Draw {
-    /// Whose sequence.
+    /// The sequence.
     pub stream: Stream,
     /// The number of the step, from 0. Numbers repeat after 2^48 steps.
     pub step: u64,
     /// The linear index of a cell (x fastest), or the label of an item.
     pub owner: u32,
-    /// Which of the owner's numbers.
+    /// The number of the draw.
     pub number: u32,
 }
 
@@ -91,7 +90,7 @@ impl Draw {
     }
 }
 
-/// A random number in [0, 1) for the host, whose `Real` is `f64` in every run.
+/// A random number in [0, 1) for the host, whose `Real` is `f64`.
 pub fn uniform([first, second, ..]: [u32; 4]) -> f64 {
     f64::uniform([first, second])
 }

@@ -3,7 +3,7 @@
 use crate::host_value::{HostScalar, HostValue};
 use xca_values::{StateNames, StoredScalar};
 
-/// An enum whose values are the states of a cell, of an item or of a parameter; derive it.
+/// An enum whose values are the states of a cell, an item or a parameter. Derive it.
 ///
 /// ```
 /// use xca_core::prelude::*;
@@ -40,8 +40,8 @@ use xca_values::{StateNames, StoredScalar};
 /// assert_eq!(Tissue::NAMES.states, ["Resting", "Excited", "Refractory"]);
 /// ```
 ///
-/// A state takes one byte. The first one is that of cells which nothing has filled, and the default outside
-/// of flat boundaries. Texts (parameters, tables) name a state as the source does.
+/// A state takes one byte. The first state is the default of cells and of flat boundaries. Parameters and
+/// tables name a state as the source does.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no type of a substate or parameter",
     label = "neither a number, bool, vector or array, nor an enum of states",

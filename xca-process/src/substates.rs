@@ -6,9 +6,7 @@ use std::marker::PhantomData;
 use xca_values::Precision;
 use xca_values::Schema;
 
-/// A struct whose fields are substates; derive it.
-///
-/// The struct is the state of one cell (or one item) as the host sees it. Engines store each field apart.
+/// A struct whose fields are substates: the state of one cell or one item. Derive it.
 ///
 /// ```
 /// use xca_core::prelude::*;
@@ -25,10 +23,12 @@ use xca_values::Schema;
 /// assert_eq!(Lava::THICKNESS.name(), "thickness");
 /// ```
 ///
-/// Fields are of type `bool`, `u8`, `i32`, `u32`, `f32`, `f64`, `Real`, of `Vector2`, `Vector3`, `Vector4` of
-/// a number, of an enum that derives [`crate::States`], or arrays of these, `[T; N]`. For each field there is
-/// a constant in capitals, a [`Substate`], by which the host names it. In a struct for the items of a
-/// population one field of type `Vector3<Real>` may be marked `#[position]`: searches for near items use it.
+/// Field types: `bool`, `u8`, `i32`, `u32`, `f32`, `f64`, `Real`; `Vector2`, `Vector3`, `Vector4` of a
+/// number; enums that derive [`crate::States`]; arrays `[T; N]` of these.
+///
+/// The derive adds a constant for each field, in capitals: a [`Substate`], by which a `State` names the
+/// field. In a struct for items, mark one field of type `Vector3<Real>` as `#[position]`: searches for near
+/// items use it. Engines store each field in its own array.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no struct of substates",
     label = "its fields are not substates",
@@ -60,7 +60,23 @@ pub trait HasSubstate<const NAME: u64> {
     const INDEX: usize;
 }
 
-/// The name by which the host speaks of a substate: `Lava::THICKNESS`.
+/// The handle of a substate: `Lava::THICKNESS`. [`Substates`] derives one for each field.
+///
+/// ```
+/// use xca_core::prelude::*;
+///
+/// #[derive(Substates, Clone, Copy)]
+/// struct Lava {
+///     thickness: Real,
+/// }
+///
+/// let model = Model::builder("lava").extents([4, 4, 1]).substates::<Lava>().build()?;
+/// let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
+/// let handle: Substate<Lava, f64> = Lava::THICKNESS;
+/// simulation.state().set(handle, [1, 1, 0], 2.5)?;
+/// assert_eq!(simulation.state().maximum(handle)?, Some(2.5));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Substate<S, V> {
     index: usize,
     of: PhantomData<fn() -> (S, V)>,

@@ -1,7 +1,7 @@
-//! The words that an elementary process speaks.
+//! The types that an elementary process uses.
 //!
-//! These types exist for the compiler and the reader: the macros check a process against them and then
-//! replace them by kernels. No value of them can be made, so nothing here can be called from ordinary code.
+//! They exist for the compiler and the reader. The macros check a process against them, then replace them by
+//! kernels. They have no values, so ordinary code cannot call their functions.
 
 use crate::checks::HasPosition;
 use std::convert::Infallible;
@@ -12,8 +12,26 @@ use xca_values::Vector3;
 
 /// The central cell, in a process that runs once for each cell.
 ///
-/// Its substates are its fields: `cell.temperature` reads, `cell.temperature = …` writes. Reading shows what
-/// the process has already written. Only the central cell can be written.
+/// ```
+/// use xca_core::prelude::*;
+///
+/// #[derive(Substates, Clone, Copy)]
+/// struct Heat {
+///     temperature: Real,
+/// }
+///
+/// #[elementary_process]
+/// fn conduct(cell: &mut Cell<Heat>) {
+///     let mut sum = 0.0;
+///     for n in 1..cell.neighbour_count() {
+///         sum += cell.neighbour(n).temperature - cell.temperature;
+///     }
+///     cell.temperature += 0.2 * sum;
+/// }
+/// ```
+///
+/// Its substates are its fields: `cell.temperature` reads, `cell.temperature = …` writes. A process reads
+/// back what it has written. It can write the central cell only.
 #[derive(Debug)]
 pub struct Cell<S> {
     never: Infallible,
@@ -21,7 +39,7 @@ pub struct Cell<S> {
 }
 
 impl<S: 'static> Cell<S> {
-    /// The number of cells in the neighbourhood, with the central one: neighbours are
+    /// The number of cells in the neighbourhood, including the central one: neighbours are
     /// `1..cell.neighbour_count()`.
     pub fn neighbour_count(&self) -> usize {
         match self.never {}
@@ -33,10 +51,9 @@ impl<S: 'static> Cell<S> {
         match self.never {}
     }
 
-    /// The index of the neighbour in the opposite direction, 0 for 0: seen from neighbour `index`, this cell
-    /// has the index `cell.opposite(index)`. A custom neighbourhood must hold the opposite of each
-    /// displacement, or `build` refuses the process. An index beyond the neighbourhood is a fault, as in
-    /// [`Self::neighbour`].
+    /// The index of the opposite direction: neighbour `index` sees this cell as `cell.opposite(index)`. 0 for
+    /// 0. A custom neighbourhood must hold the opposite of each displacement, or `build` returns an error. An
+    /// index beyond the neighbourhood is a fault, as in [`Self::neighbour`].
     pub fn opposite(&self, _index: usize) -> usize {
         match self.never {}
     }
@@ -48,9 +65,9 @@ impl<S: 'static> Cell<S> {
         match self.never {}
     }
 
-    /// Whether a neighbour is a cell of the space: `false` beyond a flat face, where [`Self::neighbour`]
-    /// shows the outside values. Beyond toroidal and reflecting faces there is always a cell. An index beyond
-    /// the neighbourhood is a fault, as in [`Self::neighbour`].
+    /// Whether a neighbour is a cell of the space. `false` only beyond a flat face, where
+    /// [`Self::neighbour`] shows the outside values. An index beyond the neighbourhood is a fault, as in
+    /// [`Self::neighbour`].
     pub fn exists(&self, _index: usize) -> bool {
         match self.never {}
     }
@@ -63,15 +80,14 @@ impl<S: 'static> Cell<S> {
     /// A random number in [0, 1): a function of seed, step, process, cell and `draw`, the same on every
     /// engine.
     ///
-    /// Give each use in a process a `draw` of its own: one that asks twice for the same draw gets the same
-    /// number. Equal draws of two processes are independent, and so are those of two runs of a process in one
-    /// step.
+    /// Use a different `draw` each time within a process: equal draws give equal numbers. Draws of different
+    /// processes are independent, and so are those of two runs of a process in one step.
     pub fn random(&self, _draw: usize) -> Real {
         match self.never {}
     }
 
     /// 32 random bits: a function of seed, step, process, cell and `draw`, the same on every engine. Equal
-    /// draws give equal bits, as with [`Self::random`], whose number is made of the same ones.
+    /// draws give equal bits. [`Self::random`] makes its number of the same bits.
     pub fn random_bits(&self, _draw: usize) -> u32 {
         match self.never {}
     }
@@ -97,7 +113,28 @@ impl<S> DerefMut for Cell<S> {
     }
 }
 
-/// An item of a population, in a process that runs once for each occupied slot. Its substates are its fields.
+/// An item of a population, in a process that runs once for each item. Its substates are its fields.
+///
+/// ```
+/// use xca_core::prelude::*;
+///
+/// #[derive(Substates, Clone, Copy)]
+/// struct Grain {
+///     #[position]
+///     position: Vector3<Real>,
+///     force: Vector3<Real>,
+/// }
+///
+/// /// Overlapping spheres repel each other.
+/// #[elementary_process]
+/// fn repel(me: &mut Slot<Grain>, space: &Space) {
+///     let mut force = Vector3::splat(0.0);
+///     for other in me.others_within(0.01) {
+///         force += space.nearest_image(me.position - other.position);
+///     }
+///     me.force = 100.0 * force;
+/// }
+/// ```
 #[derive(Debug)]
 pub struct Slot<S> {
     never: Infallible,
@@ -105,12 +142,12 @@ pub struct Slot<S> {
 }
 
 impl<S: 'static> Slot<S> {
-    /// The item's label, which it keeps for its life.
+    /// The item's label, which never changes.
     pub fn label(&self) -> u32 {
         match self.never {}
     }
 
-    /// The indices along x, y, z of the cell that the item stands in.
+    /// The indices along x, y, z of the item's cell.
     pub fn index(&self) -> Vector3<i32> {
         match self.never {}
     }
@@ -118,15 +155,14 @@ impl<S: 'static> Slot<S> {
     /// A random number in [0, 1): a function of seed, step, process, label and `draw`, the same on every
     /// engine.
     ///
-    /// Give each use in a process a `draw` of its own: one that asks twice for the same draw gets the same
-    /// number. Equal draws of two processes are independent, and so are those of two runs of a process in one
-    /// step.
+    /// Use a different `draw` each time within a process: equal draws give equal numbers. Draws of different
+    /// processes are independent, and so are those of two runs of a process in one step.
     pub fn random(&self, _draw: usize) -> Real {
         match self.never {}
     }
 
     /// 32 random bits: a function of seed, step, process, label and `draw`, the same on every engine. Equal
-    /// draws give equal bits, as with [`Self::random`], whose number is made of the same ones.
+    /// draws give equal bits. [`Self::random`] makes its number of the same bits.
     pub fn random_bits(&self, _draw: usize) -> u32 {
         match self.never {}
     }
@@ -152,8 +188,8 @@ impl<S: 'static> Slot<S> {
         match self.never {}
     }
 
-    /// Of [`Self::others_in_cell`] those whose position is nearer than the radius; on a toroidal axis by the
-    /// shorter way. A NaN or negative radius is a fault.
+    /// The items of [`Self::others_in_cell`] within a radius. Toroidal axes use the nearest image. A NaN or
+    /// negative radius is a fault.
     pub fn others_in_cell_within(&self, _radius: Real) -> Others<S>
     where
         S: HasPosition,
@@ -161,8 +197,8 @@ impl<S: 'static> Slot<S> {
         match self.never {}
     }
 
-    /// Of [`Self::others_in_neighbours`] those whose position is nearer than the radius. Radii are limited as
-    /// in [`Self::others_within`].
+    /// The items of [`Self::others_in_neighbours`] within a radius. Radii are limited as in
+    /// [`Self::others_within`].
     pub fn others_in_neighbours_within(&self, _radius: Real) -> Others<S>
     where
         S: HasPosition,
@@ -170,11 +206,11 @@ impl<S: 'static> Slot<S> {
         match self.never {}
     }
 
-    /// Of [`Self::others`] those whose position is nearer than the radius.
+    /// The items of [`Self::others`] whose distance is less than the radius.
     ///
-    /// A radius beyond what the neighbourhood covers is a fault that stops the run:
-    /// [`Geometry::covered_radius`](crate::Geometry::covered_radius) says how far that is, for a Moore
-    /// neighbourhood its radius times the side of a cell. A NaN or negative radius is a fault too.
+    /// The neighbourhood must cover the radius; a larger radius is a fault that stops the run.
+    /// [`Geometry::covered_radius`](crate::Geometry::covered_radius) is the limit: for a Moore neighbourhood,
+    /// its radius times the cell side. A NaN or negative radius is a fault too.
     pub fn others_within(&self, _radius: Real) -> Others<S>
     where
         S: HasPosition,
@@ -197,7 +233,28 @@ impl<S> DerefMut for Slot<S> {
     }
 }
 
-/// All items of the central cell, by label: `for item in slots { … }` in a process over cells.
+/// All items of the central cell, by label, in a process over cells.
+///
+/// ```
+/// use xca_core::prelude::*;
+///
+/// #[derive(Substates, Clone, Copy)]
+/// struct Meadow {
+///     grass: Real,
+/// }
+///
+/// #[derive(Substates, Clone, Copy)]
+/// struct Sheep {
+///     appetite: Real,
+/// }
+///
+/// #[elementary_process]
+/// fn graze(cell: &mut Cell<Meadow>, herd: &Slots<Sheep>) {
+///     for sheep in herd {
+///         cell.grass -= sheep.appetite;
+///     }
+/// }
+/// ```
 #[derive(Debug)]
 pub struct Slots<S> {
     never: Infallible,
@@ -213,7 +270,7 @@ impl<S: 'static> IntoIterator for &Slots<S> {
     }
 }
 
-/// Another item; its substates are its fields, and it cannot be written.
+/// Another item. Its substates are its fields, for reading only.
 #[derive(Debug)]
 pub struct Other<S> {
     never: Infallible,
@@ -235,7 +292,7 @@ impl<S> Deref for Other<S> {
     }
 }
 
-/// Other items, to be used in a `for`.
+/// Other items, for a `for` loop.
 #[derive(Debug)]
 pub struct Others<S> {
     never: Infallible,
@@ -272,31 +329,31 @@ impl Space {
         match self.never {}
     }
 
-    /// A separation of two positions, by the shorter way round each toroidal axis (the nearest image); along
-    /// the others it is what it was. A search measures distances in the same way.
+    /// The separation of two positions by the nearest image, on each toroidal axis. Other axes do not change.
+    /// Searches measure distances in the same way.
     pub fn nearest_image(&self, _separation: Vector3<Real>) -> Vector3<Real> {
         match self.never {}
     }
 
-    /// A position inside the space: one that lies beyond a face of a toroidal axis, by less than the length
-    /// of the space, comes in again at the opposite face. Along the other axes it is what it was.
+    /// Wraps a position into the space on each toroidal axis. It may lie beyond a face by less than the
+    /// length of the space. Other axes do not change.
     pub fn wrapped(&self, _position: Vector3<Real>) -> Vector3<Real> {
         match self.never {}
     }
 
-    /// The cell that contains the position: cell `i` holds `i * side <= x < (i + 1) * side`. Outside the
-    /// space it is [`Destination::Outside`]; a position that is no number is a fault.
+    /// The cell that contains a position: cell `i` holds `i * side <= x < (i + 1) * side`. Outside the space:
+    /// [`Destination::Outside`]. A NaN position is a fault.
     pub fn cell_containing(&self, _position: Vector3<Real>) -> Destination {
         match self.never {}
     }
 }
 
-/// Where a migration sends an item.
+/// The place to which a migration sends an item. See `#[migration]` for an example.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Destination {
-    /// It stays where it is.
+    /// The item's own cell.
     Stay,
-    /// It leaves the space, which the model must allow.
+    /// Outside the space. The model must allow it.
     Outside,
     /// The cell with this linear index, made by [`Space::cell_containing`].
     Cell(u32),

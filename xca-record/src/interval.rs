@@ -4,12 +4,20 @@ use std::fmt;
 use std::str::FromStr;
 use std::time::Duration;
 
-/// A number of steps, or a time on the clock.
+/// A number of steps or a wall-clock time.
+///
+/// ```
+/// use std::time::Duration;
+/// use xca_record::Interval;
+///
+/// assert_eq!("500".parse::<Interval>(), Ok(Interval::Steps(500)));
+/// assert_eq!("10min".parse::<Interval>(), Ok(Interval::Time(Duration::from_secs(600))));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Interval {
     /// Steps, at least 1.
     Steps(u64),
-    /// Time on the clock.
+    /// Wall-clock time.
     Time(Duration),
 }
 

@@ -1,6 +1,6 @@
 //! Records of a simulation: frames, time series, tables, pictures and checkpoints, from a `main` of your own.
 //!
-//! A [`SetUp`] says what of a model is recorded; a [`Run`] says how often, and writes it.
+//! A [`SetUp`] says what is recorded. A [`Run`] says how often, and writes the files.
 //!
 //! ```
 //! # let temporary = tempfile::tempdir()?;
@@ -37,17 +37,16 @@
 //! ```
 //!
 //! # The parts
-//! | item | for |
+//! | item | purpose |
 //! |---|---|
-//! | [`SetUp`], [`CellView`], [`ItemView`], [`Observable`] | what is recorded |
-//! | [`mod@format`] | the formats of its files, and how to add one |
-//! | [`Run`], [`Recording`] | a run, from its beginning or from a checkpoint, and its files |
-//! | [`Monitor`] | who watches a run, and can end it |
-//! | [`read_items`] | a table of items, read back |
+//! | [`SetUp`], [`CellView`], [`ItemView`], [`Observable`] | the content of a record |
+//! | [`mod@format`] | the file formats, and how to add one |
+//! | [`Run`], [`Recording`] | a run, from its start or from a checkpoint |
+//! | [`Monitor`] | follows a run, and can end it |
+//! | [`read_items`] | reads a table of items |
 //!
-//! The formats themselves are in `xca_io`. Several engines on one model are compared by `xca_compare`, many
-//! runs with other parameters and seeds are done by `xca_ensemble`, and a program with a command line is made
-//! by `xca_run`.
+//! Related crates: `xca_io` reads and writes the files, `xca_compare` compares engines, `xca_ensemble` runs a
+//! model with many parameters and seeds, `xca_run` makes a program with a command line.
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 

@@ -19,7 +19,7 @@ use std::time::{Duration, Instant};
 use xca_checkpoint::{Checkpoint, Description, Origin};
 use xca_core::Simulation;
 
-/// A run under way.
+/// A run in progress. [`crate::Run::begin`] and [`crate::Run::resume`] start one.
 #[derive(Debug)]
 pub struct Recording {
     pub(crate) simulation: Simulation,
@@ -37,15 +37,15 @@ pub struct Recording {
     pub(crate) stepping: Duration,
 }
 
-/// How a run ended that did not fail.
+/// The end of a run without an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Outcome {
-    /// After its last step.
+    /// All steps are done.
     Done,
-    /// The model stopped it: [`Simulation::stop_reason`] says why.
+    /// The model stopped the run. [`Simulation::stop_reason`] gives the reason.
     Stopped,
-    /// Its monitor said so; it can go on from its last checkpoint, if it has any.
+    /// The monitor ended the run. It can resume from its last checkpoint, if it has one.
     Interrupted,
 }
 
@@ -55,17 +55,17 @@ impl Recording {
         &self.simulation
     }
 
-    /// The simulation, to read its state or to go on with it unrecorded.
+    /// The simulation, to read its state or to continue without records.
     pub fn into_simulation(self) -> Simulation {
         self.simulation
     }
 
-    /// The folder that is written to.
+    /// The output directory.
     pub fn folder(&self) -> &Path {
         self.folder.top.path()
     }
 
-    /// Whether there are checkpoints.
+    /// Whether the run writes checkpoints.
     pub fn has_checkpoints(&self) -> bool {
         self.checkpoints.is_some()
     }
@@ -80,12 +80,12 @@ impl Recording {
         &self.report
     }
 
-    /// Does all steps that are left, and writes the final state. `run.json` tells how it went, also of a run
-    /// that failed.
+    /// Runs the remaining steps and writes the final state. `run.json` reports the outcome, also after an
+    /// error.
     ///
     /// # Errors
-    /// Where a process faults, a state is not finite, or a file cannot be written. What was written before
-    /// is whole.
+    /// Returns an error if a process faults, a state is not finite, or a file cannot be written. Files
+    /// written before are complete.
     pub fn go(&mut self, monitor: &mut dyn Monitor) -> Result<Outcome, Failure> {
         self.complete_report();
         self.report.write(&self.folder.report())?;

@@ -16,7 +16,7 @@ use xca_io::atomic::WriteError;
 /// How many times in a run something is written, unless it is said how often.
 const OUTPUTS: u64 = 20;
 
-/// A run of a set-up, before it begins: how often what is written.
+/// A run of a set-up, before it begins: its options and the intervals of its files.
 ///
 /// ```
 /// # let temporary = tempfile::tempdir()?;
@@ -66,7 +66,7 @@ pub struct Run {
     allow_rounding: bool,
 }
 
-/// A run that cannot begin, or go on.
+/// A run that cannot begin or resume.
 #[derive(Debug, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages explain the fields")]
 #[non_exhaustive]
@@ -111,10 +111,10 @@ pub struct Resumed<'a> {
 }
 
 impl Run {
-    /// A run of all steps of the set-up, in `f64`, with the seed 0, and with 20 frames.
+    /// A run of all steps of the set-up, in `f64`, with seed 0 and the outputs of the set-up.
     ///
     /// # Errors
-    /// Where a view or the time step of the set-up makes no sense.
+    /// Returns an error if a view, the map or the time step of the set-up is invalid.
     pub fn new(set_up: SetUp) -> Result<Self, BeginError> {
         set_up.check()?;
         let steps = set_up.steps;
@@ -139,17 +139,17 @@ impl Run {
         Self { options, ..self }
     }
 
-    /// Does so many steps. A run that is resumed may do more than it was begun with.
+    /// Sets the number of steps. A resumed run may do more steps than before.
     #[must_use]
     pub fn steps(self, steps: u64) -> Self {
         Self { steps, ..self }
     }
 
-    /// Gives the cells at least so many slots for the items of each population, so that a run goes on which
-    /// ended with a full cell. The states of a run do not depend on it.
+    /// Gives each cell at least this number of slots for the items of each population. A run that ended with
+    /// a full cell can then resume. Results do not depend on it.
     ///
     /// # Errors
-    /// None of a model that could be built.
+    /// Returns no error for a model that was built.
     pub fn slots(mut self, least: usize) -> Result<Self, BeginError> {
         let groups = self.recorder.model().groups().iter();
         let names: Vec<&str> = groups.map(|group| group.schema().name).collect();
@@ -161,34 +161,34 @@ impl Run {
         Ok(self)
     }
 
-    /// Writes a row of observables and a frame every so many steps, at least 1. One that is resumed does so
-    /// as often as before.
+    /// Writes a row of observables and a frame at this interval of steps, at least 1. A resumed run keeps its
+    /// interval.
     #[must_use]
     pub fn every(self, steps: u64) -> Self {
         Self { outputs: Some(Outputs::Every(steps.max(1))), ..self }
     }
 
-    /// Writes a row of observables and a frame every so many seconds of simulated time, rounded to whole
-    /// steps. A model without [`SetUp::time_step`] counts its time in steps.
+    /// Writes a row of observables and a frame at this interval of simulated time, rounded to whole steps.
+    /// Without [`SetUp::time_step`] a second is a step.
     #[must_use]
     pub fn every_seconds(self, seconds: f64) -> Self {
         let steps = seconds / self.recorder.set_up().time_step.unwrap_or(1.0);
         self.every(steps.round() as u64)
     }
 
-    /// Writes checkpoints, of which the last two are kept.
+    /// Writes checkpoints at this interval, and keeps the last two.
     #[must_use]
     pub fn checkpoint_every(self, interval: Interval) -> Self {
         Self { checkpoint_every: Some(interval), ..self }
     }
 
-    /// Writes states with NaN or infinities too, instead of failing at the first.
+    /// Also writes states with NaN or infinities. Default: the first one is an error.
     #[must_use]
     pub fn allow_non_finite(self) -> Self {
         Self { allow_non_finite: true, ..self }
     }
 
-    /// Goes on also on an engine whose floating numbers are rounded otherwise than before.
+    /// Also resumes on an engine that rounds floating-point numbers differently.
     #[must_use]
     pub fn allow_rounding(self) -> Self {
         Self { allow_rounding: true, ..self }
@@ -242,11 +242,11 @@ impl Run {
         report
     }
 
-    /// Makes the folder ready, replacing what an earlier run has left there, and the initial state.
+    /// Prepares the output directory and the initial state. Overwrites an earlier run there.
     ///
     /// # Errors
-    /// Where the folder holds files that no run has made, another run writes there, or the engine does not
-    /// take the model.
+    /// Returns an error if the directory holds files that no run has made, another run writes there, or the
+    /// engine cannot run the model.
     pub fn begin(self, folder: impl AsRef<Path>, engine: &dyn Engine) -> Result<Recording, BeginError> {
         let begin = Instant::now();
         let origin = self.origin().on(engine);
@@ -275,12 +275,14 @@ impl Run {
         })
     }
 
-    /// Goes on from the latest checkpoint in the folder of a run of the same model, on any engine. The files
-    /// become those that the run would have had without the interruption, byte by byte. The number of steps
-    /// may be larger than it was: a run that has come to its end goes on beyond it.
+    /// Resumes from the latest checkpoint in the directory of a run of the same model, on any engine. The
+    /// files become those of an uninterrupted run, byte by byte.
+    ///
+    /// The number of steps may be larger than before: a finished run then continues beyond its end.
     ///
     /// # Errors
-    /// Where there is no checkpoint, it is not whole, it is one of another run, or an input file has changed.
+    /// Returns an error if there is no checkpoint, the checkpoint is damaged or belongs to another run, or an
+    /// input file has changed.
     pub fn resume(self, folder: impl AsRef<Path>, engine: &dyn Engine) -> Result<Recording, BeginError> {
         let folder = folder.as_ref();
         let latest = CheckpointFolder::of_run(folder).into_iter().next();
@@ -291,10 +293,10 @@ impl Run {
         self.resume_from(folder, engine, resumed)
     }
 
-    /// As [`Self::resume`], where there is a checkpoint in the folder; else as [`Self::begin`].
+    /// As [`Self::resume`] if the directory has a checkpoint, otherwise as [`Self::begin`].
     ///
     /// # Errors
-    /// As of these.
+    /// As for these.
     pub fn resume_or_begin(
         self,
         folder: impl AsRef<Path>,

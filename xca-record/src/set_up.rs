@@ -13,42 +13,60 @@ use xca_io::map::{Map, Placement, PlacementDifference};
 
 type Observe = dyn Fn(&State<'_>) -> Result<Vec<Observable>, Failure> + Send + Sync;
 
-/// A model, how long it is run, and what is shown and saved of it.
+/// A model, its number of steps, and what its files and pictures show.
 ///
-/// What is not said has a default that follows from the model's substates: statistics of each are observed
-/// (of `bool` and states, how many there are), every population and all substates of cells are saved, and the
-/// first of them is drawn.
+/// ```
+/// # use xca_core::prelude::*;
+/// # #[derive(Substates, Clone)]
+/// # struct Colony { size: Real }
+/// # #[elementary_process]
+/// # fn grow(cell: &mut Cell<Colony>) { cell.size *= 1.01; }
+/// # let builder = Model::builder("growth").extents([8, 8, 1]).substates::<Colony>();
+/// # let model = builder.process(grow).fill(|_| Colony { size: 1.0 }).build()?;
+/// use xca_record::{CellView, Observable, SetUp};
+///
+/// let set_up = SetUp::new(model, 1000)
+///     .title("growth of a colony")
+///     .every(100)
+///     .time_step(60.0)
+///     .observables(|state| Ok(vec![Observable::new("total size", "mm2", state.sum(Colony::SIZE)?)]))
+///     .cells(CellView::named("colony").draw(Colony::SIZE, "size (mm2)"));
+/// assert_eq!(set_up.title, "growth of a colony");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// Defaults follow from the model's substates. Statistics of each are observed; for `bool` and states, their
+/// counts. Every population and all substates of cells are saved, and the first of them is drawn.
 #[non_exhaustive]
 pub struct SetUp {
     /// The model.
     pub model: Model,
-    /// What pictures and the terminal call the run.
+    /// The title in pictures and in the terminal.
     pub title: String,
-    /// How many steps are done.
+    /// The number of steps.
     pub steps: u64,
-    /// After which steps something is written; without it, 20 times in the run.
+    /// The steps after which files are written. Default: 20 times in the run.
     pub outputs: Option<Outputs>,
-    /// Whether a criterion of the model ends the run, and the number of steps is only the most that it may
-    /// take.
+    /// Whether the model stops the run. `steps` is then the limit.
     pub is_until_stopped: bool,
-    /// How long a step is, in s; without it, time is counted in steps.
+    /// The length of a step in s. Default: time counts in steps.
     pub time_step: Option<f64>,
     pub(crate) observe: Option<Box<Observe>>,
     pub(crate) views: Vec<AnyView>,
-    /// The files that the set-up has read.
+    /// The input files.
     pub inputs: Vec<InputFile>,
-    /// Where the space lies, and which of its cells have no ground.
+    /// The place of the space on a map, and the cells without ground.
     pub map: Option<Map>,
-    /// The formats of its files.
+    /// The formats of the files.
     pub formats: Formats,
-    /// What `run.json` tells beside options and parameters.
+    /// Entries of `run.json` in addition to options and parameters.
     pub notes: serde_json::Map<String, serde_json::Value>,
-    /// What makes results doubtful, in sentences.
+    /// Reasons to doubt the results, in sentences.
     pub warnings: Vec<String>,
 }
 
 impl SetUp {
-    /// A model that is run for so many steps, unless the command line says otherwise.
+    /// A model that runs for this number of steps, unless the command line gives another.
     pub fn new(model: Model, steps: u64) -> Self {
         let mut formats = Formats::default();
         if is_row(&model) {
@@ -72,40 +90,39 @@ impl SetUp {
         }
     }
 
-    /// A model that is run until it stops itself ([`xca_core::ModelBuilder::stop_when`]), or for so many
-    /// steps at most.
+    /// A model that runs until it stops itself ([`xca_core::ModelBuilder::stop_when`]), or for at most this
+    /// number of steps.
     ///
-    /// No one knows beforehand how long that takes, so states are written ever further apart
-    /// ([`Outputs::Growing`]).
+    /// The length of the run is unknown, so the intervals between outputs grow ([`Outputs::Growing`]).
     pub fn until_stopped(model: Model, most: u64) -> Self {
         Self { is_until_stopped: true, outputs: Some(Outputs::Growing), ..Self::new(model, most) }
     }
 
-    /// What pictures and the terminal call the run; the model's name unless it is given.
+    /// Sets the title in pictures and in the terminal. Default: the model's name.
     #[must_use]
     pub fn title(mut self, title: impl Into<String>) -> Self {
         self.title = title.into();
         self
     }
 
-    /// Writes a row of observables and a frame every so many steps, at least 1, unless the command line says
-    /// otherwise.
+    /// Writes a row of observables and a frame at this interval of steps, at least 1, unless the command line
+    /// gives another.
     #[must_use]
     pub fn every(self, steps: u64) -> Self {
         Self { outputs: Some(Outputs::Every(steps.max(1))), ..self }
     }
 
-    /// How many seconds a step is: a positive number, or the program refuses to run. Without it, time is
-    /// counted in steps.
+    /// Sets the length of a step in s, a positive number. Default: time counts in steps.
     #[must_use]
     pub fn time_step(mut self, seconds: f64) -> Self {
         self.time_step = Some(seconds);
         self
     }
 
-    /// What is measured before the first step, every so many steps and after the last: always the same
-    /// quantities in the same order, and as a function of the state alone, or a run that is resumed would
-    /// show others.
+    /// Sets the quantities measured before the first step, at every output and after the last step.
+    ///
+    /// Return the same quantities in the same order each time. Compute them from the state alone; otherwise a
+    /// resumed run would differ.
     #[must_use]
     pub fn observables(
         mut self,
@@ -115,14 +132,14 @@ impl SetUp {
         self
     }
 
-    /// How the items of a population are saved and drawn.
+    /// Sets how the items of a population are saved and drawn.
     #[must_use]
     pub fn items<S: Substates>(mut self, view: ItemView<S>) -> Self {
         self.views.push(AnyView::Items(view.into_any()));
         self
     }
 
-    /// How substates of cells are saved and drawn.
+    /// Sets how substates of cells are saved and drawn.
     #[must_use]
     pub fn cells<S: Substates>(mut self, view: CellView<S>) -> Self {
         self.views.push(AnyView::Cells(view.into_any()));
@@ -144,61 +161,60 @@ impl SetUp {
         self
     }
 
-    /// Writes the states in another format too, which may be one of your own.
+    /// Adds an output format, such as one of your own.
     #[must_use]
     pub fn format(mut self, writer: impl Writer + 'static) -> Self {
         self.formats.add(writer);
         self
     }
 
-    /// A file that the set-up has read. A run never replaces it, and does not go on from a checkpoint once it
-    /// has changed.
+    /// Declares an input file. A run never overwrites it. A run does not resume once the file has changed.
     #[must_use]
     pub fn input(mut self, path: impl Into<PathBuf>) -> Self {
         self.inputs.push(InputFile::new(path));
         self
     }
 
-    /// Warns of something that makes results doubtful but does not forbid the run, such as a large time step.
+    /// Warns of a reason to doubt the results, such as a large time step. The run goes on.
     ///
     /// A program prints it on stderr at the start, also with `--quiet`; `run.json` keeps it in `warnings`.
-    /// Say what is wrong, with the number, and what would do.
+    /// Say what is wrong, with the number, and what to do.
     #[must_use]
     pub fn warning(mut self, text: impl Into<String>) -> Self {
         self.warnings.push(text.into());
         self
     }
 
-    /// Something that `run.json` should tell beside the options and the parameters.
+    /// Adds an entry to `run.json`.
     ///
     /// # Errors
-    /// Where the value cannot be written as JSON.
+    /// Returns an error if the value has no form in JSON.
     pub fn note(mut self, name: &str, value: impl Serialize) -> Result<Self, Failure> {
         self.notes.insert(name.to_owned(), serde_json::to_value(value)?);
         Ok(self)
     }
 }
 
-/// A set-up that makes no sense.
+/// An invalid set-up.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SetUpError {
-    /// A view that does not fit the model.
+    /// A view does not fit the model.
     #[error(transparent)]
     View(#[from] ViewError),
-    /// A format that cannot hold the model.
+    /// A format cannot hold the model.
     #[error(transparent)]
     Format(Failure),
-    /// A time step that is not a positive number.
+    /// The time step is not a positive number.
     #[error("the time step is {seconds} s; it must be a positive number")]
     TimeStep {
         /// The time step, in s.
         seconds: f64,
     },
-    /// A map with other cells than the model.
+    /// The map has other cells than the model.
     #[error("the map does not fit the model: {0}")]
     Map(PlacementDifference),
-    /// A map under several layers.
+    /// The model has several layers, so it has no map.
     #[error("a map is for models of one layer, and `{model}` has {layers}")]
     Layers {
         /// The model.

@@ -17,20 +17,29 @@ use xca_core::{Field, Geometry, HostValue, Schema, Substate, Substates};
 use xca_io::atomic::plain_name;
 use xca_picture::{Category, ColourMap};
 
-/// How the items of a population are saved and drawn.
+/// Sets how the items of a population are saved and drawn.
 ///
-/// Default: all items with all substates, as spheres with a diameter of half a cell side, coloured by the
-/// first vector beside the position, else by the first other substate.
+/// ```
+/// # use xca_core::prelude::*;
+/// # #[derive(Substates, Clone)]
+/// # struct Fish { age: u32, speed: Real }
+/// use xca_record::ItemView;
+///
+/// let view = ItemView::<Fish>::named("fish").radius(0.2).colour(Fish::SPEED, "speed (m/s)");
+/// ```
+///
+/// Default: all items with all substates, as spheres with a diameter of half a cell side. Their colour is the
+/// first vector other than the position, else the first other substate.
 #[derive(Debug, Clone)]
 pub struct ItemView<S> {
     view: AnyItemView,
     of: PhantomData<fn() -> S>,
 }
 
-/// How the substates of cells are saved and drawn.
+/// Sets how the substates of cells are saved and drawn.
 ///
 /// Default: all substates are saved, and the first is drawn, in the middle layer. `bool` and states have one
-/// colour a value and a legend.
+/// colour for each value, and a legend.
 #[derive(Debug, Clone)]
 pub struct CellView<S> {
     view: AnyCellView,

@@ -1,9 +1,9 @@
-//! Which numbers a parameter can be.
+//! The ranges of parameters.
 
 use crate::value::{Precision, Shortest};
 use std::fmt;
 
-/// An interval of numbers; without an end it goes on for ever.
+/// An interval of numbers. A missing end means no limit.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Interval {
     /// The lower end.
@@ -17,7 +17,7 @@ pub struct Interval {
 pub struct End {
     /// The number.
     pub number: f64,
-    /// Whether it belongs to the interval.
+    /// Whether the interval includes it.
     pub included: bool,
 }
 
@@ -25,14 +25,14 @@ impl Interval {
     /// All numbers.
     pub const ALL: Self = Self { low: None, high: None };
 
-    /// Whether the number lies in the interval; NaN lies in none.
+    /// Whether the number is in the interval. NaN never is.
     pub fn contains(&self, number: f64) -> bool {
         let above = self.low.is_none_or(|end| number > end.number || (end.included && number == end.number));
         let below = self.high.is_none_or(|end| number < end.number || (end.included && number == end.number));
         above && below && !number.is_nan()
     }
 
-    /// The interval as mathematics writes it: `[0, 1)`, `> 0`, `≤ 5`; nothing for all numbers.
+    /// The interval in mathematical notation: `[0, 1)`, `> 0`, `≤ 5`. Empty for all numbers.
     pub fn notation(&self) -> String {
         let number = |end: End| Shortest(end.number);
         match (self.low, self.high) {
@@ -47,7 +47,7 @@ impl Interval {
         }
     }
 
-    /// The interval with its ends rounded to a precision, to be compared with numbers that are rounded too.
+    /// The interval with its ends rounded to a precision, for comparison with rounded numbers.
     pub fn rounded(&self, precision: Precision) -> Self {
         let rounded = |end: End| End { number: precision.rounded(end.number), ..end };
         Self { low: self.low.map(rounded), high: self.high.map(rounded) }

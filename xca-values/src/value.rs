@@ -1,4 +1,4 @@
-//! What a substate or a parameter can hold.
+//! The types of substates and parameters.
 
 use crate::state_names::StateNames;
 use std::fmt;
@@ -24,7 +24,7 @@ pub enum ScalarType {
     Real,
 }
 
-/// The floating type that [`Real`] stands for in a run.
+/// The floating-point type that [`Real`] stands for in a run. Default: `F64`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Precision {
@@ -35,11 +35,11 @@ pub enum Precision {
     F64,
 }
 
-/// The floating type that is chosen when the model is run.
+/// The floating-point type that is chosen for each run.
 ///
-/// In a struct that derives `Substates` or `Parameters`, and in a process, write `Real`: the macros see the
-/// word and make one copy for each [`Precision`]. In all other code, on the host, it is `f64`, into which
-/// both convert exactly.
+/// Write `Real` in processes and in structs that derive `Substates` or `Parameters`. The macros make one copy
+/// for each [`Precision`]. In all other code `Real` is `f64`, which holds the values of either precision
+/// exactly.
 pub type Real = f64;
 
 /// A scalar, a small vector of scalars, or an array of either.
@@ -78,7 +78,7 @@ pub struct StoredType {
 }
 
 impl ScalarType {
-    /// Whether a number is a value of this type; of floating ones, whether it is finite. `bool` has 0 and 1,
+    /// Whether a number is a value of this type. Floating-point numbers must be finite. `bool` has 0 and 1,
     /// states have their numbers.
     pub fn fits(self, number: f64) -> bool {
         let within = |least: f64, largest: f64| number.fract() == 0.0 && (least..=largest).contains(&number);
@@ -92,14 +92,14 @@ impl ScalarType {
         }
     }
 
-    /// Whether a number can be what a value of this type has become: as [`Self::fits`], but floating ones may
-    /// be anything.
+    /// Whether a number can be a stored value of this type: as [`Self::fits`], but floating-point numbers may
+    /// be NaN or infinite.
     pub fn holds(self, number: f64) -> bool {
         matches!(self, Self::F32 | Self::F64 | Self::Real) || self.fits(number)
     }
 
-    /// The number that a text means: of `bool` 0 or 1, of a state its number. Nothing where the text is no
-    /// value of this type.
+    /// Parses a value. `bool` becomes 0 or 1, a state its number. `None` if the text is not a value of this
+    /// type.
     pub fn parse(self, text: &str) -> Option<f64> {
         match self {
             Self::Bool => text.parse().ok().map(|value: bool| value.into()),
@@ -108,7 +108,7 @@ impl ScalarType {
         }
     }
 
-    /// The number as a text that [`Self::parse`] reads back.
+    /// The number as a text for [`Self::parse`].
     pub fn text(self, number: f64) -> String {
         match self {
             Self::Bool => (number != 0.0).to_string(),
@@ -121,8 +121,8 @@ impl ScalarType {
     }
 }
 
-/// A number with the fewest digits that give it back, for messages: with an exponent where it would have many
-/// zeros.
+/// A number with the fewest digits that restore it exactly, for messages. Very large and very small numbers
+/// have an exponent.
 #[derive(Debug, Clone, Copy)]
 pub struct Shortest(pub f64);
 

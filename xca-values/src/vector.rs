@@ -1,7 +1,7 @@
 //! Small vectors for positions, velocities, forces.
 //!
-//! The operations are fixed to the last bit: lane by lane, and [`Vector3::dot`] adds from the first lane to
-//! the last.
+//! The operations are the same to the last bit everywhere. They work lane by lane; [`Vector3::dot`] adds from
+//! the first lane to the last.
 
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -162,15 +162,37 @@ macro_rules! vector {
 }
 
 vector!(
-    /// Two lanes, `x` and `y`.
+    /// A vector of two lanes, `x` and `y`.
+    ///
+    /// ```
+    /// # use xca_values::Vector2;
+    /// let velocity = Vector2::new(3.0_f64, 4.0);
+    /// assert_eq!(velocity.length(), 5.0);
+    /// assert_eq!(2.0 * velocity, Vector2 { x: 6.0, y: 8.0 });
+    /// ```
     Vector2, x, y
 );
 vector!(
-    /// Three lanes, `x`, `y` and `z`.
+    /// A vector of three lanes, `x`, `y` and `z`.
+    ///
+    /// ```
+    /// # use xca_values::Vector3;
+    /// let east = Vector3::new(1.0, 0.0, 0.0);
+    /// let north = Vector3::new(0.0, 1.0, 0.0);
+    /// assert_eq!(east.cross(north), Vector3::new(0.0, 0.0, 1.0));
+    /// assert_eq!((east + 2.0 * north).dot(east), 1.0);
+    /// ```
     Vector3, x, y, z
 );
 vector!(
-    /// Four lanes, `x`, `y`, `z` and `w`.
+    /// A vector of four lanes, `x`, `y`, `z` and `w`.
+    ///
+    /// ```
+    /// # use xca_values::Vector4;
+    /// let layers = Vector4::new(1.0, 2.0, 3.0, 4.0);
+    /// assert_eq!(layers.map(|value| value > 2.5), Vector4::new(false, false, true, true));
+    /// assert_eq!(layers - Vector4::splat(1.0), Vector4::new(0.0, 1.0, 2.0, 3.0));
+    /// ```
     Vector4, x, y, z, w
 );
 

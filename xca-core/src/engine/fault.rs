@@ -1,4 +1,4 @@
-//! What stops a run.
+//! Errors that end a run.
 
 use super::input::InputError;
 use std::any::Any;
@@ -8,11 +8,11 @@ use xca_process::Process;
 use xca_process::kernel::{BEYOND_NEIGHBOURHOOD, RowFault, StoppedAt, WRONG_RADIUS};
 use xca_values::Precision;
 
-/// Why an engine does not do what it is asked to do with a state.
+/// A request that an engine cannot carry out.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum EngineFailure {
-    /// It cannot go on: its device was lost, or has no memory left.
+    /// The engine cannot continue: its device was lost, or ran out of memory.
     #[error("the {engine} engine failed: {reason}")]
     Broken {
         /// The engine.
@@ -20,19 +20,18 @@ pub enum EngineFailure {
         /// Why.
         reason: String,
     },
-    /// It works on a part of a space, and another part has a fault or cannot go on: the execution of that
-    /// part tells it.
+    /// Another part of the space has a fault or cannot continue. Its own execution reports it.
     #[error("another part of the space has stopped")]
     Elsewhere,
-    /// What it is given does not fit the model. The state is what it was.
+    /// The input does not fit the model. The state does not change.
     #[error(transparent)]
     Input(#[from] InputError),
 }
 
-/// What stops a run within a step.
+/// An error within a step. It ends the run.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Fault {
-    /// The engine cannot go on.
+    /// The engine cannot continue.
     Engine(EngineFailure),
     /// A process reported it.
     Reported {
@@ -47,18 +46,18 @@ pub enum Fault {
         /// The value.
         value: f64,
     },
-    /// A process asked for a neighbour that the neighbourhood does not have.
+    /// A process asked for a neighbour beyond the neighbourhood.
     BeyondNeighbourhood {
         /// The process.
         process: &'static str,
         /// The indices of the cell.
         cell: [usize; 3],
-        /// The index that it asked for.
+        /// The index of the neighbour.
         index: u32,
         /// The size of the neighbourhood.
         size: usize,
     },
-    /// A search has a radius beyond what the neighbourhood covers.
+    /// The radius of a search is larger than the neighbourhood covers.
     SearchTooFar {
         /// The process.
         process: &'static str,
@@ -71,7 +70,7 @@ pub enum Fault {
         /// The largest radius that the neighbourhood covers, in metres.
         covered: f64,
     },
-    /// A search has a negative or NaN radius.
+    /// The radius of a search is negative or NaN.
     InvalidRadius {
         /// The process.
         process: &'static str,
@@ -82,18 +81,18 @@ pub enum Fault {
         /// The radius, in metres.
         radius: f64,
     },
-    /// More items in a cell than it has slots.
+    /// A cell has more items than slots.
     CellFull {
-        /// The migration that moves them there; nothing where they are set from outside.
+        /// The migration that moved them there; `None` if the host set them.
         process: Option<&'static str>,
         /// The indices of the cell.
         cell: [usize; 3],
-        /// How many items there would be.
+        /// The number of items.
         items: usize,
-        /// How many slots there are.
+        /// The number of slots.
         slots: usize,
     },
-    /// A migration sends an item to a cell that is no neighbour.
+    /// A migration sends an item beyond the neighbourhood of its cell.
     TooFar {
         /// The process.
         process: &'static str,
@@ -101,10 +100,10 @@ pub enum Fault {
         label: u32,
         /// The indices of its cell.
         from: [usize; 3],
-        /// The indices of the cell where it would go.
+        /// The indices of the destination.
         to: [usize; 3],
     },
-    /// A migration finds an item at a position that is no number.
+    /// A migration finds an item with a NaN position.
     Nowhere {
         /// The process.
         process: &'static str,
@@ -113,7 +112,7 @@ pub enum Fault {
         /// The indices of its cell.
         cell: [usize; 3],
     },
-    /// A migration sends an item out of a space that none may leave.
+    /// A migration sends an item out of the space, which the model does not allow.
     Left {
         /// The process.
         process: &'static str,
@@ -122,8 +121,8 @@ pub enum Fault {
         /// The indices of its cell.
         cell: [usize; 3],
     },
-    /// A substate that is to stay finite ([`crate::ModelBuilder::watch_finite`]) does not: the first by
-    /// substate, cell and label.
+    /// A substate is NaN or infinite ([`crate::ModelBuilder::watch_finite`]): the first by substate, cell and
+    /// label.
     NotFinite {
         /// The struct and the substate, with the component: `Lava.outflow[3]`.
         substate: String,
@@ -134,7 +133,7 @@ pub enum Fault {
         /// The value: NaN or an infinity.
         value: f64,
     },
-    /// The code of a process panicked: an integer overflow, a division by zero, an index beyond an array.
+    /// A process panicked: integer overflow, division by zero, index out of bounds.
     Panicked {
         /// The process.
         process: &'static str,

@@ -1,7 +1,7 @@
-//! What is handed to an engine from outside: checked at its door, before anything changes.
+//! Checks of the input of engines.
 //!
-//! Kernels trust the lengths and ranges that engines keep, and an engine's methods are open to everyone. So
-//! each engine calls these functions first, and unsafe code may rely on what they have checked.
+//! Kernels trust the lengths and ranges that engines keep, and the methods of an engine are public. Each
+//! engine therefore calls these functions first. Unsafe code relies on their checks.
 
 use super::{EngineFailure, Fault, Part, Population, SubstateId};
 use crate::model::{Group, GroupKind, Model};
@@ -9,16 +9,16 @@ use std::ops::Range;
 use xca_values::Field;
 use xca_values::{Precision, ScalarType};
 
-/// Input that does not fit the model. It has changed nothing.
+/// Input that does not fit the model. The state does not change.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum InputError {
     /// A group that the model does not have.
     #[error("the model has {groups} structs of substates, no number {group}")]
     NoSuchGroup {
-        /// The number that was given.
+        /// The number.
         group: usize,
-        /// How many there are.
+        /// The number of groups.
         groups: usize,
     },
     /// A field that the struct does not have.
@@ -26,61 +26,61 @@ pub enum InputError {
     NoSuchField {
         /// The name of the struct.
         substates: &'static str,
-        /// The number that was given.
+        /// The number.
         field: usize,
-        /// How many there are.
+        /// The number of fields.
         fields: usize,
     },
-    /// Cells were asked for, but the group is a population.
+    /// The group is a population, not substates of cells.
     #[error("`{0}` is a population; its items are not numbered by cells")]
     NotOfCells(&'static str),
-    /// Items were given, but the group belongs to cells.
+    /// The group belongs to cells, not to a population.
     #[error("`{0}` are the substates of cells, not of a population")]
     NotAPopulation(&'static str),
     /// A cell that the space does not have.
     #[error("the space has {cells} cells, no cell number {cell}")]
     NoSuchCell {
-        /// The linear index that was given.
+        /// The linear index.
         cell: usize,
-        /// How many cells there are.
+        /// The number of cells.
         cells: usize,
     },
     /// A cell that belongs to another part of the space.
     #[error("cell number {cell} is not in the part of the space with y in {y:?} and z in {z:?}")]
     NotInPart {
-        /// The linear index that was given.
+        /// The linear index.
         cell: usize,
         /// The indices of the part along y.
         y: Range<usize>,
         /// Its indices along z.
         z: Range<usize>,
     },
-    /// More or fewer bytes than the values take.
+    /// The number of bytes is not that of the values.
     #[error("the values of `{substates}.{substate}` take {wanted} bytes, but {given} are given")]
     WrongLength {
         /// The name of the struct.
         substates: &'static str,
         /// The name of the field.
         substate: &'static str,
-        /// The bytes of so many values.
+        /// The number of bytes of the values.
         wanted: usize,
-        /// The bytes that were given.
+        /// The number of bytes in the input.
         given: usize,
     },
-    /// A byte that is no bool or no state.
+    /// A byte is not a `bool` or not a state.
     #[error("`{substates}`: {reason}")]
     NoState {
         /// The name of the struct.
         substates: &'static str,
-        /// Which one is none.
+        /// The invalid byte, in words.
         reason: String,
     },
-    /// Items whose numbers, labels or fields do not agree.
+    /// The counts, labels and fields of items do not agree.
     #[error("`{substates}`: {reason}")]
     Items {
         /// The name of the struct.
         substates: &'static str,
-        /// What does not agree.
+        /// The difference.
         reason: String,
     },
 }
@@ -94,16 +94,15 @@ impl From<InputError> for Fault {
 /// Checks that the model has a substate.
 ///
 /// # Errors
-/// Where it does not.
+/// Returns an error otherwise.
 pub fn check_substate(model: &Model, substate: SubstateId) -> Result<(), InputError> {
     checked_group(model, substate).map(|_| ())
 }
 
-/// Checks the values that are to replace all values of a substate. `items` is how many items the group has,
-/// if it is a population.
+/// Checks new values for a whole substate. `items` is the number of items, if the group is a population.
 ///
 /// # Errors
-/// Where the model does not have the substate, or the values take another number of bytes.
+/// Returns an error if the model does not have the substate, or the number of bytes is wrong.
 pub fn check_values(
     model: &Model,
     precision: Precision,
@@ -119,11 +118,11 @@ pub fn check_values(
     check_bytes(group, precision, substate.field, count, values)
 }
 
-/// Checks the values that are to replace those of a substate of cells in a part of the space.
+/// Checks new values for a substate of cells in a part of the space.
 ///
 /// # Errors
-/// Where the model does not have the substate, it is none of cells, or the values take another number of
-/// bytes.
+/// Returns an error if the model does not have the substate, it is not of cells, or the number of bytes is
+/// wrong.
 pub fn check_values_of_part(
     model: &Model,
     precision: Precision,
@@ -139,18 +138,18 @@ pub fn check_values_of_part(
 /// Checks that cells belong to a part of the space.
 ///
 /// # Errors
-/// Where one does not.
+/// Returns an error if one does not.
 pub fn check_cells_of_part(model: &Model, part: &Part, cells: &[usize]) -> Result<(), InputError> {
     let other = cells.iter().find(|cell| !part.holds(model.geometry(), **cell));
     let Part { y, z } = part.clone();
     other.map_or(Ok(()), |cell| Err(InputError::NotInPart { cell: *cell, y, z }))
 }
 
-/// Checks the cells whose values of a substate are to be read, by their linear indices.
+/// Checks the linear indices of cells whose values of a substate will be read.
 ///
 /// # Errors
-/// Where the model does not have the substate, it is none of cells, or the space does not have one of the
-/// cells.
+/// Returns an error if the model does not have the substate, it is not of cells, or the space does not have
+/// one of the cells.
 pub fn check_cells(model: &Model, substate: SubstateId, cells: &[usize]) -> Result<(), InputError> {
     let group = checked_group(model, substate)?;
     if let GroupKind::Population { .. } = group.kind() {
@@ -161,10 +160,10 @@ pub fn check_cells(model: &Model, substate: SubstateId, cells: &[usize]) -> Resu
     unknown.map_or(Ok(()), |cell| Err(InputError::NoSuchCell { cell: *cell, cells: count }))
 }
 
-/// Checks the cells whose values of a substate are to be replaced, and their values.
+/// Checks the linear indices of cells and their new values of a substate.
 ///
 /// # Errors
-/// As [`check_cells`], and where the values take another number of bytes.
+/// As [`check_cells`], or if the number of bytes is wrong.
 pub fn check_values_of_cells(
     model: &Model,
     precision: Precision,
@@ -176,11 +175,11 @@ pub fn check_values_of_cells(
     check_bytes(&model.groups()[substate.group], precision, substate.field, cells.len(), values)
 }
 
-/// Checks the items that are to replace those of a population.
+/// Checks new items for a population.
 ///
 /// # Errors
-/// [`Fault::CellFull`] where a cell has more items than slots; [`InputError`] where the group is no
-/// population, or counts, labels and fields do not agree.
+/// Returns [`Fault::CellFull`] if a cell has more items than slots. Returns an [`InputError`] if the group is
+/// not a population, or its counts, labels and fields do not agree.
 pub fn check_population(
     model: &Model,
     precision: Precision,
@@ -190,7 +189,7 @@ pub fn check_population(
     check_population_of_part(model, precision, group, &Part::whole(model.geometry()), population)
 }
 
-/// Checks the items that are to replace those of a population in a part of the space.
+/// Checks new items for a population in a part of the space.
 ///
 /// # Errors
 /// As [`check_population`].

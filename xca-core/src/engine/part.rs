@@ -3,7 +3,7 @@
 use std::ops::Range;
 use xca_process::{Boundary, Face, Faces, Geometry};
 
-/// A part of a space: whole rows along x, those with these indices along y and z.
+/// A part of a space: whole rows along x, with these indices along y and z.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Part {
     /// Indices along y.
@@ -12,11 +12,11 @@ pub struct Part {
     pub z: Range<usize>,
 }
 
-/// A part that cannot be worked on.
+/// A part that does not fit the space.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PartError {
-    /// No row, or one that the space does not have.
+    /// The part is empty, or the space does not have its rows.
     #[error("the space has {rows} rows along {axis}; a part cannot have those from {start} to below {end}")]
     NoSuchRows {
         /// `y` or `z`.
@@ -28,7 +28,7 @@ pub enum PartError {
         /// One past its last.
         end: usize,
     },
-    /// A cell sees beyond the next part.
+    /// The neighbourhood reaches beyond the next part.
     #[error(
         "a part of {rows} rows along {axis} is too thin: the model reaches {reach} rows along {axis}; use fewer parts"
     )]
@@ -37,7 +37,7 @@ pub enum PartError {
         axis: char,
         /// The rows of the part.
         rows: usize,
-        /// How far the neighbourhood reaches.
+        /// The reach of the neighbourhood.
         reach: usize,
     },
 }
@@ -49,10 +49,10 @@ impl Part {
         Self { y: 0..height, z: 0..depth }
     }
 
-    /// Checks that the space has the rows, and that no cell sees beyond the next part.
+    /// Checks that the space has the rows, and that the neighbourhood stays within the next part.
     ///
     /// # Errors
-    /// Where one of these is not so.
+    /// Returns an error otherwise.
     pub fn check(&self, geometry: &Geometry) -> Result<(), PartError> {
         for (axis, name, rows) in [(1, 'y', &self.y), (2, 'z', &self.z)] {
             let (all, reach) = (geometry.extents()[axis], geometry.neighbourhood().reach()[axis]);

@@ -21,7 +21,41 @@ use xca_process::{Process, Processes};
 use xca_process::{Substate, Substates};
 use xca_values::Precision;
 
-/// Collects the definition of a model. Mistakes are reported by [`ModelBuilder::build`].
+/// Collects the definition of a model. [`Model::builder`] makes one; [`ModelBuilder::build`] checks it and
+/// reports mistakes.
+///
+/// ```
+/// use xca_core::prelude::*;
+///
+/// #[derive(Substates, Clone, Copy)]
+/// struct Heat {
+///     temperature: Real,
+/// }
+///
+/// #[elementary_process]
+/// fn conduct(cell: &mut Cell<Heat>) {
+///     let mut sum = 0.0;
+///     for n in 1..cell.neighbour_count() {
+///         sum += cell.neighbour(n).temperature - cell.temperature;
+///     }
+///     cell.temperature += 0.2 * sum;
+/// }
+///
+/// let model = Model::builder("plate")
+///     .extents([32, 32, 1])
+///     .cell_side(0.01)
+///     .neighbourhood(Neighbourhood::von_neumann_2d(1))
+///     .boundary(Boundary::Reflecting)
+///     .substates::<Heat>()
+///     .process(conduct)
+///     .fill(|_| Heat { temperature: 20.0 })
+///     .steer(Schedule::Every(1), |state| Ok(state.set(Heat::TEMPERATURE, [16, 16, 0], 100.0)?))
+///     .build()?;
+/// assert_eq!(model.geometry().cells(), 1024);
+/// # Ok::<(), ModelError>(())
+/// ```
+///
+/// Defaults: cell side 1 m, no neighbours, flat boundaries.
 #[must_use = "call `build` to get the model"]
 pub struct ModelBuilder {
     name: String,
@@ -69,59 +103,71 @@ impl ModelBuilder {
         }
     }
 
-    /// The number of cells along x, y, z. A two-dimensional model is one layer deep: `[x, y, 1]`.
+    /// The number of cells along x, y, z. A two-dimensional model is one layer: `[x, y, 1]`.
     pub fn extents(mut self, extents: [usize; 3]) -> Self {
         self.extents = Some(extents);
         self
     }
 
-    /// The side of a cell in metres; 1 unless it is given.
+    /// The side of a cell in metres. Default: 1.
     pub fn cell_side(mut self, side: f64) -> Self {
         self.side = side;
         self
     }
 
-    /// Which cells a cell sees; only itself unless it is given.
+    /// The cells that a process sees. Default: the cell itself.
     pub fn neighbourhood(mut self, neighbourhood: Neighbourhood) -> Self {
         self.neighbourhood = neighbourhood;
         self
     }
 
-    /// The same boundary at all faces; flat unless it is given.
+    /// The same boundary at all faces. Default: flat.
     pub fn boundary(self, boundary: Boundary) -> Self {
         self.boundaries(Faces::all(boundary))
     }
 
-    /// The boundaries of all faces: along x, y, z, as in `[Boundary::Toroidal, Boundary::Flat,
-    /// Boundary::Flat]`, or for each face, as in `Faces { north: Boundary::Flat,
-    /// ..Faces::all(Boundary::Reflecting) }`.
+    /// The boundaries of all faces: one for each of the axes x, y, z, or one for each face.
+    ///
+    /// ```
+    /// # use xca_core::prelude::*;
+    /// Model::builder("channel").boundaries([Boundary::Toroidal, Boundary::Flat, Boundary::Flat]);
+    /// Model::builder("slope")
+    ///     .boundaries(Faces { north: Boundary::Flat, ..Faces::all(Boundary::Reflecting) });
+    /// ```
     pub fn boundaries(mut self, boundaries: impl Into<Faces<Boundary>>) -> Self {
         self.boundaries = boundaries.into();
         self
     }
 
-    /// The boundary of one face, in place of what was said of it before. A toroidal boundary joins two faces,
-    /// so both of an axis need it.
+    /// Sets the boundary of one face and keeps those of the others. A toroidal boundary joins two faces, so
+    /// both faces of the axis need it.
     pub fn face(mut self, face: Face, boundary: Boundary) -> Self {
         self.boundaries[face] = boundary;
         self
     }
 
-    /// Adds the substates `S` of cells. Beyond flat faces they are zero.
+    /// Adds the substates `S` of cells. Their value beyond flat faces is zero.
     pub fn substates<S: Substates>(self) -> Self {
         self.add_group::<S>(GroupKind::Cells { outside: Faces::all(Arc::new(|_, _, bytes| bytes.fill(0))) })
     }
 
-    /// Adds the substates `S` of cells, which beyond all flat faces have these values.
+    /// Adds the substates `S` of cells, with these values beyond all flat faces.
     pub fn substates_with_outside<S: Substates>(self, outside: S) -> Self {
         self.add_group::<S>(GroupKind::Cells { outside: Faces::all(encoder(outside)) })
     }
 
-    /// Gives the substates `S` of cells values of their own beyond one flat face: a lid that moves, an
-    /// inflow.
+    /// Sets the values of the substates `S` beyond one flat face: a moving lid, an inflow.
     ///
-    /// A neighbour that lies beyond several flat faces shows the value of the one along z before that along
-    /// y, and of the one along y before that along x.
+    /// ```
+    /// # use xca_core::prelude::*;
+    /// # #[derive(Substates, Clone, Copy)]
+    /// # struct Heat { temperature: Real }
+    /// let builder = Model::builder("oven").extents([8, 8, 8]).substates::<Heat>();
+    /// let model = builder.outside(Face::Bottom, Heat { temperature: 200.0 }).build()?;
+    /// # Ok::<(), ModelError>(())
+    /// ```
+    ///
+    /// A neighbour beyond several flat faces takes the value of one of them: z before y, y before x.
     pub fn outside<S: Substates>(mut self, face: Face, outside: S) -> Self {
         let substates = S::SCHEMA.name;
         let group = self.groups.iter_mut().find(|group| group.type_id == TypeId::of::<S>());
@@ -138,7 +184,7 @@ impl ModelBuilder {
         self
     }
 
-    /// Adds a population of items with the substates `S`, at most `slots` of them in a cell.
+    /// Adds a population of items with the substates `S`. A cell holds at most `slots` of them.
     pub fn population<S: Substates>(mut self, slots: usize) -> Self {
         if slots == 0 {
             self.mistake.get_or_insert(ModelError::NoSlots { substates: S::SCHEMA.name });
@@ -146,7 +192,8 @@ impl ModelBuilder {
         self.add_group::<S>(GroupKind::Population { slots, may_leave: false })
     }
 
-    /// Allows that a migration sends items of the population `S` out of the space. They are counted.
+    /// Allows migrations to send items of the population `S` out of the space. [`State::count_left`] counts
+    /// them.
     pub fn items_may_leave<S: Substates>(mut self) -> Self {
         let group = self.groups.iter_mut().find(|group| group.type_id == TypeId::of::<S>());
         match group.map(|group| &mut group.kind) {
@@ -168,15 +215,35 @@ impl ModelBuilder {
         self
     }
 
-    /// Adds a struct of parameters, with their values at the start. A model may have several; one of the same
-    /// type replaces the earlier.
+    /// Adds a struct of parameters with their initial values. A model may have several structs. A second one
+    /// of the same type replaces the first.
     pub fn parameters<P: Parameters>(mut self, parameters: P) -> Self {
         self.parameters.add(parameters);
         self
     }
 
-    /// Computes parameters of the struct `P` from others of it, whenever one of them is set, wherever from.
-    /// Mark them in the struct as `#[parameter(computed)]`: then they cannot be set by themselves.
+    /// Computes parameters of the struct `P` from its other ones, each time one of them is set. Mark the
+    /// results as `#[parameter(computed)]`: nothing else can set them.
+    ///
+    /// ```
+    /// # use xca_core::prelude::*;
+    /// # #[derive(Substates, Clone, Copy)]
+    /// # struct Air { speed: Real }
+    /// #[derive(Parameters, Clone, Debug)]
+    /// struct Flow {
+    ///     viscosity: Real,
+    ///     #[parameter(computed)]
+    ///     relaxation: Real,
+    /// }
+    ///
+    /// let mut model = Model::builder("flow").extents([8, 8, 1]).substates::<Air>()
+    ///     .parameters(Flow { viscosity: 0.1, relaxation: 0.0 })
+    ///     .compute_parameters(|flow: &mut Flow| flow.relaxation = 0.5 + 3.0 * flow.viscosity)
+    ///     .build()?;
+    /// model.set_parameter("viscosity", "0.5")?;
+    /// assert_eq!(model.parameters().value_by_name("relaxation")?.to_string(), "2");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn compute_parameters<P: Parameters>(
         mut self,
         computation: impl Fn(&mut P) + Send + Sync + 'static,
@@ -185,14 +252,13 @@ impl ModelBuilder {
         self
     }
 
-    /// Adds an elementary process or a migration, or several of them in parentheses. They run in the order in
-    /// which they are added.
+    /// Adds an elementary process or a migration, or a tuple of them. Processes run in the order of addition.
     pub fn process<P: Processes>(mut self, _processes: P) -> Self {
         P::add_to(&mut self.processes);
         self
     }
 
-    /// Adds processes that run in every so many steps only: with 10 in the 10th, the 20th and so on.
+    /// Adds processes that run at an interval of steps: with 10, in step 10, 20, 30 and so on.
     pub fn process_every<P: Processes>(mut self, interval: u64, _processes: P) -> Self {
         if interval == 0 {
             self.mistake.get_or_insert(ModelError::ZeroInterval);
@@ -205,8 +271,8 @@ impl ModelBuilder {
         self
     }
 
-    /// Adds processes that run so many times in each step, one after the other: `repeat(4, (red, black))` is
-    /// red, black, four times.
+    /// Adds processes that run several times in each step: `repeat(4, (red, black))` runs red, black, red,
+    /// black and so on, four times each.
     pub fn repeat<P: Processes>(mut self, times: u32, _processes: P) -> Self {
         if times == 0 {
             self.mistake.get_or_insert(ModelError::ZeroRepeats);
@@ -217,7 +283,7 @@ impl ModelBuilder {
         self
     }
 
-    /// Adds a global operation, run at the times of the schedule.
+    /// Adds a global operation. The schedule says when it runs.
     pub fn steer(
         mut self,
         schedule: Schedule,
@@ -234,7 +300,8 @@ impl ModelBuilder {
         }
     }
 
-    /// Adds a global operation that makes the initial state, before the first step.
+    /// Adds a global operation that makes the initial state. [`Self::fill`] and [`Self::populate`] do so cell
+    /// by cell.
     pub fn initialise(
         self,
         operation: impl Fn(&mut State<'_>) -> Result<(), SteeringError> + Send + Sync + 'static,
@@ -242,11 +309,22 @@ impl ModelBuilder {
         self.steer(Schedule::Start, operation)
     }
 
-    /// Stops the run when the condition gives a reason.
+    /// Stops the run when the condition returns a reason.
     ///
-    /// A condition that asks for a reduction and gets NaN decides nothing. Where a substate is NaN or
-    /// infinite then, the run ends with the fault [`crate::Fault::NotFinite`], which names the cell;
-    /// substates of [`Self::allow_non_finite`] are exempt.
+    /// ```
+    /// # use xca_core::prelude::*;
+    /// # #[derive(Substates, Clone, Copy)]
+    /// # struct Lava { speed: Real }
+    /// # let builder = Model::builder("lava").extents([4, 4, 1]).substates::<Lava>();
+    /// builder.stop_when(Schedule::Every(10), |state| {
+    ///     let fastest = state.maximum(Lava::SPEED)?.unwrap_or(0.0);
+    ///     Ok((fastest < 1e-6).then(|| "the lava stands still".to_owned()))
+    /// });
+    /// ```
+    ///
+    /// If a reduction in the condition gives NaN, the run checks all substates. A NaN or an infinity ends the
+    /// run with the fault [`crate::Fault::NotFinite`], which names the cell. Substates of
+    /// [`Self::allow_non_finite`] are exempt.
     pub fn stop_when(
         self,
         schedule: Schedule,
@@ -261,11 +339,11 @@ impl ModelBuilder {
         })
     }
 
-    /// Checks at these times that all floating substates of cells and items are finite. NaN or an infinity is
-    /// a fault that names step, substate, cell and item ([`crate::Fault::NotFinite`]).
+    /// Checks at these times that all floating-point substates are finite. A NaN or an infinity ends the run
+    /// with the fault [`crate::Fault::NotFinite`], which names step, substate, cell and item.
     ///
-    /// A check comes before the steering of its step, so no stop criterion sees a NaN; that of `Start`
-    /// follows the initial state, that of `End` the last steering. It reads each substate once.
+    /// The check comes before the steering of its step, so no stop criterion sees a NaN. With `Start` it
+    /// follows the initial state, with `End` the last steering. It reads each substate once.
     /// [`crate::Simulation::check_finite`] checks at any other time.
     pub fn watch_finite(mut self, schedule: Schedule) -> Self {
         self.check_schedule(&schedule);
@@ -273,8 +351,7 @@ impl ModelBuilder {
         self
     }
 
-    /// Says that a substate may be NaN or infinite, for which it has a meaning of its own. No check looks at
-    /// it.
+    /// Exempts a substate from all checks for NaN and infinities.
     pub fn allow_non_finite<S: Substates, V: HostValue>(mut self, substate: Substate<S, V>) -> Self {
         match self.groups.iter().position(|group| group.type_id == TypeId::of::<S>()) {
             Some(group) => self.may_be_non_finite.push(SubstateId { group, field: substate.index() }),
@@ -285,16 +362,16 @@ impl ModelBuilder {
         self
     }
 
-    /// Says what a fault code means, for messages.
+    /// Sets the message for a fault code.
     pub fn fault_text(mut self, code: u32, text: impl Into<String>) -> Self {
         self.fault_texts.push((code, text.into()));
         self
     }
 
-    /// Checks the definition.
+    /// Checks the definition and makes the model.
     ///
     /// # Errors
-    /// The first mistake that is found; its message says what to change.
+    /// Returns the first mistake. Its message says what to change.
     pub fn build(self) -> Result<Model, ModelError> {
         if let Some(mistake) = self.mistake {
             return Err(mistake);

@@ -1,9 +1,9 @@
-//! What can be wrong with a model.
+//! Mistakes in the definition of a model.
 
 use xca_process::ParameterError;
 use xca_process::{Boundary, Face};
 
-/// A model that cannot be built; the message says what to change.
+/// A mistake in the definition of a model. The message says what to change.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages explain the fields")]
 #[non_exhaustive]

@@ -23,8 +23,7 @@ impl ModelBuilder {
         self.initialise(move |space| Ok(space.fill(&state)?))
     }
 
-    /// Makes the initial state of each cell from the parameters that the run begins with, whoever has set
-    /// them.
+    /// Makes the initial state of each cell from the parameters with which the run begins.
     ///
     /// ```
     /// # use xca_core::prelude::*;
@@ -51,9 +50,8 @@ impl ModelBuilder {
         self.initialise(move |space| Ok(space.fill_with(&state)?))
     }
 
-    /// Makes the initial items of each cell: anything that can be iterated over, such as an `Option`, a `Vec`
-    /// or an iterator. Labels are given out in order, from 0: cell after cell (x fastest), and in a cell in
-    /// the order of its items.
+    /// Makes the initial items of each cell. The function returns anything iterable: an `Option`, a `Vec`, an
+    /// iterator.
     ///
     /// ```
     /// # use xca_core::prelude::*;
@@ -69,6 +67,8 @@ impl ModelBuilder {
     /// })
     /// # .build().unwrap();
     /// ```
+    ///
+    /// Labels count from 0, cell by cell (x fastest), in the order of the items within a cell.
     pub fn populate<S: Substates, I: IntoIterator<Item = S>>(
         mut self,
         items: impl Fn(Site) -> I + Send + Sync + 'static,
@@ -77,7 +77,7 @@ impl ModelBuilder {
         self.initialise(move |space| Ok(space.populate(&items)?))
     }
 
-    /// As [`Self::populate`], with the parameters that the run begins with.
+    /// As [`Self::populate`], with the parameters with which the run begins.
     pub fn populate_with<S: Substates, P: Parameters, I: IntoIterator<Item = S>>(
         mut self,
         items: impl Fn(Site, &P) -> I + Send + Sync + 'static,

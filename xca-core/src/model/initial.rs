@@ -1,4 +1,4 @@
-//! Initial values that come from outside of the model, from a file for example.
+//! Initial values from outside the model, such as from a file.
 
 use super::{Group, GroupKind, Model};
 use crate::engine::SubstateId;
@@ -6,27 +6,27 @@ use crate::steering::{Schedule, Steering};
 use xca_values::ValueType;
 use xca_values::{Field, Schema};
 
-/// Initial values that a substate cannot have.
+/// An error of [`Model::set_initial`].
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum InitialError {
     /// No substate has this name.
     #[error("no substate of cells is called `{name}`; there are {known}")]
     Unknown {
-        /// The name that was asked for.
+        /// The name.
         name: String,
-        /// Those that there are.
+        /// The known names.
         known: String,
     },
     /// Several structs of substates have a field of this name.
     #[error("several substates are called `{name}`; say which one: {known}")]
     Ambiguous {
-        /// The name that was asked for.
+        /// The name.
         name: String,
-        /// Those that it may mean.
+        /// The substates of that name.
         known: String,
     },
-    /// The substate is a vector or an array, and no component of it is named.
+    /// The substate is a vector or an array, and the name lacks the component.
     #[error("`{name}` is a {value_type}; give one of its components, such as `{name}.{component}`")]
     Several {
         /// The substate.
@@ -36,17 +36,17 @@ pub enum InitialError {
         /// The name of its first component.
         component: String,
     },
-    /// Not as many values as cells.
+    /// The number of values differs from that of the cells.
     #[error("`{name}` has {cells} values, one for each cell, but {given} are given")]
     WrongNumber {
         /// The substate.
         name: String,
-        /// How many cells there are.
+        /// The number of cells.
         cells: usize,
-        /// How many values were given.
+        /// The number of values.
         given: usize,
     },
-    /// A number that is no value of the substate's type.
+    /// A number is not a value of the substate's type.
     #[error("{value} in cell {cell:?} is no value for `{name}`, which is {}", value_type.described())]
     Value {
         /// The substate.
@@ -61,16 +61,32 @@ pub enum InitialError {
 }
 
 impl Model {
-    /// Replaces the initial values of a substate of cells, or of one component of it, by these (by linear
-    /// index, x fastest). They are set after all that the model does to make its initial state. A cell for
-    /// which `None` is given keeps the model's own value.
+    /// Replaces the initial values of a substate of cells, or of one of its components: a map read from a
+    /// file, for example. Values come by linear index, x fastest.
     ///
-    /// The substate is named by its field, or by struct and field (`Heat.temperature`); a component of a
-    /// vector or an array by what follows: `velocity.x`, `outflow.3`, `paths.1.x`. `bool` is given as 0 or 1,
-    /// a state by its number.
+    /// ```
+    /// use xca_core::prelude::*;
+    ///
+    /// #[derive(Substates, Clone, Copy)]
+    /// struct Ground {
+    ///     altitude: Real,
+    /// }
+    ///
+    /// let mut model = Model::builder("slope").extents([3, 1, 1]).substates::<Ground>().build()?;
+    /// model.set_initial("altitude", [Some(10.0), None, Some(30.0)])?;
+    /// let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
+    /// assert_eq!(simulation.state().read(Ground::ALTITUDE)?, [10.0, 0.0, 30.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// They replace what the model's own initial state sets. A cell with `None` keeps the model's value.
+    ///
+    /// Name a substate by its field, or by struct and field (`Heat.temperature`). Name a component by what
+    /// follows: `velocity.x`, `outflow.3`, `paths.1.x`. `bool` is 0 or 1, a state is its number.
     ///
     /// # Errors
-    /// Where there is no such substate, or the values are not one for each cell and of its type.
+    /// Returns an error if the substate is unknown or ambiguous, the number of values is not that of the
+    /// cells, or a value does not fit the type.
     pub fn set_initial(
         &mut self,
         substate: &str,

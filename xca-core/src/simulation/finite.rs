@@ -7,12 +7,12 @@ use crate::reduction::{Reduced, Reduction};
 use xca_values::{StoredScalar, StoredType};
 
 impl Simulation {
-    /// Checks that all floating substates of cells and items are finite, but for those that the model allows
-    /// to be otherwise ([`crate::ModelBuilder::allow_non_finite`]).
+    /// Checks that all floating-point substates of cells and items are finite. Skips those of
+    /// [`crate::ModelBuilder::allow_non_finite`].
     ///
     /// # Errors
-    /// [`Fault::NotFinite`] of the first value by substate, cell and label; or where the engine cannot reach
-    /// its state any more.
+    /// Returns [`Fault::NotFinite`] with the first such value by substate, cell and label, or an error if the
+    /// engine lost its state.
     pub fn check_finite(&self) -> Result<(), RunError> {
         for substate in self.model.finite_substates() {
             let counts = self.execution.reduce(substate, &Reduction::CountNonFinite)?;

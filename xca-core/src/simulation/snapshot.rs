@@ -7,22 +7,21 @@ use crate::model::{Group, GroupKind, Model};
 use xca_process::ParameterValue;
 use xca_values::Field;
 
-/// The whole state of a run between two steps: equal snapshots are equal to the last bit.
+/// The whole state of a run between two steps. Equal snapshots are equal to the last bit.
 ///
-/// Together with the model and the [`RunOptions`] it is everything that the rest of the run depends on,
-/// whatever the engine: random numbers are a function of seed and step, and schedules one of the step. What
-/// steering operations and observables keep to themselves, in a `Mutex` for example, is not part of it.
+/// With the model and the [`RunOptions`] it determines the rest of the run, on any engine. Variables that a
+/// steering operation keeps to itself, in a `Mutex` for example, are not part of it.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Snapshot {
     /// The number of steps done.
     pub step: u64,
     /// The groups in the model's order.
     pub groups: Vec<GroupSnapshot>,
-    /// The components of each parameter, as the bits of an `f64`, into which every scalar type fits exactly.
+    /// The components of each parameter, as the bits of an `f64`, which holds every scalar type exactly.
     pub parameters: Vec<Vec<u64>>,
-    /// Why a steering operation has ended the run, if one has.
+    /// The reason of the steering operation that ended the run, if one did.
     pub stop: Option<String>,
-    /// Whether the last step ended with a fault, so that the state is that of an unfinished step.
+    /// Whether the last step ended with a fault. The state is then that of an unfinished step.
     pub broken: bool,
 }
 
@@ -31,23 +30,23 @@ pub struct Snapshot {
 pub enum GroupSnapshot {
     /// The stored bytes of each substate of cells.
     Cells(Vec<Vec<u8>>),
-    /// The items, and how many have left.
+    /// The items, and the number of items that left.
     Population(Population, u64),
 }
 
-/// A snapshot that a simulation cannot go on from.
+/// A snapshot from which a simulation cannot continue.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SnapshotError {
-    /// It was taken of another model, at another precision, or changed since.
+    /// The snapshot is from another model or another precision, or was modified.
     #[error("the snapshot does not fit the model `{model}`: {reason}")]
     DoesNotFit {
         /// The name of the model.
         model: String,
-        /// What does not fit.
+        /// The difference.
         reason: String,
     },
-    /// It was taken after a fault.
+    /// The snapshot was taken after a fault.
     #[error("the snapshot was taken after a fault in step {step}; its state is that of an unfinished step")]
     Unfinished {
         /// The number of that step, from 1 for the first.
@@ -56,10 +55,10 @@ pub enum SnapshotError {
 }
 
 impl Simulation {
-    /// The whole state, to compare it or to keep it.
+    /// The whole state, to compare or to save.
     ///
     /// # Errors
-    /// Where the engine cannot reach its state any more.
+    /// Returns an error if the engine lost its state.
     pub fn snapshot(&self) -> Result<Snapshot, RunError> {
         let execution = &self.execution;
         let of_group = |(group, definition): (usize, &Group)| match definition.kind() {
@@ -82,10 +81,9 @@ impl Simulation {
         })
     }
 
-    /// Puts a model on an engine in the state of a snapshot; the initial state is not made.
+    /// Starts a model on an engine in the state of a snapshot.
     ///
-    /// With the options of the simulation that the snapshot was taken of, the run goes on as that one would
-    /// have, to the last bit, on any engine.
+    /// With the same options the run continues with the same bits, on any engine.
     ///
     /// ```
     /// use xca_core::prelude::*;
@@ -115,7 +113,7 @@ impl Simulation {
     /// ```
     ///
     /// # Errors
-    /// Where the engine cannot run the model, or as [`Self::restore`].
+    /// Returns an error if the engine cannot run the model, or as [`Self::restore`].
     pub fn resume(
         model: &Model,
         engine: &dyn Engine,
@@ -131,8 +129,8 @@ impl Simulation {
     /// Replaces the state by that of a snapshot, also after a fault.
     ///
     /// # Errors
-    /// [`RunError::Snapshot`] where it is a snapshot of another model or another precision, or was taken
-    /// after a fault. The state is then what it was.
+    /// Returns [`RunError::Snapshot`] if the snapshot is from another model or another precision, or was
+    /// taken after a fault. The state then does not change.
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), RunError> {
         snapshot.check(&self.model, self.options)?;
         for (group, state) in snapshot.groups.iter().enumerate() {

@@ -9,8 +9,19 @@ use xca_process::{Substate, Substates};
 impl State<'_> {
     /// The value of a substate in one cell.
     ///
+    /// ```
+    /// # use xca_core::prelude::*;
+    /// # #[derive(Substates, Clone, Copy)]
+    /// # struct Pond { depth: Real }
+    /// # let model = Model::builder("pond").extents([8, 8, 1]).substates::<Pond>().build()?;
+    /// # let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
+    /// let depth = simulation.state().get(Pond::DEPTH, [3, 4, 0])?;
+    /// assert_eq!(depth, 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
-    /// Where the model does not have the substate, or the space the cell.
+    /// Returns an error if the model does not have the substate, or the space does not have the cell.
     pub fn get<S: Substates, V: HostValue>(
         &self,
         substate: Substate<S, V>,
@@ -21,10 +32,10 @@ impl State<'_> {
         Ok(V::decode(self.model.stored(id, self.precision), &bytes))
     }
 
-    /// The values of a substate in some cells, in the order of the cells. The engine reads them at once.
+    /// The values of a substate in several cells, in their order. The engine reads them in one go.
     ///
     /// # Errors
-    /// Where the model does not have the substate, or the space one of the cells.
+    /// As [`Self::get`].
     pub fn get_cells<S: Substates, V: HostValue>(
         &self,
         substate: Substate<S, V>,
@@ -36,8 +47,20 @@ impl State<'_> {
 
     /// Sets the value of a substate in one cell.
     ///
+    /// ```
+    /// # use xca_core::prelude::*;
+    /// # #[derive(Substates, Clone, Copy)]
+    /// # struct Pond { depth: Real }
+    /// # let model = Model::builder("pond").extents([8, 8, 1]).substates::<Pond>().build()?;
+    /// # let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
+    /// let mut state = simulation.state();
+    /// state.set(Pond::DEPTH, [3, 4, 0], 1.5)?;
+    /// assert_eq!(state.get(Pond::DEPTH, [3, 4, 0])?, 1.5);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
-    /// Where the model does not have the substate, or the space the cell.
+    /// As [`Self::get`].
     pub fn set<S: Substates, V: HostValue>(
         &mut self,
         substate: Substate<S, V>,
@@ -47,11 +70,25 @@ impl State<'_> {
         self.set_cells(substate, [(cell, value)])
     }
 
-    /// Sets the values of a substate in some cells. The engine writes them at once; of a cell that stands
-    /// twice, the last value stays.
+    /// Sets the values of a substate in several cells. The engine writes them in one go.
+    ///
+    /// ```
+    /// # use xca_core::prelude::*;
+    /// # #[derive(Substates, Clone, Copy)]
+    /// # struct Pond { depth: Real }
+    /// # let model = Model::builder("pond").extents([8, 8, 1]).substates::<Pond>().build()?;
+    /// # let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
+    /// let mut state = simulation.state();
+    /// let shore = (0..8).map(|x| ([x, 0, 0], 0.1));
+    /// state.set_cells(Pond::DEPTH, shore)?;
+    /// assert!((state.sum(Pond::DEPTH)? - 0.8).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// If a cell is listed twice, the last value counts.
     ///
     /// # Errors
-    /// Where the model does not have the substate, or the space one of the cells. Nothing is set then.
+    /// As [`Self::get`]. After an error no cell has changed.
     pub fn set_cells<S: Substates, V: HostValue>(
         &mut self,
         substate: Substate<S, V>,
@@ -63,8 +100,7 @@ impl State<'_> {
         self.set_values_of(id, &numbers, &values)
     }
 
-    /// Changes the values of a substate in some cells: adds lava at the vents, heat at a source. The engine
-    /// reads them at once, and writes them at once; a cell that stands twice is changed twice.
+    /// Changes the values of a substate in several cells: adds lava at the vents, heat at a source.
     ///
     /// ```
     /// use xca_core::prelude::*;
@@ -89,8 +125,11 @@ impl State<'_> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
+    /// The engine reads all cells in one go and writes them in one go. A cell that is listed twice changes
+    /// twice.
+    ///
     /// # Errors
-    /// Where the model does not have the substate, or the space one of the cells. Nothing is changed then.
+    /// As [`Self::get`]. After an error no cell has changed.
     pub fn update<S: Substates, V: HostValue>(
         &mut self,
         substate: Substate<S, V>,

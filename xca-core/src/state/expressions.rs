@@ -6,41 +6,53 @@ use crate::reduction::{Reduced, ReducedRows, Reducible, Reduction};
 use xca_process::Substates;
 
 impl State<'_> {
-    /// How many cells, or items of a population, meet a condition.
+    /// Counts the cells, or the items of a population, that meet a condition.
     ///
     /// ```
     /// # use xca_core::prelude::*;
     /// # #[derive(Substates, Clone, Copy)]
     /// # struct Lava { thickness: Real, temperature: Real }
-    /// # let model = Model::builder("lava").extents([4, 4, 1]).substates::<Lava>().build()?;
+    /// # let builder = Model::builder("lava").extents([4, 4, 1]).substates::<Lava>();
+    /// # let model = builder.fill(|_| Lava { thickness: 0.5, temperature: 700.0 }).build()?;
     /// # let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
     /// let state = simulation.state();
     /// let crusted = state.count_where(|lava: &Lava| lava.thickness > 0.0 && lava.temperature < 800.0)?;
-    /// let heat = state.sum_of(|lava: &Lava| lava.thickness * lava.temperature)?;
-    /// # assert_eq!((crusted, heat), (0, 0.0));
+    /// assert_eq!(crusted, 16);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
-    /// All substates of the struct are brought to the host; [`Self::count`] needs one of them, and counts
-    /// where the state is.
+    /// Copies all substates of the struct to the host. [`Self::count`] reads one substate, and counts on the
+    /// engine.
     ///
     /// # Errors
-    /// Where the model does not have these substates.
+    /// Returns an error if the model does not have these substates.
     pub fn count_where<S: Substates>(&self, condition: impl Fn(&S) -> bool) -> Result<u64, StateError> {
         let mut count = 0;
         self.for_each(|_, state: &S| count += u64::from(condition(state)))?;
         Ok(count)
     }
 
-    /// The sum of a value of each cell, or of each item of a population: in `f64`, or in `i64` of integers.
-    /// Rows are summed up one by one, then combined in order, as by [`Self::sum`]; so the bits are the same
-    /// on every engine.
+    /// Sums an expression over the cells, or over the items of a population: `f64`, or `i64` for integers.
     ///
-    /// All substates of the struct are brought to the host; [`Self::sum`] needs one of them, and adds up
-    /// where the state is.
+    /// ```
+    /// # use xca_core::prelude::*;
+    /// # #[derive(Substates, Clone, Copy)]
+    /// # struct Lava { thickness: Real, temperature: Real }
+    /// # let builder = Model::builder("lava").extents([4, 4, 1]).substates::<Lava>();
+    /// # let model = builder.fill(|_| Lava { thickness: 0.5, temperature: 700.0 }).build()?;
+    /// # let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
+    /// let state = simulation.state();
+    /// let heat = state.sum_of(|lava: &Lava| lava.thickness * lava.temperature)?;
+    /// assert_eq!(heat, 16.0 * 350.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// Rows are summed one by one, then combined in order, as in [`Self::sum`]. All engines therefore give
+    /// the same bits. Copies all substates of the struct to the host; [`Self::sum`] reads one substate, and
+    /// adds on the engine.
     ///
     /// # Errors
-    /// Where the model does not have these substates.
+    /// Returns an error if the model does not have these substates.
     pub fn sum_of<S: Substates, V: Reducible>(&self, value: impl Fn(&S) -> V) -> Result<V::Sum, StateError> {
         let mut results: Vec<Reduced> = Vec::new();
         self.for_each(|row, state: &S| {
@@ -54,7 +66,7 @@ impl State<'_> {
         Ok(V::total(&self.noted(rows.combined(&Reduction::Sum)), 0))
     }
 
-    /// Visits the cells, or the items of a population, row after row, each with the number of its row.
+    /// Visits the cells, or the items of a population, row by row, with the number of the row.
     fn for_each<S: Substates>(&self, mut visit: impl FnMut(usize, &S)) -> Result<(), StateError> {
         let group = self.group::<S>()?;
         let stored = self.model.groups()[group].stored(self.precision);

@@ -15,7 +15,7 @@ impl State<'_> {
     /// Sets the state of every cell.
     ///
     /// # Errors
-    /// Where the model does not have these substates of cells.
+    /// Returns an error if the model does not have these substates of cells.
     pub fn fill<S: Substates>(&mut self, state: impl Fn(Site) -> S) -> Result<(), StateError> {
         let group = self.cells_of::<S>()?;
         let fields = self.encoded(group, self.sites(group).iter().map(state));
@@ -25,10 +25,10 @@ impl State<'_> {
         Ok(())
     }
 
-    /// Sets the state of every cell, which depends on the parameters.
+    /// Sets the state of every cell from the parameters.
     ///
     /// # Errors
-    /// As [`Self::fill`], and where the model has other parameters.
+    /// As [`Self::fill`], or if the model does not have the parameters.
     pub fn fill_with<S: Substates, P: Parameters>(
         &mut self,
         state: impl Fn(Site, &P) -> S,
@@ -37,11 +37,12 @@ impl State<'_> {
         self.fill(|site| state(site, &parameters))
     }
 
-    /// Replaces all items of a population by those that the function gives for each cell. Labels are given
-    /// out in order, from 0: cell after cell (x fastest), and in a cell in the order of its items.
+    /// Replaces all items of a population. The function returns the items of each cell.
+    ///
+    /// Labels count from 0, cell by cell (x fastest), in the order of the items within a cell.
     ///
     /// # Errors
-    /// Where the model does not have the population, or a cell gets more items than it has slots.
+    /// Returns an error if the model does not have the population, or a cell has too few slots.
     pub fn populate<S: Substates, I: IntoIterator<Item = S>>(
         &mut self,
         items: impl Fn(Site) -> I,
@@ -62,7 +63,7 @@ impl State<'_> {
     /// As [`Self::populate`], with the parameters.
     ///
     /// # Errors
-    /// As [`Self::populate`], and where the model has other parameters.
+    /// As [`Self::populate`], or if the model does not have the parameters.
     pub fn populate_with<S: Substates, P: Parameters, I: IntoIterator<Item = S>>(
         &mut self,
         items: impl Fn(Site, &P) -> I,

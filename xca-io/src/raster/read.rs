@@ -10,16 +10,17 @@ use std::path::{Path, PathBuf};
 pub const HIGHEST: f64 = 1e5;
 
 impl Raster {
-    /// Reads a GeoTIFF, which its first bytes or its extension (`.tif`, `.tiff`) tell, or an ESRI ASCII grid.
+    /// Reads a GeoTIFF or an ESRI ASCII grid. The first bytes or the extension (`.tif`, `.tiff`) tell them
+    /// apart.
     ///
     /// # Errors
-    /// [`ReadRasterError::GeoTiff`], [`ReadRasterError::AsciiGrid`].
+    /// Returns [`ReadRasterError::GeoTiff`] or [`ReadRasterError::AsciiGrid`].
     pub fn read(path: &Path) -> Result<Self, ReadRasterError> {
         Self::read_either(path, None)
     }
 
-    /// As [`Raster::read`], of a file that may lack its place on the map: a GeoTIFF without georeference, a
-    /// grid without a header. It must have the columns and rows of this place.
+    /// As [`Raster::read`], for a file that may lack its place: a GeoTIFF without georeference, a grid
+    /// without a header. It must have the columns and rows of this place.
     ///
     /// # Errors
     /// As [`Raster::read`].
@@ -35,11 +36,11 @@ impl Raster {
         }
     }
 
-    /// As [`Raster::read`], of altitudes in m. Altitudes beyond [`HIGHEST`] and rasters without any value are
-    /// refused.
+    /// As [`Raster::read`], for altitudes in m. Rejects altitudes beyond [`HIGHEST`] and rasters without
+    /// values.
     ///
     /// # Errors
-    /// As [`Raster::read`]; [`ReadRasterError::Height`] and [`ReadRasterError::Empty`].
+    /// As [`Raster::read`], or [`ReadRasterError::Height`] or [`ReadRasterError::Empty`].
     pub fn read_heights(path: &Path) -> Result<Self, ReadRasterError> {
         let raster = Self::read(path)?;
         if let Some(cell) = raster.values.iter().position(|height| height.abs() > HIGHEST) {

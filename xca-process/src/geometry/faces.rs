@@ -3,7 +3,15 @@
 use std::fmt;
 use std::ops::{Index, IndexMut};
 
-/// A face of the cellular space. As on a map, x grows to the east and y to the north; z grows upwards.
+/// A face of the space. As on a map, x grows to the east and y to the north; z grows upwards.
+///
+/// ```
+/// use xca_core::prelude::*;
+///
+/// assert_eq!(Face::North.opposite(), Face::South);
+/// assert_eq!(Face::Top.axis(), 2);
+/// assert_eq!(Face::East.to_string(), "east");
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Face {
@@ -22,19 +30,19 @@ pub enum Face {
 }
 
 impl Face {
-    /// All faces: along x, y, z, each time that before the first cell, then that behind the last one.
+    /// All faces, along x, y, z: first the one at the first cell, then the one at the last.
     pub const ALL: [Self; 6] = [Self::West, Self::East, Self::South, Self::North, Self::Bottom, Self::Top];
 
     /// The two faces across each of the axes x, y, z.
     pub const ALONG: [[Self; 2]; 3] =
         [[Self::West, Self::East], [Self::South, Self::North], [Self::Bottom, Self::Top]];
 
-    /// The axis that the face lies across: 0 is x, 1 is y, 2 is z.
+    /// The axis across which the face lies: 0 is x, 1 is y, 2 is z.
     pub const fn axis(self) -> usize {
         self as usize / 2
     }
 
-    /// The face on the other side of the space.
+    /// The face at the other end of the axis.
     pub const fn opposite(self) -> Self {
         Self::ALL[self as usize ^ 1]
     }
@@ -53,7 +61,16 @@ impl fmt::Display for Face {
     }
 }
 
-/// Something for each face of the space. A face is an index: `faces[Face::North]`.
+/// One value for each face of the space. Index it by [`Face`], or use its fields.
+///
+/// ```
+/// use xca_core::prelude::*;
+///
+/// let mut boundaries = Faces::from([Boundary::Toroidal, Boundary::Flat, Boundary::Flat]);
+/// boundaries[Face::Top] = Boundary::Reflecting;
+/// assert_eq!(boundaries.west, Boundary::Toroidal);
+/// assert_eq!(boundaries, Faces { top: Boundary::Reflecting, ..boundaries });
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, serde::Serialize, serde::Deserialize)]
 #[expect(missing_docs, reason = "the fields are those of `Face`")]
 pub struct Faces<T> {
@@ -66,7 +83,7 @@ pub struct Faces<T> {
 }
 
 impl<T> Faces<T> {
-    /// What a function gives for each face.
+    /// Calls a function for each face.
     pub fn from_fn(mut value: impl FnMut(Face) -> T) -> Self {
         Self {
             west: value(Face::West),
@@ -78,7 +95,7 @@ impl<T> Faces<T> {
         }
     }
 
-    /// The same for all faces.
+    /// The same value for all faces.
     pub fn all(value: T) -> Self
     where
         T: Clone,
@@ -86,13 +103,13 @@ impl<T> Faces<T> {
         Self::from_fn(|_| value.clone())
     }
 
-    /// What a function makes of the value of each face.
+    /// Applies a function to the value of each face.
     pub fn map<U>(&self, mut value: impl FnMut(&T) -> U) -> Faces<U> {
         Faces::from_fn(|face| value(&self[face]))
     }
 }
 
-/// The same for both faces across each of the axes x, y, z.
+/// One value for both faces of each of the axes x, y, z.
 impl<T: Clone> From<[T; 3]> for Faces<T> {
     fn from(along: [T; 3]) -> Self {
         Self::from_fn(|face| along[face.axis()].clone())
