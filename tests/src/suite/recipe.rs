@@ -33,8 +33,8 @@ pub struct Recipe {
     pub aligned: bool,
     /// What the initial state is made of.
     pub salt: u32,
-    /// One cell in so many has a state by chance, the others have none, and beyond the faces is none either: most
-    /// processes leave it alone until something reaches it.
+    /// One cell in so many has a state by chance, the others have none, and beyond the faces is none either:
+    /// most processes leave it alone until something reaches it.
     pub calm: Option<u32>,
     /// What the processes are told.
     pub tuning: Tuning,
@@ -188,8 +188,8 @@ fn fraction(salt: u32, number: u32) -> f64 {
     f64::from(mix(salt, number) >> 8) / 16_777_216.0
 }
 
-/// What [`medium::breed`], `relax`, `trade`, `slope`, `swirl`, `settle_down`, `blend`, `peek` and `erode` without rain
-/// leave alone.
+/// What [`medium::breed`], `relax`, `trade`, `slope`, `swirl`, `settle_down`, `blend`, `peek` and `erode`
+/// without rain leave alone.
 const NOTHING: Medium = Medium {
     life: 0,
     charge: 0,
