@@ -3,6 +3,7 @@
 
 mod adapter;
 mod code;
+mod corrections;
 mod exact;
 mod handicap;
 mod instance;
@@ -11,7 +12,8 @@ mod rewrite;
 mod transfer;
 
 pub use adapter::{Adapter, AdapterChoice, AdapterKind};
-pub(crate) use code::{Access, Code, Corrections, Pipeline};
+pub(crate) use code::{Access, Code, Pipeline};
+pub(crate) use corrections::Corrections;
 pub use handicap::Handicap;
 pub(crate) use recorder::{Binding, Bindings, Recorder};
 pub(crate) use rewrite::UNTOUCHED;

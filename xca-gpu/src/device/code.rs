@@ -1,6 +1,7 @@
 //! Code on the device: WGSL compiled to pipelines, strictly or as the driver likes.
 #![allow(unsafe_code)]
 
+use super::corrections::Corrections;
 use super::rewrite::{self, Manner, Replacements, Watch};
 use super::{Device, DeviceError, exact};
 use std::borrow::Cow;
@@ -35,16 +36,6 @@ pub(crate) struct Code {
     /// Where loops that the device ends early are to be told: the number that is written to one more buffer,
     /// which stands behind the others.
     pub(crate) watched: Option<NonZeroU32>,
-}
-
-/// The operations that the driver does not round correctly, and that are made correct by other operations: of
-/// floats of 32 bits, then of 64 bits.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub(crate) struct Corrections {
-    pub(crate) divisions: [bool; 2],
-    pub(crate) roots: [bool; 2],
-    /// Floats made whole: `trunc`, `floor` and `ceil`.
-    pub(crate) roundings: [bool; 2],
 }
 
 /// Compiled code.

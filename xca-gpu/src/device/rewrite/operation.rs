@@ -9,6 +9,16 @@ pub(in crate::device) enum Manner {
     Rough,
 }
 
+impl Manner {
+    /// What the names of the functions begin with that stand for operations.
+    pub(super) fn prefix(self) -> &'static str {
+        match self {
+            Self::Corrected => "corrected_",
+            Self::Rough => "rough_",
+        }
+    }
+}
+
 /// What an operation does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Kind {

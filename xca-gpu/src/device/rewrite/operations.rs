@@ -4,7 +4,7 @@ mod text;
 
 use super::module::Checked;
 use super::operation::{Kind, Manner, Operation};
-use crate::device::Corrections;
+use crate::device::corrections::Corrections;
 use naga::{
     Block, Expression, Function, Handle, MathFunction, Module, Range, ScalarKind, Span, Statement, TypeInner,
 };

@@ -9,16 +9,8 @@ use std::collections::BTreeSet;
 /// Whether a function of this name keeps its operations: in corrected ones those of the driver remain, be
 /// they rough.
 pub(super) fn stands_for_operation(manner: Manner, name: &str) -> bool {
-    let rough = name.starts_with(prefix(Manner::Rough));
-    rough || manner == Manner::Corrected && name.starts_with(prefix(Manner::Corrected))
-}
-
-/// What the names of the functions begin with.
-fn prefix(manner: Manner) -> &'static str {
-    match manner {
-        Manner::Corrected => "corrected_",
-        Manner::Rough => "rough_",
-    }
+    let rough = name.starts_with(Manner::Rough.prefix());
+    rough || manner == Manner::Corrected && name.starts_with(Manner::Corrected.prefix())
 }
 
 /// The name of the function that stands for an operation.
@@ -31,7 +23,7 @@ pub(super) fn name(manner: Manner, operation: Operation) -> String {
         Kind::Ceiling => "ceiling",
     };
     let lanes = if operation.lanes > 1 { format!("_{}", operation.lanes) } else { String::new() };
-    format!("{}{word}_{}{lanes}", prefix(manner), scalar(operation.width))
+    format!("{}{word}_{}{lanes}", manner.prefix(), scalar(operation.width))
 }
 
 fn scalar(width: u8) -> &'static str {

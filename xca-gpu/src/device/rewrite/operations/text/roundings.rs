@@ -8,7 +8,7 @@ use crate::device::rewrite::operation::Manner;
 
 /// The functions for a float type.
 pub(super) fn text(manner: Manner, scalar: &str) -> String {
-    let prefix = super::prefix(manner);
+    let prefix = manner.prefix();
     let truncation = match manner {
         Manner::Corrected => corrected(scalar),
         Manner::Rough => rough(scalar),
