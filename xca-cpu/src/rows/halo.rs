@@ -1,11 +1,11 @@
-//! What continues a row in the halo.
+//! Continuation of rows into the halo.
 #![allow(unsafe_code)]
 
 use super::pass::Pass;
 use super::prepared::{Prepared, Shared};
 
 impl Pass<'_> {
-    /// Continues what a process has written to a row into the halo, while the row is in the cache.
+    /// Continues the rows that a process has written into the halo, while they are in the cache.
     pub(super) fn continue_row(&self, prepared: &Prepared<'_>, row: usize) {
         let first = self.layout.first(row);
         for shared in prepared.substates.iter().filter(|shared| shared.continued) {
@@ -33,7 +33,7 @@ impl Pass<'_> {
         }
     }
 
-    /// Copies the padded line of a row to those of the halo that show it.
+    /// Copies the padded line of a row to the halo lines that repeat it.
     fn continue_line(&self, shared: &Shared, row: usize) {
         let element = shared.memory.element;
         let source = self.layout.line(self.layout.row(row).map(|index| index as isize));
@@ -56,7 +56,7 @@ impl Pass<'_> {
     }
 }
 
-/// Copies one value. A size that the compiler knows makes it a move of a register.
+/// Copies one value. If the compiler knows the size, the copy is a register move.
 ///
 /// # Safety
 /// So many bytes can be read at `from` and written at `to`, and they do not overlap.
