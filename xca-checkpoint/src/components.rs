@@ -48,8 +48,8 @@ pub enum DrawnPart {
 
 impl DrawnPart {
     /// The drawn number of a value: the given component, if there is one. Otherwise the length of a vector,
-    /// the sum of an array of numbers or `bool`, the length of the sum of an array of vectors, or the first
-    /// element of an array of states.
+    /// the sum of an array, or the length of the sum of an array of vectors. For an array of states, the
+    /// first element.
     pub fn of(value_type: ValueType, component: Option<usize>) -> Self {
         let ValueType { scalar, lanes, length } = value_type;
         match (component, lanes, length, scalar) {

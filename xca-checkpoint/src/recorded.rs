@@ -31,7 +31,7 @@ impl Recorded {
 /// An observable, exact to the last bit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Quantity {
-    /// What it is called.
+    /// Its name.
     pub name: String,
     /// Its unit. Empty for a number without a unit.
     pub unit: String,

@@ -128,8 +128,8 @@ impl Layout {
         z * self.extents[1] + y
     }
 
-    /// The rows from which an item can enter a row by moving to the next cell: the row itself, and the rows
-    /// beside it along y and z, including those across a toroidal face.
+    /// The rows from which an item can enter a row by moving to the next cell. These are the row itself, and
+    /// the rows beside it along y and z, including those across a toroidal face.
     pub(crate) fn rows_beside(&self, row: usize) -> impl Iterator<Item = usize> {
         let [_, height, depth] = self.extents;
         let [y, z] = self.row(row);

@@ -1,7 +1,7 @@
 //! Passes over the rows, in parallel.
 //!
 //! The rows are split into pieces. Each belongs to one thread at a time. Neither the split nor the distance
-//! between passes changes a result: a row writes only its own values, and faults are compared by pass,
+//! between passes changes a result. A row writes only its own values, and faults are compared by pass,
 //! process and cell.
 
 mod found;

@@ -282,8 +282,8 @@ mod tests {
         let extents = [4, 6, 2];
         let values: Vec<f64> = (0..48).map(f64::from).collect();
         let picture = BlockPicture::new(extents, Scalar::new("t", &values)).render().unwrap();
-        // Upper faces, and faces towards x and y: outer ones, and those of the cut below z = 1, at y = 3 and
-        // at x = 2.
+        // Upper faces, and faces towards x and y. Some are outer faces, others those of the cut below z = 1,
+        // at y = 3 and at x = 2.
         for (cell, axis) in [
             ([0, 0, 1], 2),
             ([1, 5, 1], 2),

@@ -207,15 +207,15 @@ impl<'a> Row<'a> {
     /// For the lifetime `'a`, and for every entry (that is not null, aligned for its elements):
     /// - each plane of cells can be read at every cell of the row and, with `around`, at all of
     ///   `frame.offsets` from there;
-    /// - of items, the row's own can be read and, with `all`, as many as `labels.len()`;
+    /// - of items, the row's own can be read, and with `all` as many as `labels.len()`;
     /// - no one writes meanwhile what can be read by this (other rows' cells and own items may be written by
     ///   other threads);
     /// - `length` elements of each plane of cells at `write` are this row's alone;
     /// - the row's own items at `write` are this row's alone;
-    /// - `write` is apart from everything that can be read through any entry, but for another entry's `read`
-    ///   of cells or own items of the same substate;
-    /// - `starts` and `ends` can be read at every cell of the row and at all offsets from there, hold ranges
-    ///   within `labels.len()`, and the ranges of the row's cells lie within `own`, which lies within
+    /// - `write` does not overlap what can be read through any entry, except another entry's `read` of cells
+    ///   or own items of the same substate;
+    /// - `starts` and `ends` can be read at every cell of the row and at all offsets from there;
+    /// - they hold ranges within `labels.len()`, those of the row's cells within `own`, and `own` lies within
     ///   `labels.len()`.
     pub unsafe fn new(
         frame: &'a Frame<'a>,

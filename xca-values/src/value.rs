@@ -230,7 +230,7 @@ impl ValueType {
         }
     }
 
-    /// The suffixes of the components, for people: empty for a scalar, `.x` for a lane, `[3]` for an element,
+    /// The suffixes of the components, for people. Empty for a scalar, `.x` for a lane, `[3]` for an element,
     /// `[3].x` for a lane of an element.
     pub fn component_suffixes(self) -> Vec<String> {
         let suffix = |part: &str| match part.parse::<u32>() {

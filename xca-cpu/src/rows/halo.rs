@@ -18,10 +18,10 @@ impl Pass<'_> {
                 // SAFETY:
                 // - Source and target are cells of one padded line of a plane: the source in the row, the
                 //   target in the halo beside it.
-                // - No kernel writes the halo, and this is the only thread that has the row, so no one writes
+                // - No kernel writes the halo, and only this thread has the row. No one therefore writes
                 //   either of them meanwhile.
-                // - No one reads the target meanwhile: a plane that is read elsewhere in this pass is written
-                //   to the second buffer, of which nothing is read, or not written at all (`stages`). Another
+                // - No one reads the target meanwhile. A plane that is read elsewhere in this pass is written
+                //   to the second buffer, from which nothing is read, or is not written (`stages`). Another
                 //   pass is at rows that see this one only before or after (`Wavefront`).
                 unsafe {
                     copy_value(element, start.offset(source * size), start.offset(target * size));

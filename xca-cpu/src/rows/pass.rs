@@ -243,15 +243,15 @@ impl<'a> Pass<'a> {
         // SAFETY:
         // - `entries` follow the process's accesses, in buffers that are aligned for every scalar and hold
         //   values of the schema's types.
-        // - Planes have a halo as wide as the neighbourhood, and the offsets are made from the same layout,
-        //   so that all of them can be read from every cell of the row. Planes of items hold as many values
+        // - Planes have a halo as wide as the neighbourhood, and the offsets are made from the same layout.
+        //   All of them can therefore be read from every cell of the row. Planes of items hold as many values
         //   as labels.
         // - What is written belongs to the row's own cells or items. Rows are disjoint, and each is run by
         //   one thread.
-        // - A process that reads a substate elsewhere and writes it writes to the second buffer; no process
-        //   of a stage writes what another of it reads elsewhere (`stages`). A pass in the wake of another is
-        //   at no row that sees this one (`Wavefront`). So nothing readable is written meanwhile, by this row
-        //   or by another.
+        // - A process that reads a substate elsewhere and writes it writes to the second buffer. No process
+        //   of a stage writes what another process of the stage reads elsewhere (`stages`). A pass in the
+        //   wake of another is at no row that sees this one (`Wavefront`). So nothing readable is written
+        //   meanwhile, by this row or by another.
         // - `starts` and `ends` are padded like planes and hold ranges of items; those of a row's cells are
         //   the row's own items.
         let row = unsafe {

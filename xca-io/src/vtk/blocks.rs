@@ -1,8 +1,11 @@
 //! Compression of values as in VTK: in blocks, each its own zlib stream.
 //!
-//! A header of `u64` numbers comes before the streams. It holds the number of blocks, the uncompressed length
-//! of a block, the uncompressed length of a shorter last block (0 if there is none), and the length of each
-//! stream.
+//! A header of `u64` numbers comes before the streams:
+//!
+//! 1. the number of blocks
+//! 2. the uncompressed length of a block
+//! 3. the uncompressed length of the last block if it is shorter, otherwise 0
+//! 4. the length of each stream
 
 use crate::deflate::can_hold;
 use flate2::Compression;

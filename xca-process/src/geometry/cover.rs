@@ -7,8 +7,8 @@ use std::collections::HashSet;
 /// cell. Infinite if the neighbourhood holds the whole space.
 ///
 /// Cells are closed boxes, so touching cells have distance 0. A displacement counts if it leads from some
-/// cell to a cell of the space: not across the flat faces of a thin space, and by the shorter way on a torus.
-/// With hexagons, the rows or columns that see less decide.
+/// cell to a cell of the space. It does not cross the flat faces of a thin space, and takes the shorter way
+/// on a torus. With hexagons, the rows or columns that see less decide.
 pub(super) fn covered(geometry: &Geometry) -> f64 {
     let alternating = [[0; 3], [1, 1, 0]];
     alternating.map(|cell| covered_from(geometry, cell)).into_iter().fold(f64::INFINITY, f64::min)

@@ -1,8 +1,8 @@
 //! The search for other items.
 //!
-//! The result depends on the current positions only: the items of the searched cells at a distance below the
-//! radius, sorted by neighbour index, then label. An engine may therefore skip cells that are too far away
-//! ([`CellFilter`]).
+//! The result depends only on the current positions. It is the items of the searched cells at a distance
+//! below the radius, sorted by neighbour index, then label. An engine may therefore skip cells that are too
+//! far away ([`CellFilter`]).
 
 use super::near::Walk;
 use super::wide::{self, Wide};
@@ -81,8 +81,8 @@ impl CellFilter {
     /// must store the items of each row of the space contiguously, in the order of its cells.
     pub fn new(geometry: &Geometry, precision: Precision, steps: [isize; 2], slack: f64) -> Option<Self> {
         let neighbourhood = geometry.neighbourhood();
-        // On a torus, an item far outside its cell may be near to items on the far side, which a sphere
-        // around the item does not reach.
+        // On a torus, an item far outside its cell may be near to items on the far side. A sphere around the
+        // item does not reach these.
         let far_side = geometry.toroidal().contains(&true) && slack > SLACK_ROUND_TORUS * geometry.side();
         if !slack.is_finite() || far_side || neighbourhood.parity() != Parity::None {
             return None;
@@ -143,24 +143,24 @@ impl CellFilter {
 /// The largest slack with which a torus still allows skipping cells, in sides of a cell.
 const SLACK_ROUND_TORUS: f64 = 1e-4;
 
-/// How much further than radius and slack a cell has to be, in metres, so that rounding cannot bring its
-/// items near.
+/// The distance in metres that a cell needs beyond radius and slack, so that rounding cannot bring its items
+/// near.
 ///
-/// Let a cell not be touched along an axis: between the position and every item of the cell there are at
-/// least radius and margin. The item is near where `fl(d^2) < fl(r^2)`, `d` being the computed vector.
-/// Products and sums of what is not negative are rounded monotonically, so it is not near if the component of
-/// `d` along the axis is not below `r`. That component is
-/// - without a torus the rounded difference of two positions: not below `r`, which is a number of the
-///   precision, if the true one is not. It remains that `f64` rounds the faces of cells here and where the
-///   slack is measured, by some units in the last place of the axis' length: below 1e-5 of a cell for any
-///   number of cells that an index can count.
-/// - round a torus of length L perhaps that difference and a period, `n * side`, each of the three rounded,
-///   as is `side`, and their sum. Each error is at most half an epsilon of L, and a slack more: in all below
-///   3 epsilon L. The item may also be compared the other way round. With 2 reach + 1 cells along the axis
-///   that is no shorter way than radius and margin, less two slacks.
+/// Consider a cell that is not touched along an axis. Between the position and every item of the cell lie at
+/// least radius and margin. The item counts as near if `fl(d^2) < fl(r^2)`, where `d` is the computed vector.
+/// Products and sums of non-negative numbers are rounded monotonically. The item is therefore not near if the
+/// component of `d` along the axis is at least `r`. That component is:
+/// - Without a torus, the rounded difference of two positions. It is at least `r` if the true one is, because
+///   `r` is a number of the precision. `f64` also rounds the faces of cells, here and where the slack is
+///   measured. This error is some units in the last place of the axis' length. It is below 1e-5 of a cell for
+///   any number of cells that an index can count.
+/// - On a torus of length L, possibly that difference and a period `n * side`. Each of the three is rounded,
+///   and so are `side` and their sum. Each error is at most half an epsilon of L, and a slack more: in all
+///   below 3 epsilon L. The item may also be compared the other way round. With 2 reach + 1 cells along the
+///   axis, that way is no shorter than radius and margin, minus two slacks.
 ///
-/// So a thousandth of a cell is enough for the faces and for two slacks of [`SLACK_ROUND_TORUS`], and 4
-/// epsilon L for the torus.
+/// A thousandth of a cell is therefore enough for the faces and for two slacks of [`SLACK_ROUND_TORUS`]. For
+/// the torus, 4 epsilon L are enough.
 fn margin(geometry: &Geometry, precision: Precision) -> f64 {
     let epsilon = match precision {
         Precision::F32 => f64::from(f32::EPSILON),

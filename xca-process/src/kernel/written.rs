@@ -40,8 +40,8 @@ pub trait Written<'r, T: KernelValue>: Sized {
     /// Takes the planes of a row.
     ///
     /// # Safety
-    /// For `'r` each of the planes, `stride` elements apart, is aligned, has so many cells from the first on,
-    /// and no one else reads or writes them.
+    /// For `'r`, each plane is aligned and has `cells` cells from the first on. The planes are `stride`
+    /// elements apart. No one else reads or writes them.
     #[allow(unsafe_code)]
     unsafe fn new(planes: Planes<<T::Element as KernelElement>::Memory>) -> Self;
 
