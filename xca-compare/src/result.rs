@@ -66,7 +66,7 @@ pub struct ComparisonReport {
     pub tolerance: f64,
     /// The kind of things that a step updates: `cells` or `items`.
     pub updated: &'static str,
-    /// The number of those at the start.
+    /// The number of these cells or items at the start.
     pub number: usize,
     /// The worst verdict on the engines.
     pub verdict: Verdict,
