@@ -4,7 +4,7 @@
 //! |---|---|
 //! | [`ParticlePicture`] | particles as shaded spheres in their box, z up, coloured by a scalar |
 //! | [`SlicePicture`] | one layer of a dense substate, one colour per cell: squares or hexagons |
-//! | [`LandscapePicture`] | one layer of a dense substate over the relief of the ground, in three dimensions |
+//! | [`LandscapePicture`] | one layer of a dense substate over the relief of the ground, in 3D |
 //! | [`BlockPicture`] | all layers of a dense substate, as cubes |
 //! | [`PanelPicture`] | several of these side by side |
 //! | [`animation`] | animations of pictures |
@@ -92,7 +92,8 @@ pub enum PictureError {
         /// `particles` or `cells`.
         of: &'static str,
     },
-    /// A box with a corner that is not finite, a box without a volume, or a radius that is not positive.
+    /// The box, the radius or the viewpoint is not valid. Corners and angles must be finite, the upper corner
+    /// above the lower one, and the radius positive.
     #[error("cannot draw particles: {what} is {value}")]
     Geometry {
         /// The name of the quantity.
