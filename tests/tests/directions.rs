@@ -8,7 +8,7 @@ use toml::{Table, Value};
 type TestResult = Result<(), Box<dyn Error>>;
 
 /// For each member, the members that it may depend on. A new member finds its place here first.
-const DIRECTIONS: [(&str, &[&str]); 29] = [
+const DIRECTIONS: [(&str, &[&str]); 30] = [
     ("xca-methods", &[]),
     ("xca-macros", &["xca-methods"]),
     ("xca-values", &[]),
@@ -65,6 +65,7 @@ const DIRECTIONS: [(&str, &[&str]); 29] = [
     ("new-model", &["xca"]),
     ("xca-tests-additions", &["xca"]),
     ("xca-tests-library", &["xca"]),
+    ("xca-tests-book", &[]),
     (
         "xca-tests-fuzz",
         &["xca-core", "xca-checkpoint", "xca-ensemble", "xca-io", "xca-picture", "xca-record", "xca-run"],

@@ -1,7 +1,7 @@
-//! The components of a value: what each is called, and what its number says.
+//! Names and texts of the components of a value.
 //!
-//! Files and columns take their names from [`ValueType::component_names`] (`outflow_3_x`); people read
-//! `outflow[3].x`, and the command line takes that and `outflow.3.x`, which needs no quotes in any shell.
+//! Files and columns take their names from [`ValueType::component_names`] (`outflow_3_x`). People read
+//! `outflow[3].x`. The command line accepts this form and `outflow.3.x`, which needs no quotes in any shell.
 
 use serde_json::Value;
 use xca_core::{Field, ScalarType, ValueType};
@@ -9,14 +9,14 @@ use xca_core::{Field, ScalarType, ValueType};
 /// A substate, or one component of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Part {
-    /// The number of the field.
+    /// The index of the field.
     pub field: usize,
-    /// The whole value if there is none.
+    /// The index of the component. `None`: the whole value.
     pub component: Option<usize>,
 }
 
 impl Part {
-    /// The substate or the component with this name among the fields of a struct.
+    /// The substate or component with this name in a struct.
     pub fn named(fields: &[Field], name: &str) -> Option<Self> {
         let find = |field: &Field| -> Option<Option<usize>> {
             match name.strip_prefix(field.name)? {
@@ -32,23 +32,23 @@ impl Part {
     }
 }
 
-/// The one number of a value that is drawn.
+/// The number of a value that pictures show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DrawnPart {
-    /// The component of that number.
+    /// The component with this index.
     Component(usize),
-    /// The sum of the elements of an array; of `bool`, how many are true.
+    /// The sum of the elements of an array. For `bool`, the number of true ones.
     Sum,
-    /// The length of a vector of so many lanes; of an array of vectors, that of their sum.
+    /// The length of a vector. For an array of vectors, the length of their sum.
     Length {
-        /// The components of the vector.
+        /// The number of lanes of the vector.
         lanes: usize,
     },
 }
 
 impl DrawnPart {
-    /// What is drawn of a value: the component that is named; else of a vector the length, of an array of
-    /// numbers or `bool` the sum, of an array of vectors the length of the sum, of an array of states the
+    /// The drawn number of a value: the given component, if there is one. Otherwise the length of a vector,
+    /// the sum of an array, or the length of the sum of an array of vectors. For an array of states, the
     /// first element.
     pub fn of(value_type: ValueType, component: Option<usize>) -> Self {
         let ValueType { scalar, lanes, length } = value_type;
@@ -60,7 +60,7 @@ impl DrawnPart {
         }
     }
 
-    /// What the scale of a picture calls it.
+    /// The label of the scale in a picture.
     pub fn label(self, field: &Field) -> String {
         let name = field.name;
         match (self, field.value_type.length) {
@@ -72,7 +72,7 @@ impl DrawnPart {
         }
     }
 
-    /// The names of the states that it can be; none where it is a number.
+    /// The names of its states. Empty for a number.
     pub fn states(self, value_type: ValueType) -> Vec<String> {
         match self {
             Self::Component(_) => state_names(value_type.scalar),
@@ -88,7 +88,7 @@ pub fn name_of(field: &Field, component: Option<usize>) -> String {
     format!("{}{}", field.name, suffix.unwrap_or_default())
 }
 
-/// What the values of `bool` and of states are called, by number. Numbers have no names.
+/// The names of the values of `bool` and of states, by number. Empty for numbers.
 pub fn state_names(scalar: ScalarType) -> Vec<String> {
     match scalar {
         ScalarType::Bool => vec!["false".to_owned(), "true".to_owned()],
@@ -97,18 +97,18 @@ pub fn state_names(scalar: ScalarType) -> Vec<String> {
     }
 }
 
-/// The name of a number, where its type has names and this is one of its values.
+/// The name of a number, if its type has names and the number is one of its values.
 pub fn state_name(states: &[String], number: f64) -> Option<&str> {
     let index = (number.fract() == 0.0 && number >= 0.0).then_some(number as usize)?;
     states.get(index).map(String::as_str)
 }
 
-/// A component with all its digits, or the name of its state.
+/// The text of a component: all digits, or the name of its state.
 pub fn text(states: &[String], number: f64) -> String {
     state_name(states, number).map_or_else(|| format!("{number:?}"), str::to_owned)
 }
 
-/// A component as JSON: a name, true or false, or a number.
+/// A component as JSON: a name, a truth value or a number.
 pub fn json(scalar: ScalarType, number: f64) -> Value {
     match scalar {
         ScalarType::Bool => Value::Bool(number != 0.0),
@@ -118,7 +118,7 @@ pub fn json(scalar: ScalarType, number: f64) -> Value {
     }
 }
 
-/// A type with the names of its states: `[Ground; 4] (Rock, Soil, Water)`.
+/// The name of a type with its states: `[Ground; 4] (Rock, Soil, Water)`.
 pub fn type_text(value_type: ValueType) -> String {
     match value_type.scalar {
         ScalarType::State(names) => format!("{value_type} ({})", names.states.join(", ")),

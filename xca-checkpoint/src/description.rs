@@ -1,4 +1,4 @@
-//! What a checkpoint says of itself: whose it is, how far it has come, and what its data are.
+//! The description in a checkpoint: its run, its progress, and the layout of its data.
 
 use super::origin::{Origin, Parameter};
 use crate::components::state_names;
@@ -14,22 +14,22 @@ pub struct Description {
     pub run: Origin,
     /// The number of steps done.
     pub step: u64,
-    /// Simulated time, in s where the model knows it.
+    /// Simulated time, in seconds if the model gives it.
     pub time: Exact,
-    /// Why a steering operation has ended the run, if one has.
+    /// The reason, if a steering operation has ended the run.
     pub stop: Option<String>,
-    /// The present values of the parameters.
+    /// The current values of the parameters.
     pub parameters: Vec<Parameter>,
-    /// What the data are, struct by struct.
+    /// The layout of the data, one struct after the other.
     pub groups: Vec<GroupShape>,
     /// The cells without ground.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) missing: Vec<Run>,
-    /// What the run has written.
+    /// The files that the run has written.
     pub recorded: Recorded,
 }
 
-/// Cells that follow each other by linear index.
+/// Consecutive cells by linear index.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Run {
     first: usize,
@@ -37,7 +37,7 @@ pub(crate) struct Run {
 }
 
 impl Run {
-    /// The cells of a mask.
+    /// The cells where a mask is true.
     pub(super) fn all(mask: &[bool]) -> Vec<Self> {
         let mut first = 0;
         let mut runs = Vec::new();
@@ -56,29 +56,29 @@ impl Run {
 pub struct GroupShape {
     /// The name of the struct.
     pub name: String,
-    /// What they belong to.
+    /// The cells or items that they belong to.
     #[serde(flatten)]
     pub kind: Kind,
     /// The substates in the order of the struct.
     pub substates: Vec<SubstateShape>,
 }
 
-/// What the substates belong to, and how many there are.
+/// The owners of substates, and their number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "of", rename_all = "lowercase")]
 pub enum Kind {
     /// Cells.
     Cells {
-        /// How many.
+        /// The number of cells.
         cells: usize,
     },
     /// Items of a population.
     Items {
-        /// How many cells there are.
+        /// The number of cells.
         cells: usize,
-        /// How many items.
+        /// The number of items.
         items: usize,
-        /// How many items have left the space.
+        /// The number of items that have left the space.
         left: u64,
     },
 }
@@ -87,22 +87,22 @@ pub enum Kind {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SubstateShape {
     pub name: String,
-    /// As the model says it.
+    /// The type in the model.
     #[serde(rename = "type")]
     pub value_type: String,
     /// The names of the values of `bool` and states, by number.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub states: Vec<String>,
-    /// What follows its name for each of its components: `.x`, `[3]`.
+    /// The suffixes of the names of its components: `.x`, `[3]`.
     pub components: Vec<String>,
-    /// As it is stored.
+    /// The stored type.
     #[serde(flatten)]
     pub stored: StoredType,
 }
 
 impl Description {
-    /// That of a run at a snapshot. `missing` is the mask of the cells without ground, `time` in s where the
-    /// model knows it.
+    /// The description of a run at a snapshot. `missing` is the mask of the cells without ground. `time` is
+    /// in seconds if the model gives it.
     pub fn new(
         run: Origin,
         model: &Model,
@@ -128,22 +128,22 @@ impl Description {
         }
     }
 
-    /// The cells along each axis.
+    /// The number of cells along each axis.
     pub fn extents(&self) -> Option<[usize; 3]> {
         serde_json::from_value(self.run.model.get("cells")?.clone()).ok()
     }
 
-    /// How many cells there are; nothing where that is no number of this machine.
+    /// The number of cells. `None` if it overflows.
     pub(super) fn cells(&self) -> Option<usize> {
         self.extents()?.into_iter().try_fold(1, usize::checked_mul)
     }
 
-    /// Whether a run can have come to this, with so many bytes of data: the whole has a checksum, but anyone
-    /// can forge that.
+    /// Whether a run can have this description, with `data` bytes of data. The checksum does not ensure this,
+    /// because it can be forged.
     pub(super) fn makes_sense(&self, data: u64) -> bool {
         let components = self.parameters.iter().flat_map(|parameter| &parameter.components);
         let mut substates = self.groups.iter().flat_map(|group| &group.substates);
-        // Each cell has at least a byte.
+        // Each cell has at least one byte.
         let has_mask = self.missing.is_empty() || self.cells().is_some_and(|cells| cells as u64 <= data);
         self.step <= self.run.steps_wanted
             && self.recorded.can_be_after(self.step)
@@ -152,7 +152,7 @@ impl Description {
             && has_mask
     }
 
-    /// The mask of the cells without ground; none where all have ground.
+    /// The mask of the cells without ground. `None` if all cells have ground.
     pub fn mask(&self) -> Option<Vec<bool>> {
         let mut mask =
             (!self.missing.is_empty()).then(|| self.cells()).flatten().map(|cells| vec![false; cells])?;
@@ -162,7 +162,7 @@ impl Description {
         Some(mask)
     }
 
-    /// How many bytes the data are.
+    /// The size of the data in bytes.
     pub(super) fn data_bytes(&self) -> usize {
         let number = size_of::<u32>();
         let of_group = |group: &GroupShape| {
@@ -177,7 +177,7 @@ impl Description {
 }
 
 impl SubstateShape {
-    /// Whether there is such a type.
+    /// Whether the description of the substate is consistent.
     fn makes_sense(&self) -> bool {
         let Self { states, components, stored, .. } = self;
         (1..=4).contains(&stored.lanes)

@@ -1,4 +1,4 @@
-//! The frame of the file: a line, a description, binary data, a checksum.
+//! The format of the file: a line, a description, binary data, a checksum.
 
 use super::Description;
 use super::planes::{self, Plane};
@@ -8,16 +8,16 @@ use xca_core::Snapshot;
 use xca_io::atomic::{WriteError, write_atomically};
 use xca_io::regular_file;
 
-/// The format that this program writes and reads.
+/// The version of the format.
 const FORMAT: u32 = 1;
 
-/// How every checkpoint begins.
+/// The first word of every checkpoint.
 const MAGIC: &str = "xca-checkpoint ";
 
-/// No first line is longer.
+/// The longest first line, in bytes.
 const LONGEST_LINE: u64 = 100;
 
-/// The bytes of the checksum, a CRC-32.
+/// The size of the checksum, a CRC-32, in bytes.
 const CHECKSUM: u64 = 4;
 
 /// A checkpoint that cannot be used.
@@ -39,7 +39,7 @@ pub enum CheckpointError {
     Foreign { path: PathBuf, what: &'static str, found: String, wanted: String },
 }
 
-/// Hands on what is written or read, and sums it up.
+/// A reader or writer that computes the CRC-32 of all bytes.
 struct Summed<T> {
     inner: T,
     sum: crc32fast::Hasher,
@@ -63,7 +63,7 @@ impl<T: Write> Write for Summed<T> {
     }
 }
 
-/// Writes a checkpoint with so many bytes of data in these planes.
+/// Writes a checkpoint. `data` is the size of all planes in bytes.
 pub(super) fn write(
     path: &Path,
     description: &Description,
@@ -83,7 +83,7 @@ pub(super) fn write(
     })
 }
 
-/// The lengths that the first line tells.
+/// The lengths in the first line.
 struct Lengths {
     line: u64,
     description: u64,
@@ -96,7 +96,7 @@ impl Lengths {
     }
 }
 
-/// The description and the state of a checkpoint, once its checksum is known to be right.
+/// Reads the description and the state of a checkpoint. Checks the checksum first.
 pub(super) fn read(path: &Path) -> Result<(Description, Snapshot), CheckpointError> {
     let failed = |source| CheckpointError::Read { path: path.to_owned(), source };
     let file = regular_file::open(path).map_err(failed)?;
@@ -104,7 +104,7 @@ pub(super) fn read(path: &Path) -> Result<(Description, Snapshot), CheckpointErr
     read_from(path, BufReader::with_capacity(1 << 18, file), found)
 }
 
-/// As [`read`], from a file that has been opened and has so many bytes.
+/// Like [`read`], for a file that is open and has `found` bytes.
 pub(super) fn read_from(
     path: &Path,
     mut file: impl Read + Seek,
@@ -171,7 +171,7 @@ fn first_line(path: &Path, file: &mut impl Read, found: u64) -> Result<Lengths, 
     })
 }
 
-/// A file that ends within its first line.
+/// The error for a file that ends in its first line.
 fn cut_off(path: &Path, found: u64) -> CheckpointError {
     CheckpointError::Truncated { path: path.to_owned(), found, wanted: LONGEST_LINE }
 }

@@ -1,4 +1,4 @@
-//! The checkpoints of a run: the last two.
+//! The last two checkpoints of a run.
 
 use super::Checkpoint;
 use std::ffi::OsString;
@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use xca_io::atomic::{OutputFolder, WriteError};
 use xca_io::numbered;
 
-/// The folder, below the run's own, that holds them.
+/// The name of the folder with the checkpoints, inside the run's folder.
 pub const CHECKPOINTS: &str = "checkpoints";
 
 const STEM: &str = "step";
@@ -18,18 +18,18 @@ const EXTENSION: &str = "checkpoint";
 #[derive(Debug)]
 pub struct CheckpointFolder {
     folder: OutputFolder,
-    /// The name of the one that was written last, or that the run was resumed from.
+    /// The name of the checkpoint that was written last, or that the run resumed from.
     last: Option<OsString>,
 }
 
 impl CheckpointFolder {
-    /// Makes the folder below that of a run. `last` is the checkpoint that the run is resumed from.
+    /// Creates the folder inside that of a run. `last` is the checkpoint that the run resumes from.
     pub fn create(run: &OutputFolder, last: Option<&Path>) -> Result<Self, WriteError> {
         let last = last.and_then(Path::file_name).map(OsString::from);
         Ok(Self { folder: run.subfolder(CHECKPOINTS)?, last })
     }
 
-    /// Writes a checkpoint, and removes all but this one and the one before.
+    /// Writes a checkpoint. Keeps this one and the previous one, and removes all others.
     pub fn write(&mut self, checkpoint: &Checkpoint) -> Result<(), WriteError> {
         let path = self.folder.numbered(STEM, checkpoint.description.step, EXTENSION);
         checkpoint.write(&path)?;
@@ -54,7 +54,7 @@ impl CheckpointFolder {
         Ok(())
     }
 
-    /// The checkpoints below the folder of a run, the latest first.
+    /// The checkpoints in the folder of a run, the latest first.
     pub fn of_run(run: &Path) -> Vec<PathBuf> {
         let mut all = Self::all(&run.join(CHECKPOINTS));
         all.reverse();
@@ -65,7 +65,7 @@ impl CheckpointFolder {
         numbered::files(folder, &format!("{STEM}_"), &format!(".{EXTENSION}"))
     }
 
-    /// The files as a report lists them, with `*` for the number of the step.
+    /// The file names for a report, with `*` for the number of the step.
     pub fn files() -> String {
         format!("{CHECKPOINTS}/{STEM}_*.{EXTENSION}")
     }

@@ -1,4 +1,4 @@
-//! The program that runs a model, and what it was told.
+//! The program that runs a model, and its options.
 
 use serde_json::{Map, Value};
 
@@ -9,10 +9,10 @@ pub struct Identity {
     pub program: String,
     /// Its version.
     pub version: String,
-    /// The command line, with what a configuration file added to it.
+    /// The command line, including the options of a configuration file.
     pub command_line: Vec<String>,
-    /// The working directory, from which the relative paths of the command line go.
+    /// The working directory, the base of relative paths in the command line.
     pub directory: String,
-    /// All options of the model, with their defaults.
+    /// All options of the model, including defaults.
     pub options: Map<String, Value>,
 }

@@ -1,29 +1,29 @@
-//! The files that a set-up has read, and whether they are still the same.
+//! The input files of a set-up, and whether they have changed.
 
 use serde::{Deserialize, Serialize, Serializer};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use xca_io::regular_file;
 
-/// A file that a set-up has read.
+/// An input file of a set-up.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct InputFile {
-    /// As the set-up names it.
+    /// The path as the set-up names it.
     #[serde(serialize_with = "displayed")]
     pub path: PathBuf,
-    /// The CRC-32 of its bytes; none of a file that cannot be read.
+    /// The CRC-32 of its bytes. `None` if the file cannot be read.
     pub crc32: Option<u32>,
 }
 
 impl InputFile {
-    /// The file with the checksum that it has now.
+    /// The file with its current checksum.
     pub fn new(path: impl Into<PathBuf>) -> Self {
         let path = path.into();
         Self { crc32: checksum(&path), path }
     }
 }
 
-/// A path that is no UTF-8 is not worth failing for.
+/// A path that is not UTF-8 is written with replacement characters.
 fn displayed<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_str(&path.display())
 }
@@ -49,7 +49,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("grid");
         assert_eq!(InputFile::new(&path).crc32, None);
-        // The check value of CRC-32, and the sum of 200,000 bytes as Python's zlib has it.
+        // The check value of CRC-32, and the checksum of 200,000 bytes by Python's zlib.
         std::fs::write(&path, "123456789").unwrap();
         assert_eq!(InputFile::new(&path).crc32, Some(0xcbf4_3926));
         std::fs::write(&path, vec![7; 200_000]).unwrap();

@@ -1,6 +1,6 @@
-//! Checkpoints: the whole of a run in one file, from which it can go on.
+//! Checkpoints: the complete state of a run in one file, for resuming it.
 //!
-//! What such a file holds, byte by byte, is in `docs/checkpoints.md`.
+//! The page `docs/checkpoints.md` describes the format byte by byte.
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
@@ -35,20 +35,20 @@ use xca_io::atomic::WriteError;
 /// A run at some step.
 #[derive(Debug, Clone)]
 pub struct Checkpoint {
-    /// What the file says of itself.
+    /// The description in the file.
     pub description: Description,
     /// The state.
     pub snapshot: Snapshot,
 }
 
 impl Checkpoint {
-    /// Writes the file, in place of an earlier one of this name.
+    /// Writes the file. Overwrites an earlier one.
     pub fn write(&self, path: &Path) -> Result<(), WriteError> {
         let planes = planes::of(&self.description, &self.snapshot);
         file::write(path, &self.description, &planes, self.description.data_bytes())
     }
 
-    /// Reads a file. Nothing of a file that is not whole is used.
+    /// Reads a file. A damaged file is an error.
     pub fn read(path: &Path) -> Result<Self, CheckpointError> {
         let (description, snapshot) = file::read(path)?;
         Ok(Self { description, snapshot })

@@ -1,4 +1,4 @@
-//! The shape of a model, by which a run knows its own again.
+//! The shape of a model, by which a run recognizes its model.
 
 use crate::components::type_text;
 use serde::Serialize;
@@ -17,7 +17,7 @@ pub struct ModelReport {
     processes: Vec<&'static str>,
 }
 
-/// Substates that belong together.
+/// The substates of one struct.
 #[derive(Debug, Clone, Serialize)]
 struct GroupReport {
     name: &'static str,
@@ -29,7 +29,7 @@ struct GroupReport {
 }
 
 impl ModelReport {
-    /// That of a model.
+    /// The report of a model.
     #[must_use]
     pub fn new(model: &Model) -> Self {
         let geometry = model.geometry();

@@ -1,9 +1,9 @@
-//! Numbers as JSON keeps them.
+//! Exact numbers in JSON.
 
 use serde::{Deserialize, Serialize};
 
-/// A number that JSON gives back to the last bit: one that is not finite, for which JSON has no word, as its
-/// bits in hexadecimal.
+/// A number that survives JSON to the last bit. JSON cannot hold numbers that are not finite, so they are
+/// written as their bits in hexadecimal.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 #[serde(into = "Spelt", try_from = "Spelt")]
 pub struct Exact(pub f64);
@@ -35,7 +35,7 @@ impl TryFrom<Spelt> for Exact {
     }
 }
 
-/// To the last bit.
+/// Compares the bits.
 impl PartialEq for Exact {
     fn eq(&self, other: &Self) -> bool {
         self.0.to_bits() == other.0.to_bits()

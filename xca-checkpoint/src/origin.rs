@@ -1,4 +1,4 @@
-//! The run that a checkpoint belongs to, and how it differs from another.
+//! The run that a checkpoint belongs to, and its differences from another.
 
 use crate::components::{state_names, text};
 use crate::{Exact, Identity, InputFile, ModelReport, Outputs};
@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use xca_core::{Engine, Field, Model, ParameterSet, Precision, Process, RunOptions};
 
-/// The run that a checkpoint belongs to: the same in all checkpoints of a run, whatever engine it was resumed
-/// on.
+/// The run that a checkpoint belongs to. It is the same in all checkpoints of a run, even if the run resumes
+/// on another engine.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Origin {
     /// The version of the framework.
@@ -16,11 +16,11 @@ pub struct Origin {
     pub program: String,
     /// The version of the program.
     pub version: String,
-    /// The command line, with what a configuration file added to it.
+    /// The command line, including the options of a configuration file.
     pub command_line: Vec<String>,
-    /// The working directory of that command line, from which its relative paths go.
+    /// The working directory of the command line, the base of its relative paths.
     pub directory: String,
-    /// The files that the set-up has read.
+    /// The input files of the set-up.
     pub inputs: Vec<InputFile>,
     /// The precision of `Real`.
     pub precision: Precision,
@@ -28,13 +28,13 @@ pub struct Origin {
     pub seed: u64,
     /// The number of steps of the whole run.
     pub steps_wanted: u64,
-    /// When states are written.
+    /// The steps after which states are written.
     pub every: Outputs,
     /// The shape of the model, as in `run.json`.
     pub model: Value,
-    /// The CRC-32 of the text of the processes and of the helpers that they call.
+    /// The CRC-32 of the code of the processes and of their helper functions.
     pub processes: u32,
-    /// How floating numbers are rounded on the engine that it was begun on.
+    /// The rounding of floating-point numbers on the engine that began the run.
     pub rounding: String,
     /// The parameters before the first step.
     pub parameters: Vec<Parameter>,
@@ -45,7 +45,7 @@ pub struct Origin {
 pub struct Parameter {
     /// Its name.
     pub name: String,
-    /// As the model says it.
+    /// The type in the model.
     #[serde(rename = "type")]
     pub value_type: String,
     /// The names of the values of `bool` and states, by number.
@@ -69,12 +69,12 @@ impl Parameter {
         }
     }
 
-    /// The parameters of a model that has not been run.
+    /// The parameters of a model before a run.
     fn all(parameters: &ParameterSet) -> Vec<Self> {
         Self::with_values(parameters, parameters.values().map(|value| value.components().to_vec()))
     }
 
-    /// Parameters with the values that a run has given them, in the order of their numbers.
+    /// Parameters with their values in a run, by index.
     pub(super) fn with_values(
         parameters: &ParameterSet,
         values: impl Iterator<Item = Vec<f64>>,
@@ -95,18 +95,18 @@ impl std::fmt::Display for Parameter {
     }
 }
 
-/// What is not the same in a checkpoint and in the program that is to go on from it.
+/// A difference between a checkpoint and the program that resumes it.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Difference {
-    /// The property.
+    /// The name of the property.
     pub what: &'static str,
-    /// What it is in the checkpoint.
+    /// The value in the checkpoint.
     pub found: String,
-    /// What it is in the program.
+    /// The value in the program.
     pub wanted: String,
 }
 
-/// The first of some properties that differs.
+/// The first property that differs.
 fn first_difference(
     properties: impl IntoIterator<Item = (&'static str, String, String)>,
 ) -> Option<Difference> {
@@ -124,20 +124,20 @@ fn of_models<'a>(
     keys.map(move |key| ("model", text(key, found), text(key, wanted)))
 }
 
-/// How two programs are not the same: the version of the framework, their names, and their versions.
+/// The first difference of two programs: the version of the framework, their names, their versions.
 pub fn other_program(found: [&str; 3], wanted: [&str; 3]) -> Option<Difference> {
     let property = |what, index: usize| (what, found[index].to_owned(), wanted[index].to_owned());
     let framework = property("version of the framework", 0);
     first_difference([property("program", 1), framework, property("version of the program", 2)])
 }
 
-/// How two models, as `run.json` tells their shapes, are not the same. The number of slots of a cell may be
-/// another: the states of a run do not depend on it.
+/// The first difference of two models, given in the form of `run.json`. The number of slots in a cell may
+/// differ, because the states of a run do not depend on it.
 pub fn other_model(found: &Value, wanted: &Value) -> Option<Difference> {
     first_difference(of_models(&without_slots(found), &without_slots(wanted)))
 }
 
-/// A model but for the number of slots in its cells.
+/// A model without the numbers of slots.
 fn without_slots(model: &Value) -> Value {
     let mut model = model.clone();
     let groups = model.get_mut("groups").and_then(Value::as_array_mut);
@@ -147,13 +147,13 @@ fn without_slots(model: &Value) -> Value {
     model
 }
 
-/// The name of the substates of a population, and how many slots a cell has for it.
+/// The name of the substates of a population, and its number of slots in a cell.
 fn population_slots(group: &Value) -> Option<(&str, usize)> {
     let slots = usize::try_from(group.get("slots")?.as_u64()?).ok()?;
     Some((group.get("name")?.as_str()?, slots))
 }
 
-/// The first input file that is not as it was. Its path may be another.
+/// The first input file that has changed. Its path may differ.
 fn other_inputs(found: &[InputFile], wanted: &[InputFile]) -> Option<Difference> {
     let number = |files: &[InputFile]| files.len().to_string();
     let numbers = [("number of input files", number(found), number(wanted))];
@@ -167,9 +167,9 @@ fn other_inputs(found: &[InputFile], wanted: &[InputFile]) -> Option<Difference>
     first_difference(numbers.into_iter().chain(files))
 }
 
-/// The CRC-32 of the steps in which the processes are run, and of all processes with the helpers that they
-/// call, as shaders; of those that cannot be written as shaders, of the bodies alone, in which helpers are
-/// told by their addresses, and these are left out.
+/// The CRC-32 of the intervals and the code of all processes. The code is that of the shaders, with all
+/// helper functions. If a process cannot be a shader, the bodies count instead. They contain helper functions
+/// as addresses, which are left out.
 fn of_processes(model: &Model) -> u32 {
     let mut sum = crc32fast::Hasher::new();
     for process in model.processes() {
@@ -189,7 +189,7 @@ fn of_processes(model: &Model) -> u32 {
     sum.finalize()
 }
 
-/// The processes as shaders, whether or not the program has the engine that runs them.
+/// The processes as shaders, also if the program has no GPU engine.
 fn shaders(model: &Model) -> Result<Vec<String>, xca_wgsl::Error> {
     let geometry = model.geometry();
     let options = xca_wgsl::Options {
@@ -206,11 +206,11 @@ fn listed(parameters: &[Parameter]) -> String {
     parameters.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }
 
-/// The rounding of all engines but a GPU whose arithmetic is relaxed.
+/// The rounding of all engines except a GPU with relaxed arithmetic.
 const EXACT: &str = "exact";
 
 impl Origin {
-    /// The run of a model that has read these files, with what the command line chose for it.
+    /// The run of a model with these input files and the options of the command line.
     pub fn new(
         identity: &Identity,
         model: &Model,
@@ -237,7 +237,7 @@ impl Origin {
         }
     }
 
-    /// How many slots a cell has for the items of each population, by the name of its substates.
+    /// The number of slots in a cell for each population, by the name of its substates.
     pub fn slots(&self) -> Vec<(&str, usize)> {
         let groups = self.model.get("groups").and_then(Value::as_array);
         groups.into_iter().flatten().filter_map(population_slots).collect()
@@ -257,18 +257,19 @@ impl Origin {
         Self { rounding: if is_relaxed { relaxed() } else { EXACT.to_owned() }, ..self }
     }
 
-    /// How the engine that goes on rounds otherwise than the one that the run was begun on.
+    /// The difference in rounding between the engine that resumes the run and the one that began it.
     pub fn other_rounding(&self, own: &Self) -> Option<Difference> {
         first_difference([("rounding of floating numbers", self.rounding.clone(), own.rounding.clone())])
     }
 
-    /// How the program that wrote this is not the one with this name and these versions.
+    /// The first difference between the program that wrote this and the given identity. See
+    /// [`Self::identity`].
     pub fn other_program(&self, identity: [&str; 3]) -> Option<Difference> {
         other_program(self.identity(), identity)
     }
 
-    /// How this run is not the one that the program would do with its command line. The number of steps may
-    /// be another.
+    /// The first difference between this run and the run of the current command line. The number of steps may
+    /// differ.
     pub fn mismatch(&self, own: &Self) -> Option<Difference> {
         let text = |number: u64| number.to_string();
         first_difference([

@@ -1,17 +1,16 @@
-//! After which steps a state is written.
+//! The steps after which a state is written.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// After which steps of a run a state is written; the initial and the last state are written anyway.
+/// The steps after which a state is written. The initial and the last state are always written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(into = "Spelt", try_from = "Spelt")]
 pub enum Outputs {
-    /// Every so many steps, at least 1.
+    /// An interval in steps, at least 1.
     Every(u64),
-    /// Ever further apart: after each of the first 8 steps, then four times until the number of steps has
-    /// doubled. For runs of which no one knows how long they are: a thousand steps have 36 states, a
-    /// million 76.
+    /// Growing intervals: after each of the first 8 steps, then four times until the number of steps has
+    /// doubled. For runs of unknown length: 1,000 steps give 36 states, a million 76.
     Growing,
 }
 
@@ -47,7 +46,7 @@ impl TryFrom<Spelt> for Outputs {
 }
 
 impl Outputs {
-    /// From one of them to the next, from this step on.
+    /// The interval to the next output, at a step.
     fn interval(self, step: u64) -> u64 {
         match self {
             Self::Every(steps) => steps.max(1),
@@ -56,12 +55,12 @@ impl Outputs {
         }
     }
 
-    /// Whether the state after so many steps is one of them.
+    /// Whether the state after `step` steps is written.
     pub fn is_due(self, step: u64) -> bool {
         step.is_multiple_of(self.interval(step))
     }
 
-    /// The next of them.
+    /// The next step with an output.
     pub fn next(self, step: u64) -> u64 {
         let interval = self.interval(step);
         (step / interval + 1).saturating_mul(interval)

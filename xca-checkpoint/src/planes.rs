@@ -1,4 +1,4 @@
-//! A snapshot as binary planes, little-endian, and back.
+//! Converts snapshots to binary planes, little-endian, and back.
 
 use super::Description;
 use super::description::{GroupShape, Kind};
@@ -7,7 +7,7 @@ use std::io::{self, Read, Write};
 use xca_core::engine::Population;
 use xca_core::{GroupSnapshot, Snapshot, StoredType};
 
-/// Numbers of so many bytes, one after the other, in the order of this machine.
+/// Numbers of equal size, one after the other, in the byte order of this machine.
 pub(super) struct Plane<'a> {
     size: usize,
     bytes: Cow<'a, [u8]>,
@@ -32,14 +32,14 @@ impl<'a> Plane<'a> {
     }
 }
 
-/// Each number of so many bytes with its bytes in the other order.
+/// Reverses the bytes of each number of `size` bytes.
 fn turned(mut bytes: Vec<u8>, size: usize) -> Vec<u8> {
     bytes.chunks_exact_mut(size).for_each(<[u8]>::reverse);
     bytes
 }
 
-/// The planes of a snapshot in the order of the file: of each group the substates, of a population before
-/// them how many items each cell has, and the labels.
+/// The planes of a snapshot in the order of the file. Each group gives its substates. Before them, a
+/// population gives the number of items in each cell, and the labels.
 pub(super) fn of<'a>(description: &Description, snapshot: &'a Snapshot) -> Vec<Plane<'a>> {
     let mut planes = Vec::new();
     for (shape, state) in description.groups.iter().zip(&snapshot.groups) {
@@ -57,20 +57,20 @@ pub(super) fn of<'a>(description: &Description, snapshot: &'a Snapshot) -> Vec<P
     planes
 }
 
-/// The data of a file, plane after plane.
+/// A reader of the data of a file, plane by plane.
 struct Data<R> {
     file: R,
-    /// The bytes that are left.
+    /// The number of bytes left.
     left: u64,
 }
 
-/// Data that the description contradicts.
+/// The error for data that contradicts its description.
 fn inconsistent() -> io::Error {
     io::ErrorKind::InvalidData.into()
 }
 
 impl<R: Read> Data<R> {
-    /// The next plane of so many values. There is no room made for more than the file has.
+    /// Reads the next plane of `count` values. Allocates no more than the file has.
     fn plane(&mut self, count: usize, components: usize, size: usize) -> io::Result<Vec<u8>> {
         let length = count.checked_mul(components).and_then(|numbers| numbers.checked_mul(size));
         let left = length.and_then(|length| self.left.checked_sub(length as u64));
@@ -92,10 +92,10 @@ impl<R: Read> Data<R> {
     }
 }
 
-/// The snapshot that the next `length` bytes of a file are.
+/// Reads a snapshot from the next `length` bytes of a file.
 ///
 /// # Errors
-/// Of the system, and [`io::ErrorKind::InvalidData`] where the description says otherwise.
+/// Those of the system, and [`io::ErrorKind::InvalidData`] if the data contradicts the description.
 pub(super) fn read(description: &Description, file: impl Read, length: u64) -> io::Result<Snapshot> {
     let space = description.cells().ok_or_else(inconsistent)?;
     if !description.makes_sense(length) {

@@ -128,7 +128,7 @@ fn every_bit_comes_back() {
     assert_eq!((resumed.step_number(), resumed.stop_reason()), (3, Some("enough")));
 }
 
-/// The bytes are those that docs/checkpoints.md describes.
+/// The bytes are as described in docs/checkpoints.md.
 #[test]
 fn the_format_is_the_documented_one() {
     let folder = tempfile::tempdir().unwrap();
@@ -197,7 +197,7 @@ fn no_part_and_no_bit_can_be_missing_or_wrong() {
     assert!(matches!(error, CheckpointError::Read { .. }), "{error}");
 }
 
-/// A checksum can be right where the content is not.
+/// The checksum can be right although the content is wrong.
 #[test]
 fn parts_that_contradict_each_other_are_refused() {
     let folder = tempfile::tempdir().unwrap();
@@ -208,7 +208,7 @@ fn parts_that_contradict_each_other_are_refused() {
         fields[1].truncate(15);
     }
     odd.write(&path).unwrap();
-    // As long as it should be, but not made of these planes: only the simulation can tell.
+    // The length is right, but the planes are not. Only the simulation can find this.
     assert!(Checkpoint::read(&path).is_ok());
     let mut short = checkpoint(&simulation());
     short.description.groups.pop();
@@ -218,7 +218,7 @@ fn parts_that_contradict_each_other_are_refused() {
     assert!(error.to_string().contains("it has 1 structs of substates, not 2"), "{error}");
 }
 
-/// Whoever forges a checkpoint can make its checksum right.
+/// A forged checkpoint can have a correct checksum.
 #[test]
 fn forged_checkpoints_are_refused() {
     let folder = tempfile::tempdir().unwrap();
@@ -232,7 +232,7 @@ fn forged_checkpoints_are_refused() {
         },
         |forged| forged.description.groups[0].substates[0].components.clear(),
         |forged| forged.description.groups[0].substates[0].states.push("Hot".to_owned()),
-        // A mask of more cells than there is memory.
+        // A mask of more cells than fit into memory.
         |forged| {
             forged.description.run.model["cells"] = serde_json::json!([1_u64 << 40, 1, 1]);
             forged.description.missing.push(description::Run::all(&[true])[0]);
@@ -264,7 +264,7 @@ fn forged_checkpoints_are_refused() {
     }
 }
 
-/// What a recorder says that has recorded these steps.
+/// What a recorder keeps after recording these steps.
 fn recorded(steps: &[u64]) -> Recorded {
     let text = serde_json::json!({
         "steps": steps, "series": { "bytes": 0, "crc32": 0 }, "first": [], "last": [], "formats": {}
@@ -291,7 +291,7 @@ fn the_last_two_are_kept() {
         assert_eq!(steps(), wanted);
         simulation.run(1).unwrap();
     }
-    // Of a run that was resumed from the older one, the later one goes once there is another that is good.
+    // A run resumed from the older checkpoint removes the later one, once there is another valid one.
     let older = CheckpointFolder::of_run(folder.path()).pop().unwrap();
     let snapshot = Checkpoint::read(&older).unwrap().snapshot;
     let mut resumed = Simulation::resume(&model(), &Reference, RunOptions::default(), &snapshot).unwrap();
@@ -307,7 +307,7 @@ fn the_last_two_are_kept() {
     assert_eq!(steps(), ["step_00000007", "step_00000005"]);
 }
 
-/// Parameters of several structs, of which two have one name.
+/// Parameters of several structs. Two of them have the same name.
 #[test]
 fn parameters_of_several_structs() -> Result<(), ParameterError> {
     let mut model = Model::builder("field")
@@ -356,7 +356,7 @@ fn another_run_is_known_by_what_differs() -> Result<(), ParameterError> {
     };
     assert_eq!(text(run.mismatch(&own(&model(), 0, [10, 2]))), None);
     assert_eq!(text(run.mismatch(&own(&model(), 5, [10, 2]))).unwrap(), "seed: 0, not 5");
-    // A run may go on beyond its end.
+    // A run may continue beyond its end.
     assert_eq!(text(run.mismatch(&own(&model(), 0, [11, 2]))), None);
     assert_eq!(text(run.mismatch(&own(&model(), 0, [10, 3]))).unwrap(), "interval of outputs: 2, not 3");
     let mut other = model();
@@ -378,14 +378,14 @@ fn another_run_is_known_by_what_differs() -> Result<(), ParameterError> {
     };
     let difference = with(|builder| builder.process(warm)).mismatch(&with(|b| b.process(edited::warm)));
     assert_eq!(difference.unwrap().what, "code of the processes");
-    // The same process in other steps.
+    // The same process with another interval.
     let seldom = || with(|builder| builder.process_every(10, warm));
     assert_eq!(seldom().mismatch(&seldom()), None);
     let difference = with(|builder| builder.process(warm)).mismatch(&seldom());
     assert_eq!(difference.unwrap().what, "code of the processes");
     let helped = || with(|builder| builder.process(warm_twice));
     assert_eq!(helped().mismatch(&helped()), None);
-    // The same process with another helper.
+    // The same process with another helper function.
     let difference = helped().mismatch(&with(|builder| builder.process(with_other_helper::warm_twice)));
     assert_eq!(difference.unwrap().what, "code of the processes");
     assert_eq!(text(run.other_program(["0.1.0", "field", "1.2.3"])), None);

@@ -1,17 +1,17 @@
-//! An engine that is compared.
+//! An engine in a comparison.
 
 use std::time::Duration;
 use xca_core::{Engine, Precision};
 
-/// An engine that takes part.
+/// An engine in a comparison.
 #[derive(Debug)]
 pub struct Contender {
-    /// What the report calls it.
+    /// The name in the report.
     pub name: String,
     /// The engine.
     pub engine: Box<dyn Engine>,
-    /// What `Real` is.
+    /// The type that `Real` stands for.
     pub precision: Precision,
-    /// What it took to make the engine.
+    /// The time it took to create the engine.
     pub making: Duration,
 }

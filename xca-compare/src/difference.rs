@@ -1,4 +1,4 @@
-//! How two states differ: bit by bit, and by how much.
+//! The differences of two states: bits and magnitudes.
 
 mod numbers;
 mod pairs;
@@ -16,80 +16,81 @@ use xca_core::engine::Population;
 use xca_core::model::Group;
 use xca_core::{GroupSnapshot, Model, Precision, ScalarType, Snapshot, ValueType};
 
-/// A state with what its `Real` is.
+/// A state and its precision.
 #[derive(Debug, Clone, Copy)]
 pub struct Side<'a> {
     pub snapshot: &'a Snapshot,
     pub precision: Precision,
 }
 
-/// How two states differ.
+/// The differences of two states.
 #[derive(Debug, Clone, Serialize)]
 pub struct Differences {
     /// All substates, then the cells of the items of each population, then the parameters that differ.
     pub substates: Vec<Difference>,
-    /// What differs beside: the number of steps, items that have left.
+    /// Other differences: the number of steps, items that have left.
     pub remarks: Vec<String>,
 }
 
-/// What kind of values a difference is about.
+/// The kind of the values that are compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
-    /// Floating numbers, which may be rounded.
+    /// Floating-point numbers. They may be rounded differently.
     Float,
-    /// Whole numbers, which may not.
+    /// Integers. They must be equal.
     Whole,
     /// The cells of items.
     Cell,
 }
 
-/// How the values of one substate differ. Values of different precision are compared in the coarser one.
+/// The differences of the values of one substate. Values of different precision are compared in the lower
+/// one.
 #[derive(Debug, Clone, Serialize)]
 pub struct Difference {
-    /// `Struct.field`.
+    /// The name, as `Struct.field`.
     pub substate: String,
-    /// What its values are.
+    /// The kind of its values.
     pub kind: Kind,
-    /// How many scalars were compared; a vector has several.
+    /// The number of compared scalars. A vector has several.
     pub values: usize,
-    /// How many of them have other bits.
+    /// The number of scalars whose bits differ.
     pub different: usize,
-    /// How many items are in one state only.
+    /// The number of items that only one state has.
     pub unmatched: usize,
-    /// The largest absolute difference. Infinite, in JSON null, where one of two values is not finite.
+    /// The largest absolute difference. Infinite (`null` in JSON) if one of two values is not finite.
     pub largest_absolute: f64,
-    /// The largest difference in relation to the larger of the two values.
+    /// The largest difference relative to the larger of the two values.
     pub largest_relative: f64,
-    /// The largest number of representable values from one to the other; for floating numbers only.
+    /// The largest distance in representable values (ulp), for floating-point numbers only.
     pub largest_ulp: Option<u64>,
-    /// The root of the mean square of all differences.
+    /// The root mean square of all differences.
     pub rms: f64,
-    /// The largest magnitude of the first state's values, which the others are measured by.
+    /// The largest magnitude in the first state. Differences are relative to it.
     pub scale: f64,
-    /// Where the absolute difference is largest.
+    /// The value with the largest absolute difference.
     pub worst: Option<Worst>,
-    /// Of a vector or an array, the components that differ, each as a substate of its own
+    /// The components that differ, for a vector or an array. Each is like a substate of its own
     /// (`Lava.outflow[3]`).
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub components: Vec<Self>,
 }
 
-/// A value that differs.
+/// A value that differs between two states.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Worst {
-    /// Where it is.
+    /// The place of the value.
     pub place: Place,
-    /// The number of the component among those that were compared.
+    /// The index of the component among the compared ones.
     #[serde(skip)]
     number: usize,
-    /// What follows the name of the substate in that of the component: `.x`, `[3]`; nothing for a scalar.
+    /// The suffix of the component's name: `.x`, `[3]`. Empty for a scalar.
     pub component: String,
     /// The value on the first engine.
     pub first: f64,
     /// The value on the other engine.
     pub other: f64,
-    /// The names of the two values, where they are states or `bool`.
+    /// The names of the two values, if they are states or `bool`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub states: Option<[String; 2]>,
 }
@@ -100,15 +101,15 @@ impl Worst {
     }
 }
 
-/// Where a value is.
+/// The place of a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Place {
-    /// In a cell with these indices.
+    /// The cell with these indices.
     Cell([usize; 3]),
-    /// In the item with this label.
+    /// The item with this label.
     Item(u32),
-    /// In the model.
+    /// A parameter of the model.
     Parameter,
 }
 
@@ -123,7 +124,7 @@ impl fmt::Display for Place {
 }
 
 impl Difference {
-    /// A substate in which nothing was compared yet.
+    /// A substate without comparisons.
     fn none(substate: String, kind: Kind) -> Self {
         let largest_ulp = (kind == Kind::Float).then_some(0);
         Self {
@@ -142,7 +143,7 @@ impl Difference {
         }
     }
 
-    /// This, and then its components that differ.
+    /// This difference, then those of its components.
     pub fn with_components(&self) -> impl Iterator<Item = &Self> {
         std::iter::once(self).chain(&self.components)
     }
@@ -157,7 +158,7 @@ impl Difference {
         self.different == 0 && self.unmatched == 0
     }
 
-    /// The root mean square in relation to the largest value.
+    /// The root mean square relative to the largest value.
     pub fn relative_rms(&self) -> f64 {
         if self.rms == 0.0 { 0.0 } else { self.rms / self.scale.max(f64::MIN_POSITIVE) }
     }
@@ -175,8 +176,8 @@ impl Difference {
         }
     }
 
-    /// Compares pairs of values; then, where there are several components, those that differ, each for
-    /// itself.
+    /// Compares pairs of values. If there are several components, also compares each, and keeps those that
+    /// differ.
     fn compare(
         &mut self,
         both: [&Numbers<'_>; 2],
@@ -242,7 +243,7 @@ impl Difference {
 }
 
 impl Differences {
-    /// How the second state differs from the first.
+    /// The differences of the second state from the first.
     pub fn between(model: &Model, first: Side<'_>, other: Side<'_>) -> Self {
         let mut differences = Self { substates: Vec::new(), remarks: Vec::new() };
         differences.remark("steps done", first.snapshot.step, other.snapshot.step);
@@ -304,7 +305,7 @@ impl Differences {
         }
     }
 
-    /// Parameters, where steering has made them differ.
+    /// Compares the parameters, which steering may have changed.
     fn parameters(&mut self, model: &Model, first: Side<'_>, other: Side<'_>) {
         let parameters = model.parameters();
         let values = first.snapshot.parameters.iter().zip(&other.snapshot.parameters);
@@ -327,8 +328,8 @@ impl Differences {
         self.verdict(0.0) == Verdict::Identical
     }
 
-    /// What is to be thought of the second state, where floating numbers may differ by so much in relation to
-    /// the largest value of their substate.
+    /// The verdict on the second state. Floating-point numbers may differ by `tolerance`, relative to the
+    /// largest value of their substate.
     pub fn verdict(&self, tolerance: f64) -> Verdict {
         if !self.remarks.is_empty() {
             return Verdict::Different;
@@ -340,12 +341,12 @@ impl Differences {
             .substates
             .iter()
             .any(|difference| difference.kind == Kind::Cell && !difference.is_identical());
-        // An item near a side of its cell may be on either of the two where it was rounded; but not where
-        // nothing was.
+        // Rounding can move an item near a side of its cell to the next cell. Without rounding, cells must
+        // agree.
         if cells_differ && of_values == Verdict::Identical { Verdict::Different } else { of_values }
     }
 
-    /// The difference to name first: the one that is largest in relation to the values of its substate.
+    /// The gravest difference: the largest relative to the values of its substate.
     pub fn gravest(&self) -> Option<&Difference> {
         let measure = |difference: &Difference| match difference.kind {
             Kind::Cell => 0.0,
@@ -362,7 +363,7 @@ struct Fields<'a> {
     precisions: [Precision; 2],
 }
 
-/// Which items are in other cells.
+/// Compares the cells of the items.
 fn moved(name: &str, first: &Population, other: &Population, pairs: &Pairs) -> Difference {
     let mut difference = Difference::none(format!("cells of {name}"), Kind::Cell);
     difference.values = pairs.len();

@@ -1,23 +1,23 @@
-//! Why a comparison does not come to its end.
+//! Errors of comparisons.
 
 use xca_core::RunError;
 use xca_record::machine::NotEnoughMemory;
 use xca_record::record::RecordError;
 
-/// A comparison that does not come to its end.
+/// A comparison that cannot be completed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CompareError {
     /// An engine cannot run the model, or the first one fails.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// The observables cannot be measured.
+    /// An observable cannot be measured.
     #[error(transparent)]
     Record(#[from] RecordError),
-    /// The machine has no room for the model on all engines at once.
+    /// The model does not fit into memory on all engines at once.
     #[error(transparent)]
     Memory(#[from] NotEnoughMemory),
-    /// Its monitor said so.
+    /// The monitor interrupted the comparison.
     #[error("interrupted")]
     Interrupted,
 }

@@ -1,4 +1,4 @@
-//! A contender with its simulation, and what has been found of it.
+//! A contender with its simulation and its results.
 
 use super::contender::Contender;
 use super::difference::{Differences, Side, Worst};
@@ -9,72 +9,73 @@ use std::time::{Duration, Instant};
 use xca_core::{Model, RunOptions, Simulation, Snapshot};
 use xca_record::Observable;
 
-/// A contender on its way.
+/// A contender in progress.
 pub(super) struct Lane<'a> {
     pub contender: &'a Contender,
     pub simulation: Simulation,
-    /// The state from which it starts.
+    /// The initial state.
     pub initial: Snapshot,
-    /// Making the engine and its simulation.
+    /// The time to create the engine and its simulation.
     pub set_up: Duration,
     pub findings: Findings,
     pub times: Times,
 }
 
-/// What was found of an engine's results.
+/// The results of an engine.
 #[derive(Debug)]
 pub(super) struct Findings {
-    /// The worst of all checks.
+    /// The worst verdict of all checks.
     pub verdict: Verdict,
     pub first_difference: Option<FirstDifference>,
     pub history: Vec<Check>,
-    /// At the last check.
+    /// The differences at the last check.
     pub last: Option<Differences>,
-    /// Why the engine did not come to the end.
+    /// The error that ended the engine's run.
     pub failure: Option<String>,
-    /// What else there is to tell.
+    /// Other remarks.
     pub remarks: Vec<String>,
-    /// At the start and at the end.
+    /// The observables at the start and at the end.
     pub observables: [Vec<Observable>; 2],
-    /// The state at the end.
+    /// The final state.
     pub end: Option<Snapshot>,
 }
 
-/// Where an engine leaves the first one.
+/// The first step after which an engine differs from the first one.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FirstDifference {
-    /// The number of steps done when it is seen.
+    /// The number of steps done.
     pub step: u64,
-    /// Whether this is the exact step; else the two ran alike when they were run again.
+    /// Whether the step is exact. If not, the engines agreed when the steps were repeated.
     pub is_exact: bool,
-    /// The substate that differs most gravely.
+    /// The substate with the gravest difference.
     pub substate: Option<String>,
-    /// The value in it that differs most.
+    /// Its value with the largest difference.
     pub worst: Option<Worst>,
 }
 
-/// How far an engine is from the first one after some step.
+/// The distance of an engine from the first one after a step.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Check {
     /// The number of steps done.
     pub step: u64,
-    /// Of each substate, the root mean square of its differences in relation to its largest value.
+    /// Each substate, with the root mean square of its differences relative to its largest value.
     pub substates: Vec<(String, f64)>,
 }
 
-/// What the repeats took, in seconds.
+/// The times of the repeats in seconds.
 #[derive(Debug, Default)]
 pub(super) struct Times {
-    /// Of one step.
+    /// The time of one step.
     pub step: Vec<f64>,
-    /// Giving the engine a state.
+    /// The time to set the state.
     pub put: Vec<f64>,
-    /// Taking the state from it.
+    /// The time to get the state.
     pub get: Vec<f64>,
 }
 
 impl<'a> Lane<'a> {
-    /// Starts a contender in a state, or in the model's own where the state is of another precision.
+    /// Starts a contender in a state. Without a state it starts in the model's initial state at its own
+    /// precision.
     pub(super) fn start(
         model: &Model,
         contender: &'a Contender,
@@ -118,7 +119,7 @@ impl Findings {
 }
 
 impl FirstDifference {
-    /// The gravest of the differences after that step.
+    /// The gravest of `differences` after a step.
     pub fn new(step: u64, is_exact: bool, differences: &Differences) -> Self {
         let gravest = differences.gravest();
         Self {
@@ -131,7 +132,7 @@ impl FirstDifference {
 }
 
 impl Check {
-    /// The differences of all substates after that step.
+    /// The differences of all substates after a step.
     pub fn new(step: u64, differences: &Differences) -> Self {
         let substates = differences.substates.iter();
         let substates = substates.map(|difference| (difference.substate.clone(), difference.relative_rms()));

@@ -1,7 +1,7 @@
-//! One model on several engines: what each takes, and whether they agree.
+//! Comparison of engines on one model: their results and their speed.
 //!
-//! The engines run beside the first one, with a check every so many steps (`lockstep`); then each is timed
-//! (`timing`). What comes of it is a [`ComparisonReport`].
+//! All engines run alongside the first one, with a check at regular intervals (`lockstep`). Then each engine
+//! is timed (`timing`). The result is a [`ComparisonReport`].
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
@@ -32,7 +32,7 @@ use xca_record::machine::check_memory;
 use xca_record::record::Recorder;
 use xca_record::{SetUp, SetUpError};
 
-/// How many checks there are, unless it is said how often.
+/// The default number of checks.
 const CHECKS: u64 = 50;
 
 /// A comparison of engines on one model.
@@ -79,10 +79,10 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// A comparison over all steps of a set-up, with 50 checks, each engine being timed three times.
+    /// A comparison over all steps of a set-up, with 50 checks and three timings of each engine.
     ///
     /// # Errors
-    /// Where a view or the time step of the set-up makes no sense.
+    /// If a view or the time step of the set-up is invalid.
     pub fn new(set_up: SetUp) -> Result<Self, SetUpError> {
         set_up.check()?;
         let steps = set_up.steps;
@@ -103,58 +103,58 @@ impl Comparison {
         })
     }
 
-    /// Adds an engine, in `f64`. The others are compared with the first.
+    /// Adds an engine in `f64`. The first engine is the reference of all others.
     #[must_use]
     pub fn engine(self, name: impl Into<String>, engine: Box<dyn Engine>) -> Self {
         self.engine_in(Precision::F64, name, engine)
     }
 
-    /// Adds an engine in a precision.
+    /// Adds an engine with this precision.
     #[must_use]
     pub fn engine_in(self, precision: Precision, name: impl Into<String>, engine: Box<dyn Engine>) -> Self {
         self.contender(Contender { name: name.into(), engine, precision, making: Duration::ZERO })
     }
 
-    /// Adds an engine with what it took to make it.
+    /// Adds an engine and the time it took to create it.
     #[must_use]
     pub fn contender(mut self, contender: Contender) -> Self {
         self.contenders.push(contender);
         self
     }
 
-    /// The seed of random numbers; 0 unless it is given.
+    /// Sets the seed of random numbers. Default: 0.
     #[must_use]
     pub fn seed(self, seed: u64) -> Self {
         Self { seed, ..self }
     }
 
-    /// Does so many steps.
+    /// Sets the number of steps.
     #[must_use]
     pub fn steps(self, steps: u64) -> Self {
         Self { steps, ..self }
     }
 
-    /// Compares the states every so many steps, at least 1. The exact step of a difference is searched for in
-    /// between.
+    /// Sets the number of steps between checks, at least 1. The exact step of a difference is searched for
+    /// between two checks.
     #[must_use]
     pub fn check_every(self, steps: u64) -> Self {
         Self { every: Some(steps.max(1)), ..self }
     }
 
-    /// Times each engine so often.
+    /// Sets the number of timings per engine.
     #[must_use]
     pub fn repeats(self, repeats: usize) -> Self {
         Self { repeats, ..self }
     }
 
-    /// How far floating numbers may be apart to count as rounding, in relation to the largest value of their
-    /// substate; 1e-9 unless it is given, 1e-4 where `f32` takes part.
+    /// Sets the largest difference that counts as rounding, relative to the largest value of the substate.
+    /// Default: 1e-9, or 1e-4 with an engine in `f32`.
     #[must_use]
     pub fn tolerance(self, tolerance: f64) -> Self {
         Self { tolerance: Some(tolerance), ..self }
     }
 
-    /// What the report tells of the program.
+    /// Sets what the report states about the program.
     #[doc(hidden)]
     #[must_use]
     pub fn subject(self, subject: Subject) -> Self {
@@ -166,7 +166,7 @@ impl Comparison {
         self.recorder.set_up()
     }
 
-    /// How many steps all engines do together.
+    /// The number of steps of all engines together.
     pub fn work(&self) -> u64 {
         let runs = (self.contenders.len() as u64).saturating_mul(self.repeats as u64 + 1);
         self.steps.saturating_mul(runs)
@@ -183,12 +183,12 @@ impl Comparison {
         }
     }
 
-    /// Compares the engines with the first of them. The monitor is told how many of the steps of all engines
-    /// ([`Self::work`]) are done.
+    /// Compares the engines with the first one. The monitor receives the number of steps done by all engines,
+    /// out of [`Self::work`].
     ///
     /// # Errors
-    /// Where an engine cannot run the model, the first engine fails, or the monitor ends it. An engine beside
-    /// the first that fails is part of the report.
+    /// If an engine cannot run the model, if the first engine fails, or if the monitor interrupts. A later
+    /// failure of another engine is part of the report.
     pub fn run(&self, monitor: &mut dyn Monitor) -> Result<ComparisonReport, CompareError> {
         let model = self.recorder.model();
         let plan = self.plan();

@@ -1,4 +1,4 @@
-//! All engines step by step beside the first, to see where they part.
+//! Runs all engines alongside the first one, to find where they differ.
 
 use super::difference::Differences;
 use super::error::CompareError;
@@ -6,7 +6,7 @@ use super::lane::{Check, FirstDifference, Lane};
 use super::plan::{Plan, Watch};
 use xca_core::{Model, Snapshot};
 
-/// Runs all engines to the end, with a check every so many steps; gives back the number of steps done.
+/// Runs all engines to the end, with a check every `every` steps. Returns the number of steps done.
 pub(super) fn run(
     model: &Model,
     lanes: &mut [Lane<'_>],
@@ -44,7 +44,7 @@ pub(super) fn run(
     Ok(lanes.first().map_or(0, |first| first.simulation.step_number()))
 }
 
-/// Compares all engines with the first. Their states before this check are those of the last one.
+/// Compares all engines with the first. `before` holds their states at the previous check.
 fn look(
     model: &Model,
     lanes: &mut [Lane<'_>],
@@ -74,8 +74,8 @@ fn look(
     Ok(())
 }
 
-/// The first step after which two engines differ that are alike in one state and were seen to differ in a
-/// later step; nothing if they do not differ when they are run again.
+/// Finds the first step after which two engines differ. They agree in the states `alike`, and differed after
+/// the step `differ`. Returns `None` if they do not differ when they run again.
 fn bisect(
     model: &Model,
     pair: [&mut Lane<'_>; 2],
@@ -85,7 +85,7 @@ fn bisect(
     let [first, other] = pair;
     let mut alike = alike.map(Clone::clone);
     let (mut differ, mut found) = (differ, None);
-    // `differ` itself is tried unless it was reached this way: an engine need not do again what it did.
+    // Run to `differ` itself too, unless this search has reached it: an engine may not repeat its result.
     while alike[0].step + u64::from(found.is_some()) < differ {
         let ahead = (differ - alike[0].step).div_ceil(2);
         let mut states = Vec::with_capacity(2);

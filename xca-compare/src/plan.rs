@@ -1,9 +1,9 @@
-//! How engines are compared, and who watches.
+//! The settings of a comparison, and its monitor.
 
 use super::error::CompareError;
 use xca_record::Monitor;
 
-/// How engines are compared.
+/// The settings of a comparison.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plan {
     pub(super) seed: u64,
@@ -13,14 +13,14 @@ pub(super) struct Plan {
     pub(super) tolerance: f64,
 }
 
-/// Who watches a comparison, and how many steps all engines have done.
+/// The monitor of a comparison, and the steps done by all engines.
 pub(super) struct Watch<'a> {
     pub(super) monitor: &'a mut dyn Monitor,
     pub(super) done: u64,
 }
 
 impl Watch<'_> {
-    /// So many steps more are done.
+    /// Counts `steps` more steps.
     pub(super) fn did(&mut self, steps: u64) -> Result<(), CompareError> {
         self.done += steps;
         self.monitor.at(self.done);

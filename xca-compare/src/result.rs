@@ -1,4 +1,4 @@
-//! What a comparison has found.
+//! The report of a comparison.
 
 use super::difference::Differences;
 use super::lane::{Check, FirstDifference, Lane, Times};
@@ -14,24 +14,24 @@ use xca_core::{GroupSnapshot, Model, Precision, Snapshot};
 use xca_record::machine;
 use xca_record::report::{self, Host};
 
-/// What is compared.
+/// The program that is compared.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct Subject {
-    /// The commit and the compiler that the program was built of, where they are known.
+    /// The commit of the program, if it is known.
     pub commit: Option<&'static str>,
-    /// As `commit`.
+    /// The compiler of the program, if it is known.
     pub compiler: Option<&'static str>,
-    /// The name of the program.
+    /// Its name.
     pub program: String,
     /// Its version.
     pub version: String,
-    /// What the run is called.
+    /// The title of the run.
     pub title: String,
     /// The command line, if there was one.
     pub command_line: Vec<String>,
 }
 
-/// Everything that a comparison has found.
+/// All results of a comparison.
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct ComparisonReport {
@@ -52,75 +52,75 @@ pub struct ComparisonReport {
     pub memory_bytes: Option<u64>,
     /// The most memory that the process has taken.
     pub peak_memory_bytes: Option<u64>,
-    /// When the comparison ended, in UTC.
+    /// The end of the comparison, in UTC.
     pub ended: String,
     /// The seed of random numbers.
     pub seed: u64,
     /// The number of steps done.
     pub steps: u64,
-    /// How many steps from check to check.
+    /// The number of steps between checks.
     pub check_every: u64,
-    /// How often each engine was timed.
+    /// The number of timings of each engine.
     pub repeats: usize,
-    /// How far rounded numbers may be apart, in relation to the largest value of their substate.
+    /// The largest difference that counts as rounding, relative to the largest value of the substate.
     pub tolerance: f64,
-    /// What is updated in a step, `cells` or `items`, and how many there are at the start.
+    /// The kind of things that a step updates: `cells` or `items`.
     pub updated: &'static str,
-    /// As `updated` says.
+    /// The number of these cells or items at the start.
     pub number: usize,
-    /// The worst of the engines'.
+    /// The worst verdict on the engines.
     pub verdict: Verdict,
-    /// In the order in which they were added.
+    /// The engines, in the order in which they were added.
     pub engines: Vec<EngineResult>,
-    /// What was observed.
+    /// The observables.
     pub observables: Vec<ObservableResult>,
-    /// What is written beside this.
+    /// The files beside this one.
     pub files: Vec<&'static str>,
 }
 
-/// What was found of an engine.
+/// The results of one engine.
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct EngineResult {
-    /// What it was called when it was added.
+    /// The name given when it was added.
     pub name: String,
     /// Its own name.
     pub engine: String,
-    /// How many threads it uses.
+    /// The number of its threads.
     pub threads: usize,
-    /// What `Real` was.
+    /// The type that `Real` stands for.
     pub precision: Precision,
-    /// What it says of its device.
+    /// Facts about its device.
     pub device: Map<String, Value>,
-    /// What has to be known to judge its times or results.
+    /// A note that matters for its times or results.
     pub note: Option<String>,
-    /// Making it and starting the model on it.
+    /// The time to create the engine and its simulation.
     pub set_up_seconds: f64,
-    /// Giving it a state.
+    /// The time to set the state.
     pub state_in_seconds: Option<Spread>,
-    /// Taking the state from it.
+    /// The time to get the state.
     pub state_out_seconds: Option<Spread>,
-    /// Of one step.
+    /// The time of one step.
     pub step_seconds: Option<Spread>,
-    /// Cells or items, as `updated` says.
+    /// Updates of cells or items (see `updated`) per second.
     pub updates_per_second: Option<f64>,
-    /// How many times as fast as the first engine.
+    /// Speed relative to the first engine.
     pub speed_up: Option<f64>,
-    /// The bytes that its state takes.
+    /// The size of its state in bytes.
     pub state_bytes: usize,
-    /// What it tells of its work, such as the share of cells that it has worked on.
+    /// Figures about its work, such as the share of cells that it updated.
     pub engine_figures: BTreeMap<String, f64>,
-    /// In relation to the first engine; of that itself only where it does not even agree with itself.
+    /// The agreement with the first engine. For the first engine, only set if it disagrees with itself.
     pub verdict: Option<Verdict>,
-    /// Why it did not come to the end.
+    /// The error that ended its run.
     pub failure: Option<String>,
-    /// Where it leaves the first engine.
+    /// The first difference from the first engine.
     pub first_difference: Option<FirstDifference>,
-    /// What else there is to tell.
+    /// Other remarks.
     pub remarks: Vec<String>,
-    /// After the last step.
+    /// The differences after the last step.
     pub differences: Option<Differences>,
-    /// How far it is from the first engine at each check.
+    /// The distance from the first engine at each check.
     pub history: Vec<Check>,
 }
 
@@ -131,18 +131,18 @@ pub struct ObservableResult {
     pub name: String,
     /// Its unit.
     pub unit: String,
-    /// At the start.
+    /// The value at the start.
     pub initial: f64,
-    /// Nothing where an engine did not come to the end.
+    /// The value at the end. `None` if the engine did not reach the end.
     #[serde(rename = "final")]
     pub last: Vec<Option<f64>>,
-    /// Of a quantity that the model keeps: how far each engine has come from its first value.
+    /// For a conserved quantity: its drift from the first value on each engine.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub drift: Vec<Option<f64>>,
 }
 
 impl EngineResult {
-    /// A fact of its device.
+    /// A fact about its device.
     pub fn fact(&self, name: &str) -> Option<&str> {
         self.device.get(name)?.as_str()
     }
@@ -195,12 +195,12 @@ impl ComparisonReport {
         }
     }
 
-    /// Whether an engine ever differed.
+    /// Whether an engine differed at any check.
     pub fn differs(&self) -> bool {
         self.verdict != Verdict::Identical
     }
 
-    /// The first engine, which the others are compared with.
+    /// The name of the first engine, the reference of all others.
     pub fn first_name(&self) -> &str {
         self.engines.first().map_or("", |engine| &engine.name)
     }
@@ -237,7 +237,7 @@ fn engine(lane: Lane<'_>, is_first: bool) -> EngineResult {
     }
 }
 
-/// What a step updates: items where the model has any, else cells.
+/// What a step updates: items if the model has any, otherwise cells.
 fn updated(model: &Model, snapshot: &Snapshot) -> (&'static str, usize) {
     let items = snapshot.groups.iter().map(|group| match group {
         GroupSnapshot::Population(population, _) => population.labels.len(),

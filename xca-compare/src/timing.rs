@@ -1,4 +1,4 @@
-//! What engines take, apart from all checks.
+//! The times of engines, without the checks.
 
 use super::error::CompareError;
 use super::lane::Lane;
@@ -6,11 +6,11 @@ use super::plan::Watch;
 use serde::Serialize;
 use std::time::Instant;
 
-/// In how many pieces a run is timed, so that it can be interrupted between them.
+/// The number of pieces of a timed run. It can be interrupted between them.
 const PIECES: u64 = 16;
 
-/// Runs all engines from the start so many times. They take turns, each repeat beginning with the next one,
-/// so that what disturbs the machine for a while disturbs them all.
+/// Runs all engines from the start, `repeats` times. They take turns, and each repeat begins with the next
+/// engine. A temporary disturbance of the machine therefore affects all of them.
 pub(super) fn run(
     lanes: &mut [Lane<'_>],
     steps: u64,
@@ -52,7 +52,7 @@ fn once(lane: &mut Lane<'_>, steps: u64, watch: &mut Watch<'_>) -> Result<(), Co
     Ok(())
 }
 
-/// Several times the same thing.
+/// The spread of repeated measurements.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Spread {
     /// The median.
@@ -64,7 +64,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Nothing, of nothing.
+    /// `None` if there are no values.
     pub fn of(values: &[f64]) -> Option<Self> {
         let mut sorted = values.to_vec();
         sorted.sort_by(f64::total_cmp);

@@ -1,17 +1,17 @@
-//! What is thought of an engine's results.
+//! The verdict on an engine.
 
 use serde::Serialize;
 use std::fmt;
 
-/// From best to worst.
+/// The verdict on an engine, from best to worst.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "UPPERCASE")]
 pub enum Verdict {
-    /// All bits are the same, at every check.
+    /// All bits are equal at every check.
     Identical,
-    /// Floating numbers differ at the end by no more than the tolerance.
+    /// Only floating-point numbers differ, by at most the tolerance.
     Rounding,
-    /// Anything else.
+    /// Other differences.
     Different,
 }
 

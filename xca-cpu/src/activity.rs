@@ -1,13 +1,13 @@
-//! Which cells are worked on: a process need not run where nothing has changed that its result follows from.
+//! Activity: skips cells in which a process would change nothing, because its inputs have not changed.
 //!
-//! A row is cut into tiles. For each process a tile is due if, since the process last ran there, something
-//! has changed that it reads there or within reach, or something that it writes. Elsewhere its result is what
-//! stands there already. A process that has asked for a random number or for the number of the step stays due
-//! in the tile. Values count as changed where their bits have.
+//! A row is cut into tiles. A tile is due for a process if its inputs have changed since the process last ran
+//! there. Inputs are what the process reads in the tile or within reach, and what it writes. In a tile that
+//! is not due, the result is already there. A process that has requested a random number or the number of the
+//! step stays due in the tile. A value counts as changed if its bits differ.
 //!
-//! A substate that goes to a second buffer has the same values in both, in each tile in which the processes
-//! that read it elsewhere are not due: where one of them has changed it, it is due itself. So buffers can be
-//! swapped though a tile was left out.
+//! Some substates have a second buffer. Consider a tile where no process that reads the substate elsewhere is
+//! due. Both buffers are equal there: if one of these processes had changed the substate, it would be due
+//! itself. Buffers can therefore be swapped although a tile was skipped.
 
 use crate::choices::LeaveOut;
 use crate::layout::Layout;
@@ -18,53 +18,54 @@ use std::time::Duration;
 use xca_core::engine::{Figure, SubstateId};
 use xca_core::{Model, ParameterSet, ProcessKind};
 
-/// The cells of a tile: few, as a front is narrow, but enough for a kernel to be worth its start.
+/// The number of cells in a tile. Few, because fronts are narrow, but enough to be worth the start of a
+/// kernel.
 const CELLS_PER_TILE: usize = 32;
 
-/// What is known of where a model is active.
+/// The places where a model is active.
 pub(crate) struct Activity {
     tiles: Tiles,
     layout: Layout,
     processes: Vec<Followed>,
-    /// By group and field; of substates of cells alone.
+    /// By group and field, for substates of cells only.
     substates: Vec<Vec<Changes>>,
-    /// The parameters of the last pass, in bits.
+    /// The parameters of the last pass, as bits.
     parameters: Vec<u64>,
     pace: Pace,
-    /// Counts changes from outside and passes that changed something.
+    /// The number of changes from outside and of passes that changed something.
     time: u64,
     work: Work,
-    /// That of the steps before.
+    /// The work of earlier steps.
     past: Work,
 }
 
-/// A process, and where it is due.
+/// A process, and its due tiles.
 struct Followed {
     scope: Scope,
     takes_parameters: bool,
     due: Marks,
 }
 
-/// Where a process runs.
+/// The cells in which a process runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Scope {
-    /// In the tiles that are due.
+    /// The tiles that are due.
     Due,
-    /// In all cells, as it looks at items too.
+    /// All cells, because the process also reads items.
     AllCells,
-    /// For items: it writes no cells.
+    /// Items only. The process writes no cells.
     Items,
 }
 
-/// Where a substate has changed in a pass.
+/// The changes of a substate in a pass.
 struct Changes {
     users: Vec<User>,
     here: Marks,
-    /// From where changes are seen along x.
+    /// The tiles along x that see the changes.
     around: Marks,
-    /// For each row when it last changed.
+    /// The time of the last change of each row.
     last: Vec<u64>,
-    /// When it last changed in all rows.
+    /// The time of the last change of all rows.
     replaced: u64,
 }
 
@@ -77,7 +78,7 @@ struct User {
     writes: bool,
 }
 
-/// How many cells were worked on, each counted once a process, and how many there were.
+/// The number of updated cells, counted for each process, and the number of all cells.
 #[derive(Debug, Clone, Copy, Default)]
 struct Work {
     done: u64,
@@ -85,7 +86,7 @@ struct Work {
 }
 
 impl Activity {
-    /// Everything is due. There is nothing to know of a model without processes over cells.
+    /// Starts with everything due. Returns `None` for a model without processes over cells.
     pub(crate) fn new(model: &Model, layout: &Layout, leave_out: LeaveOut) -> Option<Self> {
         let (width, always) = match leave_out {
             LeaveOut::WhereItPays => (CELLS_PER_TILE, false),
@@ -113,7 +114,7 @@ impl Activity {
         }
         let changes = |group: usize, field: usize| {
             let users = users(model, SubstateId { group, field });
-            // What no one uses needs no marks.
+            // An unused substate needs no marks.
             let rows = if users.is_empty() { 0 } else { rows };
             Changes {
                 users,
@@ -140,28 +141,28 @@ impl Activity {
         &self.tiles
     }
 
-    /// Whether what is not due is left out, and changes are followed.
+    /// Whether tiles are skipped and changes are tracked.
     pub(crate) fn is_on(&self) -> bool {
         self.pace.is_on()
     }
 
-    /// How many steps will work on all cells before the next one that leaves some out.
+    /// The number of steps on all cells before the next step that skips tiles.
     pub(crate) fn steps_without(&self) -> u64 {
         self.pace.pause()
     }
 
-    /// The present time.
+    /// The current time.
     pub(crate) fn time(&self) -> u64 {
         self.time
     }
 
-    /// When a substate last changed in a row, as far as changes are followed.
+    /// The time of the last change of a substate in a row, as far as changes are tracked.
     pub(crate) fn last_change(&self, substate: SubstateId, row: usize) -> u64 {
         let changes = &self.substates[substate.group][substate.field];
         changes.last.get(row).map_or(changes.replaced, |last| changes.replaced.max(*last))
     }
 
-    /// Everything may have changed, and is due.
+    /// Makes everything due, because everything may have changed.
     pub(crate) fn wake(&mut self) {
         self.time += 1;
         self.substates.iter_mut().flatten().for_each(|changes| changes.replaced = self.time);
@@ -170,7 +171,7 @@ impl Activity {
         }
     }
 
-    /// Steps follow with these parameters.
+    /// Sets the parameters of the following steps.
     pub(crate) fn take_parameters(&mut self, parameters: &ParameterSet) {
         let values = parameters.values();
         let bits =
@@ -184,7 +185,7 @@ impl Activity {
         }
     }
 
-    /// So many steps have ended, after so much time.
+    /// Ends `steps` steps that took `time`.
     pub(crate) fn end_steps(&mut self, steps: u64, time: Duration) {
         let work = std::mem::take(&mut self.work);
         self.past.done += work.done;
@@ -195,13 +196,13 @@ impl Activity {
                 self.pace.judge_share(self.due_share());
             }
         }
-        // No one has seen what changed in a pause.
+        // Changes were not tracked during a pause.
         if self.pace.is_first() {
             self.wake();
         }
     }
 
-    /// Of the tiles of all processes over cells those that are due.
+    /// The share of due tiles, over all processes over cells.
     fn due_share(&self) -> f64 {
         let rows = self.layout.rows();
         let over_cells = self.processes.iter().filter(|process| process.scope != Scope::Items);
@@ -217,13 +218,13 @@ impl Activity {
         due as f64 / all.max(1) as f64
     }
 
-    /// Processes have worked on so many cells, each counted once a process.
+    /// Counts the updated cells of processes. `done` counts a cell once for each process.
     pub(crate) fn worked(&mut self, processes: &[usize], done: u64) {
         self.work.done += done;
         self.work.all += self.cells(processes);
     }
 
-    /// Processes have worked on all cells.
+    /// Counts all cells as updated by the processes.
     pub(crate) fn worked_on_all(&mut self, processes: &[usize]) {
         self.worked(processes, self.cells(processes));
     }
@@ -234,7 +235,7 @@ impl Activity {
         cells * processes.iter().filter(is_over_cells).count() as u64
     }
 
-    /// For a pass the rows in which something is due, each with the number of tiles; nothing where a process
+    /// The rows of a pass in which something is due, with their numbers of due tiles. `None` if a process
     /// needs all rows.
     pub(crate) fn rows(&self, processes: &[usize]) -> Option<Vec<DueRow>> {
         if processes.iter().any(|process| self.processes[*process].scope != Scope::Due) {
@@ -246,7 +247,7 @@ impl Activity {
         Some(rows.filter(|row| row.tiles > 0).collect())
     }
 
-    /// The tiles of a row in which a process is due; it is no longer.
+    /// Takes the due tiles of a process in a row. They are not due any more.
     pub(crate) fn take(&self, process: usize, row: usize, due: &mut Vec<u64>) {
         match self.processes[process].scope {
             Scope::Due => self.processes[process].due.take(row, due),
@@ -257,15 +258,15 @@ impl Activity {
         }
     }
 
-    /// A process stays due in a tile of a row.
+    /// Keeps a process due in a tile of a row.
     pub(crate) fn keep(&self, process: usize, row: usize, tile: usize) {
         if self.processes[process].scope == Scope::Due {
             self.processes[process].due.add_tile(row, tile);
         }
     }
 
-    /// A process has changed a substate in these tiles of a row; `around` are those from which it is seen
-    /// along x. Of the processes that follow in the pass, those that use it are due in the row.
+    /// Records the tiles of a row in which a process has changed a substate. `around` are the tiles along x
+    /// that see the change. Later processes of the pass become due in the row if they use the substate.
     pub(crate) fn change(
         &self,
         substate: SubstateId,
@@ -285,8 +286,8 @@ impl Activity {
         }
     }
 
-    /// After a pass over rows, in which processes have written a substate: what follows from that for other
-    /// rows and processes.
+    /// Spreads the changes of a substate after a pass. Processes become due in the changed rows, and in the
+    /// rows that see them.
     pub(crate) fn spread(
         &mut self,
         substate: SubstateId,
@@ -300,7 +301,7 @@ impl Activity {
         let writers: Vec<usize> = writers.collect();
         let last = writers.iter().copied().max();
         let wakes = |user: &User| match place(user.process) {
-            // It has seen the change already, or made it, without a look at what was there.
+            // This process has seen the change already, or made it without reading the old value.
             Some(number) if Some(number) > last => false,
             Some(number) if writers == [number] => user.reads,
             _ => true,
@@ -332,7 +333,7 @@ impl Activity {
         }
     }
 
-    /// A substate has been replaced in all cells.
+    /// Records that a substate was replaced in all cells.
     pub(crate) fn replaced(&mut self, substate: SubstateId) {
         self.time += 1;
         let changes = &mut self.substates[substate.group][substate.field];
@@ -342,7 +343,7 @@ impl Activity {
         }
     }
 
-    /// A substate has been replaced in the cells with these linear indices.
+    /// Records that a substate was replaced in the cells with these linear indices.
     pub(crate) fn replaced_in(&mut self, substate: SubstateId, cells: &[usize]) {
         let is_used = !self.substates[substate.group][substate.field].users.is_empty();
         let are_few = cells.len() < self.layout.rows() * self.tiles.count();
@@ -363,8 +364,8 @@ impl Activity {
         self.spread(substate, &[], cells.iter().map(|cell| layout.row_of(*cell)));
     }
 
-    /// A substate has changed in a line of the halo that another part has sent, in those of its tiles that
-    /// differ.
+    /// Records a change of a substate in a line of the halo that another part has sent. `differs` tells which
+    /// tiles have changed.
     pub(crate) fn changed_beyond(
         &self,
         substate: SubstateId,
@@ -387,7 +388,7 @@ impl Activity {
         }
     }
 
-    /// Of all cells of all steps, each counted once a process, the share that was worked on.
+    /// The share of updated cells, over all steps and processes.
     pub(crate) fn figure(&self) -> Option<Figure> {
         let all = Work { done: self.past.done + self.work.done, all: self.past.all + self.work.all };
         let share = || all.done as f64 / all.all as f64;
@@ -399,7 +400,7 @@ impl Activity {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct DueRow {
     pub(crate) row: usize,
-    /// In so many tiles, those of all processes.
+    /// The number of due tiles, over all processes.
     pub(crate) tiles: usize,
 }
 

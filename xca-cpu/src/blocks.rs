@@ -1,4 +1,4 @@
-//! How the rows of a pass are shared among the threads.
+//! Distribution of the rows of a pass over the threads.
 
 use crate::activity::DueRow;
 use crate::layout::Layout;
@@ -6,24 +6,24 @@ use crate::population::Population;
 use crate::wavefront::Depth;
 use std::ops::Range;
 
-/// Blocks a thread: enough that the last one is not waited for long, few enough that a block is worth its
-/// start.
+/// The number of blocks per thread. Enough to keep the wait for the last block short, few enough that a block
+/// is worth its start.
 const BLOCKS_PER_THREAD: usize = 32;
 
-/// The work of an item, counted in cells.
+/// The work of an item, in cells.
 const CELLS_PER_ITEM: usize = 16;
 
-/// Blocks of consecutive rows, which have about the same work: the items of the populations may all be in a
-/// few of the rows.
+/// Blocks of consecutive rows with about the same work. The items of the populations may all be in a few
+/// rows.
 pub(crate) fn blocks(layout: &Layout, populations: &[&Population], threads: usize) -> Vec<Range<usize>> {
     blocks_of_same_work(layout, populations, threads * BLOCKS_PER_THREAD)
 }
 
-/// How much longer blocks are than they have to be at least, where there are enough rows: what is done in the
-/// gaps between blocks meets memory once more.
+/// The factor by which blocks exceed their least length, if there are enough rows. Work in the gaps between
+/// blocks reads memory once more.
 const LONGER_THAN_LEAST: usize = 4;
 
-/// Blocks of layers without items that are long enough for passes of this depth.
+/// Blocks of layers without items, long enough for passes of this depth.
 pub(crate) fn long_blocks(layout: &Layout, threads: usize, depth: Depth) -> Vec<Range<usize>> {
     let (layers, least) = (layout.rows() / depth.lag.layer, depth.least_block());
     let of_thread = layers / (least * LONGER_THAN_LEAST * threads);
@@ -55,10 +55,10 @@ fn blocks_of_same_work(layout: &Layout, populations: &[&Population], count: usiz
     blocks
 }
 
-/// The tiles that are worth the start of a block.
+/// The number of tiles that are worth the start of a block.
 const TILES_PER_BLOCK: usize = 48;
 
-/// Blocks of numbers of these rows, which have about the same work.
+/// Blocks of indices into `due` with about the same work.
 pub(crate) fn blocks_of_due(due: &[DueRow], threads: usize) -> Vec<Range<usize>> {
     let tiles: usize = due.iter().map(|row| row.tiles).sum();
     let share = (tiles / (threads * BLOCKS_PER_THREAD)).max(TILES_PER_BLOCK);
@@ -74,7 +74,7 @@ pub(crate) fn blocks_of_due(due: &[DueRow], threads: usize) -> Vec<Range<usize>>
     blocks
 }
 
-/// The first number from which on the condition holds, or the range's end.
+/// The first index that satisfies the condition, or the end of the range.
 fn first(mut range: Range<usize>, condition: impl Fn(usize) -> bool) -> usize {
     while !range.is_empty() {
         let middle = range.start + range.len() / 2;
@@ -126,7 +126,7 @@ mod tests {
         let layout = layout([10, 40, 50]);
         let model = model([10, 40, 50]);
         let mut population = Population::new(&model.groups()[1], Precision::F64, &layout, None);
-        // All items are in the last tenth of the rows, more and more from row to row.
+        // All items are in the last tenth of the rows, with increasing density.
         let counts: Vec<u32> = (0..20_000_u32)
             .map(|cell| if cell < 18_000 { 0 } else { (cell / 10 - 1800) % 8 + (cell % 3) })
             .collect();

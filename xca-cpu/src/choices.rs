@@ -1,23 +1,23 @@
-//! What a test or a benchmark chooses in place of the engine.
+//! Settings of tests and benchmarks that replace the choices of the engine.
 
-/// What is chosen instead of what the engine finds best.
+/// The settings that replace choices of the engine.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Choices {
-    /// The skin of lists of what is near, in radii of a search.
+    /// The skin of neighbour lists, in search radii.
     pub(crate) skin: Option<f64>,
     pub(crate) leave_out: LeaveOut,
-    /// How many steps are done together.
+    /// The number of steps done together.
     pub(crate) stride: Option<u64>,
-    /// The rows of the columns in which they are done.
+    /// The number of rows of the columns in which they are done.
     pub(crate) column: Option<usize>,
 }
 
-/// When cells are left out in which nothing can change.
+/// When the engine skips cells in which nothing can change.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) enum LeaveOut {
     #[default]
     WhereItPays,
-    /// In tiles of so many cells.
+    /// Always, in tiles of this many cells.
     Always(usize),
     Never,
 }

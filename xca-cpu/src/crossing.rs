@@ -1,4 +1,4 @@
-//! Migration in a part of a space: items that go to other parts, and items that come from them.
+//! Migration between the parts of a space: items that leave this part, and items that arrive.
 
 use crate::edges::Edges;
 use crate::ghosts::{faces, mismatch, number, pack_item, take, unpack_item};
@@ -10,23 +10,23 @@ use crate::threads::Threads;
 use xca_core::engine::{EngineFailure, Fault};
 use xca_core::{Face, Geometry, Process};
 
-/// A migration as all parts know it.
+/// A migration, as in all parts.
 #[derive(Clone, Copy)]
 pub(crate) struct Migration<'a> {
     pub(crate) geometry: &'a Geometry,
     pub(crate) process: &'a Process,
-    /// The number of the process in the model.
+    /// The index of the process in the model.
     pub(crate) number: usize,
 }
 
-/// An item on its way to another part: its cells, and its label and fields.
+/// An item on its way to another part: its cells, its label and its fields.
 struct Traveller {
     cell: u32,
     from: u32,
     item: Vec<u8>,
 }
 
-/// Moves items, in this part and at the same time in all others.
+/// Moves items in this part. All other parts do the same at the same time.
 pub(crate) fn migrate(
     migration: Migration<'_>,
     population: &mut Population,
@@ -55,7 +55,7 @@ pub(crate) fn migrate(
     Ok(())
 }
 
-/// Sends travellers along y, then along z. Gives those that arrive here; they stand after all places.
+/// Sends travellers along y, then along z. Returns those that arrive here. They are stored after all places.
 fn exchange(
     Migration { geometry, .. }: Migration<'_>,
     population: &mut Population,
@@ -97,14 +97,14 @@ fn exchange(
     if travellers.is_empty() { Ok(arrived) } else { Err(mismatch()) }
 }
 
-/// The face of the part beyond which a traveller goes along an axis. It goes no further than the
-/// neighbourhood reaches.
+/// The face of the part that a traveller crosses along an axis. It moves no farther than the reach of the
+/// neighbourhood.
 fn beyond(edges: &Edges, geometry: &Geometry, axis: usize, traveller: &Traveller) -> Option<Face> {
     let at = |cell: u32| geometry.indices(cell as usize)[axis] as isize;
     let (from, to) = (at(traveller.from), at(traveller.cell));
     let reach = geometry.neighbourhood().reach()[axis] as isize;
     let extent = geometry.extents()[axis] as isize;
-    // Round a torus the shorter way is the one.
+    // On a torus, the shorter way counts.
     let place = match to - from {
         step if step > reach => to - extent,
         step if step < -reach => to + extent,
@@ -121,7 +121,7 @@ fn beyond(edges: &Edges, geometry: &Geometry, axis: usize, traveller: &Traveller
     }
 }
 
-/// The linear index of the cell that a fault of a migration names.
+/// The linear index of the cell of a migration fault.
 fn cell(fault: &Fault, geometry: &Geometry) -> u32 {
     match fault {
         Fault::Nowhere { cell, .. }

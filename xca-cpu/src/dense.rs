@@ -1,4 +1,4 @@
-//! Substates of cells: a plane for each single value or element of an array, with a halo.
+//! Substates of cells: one plane for each element of a value, with a halo.
 
 use crate::layout::Layout;
 use std::borrow::Cow;
@@ -6,30 +6,31 @@ use std::ops::Range;
 use xca_core::storage::Buffer;
 use xca_core::{Face, Faces, StoredType};
 
-/// One substate of cells: as many planes, one after the other, as a value has elements.
+/// One substate of cells: its planes, one after the other.
 pub(crate) struct Dense {
     pub(crate) stored: StoredType,
     pub(crate) current: Buffer,
-    /// Where a process writes that also reads neighbours; made when there is such a process.
+    /// The second buffer, for a process that writes the substate and also reads neighbours. `None` without
+    /// such a process.
     pub(crate) next: Option<Buffer>,
-    /// Whether a process of the model reads the substate elsewhere, so that it reads the halo.
+    /// Whether a process of the model reads the substate elsewhere, and therefore the halo.
     pub(crate) read_elsewhere: bool,
     halo: Halo,
 }
 
-/// How much of a plane's halo is that of its cells.
+/// The part of a plane's halo that is up to date.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Halo {
-    /// All of it.
+    /// The whole halo.
     Whole,
-    /// What continues the rows of the space along x.
+    /// The continuation of the rows along x.
     Rows,
-    /// Nothing of it.
+    /// None of it.
     Stale,
 }
 
 impl Dense {
-    /// The two buffers are those of these numbers among all of the model's.
+    /// Creates the planes. `numbers` are the indices of the two buffers among all buffers of the model.
     pub(crate) fn new(
         stored: StoredType,
         layout: &Layout,
@@ -54,13 +55,13 @@ impl Dense {
         Self { stored, current, next, read_elsewhere, halo }
     }
 
-    /// After cells were written, or while they are.
+    /// Marks the halo as stale, during or after a write of cells.
     pub(crate) fn touch(&mut self) {
         self.halo = Halo::Stale;
     }
 
-    /// After a pass in which all rows were written, and continued into the halo if anyone reads it there:
-    /// along x, or with `whole` beyond all faces.
+    /// Records a pass that wrote all rows, and continued them into the halo if a process reads it there. The
+    /// continuation is along x, or with `whole` beyond all faces.
     pub(crate) fn written(&mut self, second: bool, whole: bool) {
         if let Some(next) = &mut self.next
             && second
@@ -74,7 +75,7 @@ impl Dense {
         };
     }
 
-    /// Makes the halo that of the cells. What lies beyond flat faces never changes.
+    /// Updates the halo. Values beyond flat faces never change.
     pub(crate) fn refresh(&mut self, layout: &Layout) {
         let [along_rows, elsewhere] = layout.halo_follows();
         let continued = self.halo == Halo::Rows;
@@ -87,19 +88,19 @@ impl Dense {
         self.halo = Halo::Whole;
     }
 
-    /// Whether the halo is not that of the cells.
+    /// Whether the halo is not up to date.
     pub(crate) fn is_stale(&self) -> bool {
         self.halo != Halo::Whole
     }
 
-    /// After a pass in which other parts may have written their cells, even if this one has not.
+    /// Records a pass in which other parts may have written their cells.
     pub(crate) fn others_wrote(&mut self) {
         if self.halo == Halo::Whole {
             self.halo = Halo::Rows;
         }
     }
 
-    /// Fills the halo along x and y, but for what other parts send.
+    /// Fills the halo along x and y, except for cells of other parts.
     pub(crate) fn fill_rows(&mut self, layout: &Layout) {
         let (element, continued) = (self.stored.element_size(), self.halo == Halo::Rows);
         for plane in self.current.bytes_mut().chunks_exact_mut(layout.cells() * element) {
@@ -107,8 +108,7 @@ impl Dense {
         }
     }
 
-    /// Fills the halo along z, but for what other parts send; with what they have sent it is that of the
-    /// cells.
+    /// Fills the halo along z, except for cells of other parts. After their messages the halo is up to date.
     pub(crate) fn fill_layers(&mut self, layout: &Layout) {
         let element = self.stored.element_size();
         for plane in self.current.bytes_mut().chunks_exact_mut(layout.cells() * element) {
@@ -117,12 +117,12 @@ impl Dense {
         self.halo = Halo::Whole;
     }
 
-    /// The bytes that pass across a face.
+    /// The size of the message across a face, in bytes.
     pub(crate) fn edge(&self, layout: &Layout, face: Face) -> usize {
         layout.lines_at(face, true).count() * layout.line([0; 2]).len() * self.stored.size()
     }
 
-    /// Appends what another part sees across a face.
+    /// Appends the cells that another part sees across a face.
     pub(crate) fn pack(&self, layout: &Layout, face: Face, bytes: &mut Vec<u8>) {
         let element = self.stored.element_size();
         for plane in self.current.bytes().chunks_exact(layout.cells() * element) {
@@ -133,8 +133,7 @@ impl Dense {
         }
     }
 
-    /// Fills the halo beyond a face with what the part beyond it has packed; [`Self::edge`] says how many
-    /// bytes.
+    /// Fills the halo beyond a face with the message of the part there. [`Self::edge`] is its size.
     pub(crate) fn unpack(&mut self, layout: &Layout, face: Face, bytes: &[u8]) {
         let element = self.stored.element_size();
         let mut lines = bytes.chunks_exact(layout.line([0; 2]).len() * element);
@@ -146,7 +145,7 @@ impl Dense {
         }
     }
 
-    /// The values of all cells, each with its elements one after the other.
+    /// The values of all cells. The elements of each value are contiguous.
     pub(crate) fn read(&self, layout: &Layout) -> Vec<u8> {
         let mut values = Vec::with_capacity(layout.rows() * layout.width() * self.stored.size());
         for row in 0..layout.rows() {
@@ -155,7 +154,7 @@ impl Dense {
         values
     }
 
-    /// The elements with this number of the values of a row.
+    /// The elements with this index of the values of a row.
     pub(crate) fn row_of_plane(&self, layout: &Layout, row: usize, number: usize) -> &[u8] {
         let element = self.stored.element_size();
         let first = number * layout.cells() + layout.first(row);
@@ -197,7 +196,7 @@ impl Dense {
         self.touch();
     }
 
-    /// Where the elements of a cell's value lie, in bytes.
+    /// The byte ranges of the elements of a cell's value.
     fn places(&self, layout: &Layout, cell: usize) -> impl Iterator<Item = Range<usize>> + use<> {
         let (first, element, cells) = (layout.padded(cell), self.stored.element_size(), layout.cells());
         (0..self.stored.length as usize).map(move |number| {

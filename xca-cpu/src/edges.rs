@@ -1,8 +1,8 @@
-//! What the parts of a space tell each other: the edges of planes, and which fault is the first.
+//! Communication between the parts of a space: the edges of planes, and the first fault.
 //!
-//! Each part does the same stages at the same time, so the same halos are stale on all parts, and each part
-//! knows what the next one sends. Nothing here waits on a thread of the engine: parts that share the threads
-//! would wait for each other.
+//! All parts run the same stages at the same time. The same halos are stale in all parts, so each part knows
+//! the next message of its neighbours. Nothing here waits on a thread of the engine, because parts that share
+//! threads would block each other.
 
 use crate::activity::Activity;
 use crate::dense::Dense;
@@ -14,15 +14,15 @@ use crate::threads::Threads;
 use xca_core::engine::{Border, EngineFailure, Fault, Part, SubstateId};
 use xca_core::{Face, Faces, Model};
 
-/// No fault: later than all of them.
+/// No fault. The value is larger than that of any fault.
 const NO_FAULT: u64 = u64::MAX;
 
-/// A part of a space with its way to the others.
+/// A part of a space, and its connection to the others.
 pub(crate) struct Edges {
     pub(crate) part: Part,
     pub(crate) border: Box<dyn Border>,
-    /// What has come last across each face, by group and field. The halo itself is no measure of what has
-    /// changed: planes with a second buffer have two.
+    /// The last message across each face, by group and field. The halo does not show what has changed,
+    /// because planes with a second buffer have two halos.
     received: Vec<Vec<Faces<Vec<u8>>>>,
 }
 
@@ -33,8 +33,8 @@ impl Edges {
         Self { part, border, received }
     }
 
-    /// Fills the halos that processes read; what has changed in them makes processes due. Of populations,
-    /// gets the items that are seen from here.
+    /// Fills the halos that processes read. Processes become due where the halo has changed. For populations,
+    /// receives the items that are visible from here.
     pub(crate) fn exchange(
         &mut self,
         (model, processes): (&Model, &[usize]),
@@ -61,7 +61,7 @@ impl Edges {
                 }
             });
         };
-        // Each axis takes along the halo of those before it, so that corners need no message of their own.
+        // Each axis includes the halo of the earlier axes, so corners need no messages of their own.
         each(groups, Dense::fill_rows);
         self.exchange_along(1, layout, groups, &stale, activity)?;
         each(groups, Dense::fill_layers);
@@ -113,7 +113,7 @@ impl Edges {
         Ok(())
     }
 
-    /// Tells all parts how a stage has ended here, and gives how it has ended in all of them.
+    /// Exchanges the results of a stage with all parts. Returns the common result.
     pub(crate) fn agree<T>(&mut self, result: Result<T, FirstFault>) -> Result<T, Fault> {
         let key = |first: &FirstFault| (first.process as u64) << 32 | u64::from(first.cell);
         let own = result.as_ref().err().map_or(NO_FAULT, key);
@@ -126,7 +126,7 @@ impl Edges {
     }
 }
 
-/// The groups that processes read elsewhere, each once, in order.
+/// The groups that processes read elsewhere, sorted, each once.
 pub(crate) fn seen(model: &Model, processes: &[usize]) -> Vec<usize> {
     let uses = processes.iter().flat_map(|&number| &model.plan().process(number).uses);
     let mut groups: Vec<usize> =
@@ -136,8 +136,7 @@ pub(crate) fn seen(model: &Model, processes: &[usize]) -> Vec<usize> {
     groups
 }
 
-/// The planes that processes read elsewhere and whose halos are not those of the cells; the same on all
-/// parts.
+/// The planes that processes read elsewhere and whose halos are stale. They are the same in all parts.
 fn stale(model: &Model, groups: &[Group], processes: &[usize]) -> Vec<SubstateId> {
     let mut stale = Vec::new();
     for found in processes.iter().flat_map(|&number| &model.plan().process(number).uses) {
@@ -153,7 +152,7 @@ fn stale(model: &Model, groups: &[Group], processes: &[usize]) -> Vec<SubstateId
     stale
 }
 
-/// What has changed in the halo makes those processes due that see it.
+/// Makes processes due if they see a change in the halo.
 fn follow(
     activity: &Activity,
     (substate, plane): (SubstateId, &Dense),
@@ -167,7 +166,7 @@ fn follow(
     let length = layout.line([0; 2]).len() * element;
     for (number, (line, now)) in lines.iter().cycle().zip(now.chunks_exact(length)).enumerate() {
         let cells = &now[start..start + width];
-        // What comes for the first time is all new.
+        // The first message counts as changed everywhere.
         let before = before.get(number * length + start..number * length + start + width);
         if before == Some(cells) {
             continue;

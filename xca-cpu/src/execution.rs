@@ -29,20 +29,20 @@ use xca_core::engine::{
 use xca_core::reduction::{Reduced, ReducedRows, Reduction, append_row};
 use xca_core::{Model, Precision, ProcessKind};
 
-/// A model under way.
+/// A running model.
 pub(crate) struct CpuExecution {
     model: Model,
     precision: Precision,
     threads: Threads,
     layout: Layout,
-    /// The part of the space that this is; nothing for the whole.
+    /// The own part of the space. `None` for the whole space.
     edges: Option<Edges>,
     groups: Vec<Group>,
-    /// Where processes over cells are due; nothing for a model that has none.
+    /// The tiles in which processes over cells are due. `None` for a model without such processes.
     activity: Option<Activity>,
     stride: Stride,
     reductions: Mutex<Reductions>,
-    /// The stages of a step in which every process is due.
+    /// The stages of a step in which all processes run.
     stages: Vec<Stage>,
 }
 
@@ -77,7 +77,7 @@ impl CpuExecution {
         })
     }
 
-    /// Runs those of these processes that are due in the step, with the parameters that the engine knows.
+    /// Runs those of these processes that are due in the step, with the parameters that the engine has.
     fn run_step(&mut self, processes: Range<usize>, context: &StepContext<'_>) -> Result<(), Fault> {
         let all = self.model.processes();
         let whole = processes == (0..all.len()) && all.iter().all(|process| process.is_due(context.step));
@@ -92,7 +92,7 @@ impl CpuExecution {
         }
     }
 
-    /// So many steps have ended, or one of them with a fault.
+    /// Ends steps, the last of which may have a fault.
     fn end_steps(&mut self, steps: u64, time: Duration, is_faulty: bool) {
         if let Some(activity) = &mut self.activity {
             activity.end_steps(steps, time);
@@ -117,7 +117,7 @@ impl CpuExecution {
         }
     }
 
-    /// Runs a stage here and, at the same time, in all other parts of the space.
+    /// Runs a stage in this part. All other parts do the same at the same time.
     fn run_stage_of_part(
         &mut self,
         stage: &[usize],
@@ -175,7 +175,7 @@ impl CpuExecution {
         Ok(())
     }
 
-    /// The migration of a stage, which is its last process, and the population that it moves.
+    /// The migration of a stage, which is its last process, and the index of its population.
     fn migration(&self, stage: &[usize]) -> Option<(usize, usize)> {
         let &last = stage.last()?;
         let migrates = self.model.processes()[last].kind == ProcessKind::Migration;
@@ -200,13 +200,13 @@ impl CpuExecution {
         rows::run(ground, &mut self.groups, stage, activity)
     }
 
-    /// How many of so many steps are done together next.
+    /// The number of steps to do together next, out of `left`.
     fn together(&self, left: u64) -> u64 {
         let free = self.activity.as_ref().map_or(u64::MAX, Activity::steps_without);
         self.stride.steps(left.min(free)).max(1)
     }
 
-    /// Does so many steps together, all processes in all cells.
+    /// Does `steps` steps together: all processes in all cells.
     fn run_together(&mut self, steps: u64, context: &StepContext<'_>) -> Result<(), Interruption> {
         let contexts = (0..steps).map(|done| StepContext { step: context.step + done, ..*context });
         let all = 0..self.model.processes().len();
@@ -412,7 +412,7 @@ impl Execution for CpuExecution {
     }
 
     fn workers(&self) -> Option<Arc<dyn Workers>> {
-        // A part waits for others, which may share its threads.
+        // A part waits for other parts, which may share its threads.
         self.edges.is_none().then(|| Arc::new(self.threads.clone()) as Arc<dyn Workers>)
     }
 

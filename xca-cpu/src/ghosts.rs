@@ -1,5 +1,5 @@
-//! Items of other parts that are seen from a part: copies after all places of a population, while a stage
-//! runs.
+//! Ghosts: items of other parts that are visible from this part. During a stage their copies are stored after
+//! all places of a population.
 
 use crate::layout::Layout;
 use crate::population::Population;
@@ -7,7 +7,7 @@ use crate::threads::Threads;
 use xca_core::engine::{Border, EngineFailure};
 use xca_core::{Face, Faces};
 
-/// Gets the items that are seen across the borders of the part.
+/// Receives the items that are visible across the borders of the part.
 pub(crate) fn exchange(
     population: &mut Population,
     layout: &Layout,
@@ -20,7 +20,7 @@ pub(crate) fn exchange(
         layout.fill_rows(&mut population.ends, 1, Some(&none), false);
     });
     exchange_along(1, population, layout, border)?;
-    // Layers take along what is seen beyond y, so that corners need no message of their own.
+    // Layers include the ghosts along y, so corners need no messages of their own.
     threads.run(|| {
         layout.fill_layers(&mut population.starts, 1, Some(&none));
         layout.fill_layers(&mut population.ends, 1, Some(&none));
@@ -45,14 +45,15 @@ fn exchange_along(
     Ok(())
 }
 
-/// The faces across an axis beyond which the part sees another one.
+/// The faces across an axis beyond which this part sees another one.
 pub(crate) fn faces(layout: &Layout, axis: usize) -> Vec<Face> {
     let borders = layout.borders();
     let seen = |face: &Face| borders[*face] && layout.reach()[axis] > 0;
     Face::ALONG[axis].into_iter().filter(seen).collect()
 }
 
-/// For each cell that another part sees how many items it has, and each with its label and its fields.
+/// The message for another part: for each visible cell the number of items, then for each item the label and
+/// the fields.
 fn pack(population: &Population, layout: &Layout, face: Face) -> Vec<u8> {
     let mut bytes = Vec::new();
     for cell in layout.lines_at(face, false).flat_map(|line| layout.cells_of_line(line)) {
@@ -87,7 +88,7 @@ fn unpack(
     if rest.is_empty() { Ok(()) } else { Err(mismatch()) }
 }
 
-/// Takes the items of other parts away. Nothing that moves items knows of them.
+/// Removes the ghosts. Code that moves items never meets them.
 pub(crate) fn clear(population: &mut Population, layout: &Layout) {
     population.truncate();
     for face in [1, 2].into_iter().flat_map(|axis| faces(layout, axis)) {
@@ -107,7 +108,7 @@ pub(crate) fn pack_item(population: &Population, place: usize, bytes: &mut Vec<u
     }
 }
 
-/// Adds an item after all places of a population. Gives its place and its label.
+/// Adds an item after all places of a population. Returns its place and its label.
 pub(crate) fn unpack_item(
     population: &mut Population,
     rest: &mut &[u8],
@@ -124,14 +125,14 @@ pub(crate) fn number(rest: &mut &[u8]) -> Result<u32, EngineFailure> {
     Ok(bytemuck::pod_read_unaligned(bytes))
 }
 
-/// Takes so many bytes from the front.
+/// Takes `size` bytes from the front.
 pub(crate) fn take<'a>(rest: &mut &'a [u8], size: usize) -> Result<&'a [u8], EngineFailure> {
     let (bytes, after) = rest.split_at_checked(size).ok_or_else(mismatch)?;
     *rest = after;
     Ok(bytes)
 }
 
-/// A message of another length than this part expects.
+/// A message of unexpected length.
 pub(crate) fn mismatch() -> EngineFailure {
     let reason = "another part of the space has sent an edge of another size".to_owned();
     EngineFailure::Broken { engine: "cpu".to_owned(), reason }

@@ -14,7 +14,7 @@ pub(crate) enum Group {
     Population(Population),
 }
 
-/// The population, of a group that is one.
+/// The population of a group, if it is one.
 pub(crate) fn population(group: &Group) -> Option<&Population> {
     match group {
         Group::Population(population) => Some(population),
@@ -22,7 +22,7 @@ pub(crate) fn population(group: &Group) -> Option<&Population> {
     }
 }
 
-/// The groups of a model, before they have any values.
+/// The groups of a model, without values.
 pub(crate) fn groups(model: &Model, layout: &Layout, precision: Precision, skin: Option<f64>) -> Vec<Group> {
     let mut buffers = 0..;
     let group = |(number, group): (usize, &Definition)| {

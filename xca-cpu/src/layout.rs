@@ -1,4 +1,4 @@
-//! Where cells lie in memory: rows along x, with a halo around the space, or around a part of it.
+//! The layout of cells in memory: rows along x, with a halo around the space or around a part of it.
 
 use crate::wavefront::Lag;
 use rayon::prelude::*;
@@ -6,35 +6,35 @@ use std::ops::Range;
 use xca_core::engine::Part;
 use xca_core::{Boundary, Face, Faces, Geometry, Parity};
 
-/// The bytes that are worth a thread's start when a halo is filled.
+/// The least number of bytes of a halo that is worth the start of a thread.
 const BYTES_WORTH_A_START: usize = 1 << 15;
 
 /// The padded space, or a padded part of it. Its rows are numbered from 0.
 #[derive(Debug, Clone)]
 pub(crate) struct Layout {
     extents: [usize; 3],
-    /// The indices y and z, in the whole space, of the first row.
+    /// The indices y and z of the first row in the whole space.
     start: [usize; 2],
-    /// The rows of the whole space along y.
+    /// The number of rows of the whole space along y.
     height: usize,
     reach: [usize; 3],
     padded: [usize; 3],
-    /// The cells before the first line, so that the first cell of each row is aligned.
+    /// The number of cells before the first line. It aligns the first cell of each row.
     lead: usize,
-    /// The cells of a plane are a multiple of this, as those of a line, and as what stands before a row.
+    /// The sizes of planes and lines, and the cells before a row, are multiples of this.
     alignment: usize,
     boundaries: Faces<Boundary>,
-    /// The faces beyond which the halo is filled by other parts.
+    /// The faces at which other parts fill the halo.
     borders: Faces<bool>,
 }
 
-/// What a halo cell shows along an axis.
+/// The source of a halo cell along an axis.
 enum Source {
     /// A cell of another part.
     Part,
     /// The cell with this padded index.
     Cell(usize),
-    /// What lies beyond a flat face.
+    /// The outside value of a flat face.
     Outside(Face),
 }
 
@@ -61,12 +61,12 @@ impl Layout {
         }
     }
 
-    /// The faces beyond which the halo is filled by other parts.
+    /// The faces at which other parts fill the halo.
     pub(crate) fn borders(&self) -> Faces<bool> {
         self.borders
     }
 
-    /// The number of padded cells, unless that overflows.
+    /// The number of padded cells. `None` if it overflows.
     pub(crate) fn checked_cells(&self) -> Option<usize> {
         let lines = self.padded.iter().try_fold(1_usize, |cells, &extent| cells.checked_mul(extent))?;
         lines.checked_add(self.lead)?.checked_next_multiple_of(self.alignment)
@@ -82,12 +82,12 @@ impl Layout {
         [self.padded[0] as isize, (self.padded[0] * self.padded[1]) as isize]
     }
 
-    /// How far the neighbourhood reaches along x, y, z.
+    /// The reach of the neighbourhood along x, y, z.
     pub(crate) fn reach(&self) -> [usize; 3] {
         self.reach
     }
 
-    /// The distances in padded cells from a row to those that the box of the neighbourhood holds, in order.
+    /// The distances in padded cells from a row to all rows in the box of the neighbourhood, in order.
     pub(crate) fn rows_in_reach(&self) -> impl Iterator<Item = isize> {
         let [line, layer] = self.steps();
         let [_, along, up] = self.reach.map(|reach| reach as isize);
@@ -109,7 +109,7 @@ impl Layout {
         [row % self.extents[1], row / self.extents[1]]
     }
 
-    /// The indices of the first cell of a row in the whole space.
+    /// The indices in the whole space of the first cell of a row.
     pub(crate) fn origin(&self, row: usize) -> [usize; 3] {
         let [y, z] = self.row(row);
         [0, self.start[0] + y, self.start[1] + z]
@@ -128,8 +128,8 @@ impl Layout {
         z * self.extents[1] + y
     }
 
-    /// The rows from which an item that goes to the next cell comes into a row: itself, and those beside it
-    /// along y and z, also round a torus.
+    /// The rows from which an item can enter a row by moving to the next cell. These are the row itself, and
+    /// the rows beside it along y and z, including those across a toroidal face.
     pub(crate) fn rows_beside(&self, row: usize) -> impl Iterator<Item = usize> {
         let [_, height, depth] = self.extents;
         let [y, z] = self.row(row);
@@ -139,14 +139,14 @@ impl Layout {
         layers.into_iter().flat_map(move |z| beside(y, height).map(|y| z * height + y))
     }
 
-    /// The rows from which a row is seen: itself, and those within reach along y and z, also round a torus. A
-    /// row may come twice.
+    /// The rows that see a row: the row itself, and all rows within reach along y and z, including those
+    /// across toroidal faces. A row may be listed twice.
     pub(crate) fn rows_around(&self, row: usize) -> impl Iterator<Item = usize> {
         self.rows_that_see(self.row(row).map(|index| index as isize))
     }
 
-    /// The rows from which the row with these indices y and z in the part, or in its halo, is seen. A row may
-    /// come twice.
+    /// The rows that see the row with these indices y and z in the part or in its halo. A row may be listed
+    /// twice.
     pub(crate) fn rows_that_see(&self, [y, z]: [isize; 2]) -> impl Iterator<Item = usize> {
         let height = self.extents[1];
         let along = move |axis: usize, index: isize| {
@@ -162,7 +162,7 @@ impl Layout {
         along(2, z).flat_map(move |z| along(1, y).map(move |y| z * height + y))
     }
 
-    /// How far a pass has to be behind the one before; nothing where the halo is wider than the space.
+    /// The distance that a pass must keep from the previous pass. `None` if the halo is wider than the space.
     pub(crate) fn lag(&self) -> Option<Lag> {
         let [_, height, depth] = self.extents;
         let [_, along, up] = self.reach;
@@ -174,7 +174,7 @@ impl Layout {
             return Some(Lag { layers: along, is_ring: along > 0 && is_ring(1), ..Lag::NONE });
         }
         if up == 0 {
-            // Round a torus along y the first rows of a layer see its last ones.
+            // On a torus along y, the first rows of a layer see its last rows.
             let layers = if along > 0 && is_ring(1) { height - 1 } else { along };
             return Some(Lag { layers, ..Lag::NONE });
         }
@@ -182,7 +182,7 @@ impl Layout {
         Some(Lag { layer: height, layers: up, is_ring: is_ring(2), along })
     }
 
-    /// The indices y and z in the part of those lines of the halo that show a row.
+    /// The indices y and z in the part of the halo lines that repeat a row.
     pub(crate) fn images(&self, row: usize) -> impl Iterator<Item = [isize; 2]> {
         let [y, z] = self.row(row);
         let images = move |axis: usize, index: usize| {
@@ -196,28 +196,28 @@ impl Layout {
         images(2, z).flat_map(move |z| images(1, y).map(move |y| [y, z])).skip(1)
     }
 
-    /// The padded number of a row's first cell.
+    /// The padded index of a row's first cell.
     pub(crate) fn first(&self, row: usize) -> usize {
         let [y, z] = self.row(row);
         self.first_at(y, z)
     }
 
-    /// The padded number of the first cell of the row with these indices.
+    /// The padded index of the first cell of the row with these indices.
     pub(crate) fn first_at(&self, y: usize, z: usize) -> usize {
         let line = (z + self.reach[2]) * self.padded[1] + y + self.reach[1];
         self.lead + line * self.padded[0] + self.reach[0]
     }
 
-    /// The padded number of the cell with this linear index in the whole space.
+    /// The padded index of the cell with this linear index in the whole space.
     pub(crate) fn padded(&self, cell: usize) -> usize {
         let row = cell / self.extents[0];
         let (y, z) = (row % self.height - self.start[0], row / self.height - self.start[1]);
         self.first_at(y, z) + cell % self.extents[0]
     }
 
-    /// The padded lines that another part sees across a face, or with `beyond` those of the part beyond it
-    /// that are seen from here. A line is given by its indices y and z in the part. Along z lines of the halo
-    /// along y are among them.
+    /// The padded lines that another part sees across a face. With `beyond`, the lines of that part that are
+    /// seen from here. A line is given by its indices y and z in the part. Along z, the lines include the
+    /// halo along y.
     pub(crate) fn lines_at(&self, face: Face, beyond: bool) -> impl Iterator<Item = [isize; 2]> {
         let axis = face.axis();
         let (reach, extent) =
@@ -240,13 +240,13 @@ impl Layout {
         start..start + self.extents[0]
     }
 
-    /// Fills the halo along x of a line.
+    /// Fills the halo of a line along x.
     pub(crate) fn fill_line<T: Copy>(&self, plane: &mut [T], line: [isize; 2], outside: &Faces<Vec<T>>) {
         let cells = self.line(line);
         self.fill_along(0, &mut plane[cells], 1, Some(outside));
     }
 
-    /// The padded cells of a line, which may lie in the halo.
+    /// The padded cells of a line, which may be in the halo.
     pub(crate) fn line(&self, [y, z]: [isize; 2]) -> Range<usize> {
         let [y, z] = [(1, y), (2, z)].map(|(axis, index)| (index + self.reach[axis] as isize) as usize);
         let start = self.lead + (z * self.padded[1] + y) * self.padded[0];
@@ -271,8 +271,8 @@ impl Layout {
         })
     }
 
-    /// Whether what lies in the halo follows what lies in the space: along x, where it continues each row,
-    /// and along y or z.
+    /// Whether the halo depends on the cells of the space: along x, where it continues rows, and along y or
+    /// z.
     pub(crate) fn halo_follows(&self) -> [bool; 2] {
         let follows = |face| self.boundaries[face] != Boundary::Flat || self.borders[face];
         let [x, y, z] =
@@ -280,8 +280,8 @@ impl Layout {
         [x, y || z]
     }
 
-    /// The cells that continue each row into the halo, where they follow the space: for each its place and
-    /// that of its source, counted from the row's first cell.
+    /// The halo cells that continue a row, if they depend on the space. For each cell, its index and that of
+    /// its source, counted from the row's first cell.
     pub(crate) fn continuation(&self) -> Vec<(isize, isize)> {
         let counted = |index: usize| index as isize - self.reach[0] as isize;
         let follows = |(target, source)| match source {
@@ -291,10 +291,10 @@ impl Layout {
         self.along(0).filter_map(follows).collect()
     }
 
-    /// Fills the halo of a plane with so many values a cell: by the boundary rules, and beyond flat faces
-    /// with their outside values, where these are given. Beyond several flat faces that of the last axis
-    /// stands, as it is filled last. Along x it does so unless the rows are `continued` already. What other
-    /// parts fill is left as it is.
+    /// Fills the halo of a plane with `values` values per cell, by the boundary rules. Beyond flat faces it
+    /// uses the outside values, if they are given. Beyond several flat faces the last axis counts, because it
+    /// is filled last. Skips the halo along x if the rows are `continued` already. Skips cells that other
+    /// parts fill.
     pub(crate) fn fill_halo<T: Copy + Send + Sync>(
         &self,
         plane: &mut [T],
@@ -306,7 +306,7 @@ impl Layout {
         self.fill_layers(plane, values, outside);
     }
 
-    /// Fills the halo along x, for the rows of the space, then whole rows along y.
+    /// Fills the halo along x for the rows of the space, then whole rows along y.
     pub(crate) fn fill_rows<T: Copy + Send + Sync>(
         &self,
         plane: &mut [T],
@@ -329,7 +329,7 @@ impl Layout {
         });
     }
 
-    /// Fills the halo along z, whole layers with their halo along x and y.
+    /// Fills the halo along z with whole layers, including their halo along x and y.
     pub(crate) fn fill_layers<T: Copy + Send + Sync>(
         &self,
         plane: &mut [T],
@@ -351,12 +351,12 @@ impl Layout {
         });
     }
 
-    /// The lines of a plane with so many values a cell, without what aligns them.
+    /// The lines of a plane with `values` values per cell, without the cells for alignment.
     fn lines<'a, T>(&self, plane: &'a mut [T], values: usize) -> &'a mut [T] {
         &mut plane[self.lead * values..][..self.padded.iter().product::<usize>() * values]
     }
 
-    /// Fills the halo along an axis, within parts that are one padded line of pieces of this length.
+    /// Fills the halo along an axis. `line` is one padded line of pieces of length `piece`.
     fn fill_along<T: Copy>(
         &self,
         axis: usize,
@@ -378,7 +378,7 @@ impl Layout {
         }
     }
 
-    /// The padded indices of the halo along an axis, each with what it shows.
+    /// The padded indices of the halo along an axis, each with its source.
     fn along(&self, axis: usize) -> impl Iterator<Item = (usize, Source)> {
         let (reach, extent) = (self.reach[axis], self.extents[axis]);
         (0..reach).chain(reach + extent..2 * reach + extent).map(move |target| {
@@ -396,14 +396,14 @@ impl Layout {
     }
 }
 
-/// The cells to which rows are aligned, a power of two: eight numbers of 64 bits fill a register or a line of
-/// the cache. Longer rows can have more, short ones would take much more memory.
+/// The alignment of rows in cells, a power of two. Eight numbers of 64 bits fill a register or a cache line.
+/// Long rows can have a larger alignment. In short rows it would waste much memory.
 fn alignment(width: usize) -> usize {
     let cells = (width / 16).clamp(1, 8).max(width / 64).min(64);
     1 << cells.ilog2()
 }
 
-/// How many pieces of so much work are worth a thread's start.
+/// The number of pieces with this work that are worth the start of a thread.
 fn worth<T>(work: usize) -> usize {
     (BYTES_WORTH_A_START / (work * size_of::<T>()).max(1)).max(1)
 }

@@ -1,14 +1,13 @@
 //! The parallel CPU engine.
 //!
-//! It runs the rows of the cellular space on all cores, with the same bits as the reference engine at any
-//! number of threads:
-//! - substates of cells are planes with a halo as wide as the neighbourhood, so that a neighbour is a
-//!   constant offset;
-//! - populations are compact: items are stored cell after cell, and empty rows cost nothing;
-//! - processes that do not disturb each other run together, row by row, while a row is in the processor's
-//!   cache;
-//! - steps with nothing between them follow each other at a distance of some rows, if that is faster;
-//! - a substate that is read at the centre only is written in place, any other is written to a second buffer.
+//! It runs the rows of the cellular space on all cores. The bits are those of the reference engine, at any
+//! number of threads.
+//! - Substates of cells are planes with a halo as wide as the neighbourhood. A neighbour is therefore a
+//!   constant offset.
+//! - Populations are compact: items are stored cell after cell, and empty rows cost nothing.
+//! - Processes that do not affect each other run together, row by row, while a row is in the cache.
+//! - Consecutive steps can follow each other at a distance of a few rows, if that is faster.
+//! - A substate that is read only at the centre is written in place. Any other is written to a second buffer.
 
 mod activity;
 mod blocks;
@@ -53,14 +52,14 @@ pub struct Cpu {
 }
 
 impl Cpu {
-    /// The most threads that an engine has; many more than cores only cost memory.
+    /// The largest number of threads. More threads than cores only cost memory.
     pub const MOST_THREADS: usize = 1024;
 
-    /// With one thread for each core that the process may use, or as many as the environment variable
-    /// `RAYON_NUM_THREADS` says.
+    /// Creates an engine with one thread for each available core. The environment variable
+    /// `RAYON_NUM_THREADS` overrides the number.
     ///
     /// # Errors
-    /// Where the variable asks for more than [`Cpu::MOST_THREADS`], and where the system does not start the
+    /// If the variable asks for more than [`Cpu::MOST_THREADS`] threads, or if the system cannot start the
     /// threads.
     pub fn new() -> Result<Self, CpuError> {
         let chosen = std::env::var("RAYON_NUM_THREADS").ok().and_then(|text| text.parse().ok());
@@ -73,10 +72,10 @@ impl Cpu {
         }
     }
 
-    /// With so many threads.
+    /// Creates an engine with this number of threads.
     ///
     /// # Errors
-    /// For 0 threads and more than [`Cpu::MOST_THREADS`], and where the system does not start the threads.
+    /// For 0 threads, for more than [`Cpu::MOST_THREADS`], and if the system cannot start the threads.
     pub fn with_threads(threads: usize) -> Result<Self, CpuError> {
         match threads {
             0 => return Err(CpuError::NoThreads),
@@ -91,16 +90,16 @@ impl Cpu {
         Ok(Self { own: Threads::new(pool), choices: Choices::default() })
     }
 
-    /// With lists of what is near that reach further than a search by so many of its radii, instead of by
-    /// what the engine finds best. For tests: it changes the time that a search takes, and no result.
+    /// Sets the skin of neighbour lists, in search radii, in place of the engine's choice. For tests: it
+    /// changes the time of a search, but no result.
     #[doc(hidden)]
     #[must_use]
     pub fn with_skin(self, radii: f64) -> Self {
         Self { choices: Choices { skin: Some(radii), ..self.choices }, ..self }
     }
 
-    /// With pieces of so many cells, at least one, which are left out where nothing can change, whether that
-    /// pays or not. For tests: it changes the time that a step takes, and no result.
+    /// Sets the number of cells in a tile, at least one. Tiles in which nothing can change are always
+    /// skipped. For tests: it changes the time of a step, but no result.
     #[doc(hidden)]
     #[must_use]
     pub fn with_tiles(self, cells: std::num::NonZeroUsize) -> Self {
@@ -108,23 +107,23 @@ impl Cpu {
         Self { choices: Choices { leave_out, ..self.choices }, ..self }
     }
 
-    /// With so many steps done together, at least one, where the space has room for them, instead of as many
-    /// as the engine finds best. For tests: it changes the time that a step takes, and no result.
+    /// Sets the number of steps done together, at least one, if the space has room for them. For tests: it
+    /// changes the time of a step, but no result.
     #[doc(hidden)]
     #[must_use]
     pub fn with_stride(self, steps: std::num::NonZeroU64) -> Self {
         Self { choices: Choices { stride: Some(steps.get()), ..self.choices }, ..self }
     }
 
-    /// With steps done together in columns of so many rows where the space allows columns. For tests: it
-    /// changes the time that a step takes, and no result.
+    /// Sets the number of rows in the columns for steps done together, if the space allows columns. For
+    /// tests: it changes the time of a step, but no result.
     #[doc(hidden)]
     #[must_use]
     pub fn with_columns(self, rows: std::num::NonZeroUsize) -> Self {
         Self { choices: Choices { column: Some(rows.get()), ..self.choices }, ..self }
     }
 
-    /// Works on all cells in each step. For benchmarks: it changes the time that a step takes, and no result.
+    /// Updates all cells in each step. For benchmarks: it changes the time of a step, but no result.
     #[doc(hidden)]
     #[must_use]
     pub fn without_tiles(self) -> Self {
@@ -138,24 +137,24 @@ impl fmt::Debug for Cpu {
     }
 }
 
-/// An engine that cannot be made.
+/// An engine that cannot be created.
 #[derive(Debug, thiserror::Error)]
 pub enum CpuError {
-    /// No thread at all.
+    /// The number of threads is 0.
     #[error("the cpu engine needs at least 1 thread")]
     NoThreads,
-    /// Threads without end.
+    /// The number of threads is too large.
     #[error("{threads} threads are too many for the cpu engine; take at most {}", Cpu::MOST_THREADS)]
     TooManyThreads {
-        /// How many were wanted.
+        /// The requested number.
         threads: usize,
     },
-    /// The system does not start the threads.
+    /// The system cannot start the threads.
     #[error("the cpu engine could not start {threads} threads")]
     Threads {
-        /// How many were wanted.
+        /// The requested number.
         threads: usize,
-        /// The system's reason.
+        /// The system's error.
         source: rayon::ThreadPoolBuildError,
     },
 }

@@ -1,4 +1,4 @@
-//! Making lists of what is near each item.
+//! Construction of neighbour lists.
 
 use crate::blocks::blocks;
 use crate::layout::Layout;
@@ -8,10 +8,10 @@ use std::ops::Range;
 use xca_core::Geometry;
 use xca_core::kernel::{Work, run};
 
-/// Items that are compared at a time.
+/// The number of items that are compared at a time.
 const LANES: usize = 8;
 
-/// Lists of some rows.
+/// The lists of some rows.
 #[derive(Default)]
 pub(crate) struct Listed {
     pub(crate) list: Vec<u32>,
@@ -19,9 +19,9 @@ pub(crate) struct Listed {
     pub(crate) ends: Vec<u32>,
 }
 
-/// Lists for each item the places of those nearer than `within` metres, and perhaps of some that are hardly
-/// further: for blocks of rows in order. No item may be so far outside of its cell, and nothing so near in a
-/// cell so far away, that the neighbourhood's box does not hold it.
+/// Lists for each item the places of all items nearer than `within` metres, and possibly of some that are
+/// slightly farther. Returns the lists of blocks of rows, in order. The box of the neighbourhood must hold
+/// all of these items: none may be too far outside its cell.
 pub(crate) fn make(
     population: &Population,
     layout: &Layout,
@@ -47,7 +47,7 @@ pub(crate) fn make(
     blocks.map(list).collect()
 }
 
-/// The positions in `f32`, an array for each axis, with as many more at the end as are read at a time.
+/// The positions in `f32`, as an array for each axis. Padding at the end allows reading [`LANES`] at a time.
 struct Planes {
     axes: [Vec<f32>; 3],
 }
@@ -62,7 +62,7 @@ impl Planes {
         Self { axes: [0, 1, 2].map(along) }
     }
 
-    /// Those from a place on, along an axis.
+    /// The values from a place on, along an axis.
     #[inline(always)]
     fn lanes(&self, axis: usize, first: usize) -> [f32; LANES] {
         let plane = &self.axes[axis][first..];
@@ -79,7 +79,7 @@ struct Maker<'a> {
     square: f32,
 }
 
-/// The lists of a row, made by the widest instructions of the processor.
+/// Makes the lists of a row with the widest instructions of the processor.
 struct OfRow<'a> {
     maker: &'a Maker<'a>,
     row: usize,
@@ -118,8 +118,8 @@ impl Maker<'_> {
         }
     }
 
-    /// The places of what is in the box around a cell: one range for each row, and in the halo one for each
-    /// cell.
+    /// The places of the items in the box around a cell: one range for each row, and one for each cell in the
+    /// halo.
     #[inline(always)]
     fn strips(&self, padded: usize, x: usize, strips: &mut Vec<Range<u32>>) {
         let Population { starts, ends, .. } = self.population;
@@ -136,7 +136,7 @@ impl Maker<'_> {
             };
             add(starts[row + low]..ends[row + high]);
             if self.periods[0].is_some() {
-                // The halo repeats cells of the row's other end.
+                // The halo repeats cells at the other end of the row.
                 let before = (x + 1..=reach).map(|step| row - (step - x));
                 let after = (width..=x + reach).map(|cell| row + cell);
                 before.chain(after).for_each(|cell| add(starts[cell]..ends[cell]));
@@ -144,7 +144,7 @@ impl Maker<'_> {
         }
     }
 
-    /// Adds those of a strip that are near.
+    /// Adds the near items of a strip.
     #[inline(always)]
     fn keep(&self, item: u32, strip: Range<u32>, list: &mut Vec<u32>) {
         let here = [0, 1, 2].map(|axis| self.planes.axes[axis][item as usize]);
@@ -161,7 +161,7 @@ impl Maker<'_> {
                     squares[lane] += way * way;
                 }
             }
-            // A byte for each, so that most often one comparison tells that there is none.
+            // One byte for each, so that usually one comparison shows that none is near.
             let near: [u8; LANES] = std::array::from_fn(|lane| u8::from(squares[lane] < self.square));
             let mut bits = u64::from_le_bytes(near);
             let count = (strip.end - first) as usize;

@@ -1,8 +1,8 @@
-//! Lists of what is near each item, kept over many passes.
+//! Neighbour lists of items, kept over many passes.
 //!
-//! They hold what was within a search's radius and a skin when they were made. While no two items have come
-//! closer by more than the skin, a search in them finds what a search in the cells finds, to the last item
-//! ([`Lists::radius`]). So they change time, and no result.
+//! A list holds all items within a search radius plus a skin at the time of its construction. As long as no
+//! two items have approached by more than the skin, searches in lists and in cells give the same result
+//! ([`Lists::radius`]). Lists change the time of a search, but no result.
 
 use crate::listing::Listed;
 use crate::motion::Motion;
@@ -10,45 +10,45 @@ use crate::population::Population;
 use xca_core::Geometry;
 use xca_core::kernel::{NO_PLACE, NearLists};
 
-/// For each item those that were near when the lists were made.
+/// The items that were near each item when the lists were made.
 pub(crate) struct Lists {
-    /// How near, in metres.
+    /// The radius at that time, in metres.
     made_within: f64,
-    /// For each number of an item its place.
+    /// The place of the item with each number.
     pub(crate) places: Vec<u32>,
     pub(crate) starts: Vec<u32>,
     pub(crate) candidates: Vec<u32>,
     pub(crate) owners: Vec<u32>,
-    /// How far all items have moved together, about, since then.
+    /// The approximate common motion of all items since then.
     pub(crate) drift: [f64; 3],
 }
 
-/// What a search may rely on.
+/// The limits for neighbour lists.
 pub(crate) struct Room {
-    /// How far apart items may be that lists can have, in metres.
+    /// The largest radius that lists can have, in metres.
     pub(crate) widest: f64,
-    /// What rounding can do to a distance, in metres.
+    /// The largest effect of rounding on a distance, in metres.
     pub(crate) rounding: f64,
 }
 
 impl Room {
-    /// `widest` is what the cells allow.
+    /// `widest` is the largest radius that the cells allow.
     pub(crate) fn new(widest: f64, geometry: &Geometry, motion: &Motion) -> Self {
         let extent = geometry.extents().into_iter().max().unwrap_or(0);
         let farthest = extent as f64 * geometry.side() + motion.slack;
-        // References are kept in f32, positions perhaps too; eight roundings are more than there are.
+        // References are stored in f32, and positions possibly too. Eight roundings are an upper limit.
         let rounding = 1e-6 * geometry.side() + 8.0 * f64::from(f32::EPSILON) * farthest;
         Self { widest, rounding }
     }
 }
 
 impl Lists {
-    /// Within which radius, in metres, a search can use the lists.
+    /// The largest radius, in metres, for which a search can use the lists.
     pub(crate) fn radius(&self, motion: &Motion, room: &Room) -> f64 {
         self.made_within - motion.approach() - room.rounding
     }
 
-    /// As kernels see them.
+    /// The lists, for kernels.
     pub(crate) fn view<'a>(&'a self, population: &'a Population, radius: f64) -> NearLists<'a> {
         NearLists {
             numbers: &population.items.numbers,
@@ -61,33 +61,33 @@ impl Lists {
         }
     }
 
-    /// The bytes that they take.
+    /// The size in bytes.
     pub(crate) fn memory(&self) -> usize {
         (self.places.capacity() + self.starts.capacity() + 2 * self.candidates.capacity()) * size_of::<u32>()
     }
 
-    /// Lets the items of a row be found where they are now.
+    /// Updates the places of the items of a row.
     pub(crate) fn moved(&mut self, numbers: &[u32], first: u32) {
         for (place, number) in (first..).zip(numbers) {
             self.places[*number as usize] = place;
         }
     }
 
-    /// An item has left the space.
+    /// Records that an item has left the space.
     pub(crate) fn left(&mut self, number: u32) {
         self.places[number as usize] = NO_PLACE;
     }
 }
 
 impl Population {
-    /// Does without lists.
+    /// Removes the lists.
     pub(crate) fn forget_lists(&mut self) {
         self.lists = None;
         self.items.numbers = Vec::new();
         self.items.references = Vec::new();
     }
 
-    /// Keeps what has been listed, for all rows in order; not where there is too much to be counted.
+    /// Stores lists of all rows in order. Returns `false` if there are too many entries.
     pub(crate) fn keep_lists(&mut self, listed: &[Listed], made_within: f64) -> bool {
         let places = self.items.labels.len();
         let total: usize = listed.iter().map(|listed| listed.list.len()).sum();
@@ -95,7 +95,7 @@ impl Population {
             self.forget_lists();
             return false;
         }
-        // The numbers are the places that items have now; where none is, the list is empty.
+        // The current places become the numbers. A place without an item has an empty list.
         let mut starts = Vec::with_capacity(places + 1);
         let mut candidates = Vec::with_capacity(total);
         let mut owners = Vec::with_capacity(total);
@@ -103,7 +103,7 @@ impl Population {
         let mut occupied = self.places().flatten();
         for Listed { list, ends } in listed {
             let before = candidates.len() as u32;
-            // In this order: a place is taken only where there is an end for it.
+            // The order matters: `zip` takes a place only if there is an end for it.
             for (length, place) in ends.iter().zip(occupied.by_ref()) {
                 starts.resize(place + 1, end);
                 end = before + length;

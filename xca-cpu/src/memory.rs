@@ -1,4 +1,4 @@
-//! The memory that a model takes, before anything is allocated.
+//! The memory of a model, computed before allocation.
 
 use crate::layout::Layout;
 use xca_core::engine::{StartError, SubstateId};
@@ -6,7 +6,7 @@ use xca_core::model::{Group, GroupKind};
 use xca_core::{Model, Precision, StoredType};
 
 /// # Errors
-/// Where the state takes more than any machine has.
+/// If the state is larger than the memory of any machine.
 pub(crate) fn check_size(model: &Model, layout: &Layout, precision: Precision) -> Result<(), StartError> {
     let too_large = |what: &str, wanted: u128, limit: u128| StartError::TooLarge {
         engine: "cpu".to_owned(),
@@ -19,8 +19,8 @@ pub(crate) fn check_size(model: &Model, layout: &Layout, precision: Precision) -
     if bytes > 1 << 45 { Err(too_large("the bytes of the state", bytes, 1 << 45)) } else { Ok(()) }
 }
 
-/// The bytes of a model without items: planes, some of them twice, and the ranges of the cells' and rows'
-/// items.
+/// The size of a model without items, in bytes: planes, some of them doubled, and the item ranges of cells
+/// and rows.
 pub(crate) fn least_memory(model: &Model, layout: &Layout, precision: Precision) -> u128 {
     let is_population = |group: &&Group| matches!(group.kind(), GroupKind::Population { .. });
     let rows = model.groups().iter().filter(is_population).count() * layout.rows() * 2 * size_of::<u32>();
@@ -28,7 +28,7 @@ pub(crate) fn least_memory(model: &Model, layout: &Layout, precision: Precision)
     cells * bytes_per_cell(model, precision) as u128 + rows as u128
 }
 
-/// What each padded cell takes of them.
+/// The bytes per padded cell.
 pub(crate) fn bytes_per_cell(model: &Model, precision: Precision) -> usize {
     let of_field = |group: usize, (field, stored): (usize, StoredType)| {
         let planes = if model.plan().is_doubled(SubstateId { group, field }) { 2 } else { 1 };

@@ -1,8 +1,8 @@
-//! Migration: moves the items that change their cell, and keeps all others in order.
+//! Migration: moves items that change their cell, and keeps all others in order.
 //!
-//! Few items move in a step. A row that none enters or leaves stays as it is; the items of any other row are
-//! merged by label, in their own room. Such rows are independent once what comes into them has been taken out
-//! of where it was.
+//! Few items move in a step. A row stays as it is if no item enters or leaves it. The items of any other row
+//! are merged by label, within the room of the row. The values of arriving items are copied out first. After
+//! that the rows are independent.
 
 use crate::layout::Layout;
 use crate::motion::{largest, outside};
@@ -13,20 +13,20 @@ use xca_core::engine::Fault;
 use xca_core::kernel::{NOWHERE, OUTSIDE};
 use xca_core::{Geometry, Process};
 
-/// Rows that are worth a thread's start.
+/// The number of rows that are worth the start of a thread.
 const ROWS_WORTH_A_START: usize = 16;
 
-/// An item on its way into a cell.
+/// An item that enters a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Arrival {
     pub(crate) cell: u32,
     pub(crate) label: u32,
-    /// Its place before, in the row of the cell that it leaves.
+    /// Its previous place, in the row of the cell that it leaves.
     pub(crate) item: u32,
     pub(crate) from: u32,
 }
 
-/// Moves items; `movers` are in the order of items.
+/// Moves items. `movers` are in the order of items.
 pub(crate) fn migrate(
     population: &mut Population,
     layout: &Layout,
@@ -45,7 +45,7 @@ pub(crate) fn migrate(
     Ok(())
 }
 
-/// Moves items that have been checked. What arrives from elsewhere stands after all places.
+/// Moves items after all checks. Items from other parts are stored after all places.
 pub(crate) fn settle(
     population: &mut Population,
     layout: &Layout,
@@ -66,7 +66,7 @@ pub(crate) fn settle(
         let left = movers.iter().filter(|mover| mover.answer == OUTSIDE);
         left.for_each(|mover| lists.left(population.items.numbers[mover.item as usize]));
     }
-    // What stays has been measured where it is.
+    // The items that stay have been measured in place.
     if let Some(motion) = &mut population.motion {
         motion.slack = slack;
     }
@@ -75,7 +75,7 @@ pub(crate) fn settle(
     population.fill_halo(layout);
 }
 
-/// Checks where the movers go, and counts those that leave.
+/// Checks the destinations of the movers, and counts those that leave.
 pub(crate) fn arrivals(
     population: &Population,
     geometry: &Geometry,
@@ -104,7 +104,7 @@ pub(crate) fn arrivals(
     Ok((arrivals, left))
 }
 
-/// Whether all cells that items enter have slots for them.
+/// Checks that all entered cells have enough slots.
 pub(crate) fn check_slots(
     population: &Population,
     layout: &Layout,
@@ -127,7 +127,7 @@ pub(crate) fn check_slots(
     Ok(())
 }
 
-/// The slack of all items, those that move being in their new cells.
+/// The slack of all items, with the movers in their new cells.
 fn slack(population: &Population, geometry: &Geometry, arrivals: &[Arrival]) -> f64 {
     let stay = population.motion.map_or(0.0, |motion| motion.slack);
     arrivals.iter().fold(stay, |slack, arrival| {
@@ -137,7 +137,8 @@ fn slack(population: &Population, geometry: &Geometry, arrivals: &[Arrival]) -> 
     })
 }
 
-/// How many items each row has, or will have if these are more, where one of them has no room for so many.
+/// The number of items of each row, now or after the migration, whichever is larger. `None` if all rows have
+/// enough room.
 fn counts_without_room(
     population: &Population,
     layout: &Layout,
@@ -170,12 +171,12 @@ fn counts_without_room(
     Some(counts)
 }
 
-/// What changes in a row.
+/// The changes in a row.
 struct Change<'a> {
     row: usize,
     leaving: &'a [Mover],
     coming: &'a [Arrival],
-    /// How many come into rows before.
+    /// The number of items that enter earlier rows.
     carried: usize,
 }
 
@@ -196,7 +197,7 @@ fn changes<'a>(layout: &Layout, movers: &'a [Mover], arrivals: &'a [Arrival]) ->
     }
 }
 
-/// The values of those that come, array by array.
+/// The values of the arriving items, array by array.
 fn carried(population: &mut Population, arrivals: &[Arrival]) -> Vec<Vec<u8>> {
     let take = |values: Values<'_>| {
         let mut taken = Vec::with_capacity(arrivals.len() * values.size);
@@ -216,7 +217,7 @@ fn carried(population: &mut Population, arrivals: &[Arrival]) -> Vec<Vec<u8>> {
 /// Makes the changes, in parallel over blocks of rows.
 fn change(population: &mut Population, layout: &Layout, changes: &[Change<'_>], carried: &[Vec<u8>]) {
     let Population { types, items, starts, ends, rows, row_ends, .. } = population;
-    // What a block writes is cut off from what the blocks after it write.
+    // Splits the arrays, so that each block has the part that it writes.
     let mut values = items.values(types);
     let (mut starts, mut ends) = (starts.as_mut_slice(), ends.as_mut_slice());
     let mut row_ends = row_ends.as_mut_slice();
@@ -257,7 +258,7 @@ fn split_off<'a, T>(rest: &mut &'a mut [T], length: usize) -> &'a mut [T] {
     part
 }
 
-/// Where values of a changed row come from, so many one after the other.
+/// The source of consecutive values of a changed row.
 #[derive(Clone, Copy)]
 struct Span {
     origin: Origin,
@@ -269,14 +270,14 @@ struct Span {
 enum Origin {
     /// Places of the row.
     Here,
-    /// What is carried.
+    /// The values of arriving items.
     Carried,
 }
 
-/// Rows, with what is written for them.
+/// Some rows, and the memory to write for them.
 struct Part<'a> {
     changes: &'a [Change<'a>],
-    /// Of each array.
+    /// The values of arriving items, for each array.
     carried: &'a [Vec<u8>],
     layout: &'a Layout,
     rows: &'a [u32],
@@ -284,7 +285,7 @@ struct Part<'a> {
     starts: &'a mut [u32],
     ends: &'a mut [u32],
     row_ends: &'a mut [u32],
-    /// The padded number of the first cell of `starts` and `ends`.
+    /// The padded index of the first cell of `starts` and `ends`.
     first_cell: usize,
     /// The first place of the values.
     first_place: usize,
@@ -313,8 +314,8 @@ impl Part<'_> {
         }
     }
 
-    /// Merges those that stay and those that come, by cell and label, and sets the cells' ranges. The result
-    /// is the first place that can change; from there on are the `spans`.
+    /// Merges the staying and the arriving items of a row by cell and label, and sets the ranges of the
+    /// cells. Returns the first place that can change. The values from there on come from `spans`.
     fn merge(&mut self, change: &Change<'_>, spans: &mut Vec<Span>) -> u32 {
         let (mut leaving, mut coming) = (change.leaving, change.coming);
         let width = self.layout.width();
@@ -331,7 +332,7 @@ impl Part<'_> {
                 first_place = Some(end);
             }
             if x < next {
-                // Cells whose items only move along.
+                // Cells whose items only shift.
                 let old = self.starts[padded + x]..self.ends[padded + next - 1];
                 let shift = end.wrapping_sub(old.start);
                 let count = old.end - old.start;
@@ -341,7 +342,7 @@ impl Part<'_> {
                         *range = range.wrapping_add(shift);
                     }
                 }
-                // At the end of a row nothing has to be copied to where it is.
+                // At the end of a row, unshifted values need no copy.
                 if shift != 0 || next < width {
                     push(spans, Origin::Here, old.start, count);
                 }
@@ -381,7 +382,7 @@ impl Part<'_> {
     }
 }
 
-/// Adds values, as a part of the span before if they follow it.
+/// Adds values. Extends the previous span if they follow it.
 fn push(spans: &mut Vec<Span>, origin: Origin, first: u32, count: u32) {
     match spans.last_mut() {
         _ if count == 0 => {}

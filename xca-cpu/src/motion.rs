@@ -1,5 +1,4 @@
-//! How far items are outside their cells, and how far they have moved against each other since lists of them
-//! were made.
+//! The distance of items from their cells, and their relative motion since neighbour lists were made.
 
 use crate::blocks::blocks;
 use crate::layout::Layout;
@@ -8,15 +7,15 @@ use rayon::prelude::*;
 use xca_core::kernel::{self, STAY, Work};
 use xca_core::{Geometry, StoredScalar};
 
-/// Of some items. A measure is NaN where a position is no number.
+/// Measures of some items. A measure is NaN if a position is NaN.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Motion {
-    /// The largest distance along an axis, in metres, by which an item is outside its cell.
+    /// The largest distance in metres, along an axis, of an item from its cell.
     pub(crate) slack: f64,
-    /// The square of the largest distance, in metres, of an item from where it would be if all had moved
-    /// alike.
+    /// The square of the largest distance in metres between an item and its place under the common motion
+    /// alone.
     pub(crate) square: f64,
-    /// The least and the greatest displacement along each axis, less the common one.
+    /// The smallest and largest displacements along each axis, minus the common one.
     pub(crate) low: [f64; 3],
     pub(crate) high: [f64; 3],
 }
@@ -25,18 +24,18 @@ impl Motion {
     pub(crate) const NONE: Self =
         Self { slack: 0.0, square: 0.0, low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
 
-    /// By how much two items have come closer at most, in metres. Two bounds: each is within a sphere around
-    /// the common motion, and within the box of all displacements. The sphere is the smaller one for motion
-    /// in all directions, the box while the common motion is not known.
+    /// An upper limit, in metres, of how much two items have approached each other. There are two limits: the
+    /// sphere around the common motion, and the box of all displacements. The sphere is smaller for motion in
+    /// all directions, the box while the common motion is unknown.
     pub(crate) fn approach(&self) -> f64 {
         let widths = [0, 1, 2].map(|axis| self.high[axis] - self.low[axis]);
         let box_ = widths.iter().map(|width| width * width).sum::<f64>().sqrt();
         let sphere = 2.0 * self.square.sqrt();
-        // NaN stays.
+        // Keeps NaN.
         if box_ < sphere { box_ } else { sphere }
     }
 
-    /// That of the items of both.
+    /// The measures of both sets of items.
     pub(crate) fn and(self, other: Self) -> Self {
         Self {
             slack: largest(self.slack, other.slack),
@@ -47,12 +46,12 @@ impl Motion {
     }
 }
 
-/// The larger one, or NaN where one of them is.
+/// The larger number, or NaN if one is NaN.
 pub(crate) fn largest(a: f64, b: f64) -> f64 {
     if b <= a || a.is_nan() { a } else { b }
 }
 
-/// Of all items of a population.
+/// The measures of all items of a population.
 pub(crate) fn measure(population: &Population, layout: &Layout, geometry: &Geometry) -> Motion {
     let blocks = blocks(layout, &[population], rayon::current_num_threads()).into_par_iter().with_max_len(1);
     let of_block = |rows: std::ops::Range<usize>| {
@@ -69,8 +68,8 @@ pub(crate) fn measure(population: &Population, layout: &Layout, geometry: &Geome
     blocks.map(of_block).reduce(|| Motion::NONE, Motion::and)
 }
 
-/// Of the items of a row, with their positions. With `answers` of a migration, the slack is that of those
-/// that stay.
+/// The measures of the items of a row with these positions. With `answers` of a migration, the slack is that
+/// of the staying items.
 pub(crate) fn measure_row(
     population: &Population,
     layout: &Layout,
@@ -97,7 +96,7 @@ pub(crate) fn measure_row(
     motion
 }
 
-/// How far a position is outside a cell.
+/// The distance of a position from a cell.
 pub(crate) fn outside(position: [f64; 3], cell: [usize; 3], side: f64) -> f64 {
     (0..3).fold(0.0, |most, axis| {
         let low = cell[axis] as f64 * side;
@@ -105,17 +104,17 @@ pub(crate) fn outside(position: [f64; 3], cell: [usize; 3], side: f64) -> f64 {
     })
 }
 
-/// A row, and what its items are measured against.
+/// A row, and the references of its items.
 struct Frame<'a> {
     cells: &'a [u32],
     answers: Option<&'a [u32]>,
     references: &'a [[f32; 3]],
     first_cell: u32,
     side: f64,
-    /// Along y and z.
+    /// The lower corner along y and z.
     low: [f64; 2],
     drift: [f64; 3],
-    /// The length of each toroidal axis, and of others infinity.
+    /// The length of each toroidal axis. Infinite for other axes.
     periods: [f64; 3],
 }
 
@@ -145,7 +144,7 @@ impl<'a> Frame<'a> {
         }
     }
 
-    /// The slack of those that stay, by axes: only that along x depends on the item's cell.
+    /// The slack of the staying items. Only the distance along x depends on the cell of an item.
     #[inline(always)]
     fn slack<T: Copy>(&self, positions: &[T], position: impl Fn(T) -> [f64; 3]) -> f64 {
         let mut slack: f64 = 0.0;
@@ -189,7 +188,7 @@ impl<'a> Frame<'a> {
     fn measure<T: Copy>(&self, positions: &[T], position: impl Fn(T) -> [f64; 3] + Copy) -> Motion {
         let mut motion = Motion { slack: self.slack(positions, position), ..Motion::NONE };
         self.moved(positions, position, &mut motion);
-        // Products with 0 are 0, but for what is no number and infinities.
+        // Products with 0 are 0, except for NaN and infinities.
         let mut nothing = [0.0; 3];
         for &place in positions {
             let now = position(place);
@@ -205,13 +204,13 @@ impl<'a> Frame<'a> {
     }
 }
 
-/// The larger one; of what is no number, either.
+/// The larger number. With NaN, either one.
 #[inline(always)]
 fn above(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 
-/// The measurement of a row, compiled for the processor.
+/// The measurement of a row, compiled for the processor's instructions.
 struct Measurement<'a, T, F> {
     frame: &'a Frame<'a>,
     positions: &'a [T],

@@ -1,39 +1,39 @@
-//! Whether it pays to leave out what is not due. Steps that work on all cells are timed, and steps that do
-//! not; the cheaper way goes on. Times decide what is worked on, and no result.
+//! Whether skipping cells pays. Steps on all cells and steps that skip cells are timed, and the faster kind
+//! continues. Times decide which cells are updated, but change no result.
 
 use std::time::Duration;
 
-/// Where more than this share of the cells is due, the rest is not worth a try.
+/// The largest share of due cells at which skipping is tried.
 const MOST_DUE: f64 = 0.8;
 
-/// How many steps work on all cells: before the first try, after the first one that failed, and at most.
+/// The numbers of steps on all cells: before the first try, after the first failed try, and at most.
 const PAUSES: [u64; 3] = [2, 64, 1024];
 
-/// The part of a new time in the mean of the latest ones.
+/// The weight of a new time in the moving average.
 const WEIGHT: f64 = 0.125;
 
-/// How many steps are a try.
+/// The number of steps in a try.
 const TRY: u64 = 4;
 
-/// Whether cells are left out.
+/// Whether cells are skipped.
 #[derive(Debug)]
 pub(crate) struct Pace {
-    /// Whether they always are, for tests.
+    /// Whether cells are always skipped, for tests.
     always: bool,
-    /// Steps to go in which all cells are worked on.
+    /// The number of remaining steps on all cells.
     pause: u64,
     next_pause: u64,
-    /// Steps since then.
+    /// The number of steps since then.
     tried: u64,
-    /// Seconds of a step for each of its cells: where all were worked on, and where some were left out.
+    /// Seconds per cell of a step: on all cells, and with skipped cells.
     whole: Option<f64>,
     part: Option<f64>,
 }
 
-/// A step that has ended.
+/// A finished step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Step {
-    /// The cells that it was for, each counted once a process.
+    /// The number of cells of the step, counted for each process.
     pub(crate) cells: u64,
     pub(crate) time: Duration,
 }
@@ -44,22 +44,22 @@ impl Pace {
         Self { always, pause, next_pause: PAUSES[1], tried: 0, whole: None, part: None }
     }
 
-    /// Whether the step leaves out what is not due.
+    /// Whether the step skips cells.
     pub(crate) fn is_on(&self) -> bool {
         self.pause == 0
     }
 
-    /// How many steps follow that leave out nothing.
+    /// The number of following steps that skip no cells.
     pub(crate) fn pause(&self) -> u64 {
         self.pause
     }
 
-    /// Whether the step is the first one after a pause, in which no one has seen what changed.
+    /// Whether the step is the first one after a pause, during which changes were not tracked.
     pub(crate) fn is_first(&self) -> bool {
         self.is_on() && self.tried == 0
     }
 
-    /// A step has ended. Whether the share of cells that is due is asked for, see [`Self::judge_share`].
+    /// Records a finished step. Returns whether the share of due cells is needed, see [`Self::judge_share`].
     pub(crate) fn ended(&mut self, step: Step) -> bool {
         if self.always {
             self.tried += 1;
@@ -68,7 +68,7 @@ impl Pace {
         let of_cell = step.time.as_secs_f64() / step.cells.max(1) as f64;
         let mean = |before: Option<f64>| before.map_or(of_cell, |mean| mean + WEIGHT * (of_cell - mean));
         if !self.is_on() {
-            // The first step of all meets memory that has never been touched.
+            // The very first step meets untouched memory, and is not timed.
             if self.pause < PAUSES[0] || self.whole.is_some() {
                 self.whole = Some(mean(self.whole));
             }
@@ -88,7 +88,7 @@ impl Pace {
         false
     }
 
-    /// After a step that followed all changes: so many of the cells are due.
+    /// Judges by the share of due cells, after a step that tracked all changes.
     pub(crate) fn judge_share(&mut self, due: f64) {
         if due > MOST_DUE {
             self.judge(false);
@@ -111,8 +111,8 @@ mod tests {
     use super::{PAUSES, Pace, Step};
     use std::time::Duration;
 
-    /// The numbers of those of so many steps that leave cells out, where such a step takes so many times what
-    /// one takes that does not, and this share is due.
+    /// The indices of the steps that skip cells, out of `count`. Such a step takes `times` times as long as a
+    /// step on all cells. `due` is the share of due cells.
     fn steps(count: u64, times: f64, due: f64) -> Vec<u64> {
         let mut pace = Pace::new(false);
         let mut left_out = Vec::new();

@@ -1,8 +1,7 @@
-//! Populations: items stored one after the other, row after row, in a row cell after cell, in a cell by
-//! label.
+//! Populations: items stored contiguously, sorted by row, then cell, then label.
 //!
-//! Each row has some room after its last item. So an item that changes its cell moves the items of two rows
-//! and no others; only where a row has no room left, all are moved, to get room again
+//! Each row has some room after its last item. An item that changes its cell therefore moves only the items
+//! of two rows. If a row has no room left, all items are moved to make room again
 //! ([`Population::make_room`]).
 
 use crate::layout::Layout;
@@ -16,11 +15,11 @@ use xca_core::model::{Group as Definition, GroupKind};
 use xca_core::storage::Buffer;
 use xca_core::{Precision, StoredScalar, StoredType};
 
-/// How many more items than it has a row has room for at least: few items come and go at once, but some row
-/// among many is always unlucky.
+/// The least room of a row for more items. Few items come and go at once, but among many rows some exceed the
+/// average.
 const LEAST_ROOM: u32 = 4;
 
-/// A row has one more place for so many items that it has.
+/// A row has one extra place for each of this many items.
 const ITEMS_WORTH_A_PLACE: u32 = 8;
 
 /// The items of one population.
@@ -29,44 +28,44 @@ pub(crate) struct Population {
     pub(crate) slots: usize,
     pub(crate) may_leave: bool,
     pub(crate) left: u64,
-    /// As long as all room.
+    /// The stored arrays, as long as the places of all rows.
     pub(crate) items: Arrays,
-    /// For a field that processes write and also read of other items: where they write it.
+    /// The second buffer of each field that processes write and also read from other items.
     pub(crate) next: Vec<Buffer>,
-    /// For each padded cell the place of its first item, also where it has none; in the halo, that of the
-    /// cell that it stands for.
+    /// The place of the first item of each padded cell, even of an empty one. In the halo, that of the cell
+    /// that it repeats.
     pub(crate) starts: Vec<u32>,
-    /// For each padded cell one past its last item.
+    /// One past the last item of each padded cell.
     pub(crate) ends: Vec<u32>,
-    /// For each row of the space the place of its first item, and at the end the number of places.
+    /// The place of the first item of each row of the space, then the number of places.
     pub(crate) rows: Vec<u32>,
-    /// For each row one past its last item; from there on is room.
+    /// One past the last item of each row. Room begins there.
     pub(crate) row_ends: Vec<u32>,
-    /// The field that is the position.
+    /// The index of the position field.
     pub(crate) position: Option<usize>,
-    /// What has been measured of the positions and cells that items have now.
+    /// The measures of the current positions and cells, if there are any.
     pub(crate) motion: Option<Motion>,
-    /// Whether a process has searched in it.
+    /// Whether a process has searched the population.
     pub(crate) searched: bool,
-    /// Lists of what is near each item.
+    /// The neighbour lists.
     pub(crate) lists: Option<Lists>,
     pub(crate) upkeep: Upkeep,
 }
 
-/// What is stored of each item, by its place.
+/// The stored data of items, by place.
 #[derive(Default)]
 pub(crate) struct Arrays {
     pub(crate) labels: Vec<u32>,
     /// The linear indices of the items' cells.
     pub(crate) cells: Vec<u32>,
-    /// The numbers by which lists know the items; none without lists.
+    /// The numbers of the items in neighbour lists. Empty without lists.
     pub(crate) numbers: Vec<u32>,
-    /// Where the items were when the lists were made, in metres; none without lists.
+    /// The positions in metres when the lists were made. Empty without lists.
     pub(crate) references: Vec<[f32; 3]>,
     pub(crate) fields: Vec<Buffer>,
 }
 
-/// The values of an array as bytes, so many each.
+/// The values of an array as bytes, with the size of each.
 pub(crate) struct Values<'a> {
     pub(crate) size: usize,
     pub(crate) bytes: &'a mut [u8],
@@ -83,12 +82,12 @@ impl Arrays {
         }
     }
 
-    /// The number of the labels among [`Self::values`].
+    /// The index of the labels in [`Self::values`].
     pub(crate) const LABELS: usize = 0;
-    /// The number of the cells.
+    /// The index of the cells.
     pub(crate) const CELLS: usize = 1;
 
-    /// All arrays, to be moved; always in the same order.
+    /// All arrays, for moving items, always in the same order.
     pub(crate) fn values<'a>(&'a mut self, types: &[StoredType]) -> Vec<Values<'a>> {
         let numbers = [&mut self.labels, &mut self.cells, &mut self.numbers];
         let numbers = numbers.map(|values| Values { size: 4, bytes: bytemuck::cast_slice_mut(values) });
@@ -108,7 +107,7 @@ impl Arrays {
 }
 
 impl Population {
-    /// Without items.
+    /// A population without items.
     pub(crate) fn new(
         definition: &Definition,
         precision: Precision,
@@ -139,17 +138,17 @@ impl Population {
         }
     }
 
-    /// The places of the items of a row.
+    /// The range of places of the items of a row.
     pub(crate) fn row(&self, row: usize) -> (usize, usize) {
         (self.rows[row] as usize, self.row_ends[row] as usize)
     }
 
-    /// How many items a row has places for.
+    /// The number of places of a row.
     pub(crate) fn room(&self, row: usize) -> usize {
         (self.rows[row + 1] - self.rows[row]) as usize
     }
 
-    /// The places that have items, row after row.
+    /// The occupied places, row after row.
     pub(crate) fn places(&self) -> impl Iterator<Item = Range<usize>> + '_ {
         self.rows.iter().zip(&self.row_ends).map(|(first, end)| *first as usize..*end as usize)
     }
@@ -164,7 +163,7 @@ impl Population {
         (first..first + layout.width()).map(|cell| self.ends[cell] - self.starts[cell])
     }
 
-    /// The values of a field, without the room between them.
+    /// The values of a field, without the room between rows.
     pub(crate) fn read(&self, field: usize) -> Vec<u8> {
         let size = self.types[field].size();
         let bytes = self.items.fields[field].bytes();
@@ -175,7 +174,7 @@ impl Population {
         values
     }
 
-    /// Replaces the values of a field; there are as many as items.
+    /// Replaces the values of a field. There must be as many as items.
     pub(crate) fn write(&mut self, field: usize, mut values: &[u8]) {
         if Some(field) == self.position {
             self.motion = None;
@@ -194,7 +193,7 @@ impl Population {
         self.places().flat_map(|places| self.items.labels[places].iter().copied()).collect()
     }
 
-    /// Replaces all items; the counts fit the slots.
+    /// Replaces all items. The counts must fit the slots.
     pub(crate) fn set(&mut self, layout: &Layout, items: &Items) {
         let width = layout.width();
         let of_rows: Vec<u32> = items.counts.chunks_exact(width).map(|counts| counts.iter().sum()).collect();
@@ -223,8 +222,8 @@ impl Population {
         self.fill_halo(layout);
     }
 
-    /// Moves all items, so that each row has room for `counts` items and some more; gives for each row how
-    /// far its items have moved (wrapping).
+    /// Moves all items, so that each row has room for `counts` items and some more. Returns the shift of the
+    /// items of each row (wrapping).
     pub(crate) fn make_room(&mut self, layout: &Layout, counts: &[u32]) -> Vec<u32> {
         let rows = rows_with_room(layout, counts);
         let mut arrays = Arrays::new(&self.types, rows[layout.rows()] as usize);
@@ -258,7 +257,7 @@ impl Population {
         shifts
     }
 
-    /// Keeps what has been measured of all items, and expects them to move on together.
+    /// Stores the measures of all items, and adds the common motion to the drift of the lists.
     pub(crate) fn measured(&mut self, motion: Motion) {
         self.motion = Some(motion);
         if let Some(lists) = &mut self.lists
@@ -270,7 +269,7 @@ impl Population {
         }
     }
 
-    /// Lets the lists know where the items of a row are.
+    /// Updates the places of the items of a row in the lists.
     pub(crate) fn follow(&mut self, row: usize) {
         let (first, end) = self.row(row);
         if let Some(lists) = &mut self.lists {
@@ -278,7 +277,7 @@ impl Population {
         }
     }
 
-    /// The positions of all places, as lists refer to them.
+    /// The positions of all places, as references for lists.
     pub(crate) fn references(&self) -> Vec<[f32; 3]> {
         let Some(field) = self.position else { return Vec::new() };
         let bytes = self.items.fields[field].bytes();
@@ -301,7 +300,7 @@ impl Population {
         })
     }
 
-    /// Adds an item after all places; gives its place.
+    /// Adds an item after all places. Returns its place.
     pub(crate) fn push(&mut self, label: u32, fields: &[&[u8]]) -> u32 {
         let place = self.items.labels.len();
         self.items.labels.push(label);
@@ -313,7 +312,7 @@ impl Population {
         place as u32
     }
 
-    /// Takes away what stands after all places.
+    /// Removes the items after all places.
     pub(crate) fn truncate(&mut self) {
         let places = self.rows.last().map_or(0, |places| *places as usize);
         self.items.labels.truncate(places);
@@ -323,7 +322,7 @@ impl Population {
         }
     }
 
-    /// Lets the halo cells stand for the cells that they repeat.
+    /// Copies the ranges of the repeated cells to the halo.
     pub(crate) fn fill_halo(&mut self, layout: &Layout) {
         if layout.halo_follows().contains(&true) {
             let none = xca_core::Faces::all(vec![0]);
@@ -341,8 +340,8 @@ impl Population {
     }
 }
 
-/// The first places of rows with so many items, and at the end the number of places. A row far from all items
-/// needs no room: they come from cell to cell.
+/// The first places of rows with these counts, then the number of places. A row far from all items needs no
+/// room, because items move from cell to cell.
 fn rows_with_room(layout: &Layout, counts: &[u32]) -> Vec<u32> {
     let mut rows = Vec::with_capacity(counts.len() + 1);
     let mut place = 0;

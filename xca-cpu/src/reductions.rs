@@ -1,4 +1,4 @@
-//! Reductions of substates of cells. The results of rows are kept: a row that has not changed since is not
+//! Reductions of substates of cells. The results of rows are cached: a row that has not changed since is not
 //! reduced again.
 
 use crate::activity::Activity;
@@ -9,16 +9,16 @@ use xca_core::StoredType;
 use xca_core::engine::SubstateId;
 use xca_core::reduction::{Reduced, ReducedRows, Reduction, append_row};
 
-/// How many reductions are kept: more than a model's steering asks for in turns.
+/// The number of cached reductions, more than a model's steering usually alternates between.
 const MOST_KEPT: usize = 16;
 
-/// Rows that are worth the start of a thread.
+/// The number of rows that are worth the start of a thread.
 const ROWS_AT_ONCE: usize = 16;
 
-/// The results of the latest reductions.
+/// The cached results of recent reductions.
 #[derive(Default)]
 pub(crate) struct Reductions {
-    /// That which was asked for last comes last.
+    /// The most recently used is the last.
     kept: Vec<Kept>,
 }
 
@@ -26,7 +26,7 @@ pub(crate) struct Reductions {
 struct Kept {
     substate: SubstateId,
     reduction: Reduction,
-    /// When they were had.
+    /// The time of the results.
     time: u64,
     rows: Vec<Reduced>,
 }

@@ -1,8 +1,8 @@
 //! Passes over the rows, in parallel.
 //!
-//! The rows are split into pieces; each belongs to one thread at a time. How they are split, and how far a
-//! pass runs before the next one follows, changes nothing in the result: a row writes only what is its own,
-//! and faults are compared by pass, process and cell.
+//! The rows are split into pieces. Each belongs to one thread at a time. Neither the split nor the distance
+//! between passes changes a result. A row writes only its own values, and faults are compared by pass,
+//! process and cell.
 
 mod found;
 mod ground;
@@ -31,8 +31,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 use xca_core::Model;
 
-/// Runs a pass over the rows, with `activity` where its processes are due. The result is what the migration
-/// among them, if there is one, moves, in the order of items.
+/// Runs a pass over the rows. With `activity`, its processes run only where they are due. Returns the items
+/// that its migration moves, in the order of items.
 pub(crate) fn run(
     ground: Ground<'_>,
     groups: &mut [Group],
@@ -70,7 +70,7 @@ pub(crate) fn run(
     Ok(movers)
 }
 
-/// Runs passes over all rows, each in the wake of the one before; none of them may have to do with items.
+/// Runs passes over all rows, each in the wake of the previous one. None of them may involve items.
 pub(crate) fn run_in_wake(
     ground: Ground<'_>,
     groups: &mut [Group],
@@ -83,7 +83,7 @@ pub(crate) fn run_in_wake(
     conclude(groups, &ready, found).map(drop)
 }
 
-/// The rows, shared among the threads.
+/// The blocks of all rows for the threads.
 fn blocks_of_all(ground: Ground<'_>, groups: &[Group], processes: &[usize]) -> Vec<Range<usize>> {
     let populations = populations(ground.model, groups, processes);
     blocks(ground.layout, &populations, rayon::current_num_threads())
@@ -98,7 +98,7 @@ fn populations<'a>(model: &Model, groups: &'a [Group], processes: &[usize]) -> V
     numbers.into_iter().filter_map(|number| population(&groups[number])).collect()
 }
 
-/// Works on all pieces of all passes; the result is what each of the passes has found.
+/// Runs all pieces of all passes. Returns the findings of each pass.
 fn work(
     ground: Ground<'_>,
     groups: &[Group],
@@ -109,7 +109,7 @@ fn work(
     let offsets = ground.layout.offsets(ground.model.geometry());
     let passes: Vec<Pass<'_>> =
         ready.iter().map(|ready| Pass::new(ground, groups, ready, &offsets, followed)).collect();
-    // What follows a fault does not count, and may have nonsense to work on.
+    // Later passes do not count after a fault, and their input may be invalid.
     let faulty = AtomicUsize::new(usize::MAX);
     let piece = |piece: Piece| {
         let mut found: Vec<Found> = passes.iter().map(Pass::nothing).collect();
@@ -128,7 +128,7 @@ fn work(
     let start = Instant::now();
     let mut all: Vec<Found> = passes.iter().map(Pass::nothing).collect();
     for pieces in order.pieces() {
-        // Each piece can go to another thread.
+        // Each piece can run on another thread.
         let pieces = pieces.into_par_iter().with_max_len(1);
         let found: Vec<Vec<Found>> = pieces.map(piece).collect();
         for found in found {
@@ -140,7 +140,7 @@ fn work(
     all
 }
 
-/// Takes over what passes have found; the result is what the last of them moves.
+/// Stores the findings of the passes. Returns the items that the last pass moves.
 fn conclude(groups: &mut [Group], ready: &[Ready<'_>], found: Vec<Found>) -> Result<Vec<Mover>, FirstFault> {
     let mut movers = Vec::new();
     for (number, (ready, found)) in ready.iter().zip(found).enumerate() {

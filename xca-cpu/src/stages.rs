@@ -1,14 +1,15 @@
-//! Which processes run together, row by row.
+//! Stages: groups of processes that run together, row by row.
 //!
-//! Consecutive processes share a pass over the rows where no row can notice: none of them may read at
-//! neighbours (or of other items) what another of them writes. Then a row goes through all of them while it
-//! is in the processor's cache. A substate that one process both reads elsewhere and writes goes to a second
-//! buffer, which becomes the first after the pass: no other process of the pass may touch it.
+//! Consecutive processes share a pass over the rows if the result is the same. No process of the pass may
+//! read at neighbours (or from other items) what another one writes. A row then goes through all of them
+//! while it is in the cache. If one process both reads a substate elsewhere and writes it, it writes to a
+//! second buffer. The second buffer becomes the first after the pass, and no other process of the pass may
+//! use the substate.
 
 use xca_core::plan::ProcessPlan;
 use xca_core::{Model, ProcessKind};
 
-/// The numbers of processes that run together, in order.
+/// The indices of processes that run together, in order.
 pub(crate) type Stage = Vec<usize>;
 
 /// Splits processes into stages.
@@ -30,7 +31,7 @@ pub(crate) fn stages(model: &Model, processes: impl IntoIterator<Item = usize>) 
     stages
 }
 
-/// Whether two processes would notice that they run together.
+/// Whether running two processes together would change a result.
 fn disturb(earlier: &ProcessPlan, later: &ProcessPlan) -> bool {
     earlier.uses.iter().any(|one| {
         later.use_of(one.substate).is_some_and(|other| {

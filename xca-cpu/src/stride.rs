@@ -1,4 +1,5 @@
-//! How many steps are done together, each in the wake of the one before. Times decide, and change no result.
+//! The number of steps that are done together, each in the wake of the previous one. Times decide, and change
+//! no result.
 
 use crate::choices::Choices;
 use crate::layout::Layout;
@@ -8,61 +9,61 @@ use std::time::Duration;
 use xca_core::engine::Figure;
 use xca_core::{Model, Precision, Process, ProcessKind};
 
-/// The most steps that are done together: with more, what lies between the first and the last no longer fits
-/// in any cache.
+/// The largest number of steps done together. With more, the data between the first and the last step exceeds
+/// every cache.
 const MOST: u64 = 16;
 
-/// How often a number of steps is tried before it is judged.
+/// The number of tries before a number of steps is judged.
 const TRIES: u32 = 2;
 
-/// A number of steps has to take less than this part of the time of a smaller number.
+/// A number of steps must take less than this share of the time of a smaller number.
 const WORTH: f64 = 0.97;
 
-/// The bytes that a pass works on before the next one follows.
+/// The amount of data in bytes that a pass updates before the next one follows.
 const BYTES_PER_CHUNK: usize = 1 << 17;
 
-/// The bytes that all passes meet in a column before the first of them goes on: they should fit in a core's
-/// own cache.
+/// The amount of data in bytes that all passes use in a column before the first one continues. It should fit
+/// in the private cache of a core.
 const BYTES_PER_COLUMN: usize = 1 << 20;
 
-/// For how many steps the best number stays: at first, and at most.
+/// The numbers of steps for which the best number stays: at first, and at most.
 const HOLD: [u64; 2] = [256, 4096];
 
-/// Finds the number of steps that takes the least time.
+/// Finds the fastest number of steps.
 #[derive(Debug)]
 pub(crate) struct Stride {
-    /// Chosen by a test.
+    /// The number chosen by a test.
     fixed: Option<u64>,
-    /// The most that the space has room for.
+    /// The largest number that fits into the space.
     most: u64,
     lag: Lag,
     /// The rows of a column, chosen by a test.
     column: Option<usize>,
     bytes_per_row: usize,
-    /// The number that is tried or kept, and the shortest time of a step so far.
+    /// The current number, and its shortest time of a step so far.
     present: Timed,
-    /// The best number of those that are smaller.
+    /// The best of the smaller numbers.
     best: Option<Timed>,
-    /// How often the present number has been tried; nothing while it is kept.
+    /// The number of tries so far. `None` while the number is kept.
     tries: Option<u32>,
-    /// Steps to go before all numbers are tried again.
+    /// The number of steps before all numbers are tried again.
     hold: u64,
     next_hold: u64,
-    /// All steps that were done, and how often some were done together.
+    /// The number of all steps, and the number of leaps in which they were done.
     steps: u64,
     leaps: u64,
 }
 
-/// A number of steps that are done together.
+/// A number of steps done together, with its time.
 #[derive(Debug, Clone, Copy)]
 struct Timed {
     steps: u64,
-    /// Seconds of one step.
+    /// Seconds per step.
     seconds: f64,
 }
 
 impl Stride {
-    /// `stages` is how many passes a step has.
+    /// `stages` is the number of passes of a step.
     pub(crate) fn new(
         (model, layout, precision): (&Model, &Layout, Precision),
         stages: usize,
@@ -74,7 +75,7 @@ impl Stride {
             |process: &Process| process.kind == ProcessKind::Cells && process.population().is_none();
         let lag = layout.lag().filter(|_| model.processes().iter().all(is_over_cells));
         let most = lag.map_or(1, |lag| {
-            // A thread has to have more to do than what is left in the gaps between blocks.
+            // A thread must have more work than remains in the gaps between blocks.
             let blocks = if fixed.is_some() { 1 } else { 2 * threads };
             let layers = layout.rows() / lag.layer;
             let followers = layers.checked_div(2 * blocks * lag.layers).unwrap_or(usize::MAX);
@@ -96,7 +97,7 @@ impl Stride {
         }
     }
 
-    /// How so many passes follow each other.
+    /// The depth for this number of passes.
     pub(crate) fn depth(&self, passes: usize) -> Depth {
         let column = self.column(passes);
         let rows = column.unwrap_or(self.lag.layer);
@@ -105,25 +106,25 @@ impl Stride {
         Depth { passes, lag: self.lag, chunk, column }
     }
 
-    /// The rows of a column, where columns are worth it.
+    /// The rows of a column. `None` if columns do not pay.
     fn column(&self, passes: usize) -> Option<usize> {
         let along = self.lag.along?;
         if self.column.is_some() {
             return self.column;
         }
-        // Between the first pass and the last one, with what these see.
+        // The layers between the first and the last pass, and those that they see.
         let layers = (passes + 2) * self.lag.layers;
         let rows = BYTES_PER_COLUMN / (self.bytes_per_row * layers);
-        // The rows by which a column is shifted are met twice.
+        // The rows by which a column shifts are read twice.
         (rows < self.lag.layer && rows >= 2 * passes * along).then_some(rows)
     }
 
-    /// How many of the next steps are done together, where so many have nothing between them.
+    /// The number of steps to do together, if `free` steps have nothing between them.
     pub(crate) fn steps(&self, free: u64) -> u64 {
         self.fixed.unwrap_or(self.present.steps).min(self.most).min(free)
     }
 
-    /// Steps were done together, in this time.
+    /// Records the time of steps that were done together.
     pub(crate) fn took(&mut self, steps: u64, time: Duration) {
         self.steps += steps;
         self.leaps += 1;
@@ -146,13 +147,13 @@ impl Stride {
         }
     }
 
-    /// How many steps were done together, on the average.
+    /// The mean number of steps done together.
     pub(crate) fn figure(&self) -> Option<Figure> {
         let value = self.steps as f64 / self.leaps as f64;
         (self.steps > self.leaps).then(|| Figure { name: "steps_together".to_owned(), value })
     }
 
-    /// The present number has been tried often enough: tries the next one, or stays with the best.
+    /// Judges the current number after enough tries: tries the next number, or keeps the best.
     fn judge(&mut self) {
         let is_better = self.best.is_none_or(|best| self.present.seconds < WORTH * best.seconds);
         let next = 2 * self.present.steps;
@@ -197,8 +198,8 @@ mod tests {
         Stride::new((&model, &layout, Precision::F64), 1, threads, Choices::default())
     }
 
-    /// How many steps are done together, one leap after the other, where a step of so many together takes so
-    /// long.
+    /// The numbers of steps in consecutive leaps. `seconds` is the time of a step, by the number of steps
+    /// done together.
     fn leaps(stride: &mut Stride, count: usize, seconds: impl Fn(u64) -> f64) -> Vec<u64> {
         let mut leaps = Vec::new();
         for _ in 0..count {
@@ -247,12 +248,12 @@ mod tests {
             let of = (&model, &layout, Precision::F64);
             Stride::new(of, 1, 2, Choices::default()).depth(passes).column
         };
-        // Two buffers of 8 bytes a cell: 4 kB a row, and 6 or 10 layers.
+        // Two buffers of 8 bytes per cell: 4 kB a row, and 6 or 10 layers.
         assert_eq!(column([256; 3], Boundary::Flat, 4), Some(42));
         assert_eq!(column([256; 3], Boundary::Reflecting, 8), Some(25));
-        // What is shifted would be more than what is not.
+        // The shifted rows would outnumber the others.
         assert_eq!(column([256; 3], Boundary::Flat, 16), None);
-        // A whole layer fits; round a torus rows see each other from end to end.
+        // A whole layer fits. On a torus, rows see each other from end to end.
         assert_eq!(column([256, 40, 256], Boundary::Flat, 4), None);
         assert_eq!(column([256; 3], Boundary::Toroidal, 4), None);
     }

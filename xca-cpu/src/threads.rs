@@ -1,4 +1,4 @@
-//! The engine's own threads, and how work gets to them.
+//! The threads of the engine, and how they receive work.
 
 use rayon::ThreadPool;
 use std::fmt;
@@ -11,11 +11,11 @@ use xca_core::engine::Workers;
 #[derive(Clone)]
 pub(crate) struct Threads(Arc<ThreadPool>);
 
-/// Work on its way.
+/// Work in progress.
 enum Work<F, R> {
     Waiting(F),
     Done(R),
-    /// A panic has ended it.
+    /// A panic has ended the work.
     Lost,
 }
 
@@ -28,13 +28,12 @@ impl Threads {
         self.0.current_num_threads()
     }
 
-    /// Does the work on these threads, and waits for it. Parallel iterators run on the threads that they are
-    /// started on.
+    /// Does the work on these threads, and waits for it. Parallel iterators run on the threads that start
+    /// them.
     ///
-    /// A thread of another pool would do other work of that pool while it waits: a simulation inside of a
-    /// parallel iterator would begin the next simulation below itself, and the one after that, until all are
-    /// alive at once, each with the locks that it holds. So such a thread waits for a thread that no pool
-    /// knows.
+    /// A waiting thread of another pool would take other work of that pool. A simulation in a parallel
+    /// iterator would start the next simulation below itself, and so on. All would be alive at once, each
+    /// with its locks. Such a thread therefore waits for a thread outside all pools.
     pub(crate) fn run<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
         let is_foreign = rayon::current_thread_index().is_some() && self.0.current_thread_index().is_none();
         if !is_foreign {
@@ -47,7 +46,7 @@ impl Threads {
                     work = Work::Done(self.0.install(waiting));
                 }
             };
-            // Where the system starts no thread, the work still waits.
+            // If the system cannot start the thread, the work is still waiting.
             Builder::new().spawn_scoped(scope, go).map_or(Ok(()), thread::ScopedJoinHandle::join)
         });
         match (ended, work) {
@@ -83,7 +82,7 @@ mod tests {
         Threads::new(rayon::ThreadPoolBuilder::new().num_threads(number).build().unwrap())
     }
 
-    /// Members on a pool of two threads, each of which waits for threads of its own.
+    /// Members on a pool of two threads. Each waits for its own threads.
     #[test]
     fn a_thread_of_another_pool_does_nothing_else_while_it_waits() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().unwrap();
@@ -92,7 +91,7 @@ mod tests {
         pool.install(|| {
             (0..64).into_par_iter().with_max_len(1).for_each(|member| {
                 most.fetch_max(1 + alive.fetch_add(1, Ordering::SeqCst), Ordering::SeqCst);
-                // A member that began another below itself would wait here for itself.
+                // A member that started another one below itself would deadlock here.
                 let held = (member % 2 == 0).then(|| lock.lock().unwrap());
                 let sum: usize = threads(2).run(|| (0..1000).into_par_iter().map(|i: usize| i % 7).sum());
                 assert_eq!(sum, (0..1000).map(|i| i % 7).sum());

@@ -1,44 +1,44 @@
-//! Pieces of rows that are worked on or left out as a whole.
+//! Tiles: pieces of rows that are updated or skipped as a whole.
 
 use crate::layout::Layout;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 use xca_core::Geometry;
 
-/// The tiles that a word has bits for.
+/// The number of tiles in a word.
 const BITS: usize = u64::BITS as usize;
 
-/// How rows are cut into tiles. A row has a bit for each, in as many words as that takes.
+/// The tiles of rows. A row has a bit for each tile, in as many words as needed.
 #[derive(Debug, Clone)]
 pub(crate) struct Tiles {
-    /// The cells of a tile; the last one of a row may have fewer.
+    /// The number of cells in a tile. The last tile of a row may have fewer.
     width: usize,
-    /// The cells of a row.
+    /// The number of cells in a row.
     cells: usize,
-    /// How far the neighbourhood reaches along x.
+    /// The reach of the neighbourhood along x.
     reach: usize,
     /// Whether the row is a ring.
     is_ring: bool,
 }
 
 impl Tiles {
-    /// Tiles of so many cells.
+    /// Tiles of `width` cells.
     pub(crate) fn new(geometry: &Geometry, layout: &Layout, width: usize) -> Self {
         let is_ring = geometry.toroidal()[0];
         Self { width, cells: layout.width(), reach: layout.reach()[0], is_ring }
     }
 
-    /// The tiles of a row.
+    /// The number of tiles in a row.
     pub(crate) fn count(&self) -> usize {
         self.cells.div_ceil(self.width)
     }
 
-    /// The words of a row.
+    /// The number of words for a row.
     pub(crate) fn words(&self) -> usize {
         self.count().div_ceil(BITS)
     }
 
-    /// A word of a row all of whose tiles are marked.
+    /// A word of a row with all tiles marked.
     pub(crate) fn full(&self, word: usize) -> u64 {
         let tiles = (self.count() - word * BITS).min(BITS);
         u64::MAX >> (BITS - tiles)
@@ -49,7 +49,7 @@ impl Tiles {
         tiles.start * self.width..(tiles.end * self.width).min(self.cells)
     }
 
-    /// How many cells at each end of a tile are seen from other tiles.
+    /// The number of cells at each end of a tile that other tiles see.
     pub(crate) fn reach(&self) -> usize {
         self.reach
     }
@@ -64,7 +64,7 @@ impl Tiles {
         Self::mark(words, cell / self.width);
     }
 
-    /// Marks the tiles from which cells are seen.
+    /// Marks the tiles that see these cells.
     pub(crate) fn mark_around(&self, words: &mut [u64], cells: &Range<usize>) {
         if cells.is_empty() {
             return;
@@ -84,7 +84,7 @@ impl Tiles {
         }
     }
 
-    /// The first of the next marked tiles of a row, with those that follow it: so many at most.
+    /// The next marked tile of a row and the marked tiles after it, at most `most`.
     pub(crate) fn next(&self, words: &[u64], from: usize, most: usize) -> Option<Range<usize>> {
         let is_marked = |tile: usize| words[tile / BITS] >> (tile % BITS) & 1 == 1;
         let mut start = from;
@@ -98,7 +98,7 @@ impl Tiles {
     }
 }
 
-/// Marks on the tiles of all rows. Threads set them, each in rows of its own.
+/// Marks on the tiles of all rows. Threads set marks in their own rows.
 #[derive(Debug)]
 pub(crate) struct Marks {
     words: Vec<AtomicU64>,
@@ -106,7 +106,7 @@ pub(crate) struct Marks {
 }
 
 impl Marks {
-    /// No mark at all.
+    /// No marks.
     pub(crate) fn new(tiles: &Tiles, rows: usize) -> Self {
         let of_row = tiles.words();
         Self { words: (0..rows * of_row).map(|_| AtomicU64::new(0)).collect(), of_row }
@@ -123,12 +123,12 @@ impl Marks {
         &self.words[row * self.of_row..(row + 1) * self.of_row]
     }
 
-    /// How many tiles are marked.
+    /// The number of marked tiles.
     pub(crate) fn count(&self) -> usize {
         self.words.iter().map(marked).sum()
     }
 
-    /// Adds to each row's number how many of its tiles are marked.
+    /// Adds the number of marked tiles of each row.
     pub(crate) fn count_rows(&self, tiles: &mut [usize]) {
         if self.of_row == 1 {
             tiles.iter_mut().zip(&self.words).for_each(|(tiles, word)| *tiles += marked(word));
@@ -152,7 +152,7 @@ impl Marks {
         word.store(word.load(Ordering::Relaxed) | 1 << (tile % BITS), Ordering::Relaxed);
     }
 
-    /// The marks of a row, which is then without.
+    /// Takes the marks of a row, and clears them.
     pub(crate) fn take(&self, row: usize, marks: &mut Vec<u64>) {
         marks.clear();
         for word in self.row(row) {
@@ -162,7 +162,7 @@ impl Marks {
     }
 }
 
-/// How many bits of a word are set.
+/// The number of bits set in a word.
 fn marked(word: &AtomicU64) -> usize {
     word.load(Ordering::Relaxed).count_ones() as usize
 }
@@ -179,7 +179,7 @@ mod tests {
         (0..count).filter(|tile| words[tile / 64] >> (tile % 64) & 1 == 1).collect()
     }
 
-    /// Cell by cell: which tiles hold a cell from which one of the cells is seen.
+    /// Cell by cell: the tiles with a cell that sees one of the cells.
     #[test]
     fn cells_are_seen_from_the_tiles_within_reach() {
         for (width, cells, reach) in [(3, 10, 2), (1, 70, 1), (4, 4, 3), (5, 21, 5), (32, 33, 3), (2, 1, 2)] {

@@ -1,5 +1,4 @@
-//! Whether and when lists of what is near are made: decided by the times that passes take, which change no
-//! result.
+//! Whether and when neighbour lists are made. The times of passes decide, and change no result.
 
 use crate::layout::Layout;
 use crate::listing::make;
@@ -10,39 +9,39 @@ use std::time::{Duration, Instant};
 use xca_core::Geometry;
 use xca_core::engine::Figure;
 
-/// Items for which lists are worth their upkeep.
+/// The least number of items for which lists pay.
 const FEWEST_ITEMS: usize = 64;
 
-/// Passes that lists have to last to be worth making.
+/// The least number of passes that lists must last to pay.
 const SHORTEST_LIFE: u64 = 2;
 
-/// The passes without lists after they were not worth it: the first time, and at most.
+/// The numbers of passes without lists after they did not pay: the first time, and at most.
 const PAUSES: [u64; 2] = [8, 512];
 
-/// The skin to begin with, in radii.
+/// The first skin, in radii.
 const FIRST_SKIN: f64 = 0.4;
 
-/// The least and the largest skin, in radii.
+/// The smallest and the largest skin, in radii.
 const SKINS: [f64; 2] = [0.01, 1.0];
 
-/// By how much the skin changes from lists to lists.
+/// The factor by which the skin changes from lists to lists.
 const CHANGE: f64 = 1.25;
 
-/// What decides whether and when lists are made.
+/// Decides whether and when lists are made.
 pub(crate) struct Upkeep {
-    /// The largest radius of a search since lists were last made, in metres.
+    /// The largest search radius since lists were last made, in metres.
     widest: f64,
-    /// In radii.
+    /// The skin, in radii.
     skin: f64,
-    /// Whether that is not to change.
+    /// Whether the skin is fixed.
     fixed: bool,
-    /// Whether the skin became larger when it last changed.
+    /// Whether the last change of the skin was an increase.
     grew: bool,
-    /// What a pass with the lists before took, in all.
+    /// The time of a pass with the previous lists, including their construction.
     before: Option<Duration>,
-    /// What a pass without lists took.
+    /// The time of a pass without lists.
     without: Option<Duration>,
-    /// Passes to go without lists, and how many the next time.
+    /// The number of remaining passes without lists, then that of the next pause.
     pause: u64,
     next_pause: u64,
     life: Life,
@@ -53,20 +52,20 @@ pub(crate) struct Upkeep {
 #[derive(Default)]
 struct Life {
     passes: u64,
-    /// What making the lists and the passes took.
+    /// The time for the construction of the lists and for the passes.
     spent: Duration,
 }
 
-/// What has been done, for reports.
+/// The figures for reports.
 #[derive(Debug, Default, Clone, Copy, PartialEq)]
 pub(crate) struct Figures {
-    /// Passes in which a process searched.
+    /// The number of passes in which a process searched.
     pub(crate) passes: u64,
-    /// Those with lists.
+    /// The number of these with lists.
     pub(crate) listed: u64,
-    /// How often lists were made.
+    /// The number of times that lists were made.
     pub(crate) made: u64,
-    /// What lists held when they were made, in all, and for how many items.
+    /// The total number of list entries at construction, then that of items.
     pub(crate) candidates: u64,
     pub(crate) items: u64,
     /// The skin of the last lists, in metres.
@@ -74,7 +73,7 @@ pub(crate) struct Figures {
 }
 
 impl Upkeep {
-    /// With a skin of so many radii, or one that it finds by itself.
+    /// With a fixed skin in radii, or with a skin that adapts.
     pub(crate) fn new(skin: Option<f64>) -> Self {
         Self {
             widest: 0.0,
@@ -94,7 +93,7 @@ impl Upkeep {
         self.figures
     }
 
-    /// A pass has searched within this radius at most, and taken so long.
+    /// Records a pass that searched, with its largest radius and its time.
     pub(crate) fn searched(&mut self, widest: f64, listed: bool, time: Duration) {
         self.widest = self.widest.max(widest);
         self.figures.passes += 1;
@@ -107,7 +106,7 @@ impl Upkeep {
         }
     }
 
-    /// The lists have come to their end: learns from what they have cost.
+    /// Learns from the cost of lists that have become too old.
     fn learn(&mut self) {
         let Life { passes, spent } = std::mem::take(&mut self.life);
         if self.fixed {
@@ -121,7 +120,7 @@ impl Upkeep {
             return;
         }
         self.next_pause = PAUSES[0];
-        // Downhill: on as before while a pass costs less and less, back where it costs more.
+        // Descend: continue in the same direction while the cost falls, turn back if it rises.
         if self.before.zip(cost).is_some_and(|(before, cost)| cost > before) {
             self.grew = !self.grew;
         }
@@ -132,7 +131,7 @@ impl Upkeep {
 }
 
 impl Figures {
-    /// For a report, with the name of the population; none where nothing has been searched.
+    /// The figures with the name of the population. Empty if nothing was searched.
     pub(crate) fn named(&self, population: &str) -> Vec<Figure> {
         if self.passes == 0 {
             return Vec::new();
@@ -149,8 +148,8 @@ impl Figures {
     }
 }
 
-/// Keeps the lists of a population fit for the pass to come, or does without; gives the radius within which
-/// searches can use them.
+/// Keeps the lists of a population usable for the next pass, or removes them. Returns the largest radius for
+/// which searches can use them.
 pub(crate) fn keep_lists(
     population: &mut Population,
     layout: &Layout,

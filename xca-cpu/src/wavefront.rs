@@ -1,61 +1,61 @@
-//! Passes over the rows, each in the wake of the one before, so that a row is met by all of them while it is
-//! in the processor's cache: temporal blocking with skewed blocks and the gaps between them.
+//! Passes over the rows, each in the wake of the previous one. All passes use a row while it is in the cache.
+//! This is temporal blocking, with skewed blocks and the gaps between them.
 //!
-//! The rows make up layers, which are passed one after the other. A pass may work on a layer when the pass
-//! before has done all layers that see it or that it sees: those within a lag. Within a block of layers each
-//! pass follows the one before at this distance, and ends at that distance before a cut, since what lies
-//! beyond is another block's. What that leaves undone on both sides of each cut is done afterwards. All
-//! blocks can be worked on at the same time, and then all gaps.
+//! The rows form layers, which are passed one after the other. A pass may update a layer once the previous
+//! pass has done all layers that see it or that it sees: those within a lag. Within a block of layers, each
+//! pass follows the previous one at this distance. Before a cut it ends at that distance, because the layers
+//! beyond belong to another block. The undone layers on both sides of each cut form a gap, which is done
+//! afterwards. All blocks can run at the same time, then all gaps.
 //!
-//! Where a few layers are too much for the cache, a block is worked on in columns, one after the other. A
-//! column lies further towards the first row in each pass that follows, as far as rows see each other, so
-//! that it needs nothing from columns that come later, and overwrites nothing that they need.
+//! If a few layers exceed the cache, a block is done in columns, one after the other. In each later pass a
+//! column shifts towards the first row, as far as rows see each other. It then needs nothing from later
+//! columns, and overwrites nothing that they need.
 
 use std::ops::Range;
 
-/// How the rows are passed, and the distance that passes keep from each other.
+/// The order of the rows, and the distance between passes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Lag {
-    /// The rows of a layer.
+    /// The number of rows in a layer.
     pub(crate) layer: usize,
-    /// Layers that see each other are at most so many apart.
+    /// The largest distance between layers that see each other.
     pub(crate) layers: usize,
-    /// Whether the first layers and the last ones see each other, too.
+    /// Whether the first and the last layers also see each other.
     pub(crate) is_ring: bool,
-    /// Rows of a layer, or of layers that see each other, see each other where they are at most so many
-    /// apart. Nothing where all may: then there are no columns.
+    /// The largest distance between rows that see each other, in a layer or in layers that see each other.
+    /// `None` if all rows may see each other, which excludes columns.
     pub(crate) along: Option<usize>,
 }
 
 impl Lag {
-    /// Of passes that have nothing to do with each other.
+    /// For passes that do not affect each other.
     pub(crate) const NONE: Self = Self { layer: 1, layers: 0, is_ring: false, along: None };
 }
 
-/// How many passes follow each other, and how.
+/// The number of consecutive passes, and their distances.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Depth {
     pub(crate) passes: usize,
     pub(crate) lag: Lag,
-    /// How many layers a pass does before the next one follows, at least one.
+    /// The number of layers that a pass does before the next one follows, at least one.
     pub(crate) chunk: usize,
-    /// How many rows of a layer are in a column, at least one. Nothing where there are no columns.
+    /// The number of rows of a layer in a column, at least one. `None` without columns.
     pub(crate) column: Option<usize>,
 }
 
 impl Depth {
-    /// The layers that a block must have at least: the gaps at its two ends must not overlap.
+    /// The least number of layers in a block. The gaps at its two ends must not overlap.
     pub(crate) fn least_block(self) -> usize {
         (2 * self.passes.saturating_sub(1) * self.lag.layers).max(1)
     }
 
-    /// The columns of a layer, by number.
+    /// The columns of a layer, by index.
     fn columns(self) -> Range<usize> {
         let shift = self.passes.saturating_sub(1) * self.lag.along.unwrap_or(0);
         0..self.column.map_or(1, |rows| (self.lag.layer + shift).div_ceil(rows))
     }
 
-    /// The rows of a layer that a column has in a pass.
+    /// The rows of a layer that belong to a column in a pass.
     fn rows(self, column: usize, pass: usize) -> Range<usize> {
         let (Some(rows), Some(along)) = (self.column, self.lag.along) else { return 0..self.lag.layer };
         let edge = |column: usize| (column * rows).saturating_sub(pass * along).min(self.lag.layer);
@@ -63,26 +63,24 @@ impl Depth {
     }
 }
 
-/// Some passes over all rows, in an order in which no row can notice that they are not done one after the
-/// other.
+/// Several passes over all rows. Their order gives the same result as one pass after the other.
 #[derive(Debug, Clone)]
 pub(crate) struct Wavefront {
     depth: Depth,
-    /// Of layers, one after the other.
+    /// The blocks of layers, in order.
     blocks: Vec<Range<usize>>,
 }
 
-/// A block or a gap: what one thread does at a time.
+/// A block or a gap: the work of one thread at a time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Piece {
     low: Edge,
     high: Edge,
-    /// The first pass that has layers here.
+    /// The first pass with layers here.
     first: usize,
 }
 
-/// Where a piece begins or ends: a layer in the first pass, and so many layers further in each one that
-/// follows.
+/// The start or end of a piece: a layer in the first pass, shifted by `slope` layers in each later pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Edge {
     layer: isize,
@@ -103,7 +101,7 @@ impl Edge {
 }
 
 impl Wavefront {
-    /// Each block has to have at least [`Depth::least_block`] layers.
+    /// Each block must have at least [`Depth::least_block`] layers.
     pub(crate) fn new(depth: Depth, blocks: Vec<Range<usize>>) -> Self {
         Self { depth, blocks }
     }
@@ -114,7 +112,8 @@ impl Wavefront {
         Self { depth: Depth { passes: 1, lag: Lag::NONE, chunk, column: None }, blocks }
     }
 
-    /// The pieces: first those of one list, in any order or at the same time, then those of the other.
+    /// The pieces. Those of the first list can run in any order or at the same time, then those of the second
+    /// list.
     pub(crate) fn pieces(&self) -> [Vec<Piece>; 2] {
         let Depth { passes, lag: Lag { layers: lag, is_ring, .. }, .. } = self.depth;
         let lag = lag as isize;
@@ -139,7 +138,7 @@ impl Wavefront {
         self.blocks.last().map_or(0, |block| block.end)
     }
 
-    /// What is done in a piece, in order.
+    /// The work of a piece, in order.
     pub(crate) fn portions(&self, piece: Piece) -> impl Iterator<Item = Portion> {
         let Self { depth, .. } = *self;
         self.turns(piece).flat_map(move |turn| {
@@ -159,7 +158,7 @@ impl Wavefront {
         let Depth { passes, lag, chunk, .. } = self.depth;
         let (lag, layers) = (lag.layers as isize, self.layers() as isize);
         let passes = piece.first..passes;
-        // A pass is so far behind the front.
+        // The distance of a pass behind the front.
         let behind = move |pass: usize| pass as isize * lag;
         let start = passes.clone().map(|pass| piece.low.at(pass) + behind(pass)).min().unwrap_or(0);
         let end = passes.clone().map(|pass| piece.high.at(pass) + behind(pass)).max().unwrap_or(0);
@@ -184,7 +183,7 @@ struct Turn {
     layers: Range<usize>,
 }
 
-/// Layers that may lie beyond the first or the last one of a ring.
+/// Maps layers beyond the first or the last one of a ring to layers of the ring.
 fn round(range: Range<isize>, layers: isize) -> impl Iterator<Item = Range<usize>> {
     let parts = [-1, 0, 1].map(|turn| {
         let (start, end) = (range.start + turn * layers, range.end + turn * layers);
@@ -197,7 +196,7 @@ fn round(range: Range<isize>, layers: isize) -> impl Iterator<Item = Range<usize
 mod tests {
     use super::{Depth, Lag, Portion, Wavefront};
 
-    /// Numbers without a pattern.
+    /// Pseudo-random numbers.
     struct Chance(u64);
 
     impl Chance {
@@ -214,8 +213,8 @@ mod tests {
         layers && lag.along.is_none_or(|along| (a % lag.layer).abs_diff(b % lag.layer) <= along)
     }
 
-    /// A pass does a row: all passes before have done those that it sees, and none has gone on to overwrite
-    /// them.
+    /// Checks a pass at a row: all earlier passes have done the rows that it sees, and no later pass has
+    /// overwritten them.
     fn check(portion: &Portion, done: &mut [usize], lag: Lag) {
         for row in portion.rows.clone() {
             assert_eq!(done[row], portion.pass, "row {row} twice, or left out");

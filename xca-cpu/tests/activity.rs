@@ -1,5 +1,5 @@
-//! Cells in which nothing can change are left out, and that changes no bit. The reference engine, which
-//! computes all, is the oracle.
+//! Skipping cells in which nothing can change does not change a bit. The reference engine, which computes all
+//! cells, gives the expected results.
 
 use std::error::Error;
 use std::num::NonZeroUsize;
@@ -35,11 +35,11 @@ struct Walker {
 
 #[derive(Parameters, Clone, Copy, Debug)]
 struct Rule {
-    /// So many burning neighbours set a cell on fire.
+    /// The number of burning neighbours that set a cell on fire.
     catch: u32,
 }
 
-/// Goes to a second buffer.
+/// Writes to a second buffer.
 #[elementary_process]
 fn ignite(cell: &mut Cell<Site>, weather: &Cell<Weather>, rule: &Rule) {
     let mut burning = weather.wind;
@@ -51,7 +51,7 @@ fn ignite(cell: &mut Cell<Site>, weather: &Cell<Weather>, rule: &Rule) {
     }
 }
 
-/// Another one that does so with the same substate, in some steps only.
+/// Writes the same substate to a second buffer, in some steps only.
 #[elementary_process]
 fn rekindle(cell: &mut Cell<Site>) {
     if cell.lit == 1 && cell.neighbour(1).lit > 2 {
@@ -76,7 +76,7 @@ fn cool(cell: &mut Cell<Site>) {
     }
 }
 
-/// Draws beside a fire alone.
+/// Draws only beside a fire.
 #[elementary_process]
 fn glow(cell: &mut Cell<Site>) {
     if cell.lit > 0 && cell.random(0) < 0.5 {
@@ -89,7 +89,7 @@ fn now(space: &Space) -> u32 {
     space.step()
 }
 
-/// Asks for the step in some cells, by a helper.
+/// Requests the step in some cells, in a helper.
 #[elementary_process]
 fn stamp(cell: &mut Cell<Site>, space: &Space) {
     if cell.fuel == 1 {
@@ -107,7 +107,7 @@ fn smoke(cell: &mut Cell<Site>) {
     cell.trail[0] = sum;
 }
 
-/// Looks at items, so that it always runs.
+/// Reads items, so it always runs.
 #[elementary_process]
 fn count(cell: &mut Cell<Site>, walkers: &Slots<Walker>) {
     cell.traffic = 0;
@@ -133,7 +133,7 @@ fn settle(me: &Slot<Walker>, space: &Space) -> Destination {
     space.cell_containing(me.position)
 }
 
-/// A number below `below` that depends on the cell and on `which`.
+/// A number below `below`, from the cell and `which`.
 fn number(cell: [usize; 3], which: u32, below: u32) -> u32 {
     let mut mixed =
         cell.iter().fold(which, |mixed, index| mixed.wrapping_mul(977).wrapping_add(*index as u32));
@@ -143,7 +143,7 @@ fn number(cell: [usize; 3], which: u32, below: u32) -> u32 {
     (mixed >> 8) % below
 }
 
-/// A fire here and there in a wood; in later steps more of them, other weather, another rule.
+/// A wood with some fires. Later steps add fires, and change the weather and the rule.
 fn wood(
     extents: [usize; 3],
     neighbourhood: Neighbourhood,
@@ -205,7 +205,7 @@ fn wood(
         .build()
 }
 
-/// What a simulation looks like after a step.
+/// The results of a simulation after a step.
 #[derive(Debug, PartialEq)]
 struct Seen {
     snapshot: Snapshot,
@@ -213,7 +213,7 @@ struct Seen {
     trail: Option<[u32; 2]>,
 }
 
-/// What is seen after each of so many steps, some of which are done twice.
+/// The results after each of `steps` steps, some of which are repeated.
 fn run(model: &Model, engine: &dyn Engine, steps: u64) -> Result<Vec<Seen>, Box<dyn Error>> {
     let options = RunOptions { precision: Precision::F32, seed: 7 };
     let mut simulation = Simulation::new(model, engine, options)?;
@@ -232,7 +232,7 @@ fn run(model: &Model, engine: &dyn Engine, steps: u64) -> Result<Vec<Seen>, Box<
 
 const STEPS: u64 = 50;
 
-/// The cells of a tile, and how many threads work on them.
+/// The number of cells in a tile, and the number of threads.
 const TILES: [(usize, usize); 5] = [(1, 1), (2, 3), (3, 2), (7, 1), (64, 3)];
 
 fn forced((cells, threads): (usize, usize)) -> Result<Cpu, Box<dyn Error>> {
@@ -265,7 +265,7 @@ fn what_is_left_out_changes_no_bit() -> TestResult {
             if reflects && neighbourhood.parity() != xca_core::Parity::None {
                 continue;
             }
-            // Walkers go to all cells beside theirs.
+            // Walkers move to all adjacent cells.
             let can_walk = [Neighbourhood::moore_2d(2), Neighbourhood::moore(1), Neighbourhood::moore(2)];
             let walkers = can_walk.contains(&neighbourhood) && !reflects;
             for walkers in [false, walkers] {
@@ -284,7 +284,7 @@ fn what_is_left_out_changes_no_bit() -> TestResult {
     Ok(())
 }
 
-/// The share of the cells that an engine has worked on in so many steps.
+/// The share of cells that an engine updates in `steps` steps.
 fn share(model: &Model, engine: &dyn Engine, steps: u64) -> Result<f64, Box<dyn Error>> {
     let mut simulation = Simulation::new(model, engine, RunOptions::default())?;
     simulation.run(steps)?;
@@ -293,7 +293,7 @@ fn share(model: &Model, engine: &dyn Engine, steps: u64) -> Result<f64, Box<dyn 
     Ok(share.ok_or("the engine tells no share")?.value)
 }
 
-/// Life on a torus.
+/// The Game of Life on a torus.
 mod life {
     use super::*;
 
@@ -325,21 +325,21 @@ mod life {
     }
 }
 
-/// A glider covers a few tiles, after a first step in which all cells are looked at.
+/// A glider covers few tiles. The first step updates all cells.
 #[test]
 fn a_glider_is_all_that_is_worked_on() -> TestResult {
     const GLIDER: [[usize; 3]; 5] = [[1, 0, 0], [2, 1, 0], [0, 2, 0], [1, 2, 0], [2, 2, 0]];
     let model = life::model(|cell| GLIDER.contains(&cell))?;
     let steps = 1200;
     let share = share(&model, &forced((32, 2))?, steps)?;
-    // Five rows, of which each is at most twice a tile of 32 cells, in 256 of 256.
+    // Five rows, each with at most two tiles of 32 cells, in 256 x 256 cells.
     let of_glider = 5.0 * 64.0 / (256.0 * 256.0);
     assert!(share < 1.0 / steps as f64 + of_glider, "{share}");
     assert!(share > 1.0 / steps as f64 + of_glider / 10.0, "{share}");
     Ok(())
 }
 
-/// What moves goes on round the torus: after 4 x 256 steps a glider is where it began.
+/// Motion continues across the torus: after 4 x 256 steps a glider is back at its start.
 #[test]
 fn a_glider_comes_back() -> TestResult {
     const GLIDER: [[usize; 3]; 5] = [[1, 0, 0], [2, 1, 0], [0, 2, 0], [1, 2, 0], [2, 2, 0]];
@@ -351,7 +351,7 @@ fn a_glider_comes_back() -> TestResult {
     Ok(())
 }
 
-/// Where nearly all changes, no one looks for what does not.
+/// If nearly all cells change, changes are not tracked.
 #[test]
 fn a_soup_is_worked_on_whole() -> TestResult {
     let model = life::model(|cell| number(cell, 9, 3) == 0)?;
@@ -360,7 +360,7 @@ fn a_soup_is_worked_on_whole() -> TestResult {
     Ok(())
 }
 
-/// The share does not depend on who works.
+/// The share does not depend on the threads.
 #[test]
 fn the_share_is_the_same_on_any_number_of_threads() -> TestResult {
     let model = wood([70, 20, 1], Neighbourhood::moore_2d(1), RINGS, false)?;

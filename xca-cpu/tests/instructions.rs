@@ -1,13 +1,13 @@
-//! Whatever instructions a processor has, results are the same. The reference engine is the oracle.
+//! Results are the same with all instruction sets. The reference engine gives the expected results.
 //!
-//! One test alone: the instructions in use are those of the whole process.
+//! The file has a single test, because the instruction set is that of the whole process.
 
 use std::error::Error;
 use xca_core::kernel::Instructions;
 use xca_core::prelude::*;
 use xca_cpu::Cpu;
 
-/// Values of all sizes, in whole registers and beyond.
+/// Values of all sizes, in whole registers and in parts of them.
 #[derive(Substates, Clone, Copy, PartialEq, Debug)]
 struct Site {
     warmth: Real,

@@ -1,5 +1,5 @@
-//! Lists of what is near: when they are made, and that they change no bit. The reference engine, which has
-//! none, is the oracle.
+//! Neighbour lists: when they are made, and that they do not change a bit. The reference engine, which has no
+//! lists, gives the expected results.
 
 use std::collections::HashMap;
 use std::error::Error;
@@ -28,7 +28,7 @@ fn look(me: &mut Slot<Grain>) {
     }
 }
 
-/// In the same pass as [`look`], and with the same radius for all.
+/// In the same pass as [`look`], with the same radius for all items.
 #[elementary_process]
 fn look_again(me: &mut Slot<Grain>) {
     for other in me.others_in_neighbours_within(0.4) {
@@ -46,7 +46,7 @@ fn settle(me: &Slot<Grain>, space: &Space) -> Destination {
     space.cell_containing(me.position)
 }
 
-/// A number from 0 to 1 that depends on both.
+/// A number from 0 to 1, from `label` and `which`.
 fn number(label: u32, which: u32) -> f64 {
     let mut mixed = (label * 8 + which).wrapping_add(1);
     for factor in [0x7feb_352d_u32, 0x846c_a68b, 0x9e37_79b1] {
@@ -55,7 +55,7 @@ fn number(label: u32, which: u32) -> f64 {
     f64::from(mixed >> 8) / f64::from(1 << 24)
 }
 
-/// How grains move, and how far they see, in sides of a cell.
+/// The motion of grains, and their search radius, in sides of a cell.
 struct Motion {
     together: [f64; 3],
     apart: f64,
@@ -99,11 +99,10 @@ fn grains(boundaries: [Boundary; 3], motion: &Motion) -> Result<Model, ModelErro
 const FLAT: [Boundary; 3] = [Boundary::Flat; 3];
 const TORUS: [Boundary; 3] = [Boundary::Toroidal; 3];
 
-/// How far the lists reach beyond a search, in radii: what the engine finds best, next to nothing, as is
-/// common, and too far.
+/// The skins of the lists, in radii: the engine's choice, nearly zero, typical, and too large.
 const SKINS: [Option<f64>; 4] = [None, Some(1e-3), Some(0.3), Some(1e9)];
 
-/// The snapshots after each of so many steps.
+/// The snapshots after each of `steps` steps.
 fn run(
     model: &Model,
     engine: &dyn Engine,
@@ -119,7 +118,7 @@ fn run(
     Ok(snapshots)
 }
 
-/// What the engine tells after so many steps.
+/// The figures of the engine after `steps` steps.
 fn figures(model: &Model, engine: &Cpu, steps: u64) -> Result<HashMap<String, f64>, Box<dyn Error>> {
     let mut simulation = Simulation::new(model, engine, RunOptions::default())?;
     simulation.run(steps)?;
@@ -166,7 +165,7 @@ fn no_skin_and_no_motion_changes_a_bit() -> TestResult {
 fn lists_last_while_nothing_moves_against_each_other() -> TestResult {
     let engine = with_skin(1, Some(0.3))?;
     let radius = |_| 0.45;
-    // The speeds are powers of two, so that f32, in which is kept where items were, loses nothing of them.
+    // The speeds are powers of two, so the references in f32 are exact.
     for together in [[0.0; 3], [0.0625, 0.125, -0.0625]] {
         let model = grains(TORUS, &Motion { together, apart: 0.0, radius })?;
         let told = figures(&model, &engine, 40)?;
@@ -174,7 +173,7 @@ fn lists_last_while_nothing_moves_against_each_other() -> TestResult {
         assert_eq!(told["grain_passes_with_lists"], 39.0, "all but the first, in which the radius is learnt");
         assert_eq!(told["grain_lists_made"], 1.0, "{together:?}");
     }
-    // Two grains come closer by at most 0.1 sqrt(3) a step, and the skin is 0.135.
+    // Two grains approach by at most 0.1 sqrt(3) a step. The skin is 0.135.
     let model = grains(TORUS, &Motion { together: [0.0; 3], apart: 0.1, radius })?;
     let told = figures(&model, &engine, 40)?;
     assert!((20.0..=39.0).contains(&told["grain_lists_made"]), "{told:?}");

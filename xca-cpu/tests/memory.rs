@@ -1,5 +1,5 @@
-//! Small models of every kind on all engines of the processor, for tools that watch memory: `scripts/miri`
-//! runs them under Miri. Nothing here opens a file, and each model takes a few steps of a few cells.
+//! Small models of every kind on this engine and the reference, for memory checkers. `scripts/miri` runs them
+//! under Miri. No test opens a file. Each model runs a few steps on a few cells.
 
 use std::error::Error;
 use std::num::NonZeroU64;
@@ -49,7 +49,7 @@ struct Motion {
     gust: Real,
 }
 
-/// Writes what it reads at neighbours: to a second buffer.
+/// Writes a substate that it reads at neighbours, to a second buffer.
 #[elementary_process]
 fn spread(land: &mut Cell<Land>) {
     let mut mean = 0.0;
@@ -59,7 +59,7 @@ fn spread(land: &mut Cell<Land>) {
     land.height = mean / land.neighbour_count() as Real;
 }
 
-/// Reads one element of a neighbour's array, and writes own ones in place.
+/// Reads one element of a neighbour's array, and writes its own elements in place.
 #[elementary_process]
 fn flow(land: &mut Cell<Land>, air: &Cell<Air>) {
     for k in 0..4 {
@@ -70,7 +70,7 @@ fn flow(land: &mut Cell<Land>, air: &Cell<Air>) {
     land.age = land.age.wrapping_add(1);
 }
 
-/// Joins the process before it: in place alone.
+/// Joins the pass of the previous process, and only writes in place.
 #[elementary_process]
 fn settle_down(land: &mut Cell<Land>) {
     land.wet = land.height > 0.5 || land.random(0) < 0.25;
@@ -108,7 +108,7 @@ fn push(grain: &mut Slot<Grain>, p: &Motion) {
     grain.near = near;
 }
 
-/// Shares a pass with the next: one writes the speed, the other reads its own.
+/// Shares a pass with the next process: one writes the speed, the other reads its own.
 #[elementary_process]
 fn accelerate(grain: &mut Slot<Grain>, p: &Motion) {
     grain.speed += grain.force * p.time_step;
@@ -196,7 +196,7 @@ fn items(extents: [usize; 3], boundary: Boundary) -> ModelBuilder {
         .process((push, accelerate, displace, rehome, count))
 }
 
-/// The state after some steps, with all that a host asks for meanwhile, is that of the reference engine.
+/// The state after some steps agrees with the reference engine, including all requests of a host.
 fn agrees(builder: ModelBuilder, precision: Precision) -> TestResult {
     let model = builder.watch_finite(Schedule::EveryFromStart(2)).build()?;
     let options = RunOptions { precision, seed: 4 };
@@ -254,7 +254,7 @@ fn items_that_move() -> TestResult {
     Ok(())
 }
 
-/// What steering sets, in the place of what was there.
+/// Steering replaces all kinds of values.
 #[test]
 fn other_items() -> TestResult {
     let model = items([3, 3, 3], Boundary::Flat).build()?;
@@ -272,7 +272,7 @@ fn other_items() -> TestResult {
     Ok(())
 }
 
-/// A panic in the middle of a row leaves memory in order, on threads of the engine too.
+/// A panic in the middle of a row leaves memory valid, also on threads of the engine.
 #[test]
 fn panics() -> TestResult {
     let of_cells = cells([4, 3, 3], Neighbourhood::von_neumann(1)).process(overstep).build()?;

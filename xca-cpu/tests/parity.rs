@@ -1,5 +1,5 @@
-//! A first look at this engine beside the reference, and what it promises beyond the same bits. The suites
-//! that run on every engine are in the workspace's member `tests`.
+//! Basic tests against the reference engine, and guarantees beyond equal bits. The workspace member `tests`
+//! has the suites for all engines.
 
 use std::error::Error;
 use xca_core::prelude::*;
@@ -34,7 +34,7 @@ fn settle(me: &Slot<Walker>, space: &Space) -> Destination {
     space.cell_containing(me.position)
 }
 
-/// So many walkers, spread over a box of 7 by 6 by 5 cells.
+/// `count` walkers, spread over a box of 7 by 6 by 5 cells.
 fn walkers(count: u32, slots: usize) -> Result<Model, ModelError> {
     Model::builder("walkers")
         .extents([7, 6, 5])
@@ -88,7 +88,7 @@ fn as_many_threads_as_wanted() -> TestResult {
     Ok(())
 }
 
-/// Slots are a limit, not memory: only items take room.
+/// Slots are a limit and take no memory. Only items do.
 #[test]
 fn memory_grows_with_the_items() -> TestResult {
     let engine = Cpu::with_threads(1)?;
@@ -97,7 +97,7 @@ fn memory_grows_with_the_items() -> TestResult {
     };
     assert_eq!(memory(100, 10)?, memory(100, 100_000)?);
     let more = memory(2000, 100)? - memory(100, 100)?;
-    // At least the substates and the label of each, and no more than twice that.
+    // At least the substates and the label of each item, and at most twice that.
     let item = size_of::<Vector3<f64>>() * 2 + size_of::<u32>() * 2;
     assert!((1900 * item..=2 * 1900 * item).contains(&more), "{more} bytes for 1900 items of {item}");
     Ok(())
@@ -114,7 +114,7 @@ fn spread(cell: &mut Cell<Site>) {
     cell.level += cell.neighbour(1).level;
 }
 
-/// What an engine announces is what it then takes, but for a page for each of at most three buffers, and some
+/// The announced memory is the actual one, except for a page for each of at most three buffers, and a few
 /// bytes.
 #[test]
 fn memory_is_announced() -> TestResult {

@@ -1,5 +1,5 @@
-//! Steps that are done together, each in the wake of the one before, and that changes no bit. The reference
-//! engine, which does one after the other, is the oracle.
+//! Doing steps together, each in the wake of the previous one, does not change a bit. The reference engine,
+//! which does one step after the other, gives the expected results.
 
 use std::error::Error;
 use std::num::{NonZeroU64, NonZeroUsize};
@@ -24,7 +24,7 @@ struct Ground {
     wet: u32,
 }
 
-/// Goes to a second buffer.
+/// Writes to a second buffer.
 #[elementary_process]
 fn mix(cell: &mut Cell<Air>) {
     let mut sum = 0.0;
@@ -36,19 +36,19 @@ fn mix(cell: &mut Cell<Air>) {
         31 * (cell.moisture[0] % 1000) + cell.neighbour(cell.neighbour_count() - 1).moisture[1];
 }
 
-/// Writes in place what [`mix`] sees elsewhere.
+/// Writes in place what [`mix`] reads elsewhere.
 #[elementary_process]
 fn rain(cell: &mut Cell<Air>) {
     cell.moisture[1] = 7 * (cell.moisture[1] % 1000) + cell.moisture[0] % 13;
 }
 
-/// Writes in place what [`drink`] sees elsewhere.
+/// Writes in place what [`drink`] reads elsewhere.
 #[elementary_process]
 fn soak(ground: &mut Cell<Ground>, cell: &Cell<Air>) {
     ground.wet = 3 * (ground.wet % 10000) + cell.moisture[1] % 5;
 }
 
-/// Sees another struct elsewhere.
+/// Reads another struct elsewhere.
 #[elementary_process]
 fn drink(cell: &mut Cell<Air>, ground: &Cell<Ground>) {
     let mut sum = cell.seen % 1000;
@@ -58,7 +58,7 @@ fn drink(cell: &mut Cell<Air>, ground: &Cell<Ground>) {
     cell.seen = sum;
 }
 
-/// Draws, and asks for the step.
+/// Draws, and requests the step.
 #[elementary_process]
 fn drift(cell: &mut Cell<Air>, space: &Space) {
     cell.luck = cell.luck * 0.5 + cell.random(0) + (space.step() as Real) * 0.001;
@@ -66,7 +66,7 @@ fn drift(cell: &mut Cell<Air>, space: &Space) {
 
 const TOO_OLD: u32 = 3;
 
-/// Stops the run where a cell is too old, now and then by a division by zero.
+/// Stops the run at a cell that is too old, sometimes by a division by zero.
 #[elementary_process]
 fn grow_old(cell: &mut Cell<Air>) {
     cell.age += 1;
@@ -78,7 +78,7 @@ fn grow_old(cell: &mut Cell<Air>) {
     }
 }
 
-/// A number below `below` that depends on the cell and on `which`.
+/// A number below `below`, from the cell and `which`.
 fn number(cell: [usize; 3], which: u32, below: u32) -> u32 {
     let mut mixed =
         cell.iter().fold(which, |mixed, index| mixed.wrapping_mul(977).wrapping_add(*index as u32));
@@ -88,7 +88,7 @@ fn number(cell: [usize; 3], which: u32, below: u32) -> u32 {
     (mixed >> 8) % below
 }
 
-/// Weather in which cells are at most so old at the beginning.
+/// Weather whose cells have at most this age at the beginning.
 fn weather(
     extents: [usize; 3],
     neighbourhood: Neighbourhood,
@@ -124,10 +124,10 @@ fn weather(
 
 const OPTIONS: RunOptions = RunOptions { precision: Precision::F32, seed: 7 };
 
-/// Steps that have nothing between them.
+/// The numbers of steps that have nothing between them.
 const LEAPS: [u64; 5] = [1, 7, 2, 16, 5];
 
-/// What is seen after each leap, and how it ends.
+/// The snapshots after each leap, and the error that ends the run.
 fn run(model: &Model, engine: &dyn Engine) -> Result<(Vec<Snapshot>, Option<RunError>), Box<dyn Error>> {
     let mut simulation = Simulation::new(model, engine, OPTIONS)?;
     let mut seen = Vec::new();
@@ -140,14 +140,14 @@ fn run(model: &Model, engine: &dyn Engine) -> Result<(Vec<Snapshot>, Option<RunE
     Ok((seen, None))
 }
 
-/// An engine that does so many steps together, as far as there is room, in columns of so many rows.
+/// An engine that does `steps` steps together if there is room, in columns of `rows` rows.
 fn together(steps: u64, threads: usize, rows: usize) -> Result<Cpu, Box<dyn Error>> {
     let steps = NonZeroU64::new(steps).ok_or("no steps")?;
     let rows = NonZeroUsize::new(rows).ok_or("no rows")?;
     Ok(Cpu::with_threads(threads)?.without_tiles().with_stride(steps).with_columns(rows))
 }
 
-/// How many steps an engine does together, on the average.
+/// The mean number of steps that an engine does together.
 fn mean_stride(model: &Model, engine: &dyn Engine) -> Result<f64, Box<dyn Error>> {
     let mut simulation = Simulation::new(model, engine, OPTIONS)?;
     simulation.run(30)?;
@@ -202,12 +202,12 @@ fn steps_that_are_done_together_change_no_bit() -> TestResult {
             }
         }
     }
-    // Not all of them: some spaces are too small for a torus and so many steps.
+    // Not all of them, because some spaces are too small for a torus and that many steps.
     assert!(done_together > 100 && faults > 30, "{done_together} {faults}");
     Ok(())
 }
 
-/// What the engine finds best depends on times, and what comes of it does not.
+/// The engine's choice depends on times, but the result does not.
 #[test]
 fn whatever_the_engine_finds_best_changes_no_bit() -> TestResult {
     let model = weather([40, 300, 1], Neighbourhood::moore_2d(1), [Boundary::Toroidal; 3], 0)?;

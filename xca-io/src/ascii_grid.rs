@@ -1,8 +1,9 @@
-//! ESRI ASCII grids (`.asc`): one number for each cell of a layer, with its place on the map.
+//! ESRI ASCII grids (`.asc`): one number per cell of a layer, and the layer's place on the map.
 //!
-//! Every geographic information system reads and writes them. A header has the number of columns and rows,
-//! the south-west corner, the side of a cell, and the number for NODATA. The rows follow, the northernmost
-//! first. Here, as in a model, rows count from the south: `[0, 0]` is the cell in the south-west.
+//! Every geographic information system reads and writes this format. The header holds the number of columns
+//! and rows, the south-west corner, the side of a cell, and the NODATA value. The rows follow, the
+//! northernmost first. Here, as in a model, rows count from the south: `[0, 0]` is the cell in the
+//! south-west.
 //!
 //! [`crate::raster::Raster`] has an example.
 
@@ -24,8 +25,8 @@ use std::path::Path;
 /// `xllcorner` and `yllcorner`. Equal `dx` and `dy` can replace `cellsize`. Lines of values may have any
 /// length. Without a `NODATA_value`, -9999 is NODATA, as the format says.
 ///
-/// Some programs write NODATA with few digits. A value that is equal in `f32` therefore is NODATA too. So is
-/// any value of the same sign beyond 1e38 if NODATA is beyond 1e38.
+/// Some programs write NODATA with few digits. A value that equals NODATA in `f32` is therefore NODATA too.
+/// If NODATA is beyond 1e38, so is every value of the same sign beyond 1e38.
 ///
 /// # Errors
 /// Returns [`ReadGridError`] with the path and, for errors in the text, the line.
@@ -33,8 +34,8 @@ pub fn read(path: &Path) -> Result<Raster, ReadGridError> {
     read::read(path, None)
 }
 
-/// As [`read`], of a file that may lack the header if this place is given: then it must have a line for each
-/// row of these cells, the northernmost first, with a value for each column.
+/// Like [`read`], but with `on` the file may lack its header. It must then have one line for each row, the
+/// northernmost first, with one value for each column.
 pub(crate) fn read_placed(path: &Path, on: Option<Placement>) -> Result<Raster, ReadGridError> {
     read::read(path, on)
 }
@@ -64,7 +65,7 @@ pub fn write(path: &Path, raster: &Raster) -> Result<(), WriteError> {
     })
 }
 
-/// A number that no cell has: -9999, or more nines.
+/// A number that no cell has: -9999, or one with more nines.
 fn unused_value(values: &[f64]) -> f64 {
     let mut nothing = -9999.0;
     while values.iter().any(|value| stands_for_none(*value, nothing)) {

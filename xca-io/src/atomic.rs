@@ -14,10 +14,10 @@ pub enum WriteError {
     CreateFolder {
         /// The folder.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
-    /// The path of the output folder belongs to something else.
+    /// The path of the output folder is not a folder.
     #[error("cannot use {} as the output folder: it exists and is not a folder", path.display())]
     NotAFolder {
         /// The path.
@@ -28,7 +28,7 @@ pub enum WriteError {
     NotWritable {
         /// The folder.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
     /// A file could not be written, completed or renamed.
@@ -36,16 +36,16 @@ pub enum WriteError {
     File {
         /// The file under its final name.
         path: PathBuf,
-        /// What the system, or the encoder of the file's format, said.
+        /// The error of the system or of the encoder.
         source: io::Error,
     },
 }
 
-/// Writes a file so that its name never shows half of it.
+/// Writes a file that appears complete or not at all.
 ///
-/// `fill` receives a buffered file with a temporary name in the same folder. If it succeeds, the file is
-/// flushed to the disk and renamed to `path`, which replaces an earlier file in one move; else the temporary
-/// file is removed and an earlier file of that name stays as it was.
+/// `fill` receives a buffered temporary file in the same folder. If `fill` succeeds, the file is flushed to
+/// the disk and renamed to `path`. The rename replaces an earlier file in one move. If `fill` fails, the
+/// temporary file is removed, and an earlier file keeps its content.
 ///
 /// # Errors
 /// [`WriteError::File`] with `path` and the error of `fill` or of the system.
@@ -57,7 +57,7 @@ pub fn write_atomically(
     let temporary = temporary_name(path).map_err(failed)?;
     let result = fill_and_rename(path, &temporary, fill);
     if result.is_err() {
-        // The first error is the one to report; a leftover with a telling name does no harm.
+        // Report the first error. A leftover file has a telling name and does no harm.
         let _ = fs::remove_file(&temporary);
     }
     result.map_err(failed)
@@ -74,12 +74,12 @@ fn fill_and_rename(
     fs::rename(temporary, path)
 }
 
-/// Removes what [`write_atomically`] left in a folder when the process that called it was killed.
+/// Removes the temporary files that a killed process left in a folder. See [`write_atomically`].
 pub fn remove_leftovers(folder: &Path) {
     let Ok(entries) = fs::read_dir(folder) else { return };
     for entry in entries.filter_map(Result::ok) {
         if entry.file_name().to_str().is_some_and(is_temporary) {
-            // One that stays does no harm.
+            // A file that cannot be removed does no harm.
             let _ = fs::remove_file(entry.path());
         }
     }
@@ -91,7 +91,7 @@ fn is_temporary(name: &str) -> bool {
     numbers().is_some_and(|(process, count)| is_number(process) && is_number(count))
 }
 
-/// `folder/name.csv` gives `folder/.name.csv.PROCESS-COUNT.part`, unlike any other in use.
+/// `folder/name.csv` gives `folder/.name.csv.PROCESS-COUNT.part`, which no other writer uses.
 fn temporary_name(path: &Path) -> io::Result<PathBuf> {
     static COUNT: AtomicU64 = AtomicU64::new(0);
     let name = path
@@ -102,17 +102,17 @@ fn temporary_name(path: &Path) -> io::Result<PathBuf> {
         hidden.push(name);
         hidden.push(format!(".{}-{}.part", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed)));
         let temporary = path.with_file_name(hidden);
-        // A process of the same number may have left it, or someone has laid a link there.
+        // The name may exist: left by a process with the same number, or made as a link.
         if fs::symlink_metadata(&temporary).is_err() {
             return Ok(temporary);
         }
     }
 }
 
-/// A folder in which the files of a run are made.
+/// The folder for the files of a run.
 ///
-/// Made at the start of a run, so that a folder that cannot be written is reported before hours of
-/// computation, not after.
+/// Create it at the start of a run. A folder that is not writable is then reported before hours of
+/// computation.
 ///
 /// ```
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -132,8 +132,8 @@ pub struct OutputFolder {
 }
 
 impl OutputFolder {
-    /// Creates the folder, with those above it, if it does not exist, and makes sure that files can be made
-    /// in it by making one and removing it. What the folder already holds stays.
+    /// Creates the folder and its parents if they do not exist. Then checks that it is writable by making a
+    /// file and removing it. Earlier content stays.
     ///
     /// # Errors
     /// [`WriteError::CreateFolder`], [`WriteError::NotAFolder`] or [`WriteError::NotWritable`], each with the
@@ -152,35 +152,35 @@ impl OutputFolder {
         }
     }
 
-    /// A folder whose files are read, not made; it need not be there.
+    /// A folder to read from. It need not exist.
     pub fn to_read(path: impl Into<PathBuf>) -> Self {
         Self { path: path.into() }
     }
 
-    /// The folder itself.
+    /// The path of the folder.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// The path of a file of this folder.
+    /// The path of a file in this folder.
     ///
-    /// Names may come from the names of substates: characters other than ASCII letters, digits and `.`, `_`,
-    /// `-` become `_`, so that the path stays inside the folder on every system.
+    /// A name may be that of a substate. Characters other than ASCII letters, digits, `.`, `_` and `-` become
+    /// `_`. The path therefore stays inside the folder on every system.
     #[must_use]
     pub fn file(&self, name: &str) -> PathBuf {
         self.path.join(plain_name(name))
     }
 
-    /// The path of one file of a series, `STEM_STEP.EXTENSION` with the step in eight digits or more, so that
-    /// the names sort in the order of the steps.
+    /// The path of one file of a series: `STEM_STEP.EXTENSION`. The step has at least eight digits, so that
+    /// the names sort by step.
     #[must_use]
     pub fn numbered(&self, stem: &str, step: u64, extension: &str) -> PathBuf {
         self.file(&format!("{stem}_{step:08}.{extension}"))
     }
 
-    /// Flushes the names of the folder to the disk, so that they outlive a loss of power. Only Unix lets one
-    /// do that; elsewhere nothing happens.
+    /// Flushes the file names of the folder to the disk, so that they survive a power failure. Has no effect
+    /// outside Unix.
     ///
     /// # Errors
     /// [`WriteError::File`] with the folder.
@@ -190,16 +190,16 @@ impl OutputFolder {
         synced.map_err(|source| WriteError::File { path: self.path.clone(), source })
     }
 
-    /// A folder inside this one, created and checked like this one.
+    /// Creates and checks a folder inside this one. See [`OutputFolder::create`].
     ///
     /// # Errors
-    /// As [`OutputFolder::create`].
+    /// Those of [`OutputFolder::create`].
     pub fn subfolder(&self, name: &str) -> Result<Self, WriteError> {
         Self::create(self.file(name))
     }
 }
 
-/// A name as [`OutputFolder::file`] gives it to a file.
+/// A valid file name made from `name`, as in [`OutputFolder::file`].
 #[must_use]
 pub fn plain_name(name: &str) -> String {
     let kept = |c: char| if c.is_ascii_alphanumeric() || "._-".contains(c) { c } else { '_' };
@@ -315,7 +315,7 @@ mod tests {
     #[cfg(target_os = "linux")]
     #[test]
     fn a_folder_that_takes_no_files_is_refused_at_once() {
-        // Even the superuser cannot make a file here.
+        // Not even root can make a file here.
         let error = OutputFolder::create("/proc/self").unwrap_err();
         assert!(matches!(error, WriteError::NotWritable { .. }), "{error:?}");
         assert!(error.source().is_some());

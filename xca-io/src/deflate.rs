@@ -1,10 +1,10 @@
-//! What the compression of zlib, PNG and VTK can do at best.
+//! The largest expansion of a zlib stream, as in PNG and VTK files.
 
-/// No stream grows by more than this factor when it is expanded: two bits become 258 bytes.
+/// The largest factor by which a stream grows when it is expanded: two bits become 258 bytes.
 pub const MOST_GROWTH: u64 = 1032;
 
-/// Whether so many bytes of a stream can become so many bytes of values. A reader asks before it makes room
-/// for them: the header of a short file may promise anything.
+/// Whether `compressed` bytes of a stream can become `expanded` bytes of values. Check before allocating: the
+/// header of a short file may claim any size.
 #[must_use]
 pub fn can_hold(compressed: u64, expanded: u64) -> bool {
     compressed.saturating_mul(MOST_GROWTH) >= expanded

@@ -1,12 +1,17 @@
-//! Extended XYZ (`.xyz`): particles as text, for OVITO, ASE and others that show or analyse particles.
+//! Extended XYZ (`.xyz`): particles as text, for OVITO, ASE and similar programs.
 //!
-//! A frame is a line with the number of particles, a line of keys, and a line for each particle. The keys are
-//! `Lattice` (the sides of the space), `Origin`, `Properties` (name, type and width of each column), `pbc`
-//! (which axes are periodic) and `Time`. The columns begin with `pos`. OVITO knows `id` and `radius` by these
-//! names.
+//! A frame is a line with the number of particles, a line of keys, and a line for each particle. The keys
+//! are:
 //!
-//! Numbers have as many digits as it takes to read them back to the last bit. ASE holds whole numbers up to
-//! 2147483647.
+//! - `Lattice`: the sides of the space
+//! - `Origin`: its lower corner
+//! - `Properties`: name, type and width of each column
+//! - `pbc`: which axes are periodic
+//! - `Time`: the simulated time
+//!
+//! The first column is `pos`. OVITO recognizes the columns `id` and `radius`.
+//!
+//! Numbers have enough digits to read back exactly. ASE accepts integers up to 2147483647.
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -43,7 +48,7 @@ use std::path::Path;
 /// The column of the positions.
 const POSITIONS: &str = "pos";
 
-/// A column beside the positions.
+/// A column in addition to the positions.
 #[derive(Debug, Clone, Copy)]
 pub struct Column<'a> {
     name: &'a str,
@@ -52,7 +57,7 @@ pub struct Column<'a> {
 }
 
 impl<'a> Column<'a> {
-    /// A column with so many components for each particle, one particle after the other.
+    /// A column with `components` values per particle, one particle after the other.
     pub fn new(name: &'a str, components: usize, values: Values<'a>) -> Self {
         Self { name, components, values }
     }
@@ -61,13 +66,13 @@ impl<'a> Column<'a> {
 /// The values of a column.
 #[derive(Debug, Clone, Copy)]
 pub enum Values<'a> {
-    /// Floating numbers.
+    /// `f64` numbers.
     F64(&'a [f64]),
-    /// Floating numbers of fewer digits.
+    /// `f32` numbers, with fewer digits.
     F32(&'a [f32]),
-    /// Whole numbers.
+    /// Integers.
     Whole(&'a [i64]),
-    /// `T` or `F`.
+    /// Truth values, written as `T` and `F`.
     Bool(&'a [bool]),
     /// Words without blanks, such as the names of states.
     Text(&'a [&'a str]),
@@ -104,14 +109,14 @@ impl Values<'_> {
         }
     }
 
-    /// The first text that is no word.
+    /// The first text that is not a single word.
     fn first_broken(&self) -> Option<&str> {
         let Self::Text(values) = self else { return None };
         values.iter().copied().find(|text| !is_word(text))
     }
 }
 
-/// Whether a text is one word for every reader: without blanks, quotes and brackets.
+/// Whether every reader takes a text as one word: it has no blanks, quotes or brackets.
 fn is_word(text: &str) -> bool {
     let is_plain =
         |letter: char| !letter.is_whitespace() && !letter.is_control() && !"\"'=:{}[]\\".contains(letter);
@@ -120,9 +125,9 @@ fn is_word(text: &str) -> bool {
 
 /// Writes one frame. The file appears complete or not at all.
 ///
-/// `positions` has one entry for each particle, and every column one for each particle and component, in the
-/// same order. `time` and `space` are in the units of the positions. Values that are not finite are written
-/// as `NaN`, `inf` and `-inf`, so that a broken state can be looked at.
+/// `positions` has one entry per particle. Every column has one value per particle and component, in the same
+/// order. `time` and `space` use the units of the positions. Values that are not finite are written as `NaN`,
+/// `inf` and `-inf`, so that a broken state can be inspected.
 ///
 /// # Errors
 /// [`WriteXyzError`], each with the path.

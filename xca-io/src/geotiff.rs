@@ -1,8 +1,8 @@
-//! GeoTIFF (`.tif`): a layer of cells with its place on the map and its coordinate system.
+//! GeoTIFF (`.tif`): a layer of cells, its place on the map and its coordinate system.
 //!
-//! The first band of the first image is read: integers of 8 to 64 bits, `f32` or `f64`; in strips or tiles;
-//! uncompressed or with Deflate, LZW or PackBits, with any predictor. The rows of a file begin in the north,
-//! those of a [`Raster`] in the south.
+//! The reader takes the first band of the first image. Samples are integers of 8 to 64 bits, `f32` or `f64`,
+//! in strips or tiles. They are uncompressed, or compressed with Deflate, LZW or PackBits, with any
+//! predictor. Rows of a file begin in the north, those of a [`Raster`] in the south.
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -38,8 +38,8 @@ use std::path::Path;
 
 /// Reads the first band of a GeoTIFF.
 ///
-/// NODATA is the value of GDAL's tag 42113, and NaN. A file whose pixels are points (`PixelIsPoint`) has
-/// cells around these points.
+/// NODATA is NaN, and the value of GDAL's tag 42113. If the pixels are points (`PixelIsPoint`), the cells are
+/// centred on these points.
 ///
 /// # Errors
 /// [`ReadGeoTiffError`] with the path.
@@ -47,12 +47,12 @@ pub fn read(path: &Path) -> Result<Raster, ReadGeoTiffError> {
     read::read(path, None)
 }
 
-/// As [`read`]; a file without georeference gets this place, if it has its columns and rows.
+/// Like [`read`], but a file without georeference lies at `on`, if its columns and rows agree.
 pub(crate) fn read_placed(path: &Path, on: Option<Placement>) -> Result<Raster, ReadGeoTiffError> {
     read::read(path, on)
 }
 
-/// Writes a raster as a GeoTIFF of one band, with Deflate compression. NODATA is NaN. The file appears
+/// Writes a raster as a GeoTIFF with one band and Deflate compression. NODATA is NaN. The file appears
 /// complete or not at all.
 ///
 /// # Errors
@@ -61,7 +61,7 @@ pub fn write(path: &Path, raster: &Raster, samples: SampleType) -> Result<(), Wr
     write::write(path, raster, samples)
 }
 
-/// Whether the first bytes of a file or its extension are those of a TIFF.
+/// Whether a file is a TIFF by its first bytes or its extension.
 pub(crate) fn is_geotiff(path: &Path) -> bool {
     let extension = path.extension().unwrap_or_default();
     let mut begin = [0; 4];
@@ -70,7 +70,7 @@ pub(crate) fn is_geotiff(path: &Path) -> bool {
     has_begin || ["tif", "tiff"].iter().any(|known| extension.eq_ignore_ascii_case(known))
 }
 
-/// Little and big endian, of TIFF and of BigTIFF.
+/// Whether the bytes begin a TIFF or BigTIFF, little-endian or big-endian.
 fn is_magic(begin: [u8; 4]) -> bool {
     matches!(&begin, b"II\x2a\0" | b"MM\0\x2a" | b"II\x2b\0" | b"MM\0\x2b")
 }

@@ -1,25 +1,25 @@
-//! How the cells of a layer lie in the plane.
+//! The arrangement of the cells of a layer.
 
 /// The side of a hexagon: the reciprocal of the root of 3.
 const SIDE: f64 = 0.577_350_269_189_625_8;
 
-/// How the cells of a layer lie in the plane. Lengths are in distances between the centres of neighbours.
+/// The arrangement of the cells of a layer. The unit of length is the distance between neighbouring centres.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Lattice {
     /// Squares.
     #[default]
     Squares,
-    /// Hexagons with a corner up, in straight rows. Odd rows are shifted half a cell to the right.
+    /// Hexagons in straight rows, with a corner at the top. Odd rows are shifted half a cell to the right.
     HexagonRows,
-    /// Hexagons with a side up, in straight columns. Odd columns are shifted half a cell upwards.
+    /// Hexagons in straight columns, with a side at the top. Odd columns are shifted half a cell upwards.
     HexagonColumns,
 }
 
-/// From row to row of hexagons.
+/// The distance between rows of hexagons.
 const ROW: f64 = 1.5 * SIDE;
 
 impl Lattice {
-    /// Width and height of so many columns and rows.
+    /// Width and height of a layer with these columns and rows.
     pub fn size(self, [columns, rows]: [usize; 2]) -> [f64; 2] {
         match self {
             Self::Squares => [columns as f64, rows as f64],
@@ -31,7 +31,7 @@ impl Lattice {
         }
     }
 
-    /// The centre of a cell, from the lower left corner of the whole.
+    /// The centre of a cell, relative to the lower left corner of the layer.
     pub fn centre(self, [column, row]: [usize; 2]) -> [f64; 2] {
         match self {
             Self::Squares => [column as f64 + 0.5, row as f64 + 0.5],
@@ -53,12 +53,12 @@ impl Lattice {
                 [-half, -0.5 * side],
                 [0.0, -side],
             ],
-            // The mirror image runs clockwise.
+            // Mirror images run clockwise.
             Self::HexagonColumns => Self::HexagonRows.corners().into_iter().rev().map(swapped).collect(),
         }
     }
 
-    /// The column and the row of the cell at a point, if one is there.
+    /// The column and row of the cell that contains a point, if there is one.
     pub fn cell_at(self, [x, y]: [f64; 2], [columns, rows]: [usize; 2]) -> Option<[usize; 2]> {
         match self {
             Self::Squares => Some([whole(x, columns)?, whole(y, rows)?]),
@@ -81,7 +81,7 @@ fn swapped<T: Copy>([one, other]: [T; 2]) -> [T; 2] {
     [other, one]
 }
 
-/// The whole number below, where it is one of so many.
+/// The integer part of `number`, if it is in the range `0..of`.
 fn whole(number: f64, of: usize) -> Option<usize> {
     let below = number.floor();
     (below >= 0.0 && below < of as f64).then_some(below as usize)
@@ -93,7 +93,7 @@ mod tests {
 
     const HEXAGONS: [Lattice; 2] = [Lattice::HexagonRows, Lattice::HexagonColumns];
 
-    /// By force: the nearest centre, as long as the point is within the whole.
+    /// Brute force: the nearest centre, if the point lies inside the layer.
     #[test]
     fn a_point_is_in_the_cell_whose_centre_is_nearest() {
         for lattice in [Lattice::Squares, HEXAGONS[0], HEXAGONS[1]] {
@@ -125,7 +125,7 @@ mod tests {
         }
     }
 
-    /// Corners are shared with neighbours, and all lie within the whole.
+    /// Corners are shared with neighbours, and all lie inside the layer.
     #[test]
     fn corners_meet() {
         for lattice in HEXAGONS {
@@ -142,7 +142,7 @@ mod tests {
             }
             corners.sort_unstable();
             corners.dedup();
-            // In a patch of 6 x 5 hexagons: Euler's formula with 30 faces.
+            // Euler's formula for a patch of 6 x 5 hexagons, with 30 faces.
             assert!(corners.len() < 100, "{lattice:?}: {}", corners.len());
             let area: f64 = {
                 let ring = lattice.corners();

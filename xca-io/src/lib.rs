@@ -1,8 +1,8 @@
-//! Readers and writers of scientific files.
+//! Readers and writers of scientific file formats.
 //!
-//! Each module reads or writes one kind of file, from plain data: slices of numbers, texts. No simulation is
-//! needed. A file appears complete or not at all ([`atomic`]). Time series ([`table_csv`]) grow by whole
-//! rows.
+//! Each module reads or writes one format, from plain data: slices of numbers, texts. No simulation is
+//! needed. A file appears complete or not at all ([`atomic`]). Only time series ([`table_csv`]) grow, by
+//! whole rows.
 //!
 //! | module | file | purpose |
 //! |---|---|---|

@@ -1,14 +1,14 @@
-//! Lines of text files and rows of tables, which may not be endless.
+//! Lines of text files and rows of tables, with a limit of their length.
 
 use std::io::{self, BufRead, Read};
 
-/// No line has more bytes: a file without any end of line would fill the memory.
+/// The longest line in bytes. A file without line ends would fill the memory.
 const LONGEST: usize = 1 << 24;
 
-/// Puts the next line, with its end, in place of what `line` holds. It is empty at the end of the source.
+/// Reads the next line, with its end, into `line`. At the end of the source, `line` is empty.
 ///
 /// # Errors
-/// Of the system, and [`io::ErrorKind::InvalidData`] for a line of more than 16 MiB.
+/// Those of the system, and [`io::ErrorKind::InvalidData`] for a line of more than 16 MiB.
 pub(crate) fn read_line(source: &mut impl BufRead, line: &mut Vec<u8>) -> io::Result<()> {
     line.clear();
     source.by_ref().take(LONGEST as u64 + 1).read_until(b'\n', line)?;
@@ -19,38 +19,36 @@ pub(crate) fn read_line(source: &mut impl BufRead, line: &mut Vec<u8>) -> io::Re
     Ok(())
 }
 
-/// The source of a reader of CSV, for which a row can have many lines: a quotation mark that is never closed
-/// would make one row of the whole rest.
+/// The source of a CSV reader, with a limit of the length of a row. A quotation mark that is never closed
+/// would otherwise make one row of the whole rest.
 ///
-/// [`Self::begin_row`] must be called before each row, which then has 16 MiB; what the reader has read ahead
-/// counts too.
+/// Call [`Self::begin_row`] before each row. The limit is 16 MiB and includes what the reader has read ahead.
 #[derive(Debug)]
 pub struct LimitedRows<R> {
     source: R,
-    /// The bytes that the row can still have.
+    /// The bytes left for the row.
     left: usize,
 }
 
 impl<R> LimitedRows<R> {
-    /// The rows of a source.
+    /// The rows of `source`.
     pub fn new(source: R) -> Self {
         Self { source, left: LONGEST }
     }
 
-    /// Begins with a row.
+    /// Begins a row.
     pub fn begin_row(&mut self) {
         self.left = LONGEST;
     }
 
-    /// The source.
+    /// The underlying source.
     pub fn source(&self) -> &R {
         &self.source
     }
 }
 
 impl<R: Read> Read for LimitedRows<R> {
-    /// As the source does, but an error ([`io::ErrorKind::InvalidData`]) beyond the end of what a row can
-    /// have.
+    /// Reads from the source. Beyond the limit of the row the error is [`io::ErrorKind::InvalidData`].
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         if self.left == 0 && !buffer.is_empty() {
             let message = "a row is longer than 16 MiB; is there a quotation mark that is not closed?";
@@ -82,7 +80,7 @@ mod tests {
         rows.get_mut().begin_row();
         let error = rows.read_byte_record(&mut record).unwrap_err().to_string();
         assert!(error.contains("a row is longer than 16 MiB"), "{error}");
-        // Many rows are longer together.
+        // Many rows together are longer than the limit.
         let text = format!("{}\n", "7".repeat(LONGEST / 4)).repeat(6);
         let mut rows =
             csv::ReaderBuilder::new().has_headers(false).from_reader(LimitedRows::new(text.as_bytes()));

@@ -1,4 +1,4 @@
-//! Where a layer of cells lies on a map, and which of its cells have no ground.
+//! The place of a layer of cells on a map, and its cells without ground.
 
 pub use crate::placement::{Placement, PlacementDifference};
 
@@ -7,11 +7,11 @@ use crate::raster::Raster;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The place of a layer of cells, with a mask of those that have no ground (NODATA).
+/// The place of a layer of cells, with a mask of the cells without ground (NODATA).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Map {
     placement: Placement,
-    /// By linear index, x fastest, from the south; none where every cell has ground.
+    /// By linear index, x fastest, from the south. `None` if every cell has ground.
     missing: Option<Arc<[bool]>>,
     coordinate_system: Option<Arc<GeoKeys>>,
 }
@@ -22,8 +22,8 @@ impl Map {
         Self { placement, missing: None, coordinate_system: None }
     }
 
-    /// The same map, without ground in the cells where the mask is true (x fastest, from the south). None
-    /// where the mask does not have one entry for each cell.
+    /// The same map, without ground in the cells where the mask is true (x fastest, from the south). `None`
+    /// if the mask does not have one entry for each cell.
     #[must_use]
     pub fn without(self, missing: Vec<bool>) -> Option<Self> {
         let [columns, rows] = self.placement.extents;
@@ -32,28 +32,28 @@ impl Map {
             .then(|| Self { missing: has_any.then(|| missing.into()), ..self })
     }
 
-    /// The same map in this coordinate system, or in none.
+    /// The same map in this coordinate system, or without one.
     #[must_use]
     pub fn with_coordinate_system(self, coordinate_system: Option<Arc<GeoKeys>>) -> Self {
         Self { coordinate_system, ..self }
     }
 
-    /// Where it lies.
+    /// The place of the layer.
     pub fn placement(&self) -> Placement {
         self.placement
     }
 
-    /// The coordinate system of its corner and side, if a file has named one.
+    /// The coordinate system of its corner and side, if a file has given one.
     pub fn coordinate_system(&self) -> Option<&Arc<GeoKeys>> {
         self.coordinate_system.as_ref()
     }
 
-    /// Whether its corner and side are in degrees of longitude and latitude; else they are taken for metres.
+    /// Whether its corner and side are in degrees of longitude and latitude. Otherwise they are in metres.
     pub fn is_in_degrees(&self) -> bool {
         self.coordinate_system.as_ref().is_some_and(|keys| keys.is_in_degrees())
     }
 
-    /// The mask of the cells without ground, x fastest, from the south; none where every cell has ground.
+    /// The mask of the cells without ground, x fastest, from the south. `None` if every cell has ground.
     pub fn missing(&self) -> Option<&[bool]> {
         self.missing.as_deref()
     }
@@ -64,8 +64,8 @@ impl Map {
         cell < columns * rows && !self.missing().is_some_and(|missing| missing[cell])
     }
 
-    /// The linear indices of the cells at the edge: they have ground, and lie at the border of the map or
-    /// share a side with a cell without ground.
+    /// The linear indices of the cells at the edge. Such a cell has ground, and lies at the border of the map
+    /// or shares a side with a cell without ground.
     pub fn edge(&self) -> Vec<usize> {
         let [columns, rows] = self.placement.extents;
         let is_edge = |cell: usize| {
@@ -77,8 +77,8 @@ impl Map {
         (0..columns * rows).filter(|cell| self.has_ground(*cell) && is_edge(*cell)).collect()
     }
 
-    /// Checks that a layer lies on the map, in its coordinate system, with nothing (0 or NaN) where the map
-    /// has no ground. `path` is the file of the layer, `on` says what the map is of.
+    /// Checks that a layer fits the map: same place, no other coordinate system, and 0 or NaN where the map
+    /// has no ground. `path` is the file of the layer. `on` describes the map in the error message.
     ///
     /// # Errors
     /// [`OverlayError`] with both values of the first difference, or with the cell.
@@ -116,21 +116,21 @@ impl From<&Raster> for Map {
     }
 }
 
-/// A layer that does not fit a map.
+/// A layer does not fit a map.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum OverlayError {
-    /// It lies elsewhere, or has other cells.
+    /// The layer has another place or other cells.
     #[error("{} does not lie on {on}: {difference}", path.display())]
     Elsewhere {
         /// The file of the layer.
         path: PathBuf,
-        /// What the map is of.
+        /// The description of the map.
         on: String,
         /// The first difference.
         difference: PlacementDifference,
     },
-    /// It is in another coordinate system.
+    /// The layer is in another coordinate system.
     #[error(
         "{} does not lie on {on}: its coordinate system is EPSG:{found}, not EPSG:{wanted}; warp it with `gdalwarp`",
         path.display()
@@ -138,24 +138,24 @@ pub enum OverlayError {
     CoordinateSystem {
         /// The file of the layer.
         path: PathBuf,
-        /// What the map is of.
+        /// The description of the map.
         on: String,
-        /// The code of the layer.
+        /// The EPSG code of the layer.
         found: u16,
-        /// The code of the map.
+        /// The EPSG code of the map.
         wanted: u16,
     },
-    /// It has something where the map has no ground.
+    /// The layer has a value where the map has no ground.
     #[error("{}: {value} in column {}, row {} from the north, where {on} has no ground (NODATA); clip the grid to \
              the ground, or set it to 0 there", path.display(), place[0], place[1])]
     NoGround {
         /// The file of the layer.
         path: PathBuf,
-        /// What the map is of.
+        /// The description of the map.
         on: String,
         /// Column and row of the cell, from 1, from the west and the north.
         place: [usize; 2],
-        /// What the layer has there.
+        /// The value of the layer there.
         value: f64,
     },
 }
@@ -172,7 +172,7 @@ mod tests {
         same(PLACE);
         same(Placement { corner: [2_600.000_009, 5_099.999_991], ..PLACE });
         same(Placement { side: 10.000_009, ..PLACE });
-        // A third of a degree of a minute, with other digits.
+        // An arc second, with other digits.
         let fine = Placement { side: 1.0 / 3600.0, corner: [15.0, 37.5], ..PLACE };
         assert_eq!(fine.difference(&Placement { side: 0.000_277_777_778, ..fine }), None);
         let differs = |other: Placement, wanted: &str| {

@@ -1,10 +1,9 @@
-//! Files that are numbered by their names, such as those of steps.
+//! Files with numbers in their names, such as those of steps.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What a folder holds under names that have only digits between `before` and `after`, in the order of these
-/// numbers.
+/// The entries of a folder whose names have only digits between `before` and `after`, sorted by number.
 #[must_use]
 pub fn entries(folder: &Path, before: &str, after: &str) -> Vec<PathBuf> {
     let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
@@ -21,8 +20,7 @@ pub fn entries(folder: &Path, before: &str, after: &str) -> Vec<PathBuf> {
     found
 }
 
-/// The files of a folder whose names have only digits between `before` and `after`, in the order of these
-/// numbers.
+/// The files of a folder whose names have only digits between `before` and `after`, sorted by number.
 #[must_use]
 pub fn files(folder: &Path, before: &str, after: &str) -> Vec<PathBuf> {
     let mut files = entries(folder, before, after);

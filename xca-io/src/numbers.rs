@@ -1,9 +1,9 @@
-//! Numbers as people read them.
+//! Numbers formatted for people.
 
 use std::time::Duration;
 
-/// `value` with at most `digits` significant digits, without trailing zeros: whole numbers as such, others
-/// with a point where that takes few characters (`0.0112405`, `315979`), else with an exponent (`1.2e-7`).
+/// `value` with at most `digits` significant digits, without trailing zeros. Integers have no point. Other
+/// values have a point where that is short (`0.0112405`, `315979`), otherwise an exponent (`1.2e-7`).
 pub fn significant(value: f64, digits: usize) -> String {
     let digits = digits.max(1);
     if value == 0.0 || !value.is_finite() {
@@ -12,7 +12,7 @@ pub fn significant(value: f64, digits: usize) -> String {
     if value.fract() == 0.0 && value.abs() < 1e12 {
         return format!("{value}");
     }
-    // Rounding first, so that 9.9999999 is seen as 10.
+    // Round first, so that 9.9999999 becomes 10.
     let scientific = format!("{value:.*e}", digits - 1);
     let exponent = scientific.split_once('e').and_then(|(_, e)| e.parse::<i32>().ok()).unwrap_or(0);
     if (-4..digits.min(12) as i32).contains(&exponent) {
@@ -24,13 +24,13 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
-/// A number of things, of which the name is given for one: `1 step`, `20 steps`.
+/// A number of things, with the noun in the singular: `1 step`, `20 steps`.
 pub fn counted(number: u64, thing: &str) -> String {
     let ending = if number == 1 { "" } else { "s" };
     format!("{number} {thing}{ending}")
 }
 
-/// A rate for people: `1.23e6`, `812.4` or `0.51` steps a second; below one in ten seconds, the seconds a
+/// A rate for people: `1.23e6`, `812.4` or `0.51` steps a second. Below 0.1 steps a second it is in seconds a
 /// step.
 #[must_use]
 pub fn rate_text(steps_per_second: f64) -> String {

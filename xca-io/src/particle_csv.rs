@@ -1,11 +1,12 @@
-//! Particles as CSV: one row a particle, exact to the last bit.
+//! Particles as CSV: one row per particle, exact to the last bit.
 //!
-//! The header is `label` and then the names of the columns (CADEM: `label,x,y,z,vx,vy,vz`). Rows are sorted
-//! by label. Floats have 17 significant digits (`f64`) or 9 (`f32`), in scientific notation, so that every
-//! value is read back as the same bits. Whole numbers are written as such, `bool` as `true` and `false`,
-//! states by name. Units are those of the model.
+//! The header is `label`, then the names of the columns (CADEM: `label,x,y,z,vx,vy,vz`). Rows are sorted by
+//! label. Floats have 17 significant digits (`f64`) or 9 (`f32`) in scientific notation, so every value reads
+//! back with the same bits. Integers are written as such, `bool` as `true` and `false`, states by name. Units
+//! are those of the model.
 //!
-//! [`write()`] makes such a file, [`read()`] takes one, by hand or from a run, with errors that say the line.
+//! [`write()`] writes such a file. [`read()`] reads one, from a run or typed by hand, and reports errors by
+//! line.
 
 mod column_type;
 mod error;
@@ -31,7 +32,7 @@ pub enum Column<'a> {
     F64(&'a [f64]),
     /// Written with 9 significant digits.
     F32(&'a [f32]),
-    /// Values of this type, as numbers.
+    /// Values of this type, given as numbers.
     Typed(ColumnType<'a>, &'a [f64]),
 }
 
@@ -44,7 +45,7 @@ impl Column<'_> {
         }
     }
 
-    /// The value of row `index`, one digit before the point and 16 or 8 after it.
+    /// Formats the value of row `index` with one digit before the point and 16 or 8 after it.
     fn format(&self, index: usize, text: &mut String) -> fmt::Result {
         match self {
             Self::F64(values) => write!(text, "{:.16e}", values[index]),
@@ -56,9 +57,9 @@ impl Column<'_> {
 
 /// Writes particles to `path`, sorted by label. The file appears complete or not at all.
 ///
-/// `labels` has one entry for each particle, in any order, and so has every column, in the same order. Values
-/// that are not finite are written as `NaN`, `inf` or `-inf`, so that a broken state can be looked at;
-/// [`read()`] refuses them.
+/// `labels` has one entry for each particle, in any order. Every column has the same length and order. Values
+/// that are not finite are written as `NaN`, `inf` or `-inf`, so that a broken state can be inspected.
+/// [`read()`] rejects them.
 ///
 /// # Errors
 /// [`WriteParticlesError`], each with the path.
@@ -135,7 +136,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("p.csv");
         let mut values = AWKWARD.to_vec();
-        // Bits from a simple generator: all exponents, all mantissas.
+        // Random bits: all exponents, all mantissas.
         let mut bits = 1_u64;
         while values.len() < 2000 {
             bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

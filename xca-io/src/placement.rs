@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Corners and sides that are this near, in sides of a cell, are the same.
+/// The tolerance for equal corners and sides, in sides of a cell.
 const TOLERANCE: f64 = 1e-6;
 
 /// The place of a layer of square cells.
@@ -17,9 +17,8 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// The first thing in which a place differs from another one: extents, side or corner. Sides and corners
-    /// that are within 1e-6 of a cell are the same, so it does not matter with how many digits they are
-    /// written.
+    /// The first difference between two places: extents, side or corner. Sides and corners within 1e-6 of a
+    /// cell are equal, so the number of written digits does not matter.
     pub fn difference(&self, other: &Self) -> Option<PlacementDifference> {
         let is_near = |one: f64, other: f64| (one - other).abs() <= TOLERANCE * self.side;
         let corners = || self.corner.iter().zip(other.corner);
@@ -34,14 +33,14 @@ impl Placement {
         }
     }
 
-    /// Column and row of a cell as they are counted in a file: from 1, from the west and from the north.
+    /// Column and row of a cell as counted in a file: from 1, from the west and the north.
     pub fn place(&self, cell: usize) -> [usize; 2] {
         let [columns, rows] = self.extents;
         [cell % columns.max(1) + 1, rows.saturating_sub(cell / columns.max(1))]
     }
 }
 
-/// How two places differ: the value of the one and of the other.
+/// The difference of two places: the value of each.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum PlacementDifference {

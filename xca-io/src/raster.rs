@@ -12,7 +12,7 @@ use crate::geotiff::GeoKeys;
 use crate::placement::Placement;
 use std::sync::Arc;
 
-/// A layer of square cells, each with a number or without one.
+/// A layer of square cells, each with a number or NODATA.
 ///
 /// ```
 /// # let temporary = tempfile::tempdir()?;
@@ -32,16 +32,17 @@ use std::sync::Arc;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Raster {
     pub(crate) placement: Placement,
-    /// x fastest, from the south; NaN where there is none.
+    /// x fastest, from the south. NaN is NODATA.
     pub(crate) values: Vec<f64>,
     pub(crate) coordinate_system: Option<Arc<GeoKeys>>,
 }
 
 impl Raster {
-    /// A raster with this number of columns and rows. `values` has one number for each cell, x fastest, from
-    /// the south; NaN is NODATA. The south-west corner is at 0, 0; [`Raster::with_corner`] moves it.
+    /// Creates a raster with these columns and rows. `values` has one number for each cell, x fastest, from
+    /// the south. NaN is NODATA. The south-west corner is at 0, 0; [`Raster::with_corner`] moves it.
     ///
-    /// `None` if the number of values is not that of the cells, or the side is not a positive number.
+    /// Returns `None` if the number of values is not that of the cells, or if the side is not a positive
+    /// number.
     #[must_use]
     pub fn new(extents: [usize; 2], side: f64, values: Vec<f64>) -> Option<Self> {
         let cells = extents[0].checked_mul(extents[1])?;
@@ -107,21 +108,21 @@ impl Raster {
     }
 }
 
-/// Programs that write a NODATA value beyond this round it to few digits.
+/// A limit: programs round NODATA values beyond it to few digits.
 const HUGE: f64 = 1e38;
 
-/// Whether a number of a file is the one that stands for NODATA, however many digits either is written with.
+/// Whether a number of a file is NODATA, with any number of digits.
 pub(crate) fn stands_for_none(number: f64, nothing: f64) -> bool {
     let is_same_f32 = number as f32 == nothing as f32 && number != 0.0 && nothing as f32 != 0.0;
     number == nothing || is_same_f32 || are_huge(number, nothing)
 }
 
-/// Whether both are beyond any value, on the same side.
+/// Whether both numbers are beyond [`HUGE`], with the same sign.
 pub(crate) fn are_huge(number: f64, nothing: f64) -> bool {
     number.abs() >= HUGE && nothing.abs() >= HUGE && number.signum() == nothing.signum()
 }
 
-/// Files begin with the northernmost row.
+/// Reverses the rows: files begin with the northernmost one.
 pub(crate) fn from_the_south(mut values: Vec<f64>, columns: usize) -> Vec<f64> {
     let rows = values.len() / columns.max(1);
     for row in 0..rows / 2 {

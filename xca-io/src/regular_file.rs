@@ -1,4 +1,4 @@
-//! Files that are read: regular ones alone. A pipe without a writer, or a device, would be read for ever.
+//! Opens regular files only. Reading a device, or a pipe without a writer, would never end.
 
 use std::fs::{self, File};
 use std::io::{self, Read};
@@ -7,17 +7,17 @@ use std::path::Path;
 /// Opens a regular file.
 ///
 /// # Errors
-/// Of the system, and [`io::ErrorKind::InvalidInput`] for a folder, a pipe or a device.
+/// Those of the system, and [`io::ErrorKind::InvalidInput`] for a folder, a pipe or a device.
 pub fn open(path: &Path) -> io::Result<File> {
-    // Before it is opened: to open a pipe is to wait for its writer.
+    // Check before opening: opening a pipe waits for its writer.
     check(path)?;
     File::open(path)
 }
 
-/// Checks that a file is a regular one, before it is opened in whatever way.
+/// Checks that a file is a regular file, before it is opened by other means.
 ///
 /// # Errors
-/// As [`open`].
+/// Those of [`open`].
 pub fn check(path: &Path) -> io::Result<()> {
     if !fs::metadata(path)?.is_file() {
         return Err(io::Error::new(
@@ -31,7 +31,7 @@ pub fn check(path: &Path) -> io::Result<()> {
 /// Reads a regular file of at most `most` bytes.
 ///
 /// # Errors
-/// As [`open`], and [`io::ErrorKind::FileTooLarge`] for a longer one.
+/// Those of [`open`], and [`io::ErrorKind::FileTooLarge`] for a longer file.
 pub fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     open(path)?.take(most.saturating_add(1)).read_to_end(&mut bytes)?;

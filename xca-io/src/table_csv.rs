@@ -1,9 +1,9 @@
-//! A time series as CSV, row by row while the run goes on.
+//! A time series as CSV, written row by row during a run.
 //!
-//! The header is `step,time` and then the names of the observables; time is in seconds, or the unit of the
-//! model. Each row goes to the file whole, in one write, as soon as it is known: whenever the run ends, by
-//! Ctrl-C or a crash of the machine's power aside, the file holds complete rows. Numbers are the shortest
-//! decimals that give back the same `f64`.
+//! The header is `step,time`, then the names of the observables. Time is in seconds or in the unit of the
+//! model. Each row is written at once, as soon as it is known. After Ctrl-C or the end of the process, the
+//! file therefore holds complete rows. A crash of the machine is the exception. Numbers are the shortest
+//! decimals that read back as the same `f64`.
 
 use crate::regular_file;
 use std::fs::File;
@@ -19,7 +19,7 @@ pub enum SeriesError {
     Write {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
     /// A row has more or fewer values than the header has names.
@@ -34,15 +34,15 @@ pub enum SeriesError {
         /// The number of values.
         found: usize,
     },
-    /// The file does not begin with the rows that it is to go on from.
+    /// The file does not begin with the rows that were written.
     #[error("cannot go on with the time series {}: its first {bytes} bytes are not those that were written", path.display())]
     Changed {
         /// The file.
         path: PathBuf,
-        /// The length of those rows.
+        /// The length of those rows in bytes.
         bytes: u64,
     },
-    /// Two columns have one name.
+    /// Two columns have the same name.
     #[error("cannot write the time series {}: the name `{name}` is used twice", path.display())]
     RepeatedName {
         /// The file.
@@ -52,7 +52,7 @@ pub enum SeriesError {
     },
 }
 
-/// The writer of a time series.
+/// A writer of time series.
 ///
 /// ```
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -78,20 +78,20 @@ pub struct SeriesWriter {
     written: Written,
 }
 
-/// How much of a time series has been written.
+/// The amount of a time series that has been written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 pub struct Written {
-    /// The length of the file.
+    /// The length of the file in bytes.
     pub bytes: u64,
     /// The CRC-32 of the file.
     pub crc32: u32,
 }
 
 impl SeriesWriter {
-    /// Makes the file, in place of an earlier one, and writes its header.
+    /// Creates the file and writes its header. Overwrites an earlier file.
     ///
     /// # Errors
-    /// [`SeriesError::Write`] and [`SeriesError::RepeatedName`] (`step` and `time` are taken).
+    /// [`SeriesError::Write`] and [`SeriesError::RepeatedName`] (`step` and `time` are reserved).
     pub fn create(path: &Path, names: &[&str]) -> Result<Self, SeriesError> {
         let header: Vec<&str> = ["step", "time"].iter().chain(names).copied().collect();
         if let Some(i) = (0..header.len()).find(|&i| header[..i].contains(&header[i])) {
@@ -105,11 +105,10 @@ impl SeriesWriter {
         Ok(series)
     }
 
-    /// Goes on with a file that has so many names. What it holds beyond `written` is cut off.
+    /// Resumes a file with `names` columns. Cuts off everything beyond `written`.
     ///
     /// # Errors
-    /// [`SeriesError::Write`], and [`SeriesError::Changed`] where the file does not begin with what was
-    /// written.
+    /// [`SeriesError::Write`], and [`SeriesError::Changed`] if the file does not begin with the written rows.
     pub fn resume(path: &Path, names: usize, written: Written) -> Result<Self, SeriesError> {
         let opened =
             regular_file::check(path).and_then(|()| File::options().read(true).write(true).open(path));
@@ -127,7 +126,7 @@ impl SeriesWriter {
         Ok(Self { path: path.to_owned(), file, names, written })
     }
 
-    /// How much has been written, once all of it is on the disk.
+    /// The amount written, after it has been flushed to the disk.
     ///
     /// # Errors
     /// [`SeriesError::Write`].
@@ -137,7 +136,7 @@ impl SeriesWriter {
         Ok(self.written)
     }
 
-    /// Appends a row and hands it to the system. The values stand in the order of the names; `NaN` and `inf`
+    /// Appends a row and hands it to the system. The values are in the order of the names. `NaN` and `inf`
     /// are written as such.
     ///
     /// # Errors
@@ -167,8 +166,8 @@ impl SeriesWriter {
     }
 }
 
-/// The shortest decimal that reads back as `value`: whole numbers without a point, very small and very large
-/// ones with an exponent.
+/// The shortest decimal that reads back as `value`. Integers have no point. Very small and very large values
+/// have an exponent.
 fn shortest(value: f64) -> String {
     if value.fract() == 0.0 && value.abs() < 1e15 { format!("{value}") } else { format!("{value:?}") }
 }
@@ -202,7 +201,7 @@ mod tests {
         assert_eq!(written, Written { bytes: text.len() as u64, crc32: crc32fast::hash(&text) });
         series.append(5, 0.5, &[2.0]).unwrap();
         let whole = fs::read(&path).unwrap();
-        // A row that was cut off by the end of the process.
+        // A row that the end of the process cut off.
         fs::write(&path, &whole[..whole.len() - 1]).unwrap();
         let mut series = SeriesWriter::resume(&path, 1, written).unwrap();
         assert_eq!(fs::read(&path).unwrap(), text);

@@ -1,18 +1,17 @@
-//! VTK XML files, which ParaView, VisIt and VTK read.
+//! VTK XML files, for ParaView, VisIt and VTK.
 //!
 //! | function | file | holds |
 //! |---|---|---|
 //! | [`write_particles`] | `.vtp`, PolyData | particles: one vertex each, with arrays of values |
 //! | [`write_dense`] | `.vti`, ImageData | dense substates: one value, or vector, a cell |
 //! | [`write_hexagons`] | `.vtp`, PolyData | dense substates on hexagons: a polygon a cell |
-//! | [`Collection`] | `.pvd` | the files of a run with their times: what to open to see the run as a film |
+//! | [`Collection`] | `.pvd` | the files of a run with their times; open it to play the run |
 //!
-//! [`read_particles`], [`read_dense`], [`read_hexagons`] and [`read_collection`] read them back, and no other
-//! VTK files. [`read_poly_data`] takes either kind of `.vtp`.
+//! [`read_particles`], [`read_dense`], [`read_hexagons`] and [`read_collection`] read these files back. They
+//! read no other VTK files. [`read_poly_data`] takes either kind of `.vtp`.
 //!
-//! Values are stored as they are (binary, little-endian, `AppendedData` in raw encoding) and compressed with
-//! zlib, so nothing is lost. Units are those of the model. Every file carries its time as the field
-//! `TimeValue`.
+//! Values are binary, little-endian, in `AppendedData` with raw encoding, and compressed with zlib without
+//! loss. Units are those of the model. Every file holds its time as the field `TimeValue`.
 
 mod appended;
 mod blocks;
@@ -53,7 +52,7 @@ pub enum VtkError {
         /// The number of entries.
         found: usize,
     },
-    /// Two arrays have one name.
+    /// Two arrays have the same name.
     #[error("cannot write {}: two arrays are named `{array}`", path.display())]
     RepeatedArray {
         /// The file.
@@ -67,7 +66,7 @@ pub enum VtkError {
         /// The file.
         path: PathBuf,
     },
-    /// VTK counts points and cells along an axis with 32 bits.
+    /// There are more points, or cells along an axis, than VTK can count with 32 bits.
     #[error("cannot write {}: {found} is more than VTK's limit of {}", path.display(), i32::MAX)]
     TooMany {
         /// The file.
@@ -75,17 +74,17 @@ pub enum VtkError {
         /// The number of particles, or of cells along an axis.
         found: usize,
     },
-    /// A time, an origin or a spacing that is not finite, or a spacing that is not positive.
+    /// A time, origin or spacing is not finite, or a spacing is not positive.
     #[error("cannot write {}: {what} is {value}", path.display())]
     Geometry {
         /// The file.
         path: PathBuf,
-        /// What the value stands for.
+        /// The name of the quantity.
         what: &'static str,
         /// The value.
         value: f64,
     },
-    /// A collection can only name files that lie in its own folder or below.
+    /// A collection can only list files in its own folder or below.
     #[error("cannot list {} in {}: it is not in the same folder or below", file.display(), path.display())]
     OutsideFolder {
         /// The collection.
@@ -93,7 +92,7 @@ pub enum VtkError {
         /// The file.
         file: PathBuf,
     },
-    /// The system refused.
+    /// The system returned an error.
     #[error(transparent)]
     Write(#[from] WriteError),
 }

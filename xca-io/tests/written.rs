@@ -1,5 +1,5 @@
-//! How many bytes a list of frames costs. The system counts those of a whole process, so the test has one of
-//! its own.
+//! The cost of a list of frames in written bytes. The system counts the bytes of a whole process, so this
+//! test has its own.
 
 #![cfg(target_os = "linux")]
 #![allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should")]
@@ -7,7 +7,7 @@
 use std::fs;
 use xca_io::vtk::Collection;
 
-/// The bytes that this process has written, as the system counts them.
+/// The bytes that this process has written, as counted by the system.
 fn written() -> u64 {
     let text = fs::read_to_string("/proc/self/io").unwrap();
     text.lines().find_map(|line| line.strip_prefix("wchar: ")).unwrap().parse().unwrap()

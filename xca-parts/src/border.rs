@@ -1,4 +1,4 @@
-//! The way of a part's engine to the others.
+//! The connection of a part's engine to the other parts.
 
 use crate::cut::Cut;
 use crate::transport::{Tag, Transport, TransportError};
@@ -9,7 +9,8 @@ use xca_core::{Face, Faces, Geometry};
 /// The name of the engine.
 pub(crate) const NAME: &str = "parts";
 
-/// A transport that a part's engine and whoever gives it commands share. They never use it at the same time.
+/// A transport shared by a part's engine and by the code that gives it commands. They never use it at the
+/// same time.
 #[derive(Clone)]
 pub(crate) struct Link(Arc<Mutex<Box<dyn Transport>>>);
 
@@ -23,10 +24,10 @@ impl Link {
     }
 }
 
-/// The border of a part. Where a message does not arrive the part ends, so that none waits for it.
+/// The border of a part. If a message does not arrive, the part ends, so that no other part waits for it.
 pub(crate) struct PartBorder {
     link: Link,
-    /// The number of the part beyond each face; nothing where no part lies beyond it.
+    /// The number of the part beyond each face. `None` if no part lies beyond it.
     beyond: Faces<Option<usize>>,
 }
 
@@ -41,7 +42,7 @@ impl PartBorder {
         self.beyond[face].ok_or_else(|| broken(format!("no part lies beyond the {face} face of this one")))
     }
 
-    /// Has the transport do something.
+    /// Uses the transport. Ends it after an error.
     fn with<T>(
         &self,
         work: impl FnOnce(&mut dyn Transport) -> Result<T, TransportError>,
@@ -73,7 +74,7 @@ impl Border for PartBorder {
     }
 }
 
-/// The failure of this engine.
+/// A failure of this engine.
 pub(crate) fn broken(reason: String) -> EngineFailure {
     EngineFailure::Broken { engine: NAME.to_owned(), reason }
 }

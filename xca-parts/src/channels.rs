@@ -4,14 +4,14 @@ use crate::transport::{Tag, Transport, TransportError};
 use std::collections::VecDeque;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-/// The ends of channels from one part to all parts and back.
+/// The channels from one part to all parts and back.
 #[derive(Debug)]
 pub struct Channels {
     number: usize,
-    /// For each part; empty once the own part has ended.
+    /// The senders to all parts. Empty after the own part has ended.
     to: Vec<Sender<Message>>,
     from: Vec<Receiver<Message>>,
-    /// For each part the messages that came before one that was waited for.
+    /// Messages from each part that arrived before a message that was waited for.
     early: Vec<VecDeque<Message>>,
 }
 
@@ -22,7 +22,7 @@ struct Message {
 }
 
 impl Channels {
-    /// Channels between so many parts, for each part its ends.
+    /// Creates channels between `parts` parts, and returns the ends of each part.
     pub fn connect(parts: usize) -> Vec<Self> {
         let mut all: Vec<Self> = (0..parts)
             .map(|number| Self {
@@ -100,7 +100,7 @@ mod tests {
         assert_eq!(got, [4, 2, 1, 3]);
         assert_eq!(second.receive(0, south), Err(TransportError::Ended { part: 0 }));
         assert_eq!(first.send(1, south, Vec::new()), Err(TransportError::Ended { part: 0 }));
-        // The other way is still open.
+        // The other direction is still open.
         second.send(0, Tag::Reply, vec![5]).unwrap();
         assert_eq!(first.receive(1, Tag::Reply), Ok(vec![5]));
     }

@@ -1,22 +1,22 @@
-//! How a space is cut into parts.
+//! Cuts of a space into parts.
 
 use std::ops::Range;
 use xca_core::engine::{Part, StartError};
 use xca_core::{Face, Geometry};
 
-/// A cut of a space into parts: so many along y, and so many along z. Their rows are shared evenly.
+/// A cut of a space into parts along y and along z. The rows are distributed evenly.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Cut {
-    /// Parts along y, at least one.
+    /// The number of parts along y, at least one.
     pub y: usize,
-    /// Parts along z, at least one.
+    /// The number of parts along z, at least one.
     pub z: usize,
 }
 
 impl Cut {
-    /// A cut into so many parts, none thinner than what the model reaches: along the longer of y and z, along
-    /// y if they are equal; where there is no room, along the other one, or along both. Nothing where no such
-    /// cut has that many parts.
+    /// The even cut into `parts` parts, none thinner than the reach of the model. It cuts along the longer of
+    /// y and z, or along y if they are equal. Without room for this, it cuts along the other axis, or along
+    /// both. `None` if there is no such cut.
     pub fn even(geometry: &Geometry, parts: usize) -> Option<Self> {
         let [_, height, depth] = geometry.extents();
         let along_longer = |along: usize| {
@@ -27,10 +27,10 @@ impl Cut {
         [parts, 1].into_iter().chain(both).map(along_longer).find(|cut| cut.fits(geometry))
     }
 
-    /// The even cut into so many parts, for an engine with this name.
+    /// The even cut into `parts` parts. `engine` is the name in the error message.
     ///
     /// # Errors
-    /// [`StartError::NoParts`] where there is no such cut.
+    /// [`StartError::NoParts`] if there is no such cut.
     pub fn into_parts(geometry: &Geometry, parts: usize, engine: &str) -> Result<Self, StartError> {
         Self::even(geometry, parts).ok_or_else(|| {
             let ([_, y, z], most) = (geometry.extents(), Self::most(geometry));
@@ -43,14 +43,14 @@ impl Cut {
         })
     }
 
-    /// The most parts along y and along z.
+    /// The largest numbers of parts along y and along z.
     pub fn most(geometry: &Geometry) -> Self {
         let [y, z] = [1, 2]
             .map(|axis| (geometry.extents()[axis] / geometry.neighbourhood().reach()[axis].max(1)).max(1));
         Self { y, z }
     }
 
-    /// Whether each part has at least one row along both axes, and no cell sees beyond the next part.
+    /// Whether each part has at least one row along both axes, and no cell reaches beyond the next part.
     fn fits(self, geometry: &Geometry) -> bool {
         let most = Self::most(geometry);
         (1..=most.y).contains(&self.y) && (1..=most.z).contains(&self.z)
@@ -67,13 +67,13 @@ impl Cut {
         Part { y: share(height, self.y, number % self.y), z: share(depth, self.z, number / self.y) }
     }
 
-    /// The number of the part that has the row with these indices y and z.
+    /// The number of the part that contains the row with these indices y and z.
     pub fn part_of(self, geometry: &Geometry, [y, z]: [usize; 2]) -> usize {
         let [_, height, depth] = geometry.extents();
         owner(depth, self.z, z) * self.y + owner(height, self.y, y)
     }
 
-    /// The number of the part beyond a face of the part with this number, also round the space.
+    /// The number of the part beyond a face of the part with this number, with wrapping around the space.
     pub fn beyond(self, number: usize, face: Face) -> usize {
         let next = |at: usize, count: usize, axis: usize| {
             let [low, high] = Face::ALONG[axis];
@@ -87,12 +87,12 @@ impl Cut {
     }
 }
 
-/// The rows of one of several parts of an axis.
+/// The rows of one part of an axis.
 fn share(rows: usize, parts: usize, number: usize) -> Range<usize> {
     rows * number / parts..rows * (number + 1) / parts
 }
 
-/// The part of an axis that has a row.
+/// The part of an axis that contains a row.
 fn owner(rows: usize, parts: usize, row: usize) -> usize {
     let guess = row * parts / rows.max(1);
     (guess..parts).find(|number| row < share(rows, parts, *number).end).unwrap_or(guess)
@@ -120,7 +120,7 @@ mod tests {
         };
         assert_eq!(cut([9, 12, 12], 1, 4), Some((4, 1)));
         assert_eq!(cut([9, 11, 12], 1, 4), Some((1, 4)));
-        // No room along the longer axis alone.
+        // There is no room along the longer axis alone.
         assert_eq!(cut([9, 12, 9], 3, 6), Some((3, 2)));
         assert_eq!(cut([9, 9, 12], 3, 6), Some((2, 3)));
         assert_eq!(cut([9, 12, 9], 3, 5), None);
@@ -128,7 +128,7 @@ mod tests {
         assert_eq!(Cut::most(model([9, 12, 10], 3).geometry()), Cut { y: 4, z: 3 });
     }
 
-    /// Each row belongs to one part, which knows it; parts differ by one row at most.
+    /// Each row belongs to one part, which knows it. The sizes of parts differ by at most one row.
     #[test]
     fn each_row_has_one_part() {
         for (height, depth, y, z) in [(7, 5, 3, 2), (13, 1, 5, 1), (4, 9, 4, 4), (6, 6, 1, 6)] {
@@ -148,7 +148,7 @@ mod tests {
         }
     }
 
-    /// What lies beyond a face sees the part beyond the opposite face; one row further is the next part.
+    /// The part beyond a face has this part beyond its opposite face. One row farther is the next part.
     #[test]
     fn parts_lie_beyond_each_other() {
         let model = model([2, 7, 9], 1);

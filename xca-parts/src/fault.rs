@@ -1,9 +1,9 @@
-//! Faults on their way to the host.
+//! Faults in messages to the host.
 
 use serde::{Deserialize, Serialize};
 use xca_core::{EngineFailure, Fault, Model};
 
-/// A fault of a process. The name of the process travels as its number.
+/// A fault of a process. The message holds the number of the process, not its name.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) struct FaultMessage {
     process: Option<usize>,
@@ -84,7 +84,8 @@ enum NamelessFault {
         label: Option<u32>,
         message: String,
     },
-    /// Last, as readers do not number what is skipped. What an engine tells of itself travels in another way.
+    /// The last variant, because readers do not count skipped variants. Failures of an engine use another
+    /// message.
     #[serde(skip)]
     Engine(EngineFailure),
 }
@@ -96,7 +97,7 @@ impl FaultMessage {
         Self { process: name.and_then(number), fault }
     }
 
-    /// The fault with the name of its process.
+    /// Adds the name of the process to the fault.
     pub(crate) fn fault(self, model: &Model) -> Fault {
         let mut fault = self.fault;
         if let Some(definition) = self.process.and_then(|number| model.processes().get(number)) {
@@ -110,7 +111,7 @@ impl FaultMessage {
     }
 }
 
-/// The name of the process of a fault.
+/// The field with the name of the process.
 fn process(fault: &mut Fault) -> Option<&mut &'static str> {
     match fault {
         Fault::Engine(_) | Fault::NotFinite { .. } => None,

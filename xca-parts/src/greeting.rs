@@ -1,17 +1,17 @@
-//! The first message of each part: what it is of, so that the host finds parts that do not belong together.
+//! The first message of each part: its version, model and cut. The host detects parts that do not match.
 
 use crate::shared::Shared;
 use std::fmt::{Debug, Write as _};
 use xca_core::model::Group;
 use xca_core::{Model, Precision};
 
-/// What must be the same in all parts, as text that any build on any machine can read.
+/// Properties that must be the same in all parts, as text that every build on every machine can read.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Greeting {
     facts: Vec<(String, String)>,
 }
 
-/// Stands before the reason of a part that cannot begin.
+/// The key of the reason of a part that cannot begin.
 const DECLINED: &str = "declined";
 
 impl Greeting {
@@ -35,7 +35,7 @@ impl Greeting {
         Self { facts: facts.into_iter().map(|(name, value)| (name.to_owned(), value)).collect() }
     }
 
-    /// That of a part that cannot begin.
+    /// The greeting of a part that cannot begin.
     pub(crate) fn declined(reason: &str) -> Self {
         Self { facts: vec![(DECLINED.to_owned(), reason.replace('\n', "; "))] }
     }
@@ -43,13 +43,13 @@ impl Greeting {
     pub(crate) fn bytes(&self) -> Vec<u8> {
         let mut text = String::new();
         for (name, value) in &self.facts {
-            // Writing to a string does not fail.
+            // Writing to a string cannot fail.
             let _ = writeln!(text, "{name}={value}");
         }
         text.into_bytes()
     }
 
-    /// Compares what another part says with what the host is.
+    /// Compares the greeting of another part with that of the host.
     pub(crate) fn check(&self, part: usize, bytes: &[u8]) -> Result<(), String> {
         let said = str::from_utf8(bytes).unwrap_or_default();
         let said: Vec<(&str, &str)> = said.lines().filter_map(|line| line.split_once('=')).collect();
@@ -69,7 +69,7 @@ impl Greeting {
     }
 }
 
-/// Of names, types, outside values, and the room for items.
+/// The checksum of names, types, outside values and slots.
 fn substates(model: &Model, precision: Precision) -> String {
     let outside = |group: &Group| {
         let fields = 0..group.schema().fields.len();
@@ -79,14 +79,14 @@ fn substates(model: &Model, precision: Precision) -> String {
     checksum(&all.collect::<Vec<_>>())
 }
 
-/// Of the processes in their order, with what each reads, writes and does.
+/// The checksum of the processes in their order: reads, writes and bodies.
 fn processes(model: &Model) -> String {
     let all = model.processes().iter();
     let all = all.map(|process| (process.name, process.every, process.access, (process.body)()));
     checksum(&all.collect::<Vec<_>>())
 }
 
-/// Of the text of some data, without the addresses of functions, which each process has of its own.
+/// The checksum of the text of data. Leaves out the addresses of functions, which differ between processes.
 fn checksum(data: &impl Debug) -> String {
     let (text, mut sum) = (format!("{data:?}"), crc32fast::Hasher::new());
     for (number, piece) in text.split("0x").enumerate() {

@@ -1,4 +1,4 @@
-//! The host: a state in parts as a simulation sees it.
+//! The host: presents the state of all parts to a simulation.
 
 use crate::border::{Link, NAME, broken};
 use crate::greeting::Greeting;
@@ -23,14 +23,14 @@ pub(crate) struct Host {
     shared: Shared,
     rows: Rows,
     state: Mutex<State>,
-    /// The threads of other parts in this process. They end when the host has.
+    /// The threads of other parts in this process. They end after the host.
     threads: Vec<JoinHandle<()>>,
 }
 
 struct State {
     own: Worker,
     link: Link,
-    /// Why no part goes on.
+    /// The failure that has stopped all parts.
     failure: Option<EngineFailure>,
 }
 
@@ -59,17 +59,17 @@ impl Host {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Has all parts do the same.
+    /// Gives all parts the same command.
     fn ask(&self, command: &Command) -> Result<Vec<Reply>, EngineFailure> {
         self.state().ask(vec![command.clone(); self.shared.cut.count()])
     }
 
-    /// Has all parts change something.
+    /// Gives each part a command that changes its state.
     fn change(&self, commands: Vec<Command>) -> Result<(), EngineFailure> {
         self.state().ask(commands).map(drop)
     }
 
-    /// Has all parts run processes. A fault comes with the number of steps done before it.
+    /// Lets all parts run processes. A fault includes the number of steps done before it.
     fn run_all(&self, command: &Command) -> Result<(), Interruption> {
         let interruption = |failure| Interruption { done: 0, fault: Fault::Engine(failure) };
         let replies = self.ask(command).map_err(interruption)?;
@@ -90,7 +90,7 @@ impl Host {
         })
     }
 
-    /// The cells of each part, with their places in the list.
+    /// The cells of each part, with their indices in the list.
     fn cells_of_parts(&self, cells: &[usize]) -> Vec<CellsOfPart> {
         let (geometry, cut) = (self.shared.model.geometry(), self.shared.cut);
         let mut parts = vec![CellsOfPart::default(); cut.count()];
@@ -107,12 +107,12 @@ impl Host {
         self.state().fail("the parts answer what was not asked".to_owned())
     }
 
-    /// The bytes of a substate in a cell.
+    /// The size of a substate in a cell, in bytes.
     fn size(&self, substate: SubstateId) -> usize {
         self.shared.model.stored(substate, self.shared.precision).size()
     }
 
-    /// The bytes of each substate of a group in an item.
+    /// The sizes of the substates of a group in an item, in bytes.
     fn sizes(&self, group: usize) -> Vec<usize> {
         let stored = self.shared.model.groups().get(group).map(|group| group.stored(self.shared.precision));
         stored.into_iter().flatten().map(xca_core::StoredType::size).collect()
@@ -123,7 +123,7 @@ impl Host {
         group.is_some_and(|group| matches!(group.kind(), GroupKind::Population { .. }))
     }
 
-    /// The bytes that each row of a substate has: in each row as many, or as its items need.
+    /// The number of items in each row. `None` for a group of cells.
     fn items_of_rows(&self, group: usize) -> Result<Option<Vec<usize>>, EngineFailure> {
         if !self.is_population(group) {
             return Ok(None);
@@ -138,7 +138,7 @@ impl Host {
         items.map(Some).ok_or_else(|| self.garbled())
     }
 
-    /// How many bytes of a substate a row has.
+    /// The size of each row of a substate, in bytes.
     fn lengths<'a>(&self, substate: SubstateId, items: &'a Option<Vec<usize>>) -> Lengths<'a> {
         let size = self.size(substate);
         match items {
@@ -147,7 +147,7 @@ impl Host {
         }
     }
 
-    /// What all parts count of a population together.
+    /// The census of a population over all parts.
     fn census(&self, group: usize) -> Result<Census, EngineFailure> {
         if !self.is_population(group) {
             return Ok(Census::default());
@@ -171,7 +171,7 @@ impl Host {
     }
 }
 
-/// Hears what the other parts are of. They begin while the host looks.
+/// Receives the greetings of the other parts. They start in the meantime.
 fn greet(shared: &Shared, link: &Link) -> Result<(), String> {
     let own = Greeting::new(shared);
     let count = link.lock().count();
@@ -181,23 +181,23 @@ fn greet(shared: &Shared, link: &Link) -> Result<(), String> {
     })
 }
 
-/// Those of some cells that belong to a part.
+/// The cells of one part, out of a list.
 #[derive(Debug, Clone, Default)]
 struct CellsOfPart {
     /// Their linear indices.
     cells: Vec<usize>,
-    /// Where they stand among all.
+    /// Their indices in the list.
     places: Vec<usize>,
 }
 
 impl State {
-    /// No part goes on: all that wait for this one learn it.
+    /// Stops all parts. Parts that wait for this one get an error.
     fn fail(&mut self, reason: String) -> EngineFailure {
         self.link.lock().end();
         self.failure.get_or_insert(broken(reason)).clone()
     }
 
-    /// Gives each part its command, and the replies of all.
+    /// Sends each part its command, and returns the replies of all.
     fn ask(&mut self, commands: Vec<Command>) -> Result<Vec<Reply>, EngineFailure> {
         if let Some(failure) = &self.failure {
             return Err(failure.clone());
@@ -216,10 +216,10 @@ impl State {
         self.replies(own)
     }
 
-    /// The replies of all parts, the own one first. Where a part cannot go on, none does.
+    /// Returns the replies of all parts, the own one first. If one part has failed, all stop.
     fn replies(&mut self, own: Reply) -> Result<Vec<Reply>, EngineFailure> {
         if matches!(own, Reply::Failed { .. }) {
-            // Other parts may wait for this one.
+            // Other parts may be waiting for this one.
             self.link.lock().end();
         }
         let count = self.link.lock().count();
@@ -230,7 +230,7 @@ impl State {
             let reply = received.map_err(|error| error.to_string()).and_then(|bytes| decode(&bytes));
             match reply {
                 Ok(reply) => replies.push(reply),
-                // A part that says why is heard before one that has lost another.
+                // A part that reports a reason takes precedence over a part that lost the connection.
                 Err(reason) => {
                     lost.get_or_insert(reason);
                     replies.push(Reply::Elsewhere { done: 0 });
@@ -377,7 +377,7 @@ impl Drop for Host {
     fn drop(&mut self) {
         self.state().link.lock().end();
         for thread in self.threads.drain(..) {
-            // A part that has panicked has told it by its end.
+            // A part that panicked has reported this by its end.
             let _ = thread.join();
         }
     }

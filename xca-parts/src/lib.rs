@@ -1,11 +1,11 @@
 //! One model on several engines at once, each with a part of the space.
 //!
-//! Engines that can run a part of a space ([`Engine::start_part`]) work side by side: before a process reads
-//! neighbours, parts send each other the edges of their rows. The state after each step has the bits that one
-//! engine gives, however the space is cut.
+//! The parts run on engines that support parts of a space ([`Engine::start_part`]). Before a process reads
+//! neighbours, parts exchange the edges of their rows. The state after each step has the same bits as on one
+//! engine, for every cut.
 //!
-//! [`Parts`] is an engine whose parts are threads of this process. What carries their messages is a
-//! [`Transport`]; [`serve`] and [`host`] work with any other one in the same way.
+//! [`Parts`] is an engine whose parts are threads of this process. A [`Transport`] carries their messages.
+//! [`serve`] and [`host`] work with any other transport in the same way.
 
 mod border;
 mod channels;
@@ -33,15 +33,15 @@ use std::thread::Builder;
 use xca_core::engine::{Engine, Execution, StartError};
 use xca_core::{Geometry, Model, Precision};
 
-/// An engine made of several, each of which runs a part of the space on a thread of its own.
+/// An engine made of several engines. Each runs a part of the space on its own thread.
 #[derive(Debug, Clone)]
 pub struct Parts {
-    /// What runs the parts, in turns.
+    /// The engines that run the parts, in turns.
     engines: Vec<Arc<dyn Engine>>,
     number: Number,
 }
 
-/// How many parts there are.
+/// The number of parts.
 #[derive(Debug, Clone, Copy)]
 enum Number {
     Exactly(usize),
@@ -50,35 +50,35 @@ enum Number {
 }
 
 impl Parts {
-    /// So many parts, all run by one engine, whose threads they share. A space that is too small for them is
-    /// refused when a model is started.
+    /// `parts` parts on one engine, which share its threads. Starting a model fails if its space is too small
+    /// for them.
     pub fn new(engine: impl Engine + 'static, parts: NonZeroUsize) -> Self {
         Self { engines: vec![Arc::new(engine)], number: Number::Exactly(parts.get()) }
     }
 
-    /// As many parts as engines, each run by its own. There must be at least one.
+    /// One part for each engine. There must be at least one engine.
     pub fn with_engines(engines: Vec<Arc<dyn Engine>>) -> Self {
         let number = Number::Exactly(engines.len());
         Self { engines, number }
     }
 
-    /// As [`Self::new`], but with fewer parts where the space is too small for so many.
+    /// Like [`Self::new`], but with fewer parts if the space is too small.
     pub fn at_most(engine: impl Engine + 'static, parts: NonZeroUsize) -> Self {
         Self { engines: vec![Arc::new(engine)], number: Number::AtMost(parts.get()) }
     }
 
-    /// As [`Self::new`], with parts along y and z.
+    /// Like [`Self::new`], with parts along y and z.
     pub fn with_cut(engine: impl Engine + 'static, cut: Cut) -> Self {
         Self { engines: vec![Arc::new(engine)], number: Number::Cut(cut) }
     }
 
-    /// What runs the part with this number.
+    /// The engine of the part with this number.
     fn engine(&self, number: usize) -> Result<Arc<dyn Engine>, StartError> {
         let engine = self.engines.get(number % self.engines.len().max(1));
         engine.cloned().ok_or_else(|| other("there is no engine to run a part"))
     }
 
-    /// How the space of a model is cut.
+    /// The cut of a model's space.
     fn cut(&self, geometry: &Geometry) -> Result<Cut, StartError> {
         match self.number {
             Number::Exactly(parts) => Cut::into_parts(geometry, parts, NAME),
@@ -149,11 +149,11 @@ fn other(reason: &str) -> StartError {
     StartError::Other { engine: NAME.to_owned(), reason: reason.to_owned() }
 }
 
-/// The state of a model in parts: the own part, which this engine runs, is that of number 0. Each other part
-/// has to [`serve`] the same model, precision and cut at the other end of the transport.
+/// Starts a model in parts, and returns its state. This engine runs part 0. Every other part must [`serve`]
+/// the same model, precision and cut at the other end of the transport.
 ///
 /// # Errors
-/// Where a part cannot be started.
+/// If a part cannot be started.
 pub fn host(
     engine: &dyn Engine,
     model: &Model,
@@ -165,15 +165,15 @@ pub fn host(
     Ok(Box::new(Host::start(engine, shared, transport, Vec::new())?))
 }
 
-/// Tells the [`host`] why the part with the transport's number cannot begin.
+/// Reports to the [`host`] why the part with the transport's number cannot begin.
 pub fn decline(reason: &str, mut transport: Box<dyn Transport>) {
-    // Where the host has ended there is none to tell.
+    // If the host has ended, no one receives this.
     let _ = transport.send(0, Tag::Reply, Greeting::declined(reason).bytes());
     transport.end();
 }
 
-/// Has an engine run the part with the transport's number as the [`host`] says, until that has ended. The
-/// host learns what goes wrong.
+/// Runs the part with the transport's number on an engine, by the commands of the [`host`], until the host
+/// ends. Reports failures to the host.
 pub fn serve(
     engine: &dyn Engine,
     model: &Model,

@@ -1,4 +1,4 @@
-//! What the host says to the parts, and what they answer.
+//! Commands of the host, and replies of the parts.
 
 use crate::fault::FaultMessage;
 use serde::de::DeserializeOwned;
@@ -7,7 +7,7 @@ use std::ops::Range;
 use xca_core::engine::{Population, StepContext, SubstateId};
 use xca_core::reduction::{ReducedRows, Reduction};
 
-/// What a part is to do. All parts get the same commands, with what concerns their own cells.
+/// A command. All parts get the same commands, with the data of their own cells.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) enum Command {
     Run {
@@ -47,7 +47,7 @@ pub(crate) enum Command {
         group: usize,
         population: Population,
     },
-    /// How many items each row has.
+    /// Requests the number of items in each row.
     ItemsOfRows {
         group: usize,
     },
@@ -58,7 +58,7 @@ pub(crate) enum Command {
     Figures,
 }
 
-/// What a [`StepContext`] says, as numbers.
+/// The content of a [`StepContext`], as numbers.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Moment {
     pub(crate) step: u64,
@@ -73,20 +73,20 @@ impl Moment {
     }
 }
 
-/// What a part answers.
+/// A reply of a part.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) enum Reply {
     Done,
-    /// The part has the first fault, after so many whole steps.
+    /// The part has the first fault, after `done` whole steps.
     Fault {
         done: u64,
         fault: FaultMessage,
     },
-    /// Another part has, or cannot go on.
+    /// Another part has the first fault, or has failed.
     Elsewhere {
         done: u64,
     },
-    /// The part cannot go on.
+    /// The part has failed.
     Failed {
         reason: String,
     },
@@ -114,7 +114,7 @@ pub(crate) enum Reply {
     },
 }
 
-/// What there is to count of a population.
+/// The counts of a population.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub(crate) struct Census {
     pub(crate) items: usize,
@@ -122,12 +122,12 @@ pub(crate) struct Census {
     pub(crate) largest_occupancy: u32,
 }
 
-/// A message as bytes.
+/// Encodes a message as bytes.
 pub(crate) fn encode<M: Serialize>(message: &M) -> Result<Vec<u8>, String> {
     postcard::to_stdvec(message).map_err(|error| format!("a message cannot be written: {error}"))
 }
 
-/// A message out of its bytes.
+/// Decodes a message from bytes.
 pub(crate) fn decode<M: DeserializeOwned>(bytes: &[u8]) -> Result<M, String> {
     postcard::from_bytes(bytes)
         .map_err(|error| format!("a message cannot be read ({error}); all parts must be of the same build"))

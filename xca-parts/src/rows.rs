@@ -1,4 +1,4 @@
-//! Which part has which row, and how what belongs to rows is put together and shared.
+//! The rows of each part: gathers and scatters their data.
 
 use crate::cut::Cut;
 use xca_core::Geometry;
@@ -11,12 +11,12 @@ pub(crate) struct Rows {
     width: usize,
 }
 
-/// How many values a row has.
+/// The numbers of values in rows.
 #[derive(Clone, Copy)]
 pub(crate) enum Lengths<'a> {
-    /// All rows have as many.
+    /// The same number in all rows.
     Same(usize),
-    /// For each row how many times so many.
+    /// A count for each row, times a factor.
     Each(&'a [usize], usize),
 }
 
@@ -36,7 +36,7 @@ impl Rows {
         Self { owners: (0..height * depth).map(owner).collect(), parts: cut.count(), width }
     }
 
-    /// Puts together what parts have of their rows; nothing where they have something else.
+    /// Gathers the data of all parts. `None` if the lengths do not match.
     pub(crate) fn gather<T: Clone>(&self, parts: &[Vec<T>], lengths: Lengths<'_>) -> Option<Vec<T>> {
         let mut rest: Vec<&[T]> = parts.iter().map(Vec::as_slice).collect();
         let mut whole = Vec::with_capacity(parts.iter().map(Vec::len).sum());
@@ -48,7 +48,7 @@ impl Rows {
         rest.iter().all(|rest| rest.is_empty()).then_some(whole)
     }
 
-    /// What each part has of the values of all rows.
+    /// Scatters the data of all rows to the parts.
     pub(crate) fn scatter<T: Clone>(&self, mut whole: &[T], lengths: Lengths<'_>) -> Vec<Vec<T>> {
         let mut parts = vec![Vec::new(); self.parts];
         for (row, owner) in self.owners.iter().enumerate() {
@@ -59,14 +59,14 @@ impl Rows {
         parts
     }
 
-    /// How many items rows have whose cells have so many.
+    /// The number of items in each row, from the numbers in each cell.
     pub(crate) fn items(&self, counts: &[u32]) -> Vec<usize> {
         let items = |counts: &[u32]| counts.iter().map(|count| *count as usize).sum();
         counts.chunks_exact(self.width).map(items).collect()
     }
 
-    /// A population out of those of the parts, whose fields have values of these sizes; nothing where they do
-    /// not fit.
+    /// Gathers a population from those of the parts. `sizes` are the sizes of its fields. `None` if the
+    /// lengths do not match.
     pub(crate) fn gather_items(&self, parts: Vec<Population>, sizes: &[usize]) -> Option<Population> {
         let counts: Vec<Vec<u32>> = parts.iter().map(|part| part.counts.clone()).collect();
         let counts = self.gather(&counts, Lengths::Same(self.width))?;
@@ -80,7 +80,7 @@ impl Rows {
         Some(Population { labels: self.gather(&labels, Lengths::Each(&items, 1))?, counts, fields })
     }
 
-    /// The items of each part.
+    /// Scatters a population to the parts.
     pub(crate) fn scatter_items(&self, whole: &Population, sizes: &[usize]) -> Vec<Population> {
         let items = self.items(&whole.counts);
         let counts = self.scatter(&whole.counts, Lengths::Same(self.width));

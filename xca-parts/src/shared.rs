@@ -1,9 +1,9 @@
-//! What all parts know.
+//! Data that all parts have.
 
 use crate::cut::Cut;
 use xca_core::{Model, Precision};
 
-/// A model with its cut, as all parts know it.
+/// A model with its precision and cut.
 #[derive(Clone)]
 pub(crate) struct Shared {
     pub(crate) model: Model,

@@ -1,10 +1,10 @@
-//! What carries messages between the parts of a space.
+//! The transport of messages between parts of a space.
 
 use xca_core::Face;
 
-/// Carries messages between parts, which are numbered from 0. Part 0 is that of the host.
+/// Carries messages between parts. Parts are numbered from 0. Part 0 is the host's.
 ///
-/// Messages from one part to another with the same tag arrive in the order in which they were sent.
+/// Messages from one part to another with the same tag arrive in the order of sending.
 pub trait Transport: Send {
     /// The number of the own part.
     fn number(&self) -> usize;
@@ -12,27 +12,27 @@ pub trait Transport: Send {
     /// The number of parts.
     fn count(&self) -> usize;
 
-    /// Sends a message to another part, and does not wait until it arrives.
+    /// Sends a message to another part. Does not wait for its arrival.
     ///
     /// # Errors
-    /// Where the other part has ended, or the own one has ([`Self::end`]).
+    /// If the other part has ended, or the own one ([`Self::end`]).
     fn send(&mut self, to: usize, tag: Tag, bytes: Vec<u8>) -> Result<(), TransportError>;
 
     /// Waits for the next message with this tag from another part.
     ///
     /// # Errors
-    /// Where the other part has ended before it sent one.
+    /// If the other part has ended without sending one.
     fn receive(&mut self, from: usize, tag: Tag) -> Result<Vec<u8>, TransportError>;
 
-    /// The own part sends nothing any more: whoever waits for it gets an error. It can still receive.
+    /// Ends sending from the own part. Parts that wait for it get an error. It can still receive.
     fn end(&mut self);
 
-    /// The least of the numbers that all parts give.
+    /// The minimum of the numbers of all parts.
     ///
     /// # Errors
-    /// As [`Self::send`] and [`Self::receive`].
+    /// Those of [`Self::send`] and [`Self::receive`].
     fn least(&mut self, number: u64) -> Result<u64, TransportError> {
-        // Parts form a tree: each has up to two below it. Numbers go up, the least comes down.
+        // The parts form a binary tree. Numbers go up, and the minimum comes down.
         let (own, count) = (self.number(), self.count());
         let below = [2 * own + 1, 2 * own + 2].into_iter().filter(|part| *part < count);
         let mut least = number;
@@ -57,20 +57,20 @@ fn number_of(part: usize, bytes: &[u8]) -> Result<u64, TransportError> {
     Ok(u64::from_le_bytes(bytes))
 }
 
-/// What a message is about.
+/// The kind of a message.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Tag {
-    /// What the host wants.
+    /// A command of the host.
     Command,
-    /// What a part answers.
+    /// A reply of a part.
     Reply,
-    /// An edge of the sending part, across this face of it.
+    /// An edge of the sending part, at this face of it.
     Edge(Face),
-    /// A number of which the least is wanted.
+    /// A number, for the minimum.
     Least,
 }
 
-/// A message that does not arrive.
+/// A message that did not arrive.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TransportError {
@@ -80,18 +80,18 @@ pub enum TransportError {
         /// The number of the part.
         part: usize,
     },
-    /// A message that no part of this kind sends.
+    /// The message has an unknown format.
     #[error("a message of part {part} cannot be read; all parts must be of the same build")]
     Garbled {
         /// The number of the part.
         part: usize,
     },
-    /// Anything else.
+    /// Another error.
     #[error("part {part} cannot be reached: {reason}")]
     Broken {
         /// The number of the part.
         part: usize,
-        /// Why.
+        /// The reason.
         reason: String,
     },
 }

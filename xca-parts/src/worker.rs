@@ -1,4 +1,4 @@
-//! A part of the space at work: it does what the host says.
+//! A part of the space, which carries out the commands of the host.
 
 use crate::border::{Link, PartBorder};
 use crate::fault::FaultMessage;
@@ -11,7 +11,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use xca_core::engine::{EngineFailure, Execution, Fault, StepContext};
 use xca_core::{Engine, Model, ParameterSet, Precision, StartError};
 
-/// One part.
+/// A part of the space.
 pub(crate) struct Worker {
     model: Model,
     precision: Precision,
@@ -33,7 +33,7 @@ impl Worker {
         Ok(Self { model, precision, parameters, execution })
     }
 
-    /// Does what the host says. A panic is a failure.
+    /// Carries out a command. A panic becomes a failure.
     pub(crate) fn perform(&mut self, command: Command) -> Reply {
         let work = AssertUnwindSafe(|| self.answer(command));
         match catch_unwind(work) {
@@ -95,7 +95,7 @@ impl Worker {
         })
     }
 
-    /// Runs processes with the parameters that the host has.
+    /// Runs processes with the parameters of the host.
     fn run<T>(&mut self, moment: &Moment, work: impl FnOnce(&mut dyn Execution, &StepContext<'_>) -> T) -> T {
         self.parameters.set_bits(&moment.parameters);
         let views = self.parameters.kernel_views(self.precision);
@@ -118,15 +118,15 @@ impl Worker {
     }
 }
 
-/// What a panic says.
+/// The message of a panic.
 fn text(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     let text = text.or_else(|| panic.downcast_ref::<String>().cloned());
     format!("it panicked: {}", text.unwrap_or_else(|| "without a message".to_owned()))
 }
 
-/// Has an engine do what the host says with the part of the transport's number, until the host ends or the
-/// part cannot go on.
+/// Runs the part with the transport's number on an engine, by the commands of the host. Ends after the host
+/// or after a failure.
 pub(crate) fn serve(engine: &dyn Engine, shared: &Shared, transport: Box<dyn Transport>) {
     let link = Link::new(transport);
     let answer = |reply: &Reply| {
@@ -139,7 +139,7 @@ pub(crate) fn serve(engine: &dyn Engine, shared: &Shared, transport: Box<dyn Tra
     let mut worker = match Worker::start(engine, shared, link.clone()) {
         Ok(worker) => worker,
         Err(error) => {
-            // The host has gone, or learns it now; there is nothing left to do here.
+            // The host has ended, or receives this reply. Nothing is left to do here.
             let _ = answer(&Reply::Failed { reason: error.to_string() });
             return;
         }

@@ -1,11 +1,11 @@
-//! Pictures in motion.
+//! Animations of pictures.
 //!
 //! | function | file | for |
 //! |---|---|---|
 //! | [`write_apng`] | animated PNG | browsers; every other program shows the first picture |
-//! | [`write_gif`] | animated GIF | nearly every program; it has 256 colours at most |
+//! | [`write_gif`] | animated GIF | nearly every program; at most 256 colours |
 //!
-//! Both are played for ever, and store only what changes from one picture to the next.
+//! Both play in an endless loop, and store only the changes from one picture to the next.
 
 mod apng;
 mod film;

@@ -1,4 +1,4 @@
-//! Which cells a pixel shows.
+//! The cells that a pixel shows.
 
 use xca_io::lattice::Lattice;
 
@@ -6,7 +6,7 @@ use xca_io::lattice::Lattice;
 pub(super) struct Share {
     first: usize,
     last: usize,
-    /// The parts of the first and the last; of those between it has the whole.
+    /// The shares of the first and the last cell. The cells between them count in full.
     of_first: f64,
     of_last: f64,
 }
@@ -24,7 +24,7 @@ impl Share {
         Self { first, last, of_first: first as f64 + 1.0 - from, of_last: to - last as f64 }
     }
 
-    /// The cells with the parts of them that the pixel shows.
+    /// The cells, each with the share that the pixel shows.
     pub(super) fn cells(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         (self.first..=self.last).map(|cell| {
             let share = if cell == self.first {
@@ -39,7 +39,8 @@ impl Share {
     }
 }
 
-/// The pixels across and down that show cells in a room: whole ones for each cell where there are as many.
+/// The pixels across and down that show cells in a room. Each cell gets a whole number of pixels if there is
+/// room.
 pub fn fitted(cells: [usize; 2], room: [usize; 2]) -> [usize; 2] {
     let (cells, room) = (cells.map(|n| n.max(1)), room.map(|n| n.max(1)));
     let side = (room[0] / cells[0]).min(room[1] / cells[1]);
@@ -50,8 +51,7 @@ pub fn fitted(cells: [usize; 2], room: [usize; 2]) -> [usize; 2] {
     std::array::from_fn(|i| ((cells[i] as f64 * share).round() as usize).clamp(1, room[i]))
 }
 
-/// The pixels across and down that show a layer in a room; cells of squares get whole ones as [`fitted`]
-/// says.
+/// The pixels across and down that show a layer in a room. For squares see [`fitted`].
 pub(super) fn fitted_layer(lattice: Lattice, cells: [usize; 2], room: [usize; 2]) -> [usize; 2] {
     if lattice == Lattice::Squares {
         return fitted(cells, room);

@@ -5,27 +5,27 @@ use super::legend::{FAINT_INK, INK};
 use super::text::{self, Anchor, Style};
 use crate::ticks::coordinates;
 
-/// What the axes of a layer tell: ticks outside of the frame, to the left and below.
+/// The axes of a layer. Ticks are outside the frame, at the left and below.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Axes<'a> {
-    /// What the horizontal and the vertical axis are called, with their unit: `easting (m)`.
+    /// The names of the horizontal and the vertical axis, with units: `easting (m)`.
     pub names: [&'a str; 2],
     /// The coordinates of the lower left corner of the layer.
     pub corner: [f64; 2],
 }
 
-/// From the frame to the end of a tick, in pixels.
+/// The length of a tick from the frame, in pixels.
 const TICK: f32 = 6.0;
-/// From the frame to the labels beside it.
+/// The distance of the labels from the frame, in pixels.
 const GAP: f32 = 10.0;
-/// The height of a capital of the labels.
+/// The height of a capital in the labels, in pixels.
 const HEIGHT: f32 = 9.0;
-/// From tick to tick, about and in pixels.
+/// The approximate distance between ticks, in pixels.
 const APART: usize = 70;
-/// Between two labels, at least.
+/// The least distance between two labels, in pixels.
 const BETWEEN: f32 = 12.0;
 
-/// Where a drawing is on the canvas, and where it lies.
+/// A drawing: its place on the canvas and its coordinates.
 pub(super) struct Drawn {
     /// The first pixel of the drawing, from the top left.
     pub(super) corner: [usize; 2],
@@ -33,12 +33,12 @@ pub(super) struct Drawn {
     pub(super) size: [usize; 2],
     /// The width and the height of the layer, in the unit of the coordinates.
     pub(super) lengths: [f64; 2],
-    /// The columns of pixels that labels may take.
+    /// The range of pixel columns for labels.
     pub(super) columns: [f32; 2],
 }
 
 impl Axes<'_> {
-    /// Draws the ticks with their labels, and the names.
+    /// Draws the ticks with their labels, and the names of the axes.
     pub(super) fn draw(&self, canvas: &mut Canvas, drawn: &Drawn) {
         if !drawn.lengths.iter().chain(&self.corner).all(|length| length.is_finite()) {
             return;
@@ -85,15 +85,15 @@ impl Axes<'_> {
         text::draw(canvas, self.names[1], name, Anchor::Right, &label());
     }
 
-    /// As many round coordinates along an axis as there is room for: each takes as many pixels as `room` says
-    /// of its text.
+    /// As many round coordinates along an axis as fit. A label takes as many pixels as `room` returns for its
+    /// text.
     fn marks(&self, axis: usize, drawn: &Drawn, room: impl Fn(&str) -> f32) -> Vec<Mark> {
         let (low, length, pixels) = (self.corner[axis], drawn.lengths[axis], drawn.size[axis]);
-        // Rounded, so that a coordinate between two pixels is not taken for one of the pixel before.
+        // Rounded, so that a coordinate between two pixels does not count for the pixel before.
         let place = |value: f64| ((value - low) / length * pixels as f64 * 1e6).round() / 1e6;
         let of_number = |wanted: usize| -> Vec<Mark> {
             let all = coordinates(low, low + length, wanted).into_iter();
-            // The end of the last pixel belongs to it.
+            // A tick at the end of the drawing belongs to the last pixel.
             let last = pixels as f64 - 0.5;
             all.map(|(value, text)| Mark { place: place(value).clamp(0.0, last), text }).collect()
         };
@@ -107,7 +107,7 @@ impl Axes<'_> {
 
 /// A round coordinate.
 struct Mark {
-    /// In pixels from the corner of the drawing.
+    /// The distance from the corner of the drawing, in pixels.
     place: f64,
     text: String,
 }

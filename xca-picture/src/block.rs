@@ -1,4 +1,4 @@
-//! Pictures of dense substates in all three dimensions.
+//! Pictures of dense substates in three dimensions.
 
 use super::canvas::{Canvas, Strokes};
 use super::category::Category;
@@ -8,24 +8,25 @@ use super::legend::{INK, Scalar, draw_bar, draw_categories, draw_title};
 use super::mosaic::GREY;
 use super::{Picture, PictureError, check_size};
 
-/// Samples a pixel, each way.
+/// Samples per pixel in each direction.
 pub(super) const SAMPLES: usize = 2;
-/// How bright the faces are that look along x, y and z.
+/// The brightness of the faces that face along x, y and z.
 pub(super) const BRIGHTNESS: [f32; 3] = [0.60, 0.80, 1.0];
-/// How much of white the faces of cubes have that stand alone.
+/// The share of white in the faces of separate cubes.
 const LIT: [f32; 3] = [0.0, 0.06, 0.22];
 
-/// All cells of a dense substate as small cubes, seen from above and the front without perspective, z up.
+/// All cells of a dense substate as small cubes. The view is from above and the front without perspective, z
+/// up.
 #[derive(Debug, Clone)]
 pub struct BlockPicture<'a> {
     /// The number of cells along x, y and z.
     pub extents: [usize; 3],
     /// The values, x fastest, then y.
     pub scalar: Scalar<'a>,
-    /// If not empty, the values are no magnitudes but these kinds or states. Others are drawn in grey.
+    /// The categories of the values, if not empty. Other values are drawn in grey.
     pub categories: &'a [Category],
-    /// Cells of this value are not drawn. If there is none, all are drawn but those of the octant that is
-    /// next to the eye, so that the inside is seen.
+    /// Cells of this value are not drawn. If it is `None`, all cells are drawn except for the octant next to
+    /// the viewer. The inside is then visible.
     pub empty: Option<f64>,
     /// The cells that are not drawn, in the order of the values.
     pub hidden: Option<&'a [bool]>,
@@ -102,10 +103,10 @@ impl<'a> BlockPicture<'a> {
                 for sample in 0..SAMPLES * SAMPLES {
                     let point = eye.point(at(x, sample % SAMPLES), at(y, sample / SAMPLES));
                     if let Some(Hit { value, axis, depth }) = self.hit(eye, point) {
-                        // Cubes that stand alone are told apart by how far they are.
+                        // Distance tells separate cubes apart.
                         let haze = if self.empty.is_some() { 1.12 - 0.45 * depth } else { 1.0 };
                         let light = BRIGHTNESS[axis] * haze;
-                        // They may be dark, so they are lit by lightening too.
+                        // Separate cubes may be dark, so light also adds white.
                         let lit = if self.empty.is_some() { LIT[axis] } else { 0.0 };
                         let colour = mix(colour_of(value), [1.0; 3], lit);
                         sum = std::array::from_fn(|i| sum[i] + colour[i] * light * SHARE);
@@ -119,11 +120,12 @@ impl<'a> BlockPicture<'a> {
         }
     }
 
-    /// What is seen in the direction of a point: walks from cell to cell away from the eye.
+    /// The first visible cell at a point: walks from cell to cell away from the viewer.
     fn hit(&self, eye: &Eye, point: [f64; 3]) -> Option<Hit> {
         let extents = self.extents.map(|extent| extent as f64);
         let towards = eye.forward;
-        // The point from the lower corner of the block, and where its line of sight enters and leaves it.
+        // The point, relative to the lower corner of the block. Then where its line of sight enters and
+        // leaves the block.
         let from: [f64; 3] = std::array::from_fn(|i| point[i] + extents[i] / 2.0);
         let (mut enter, mut leave, mut axis) = (f64::NEG_INFINITY, f64::INFINITY, 0);
         for i in 0..3 {
@@ -148,7 +150,7 @@ impl<'a> BlockPicture<'a> {
                 let depth = ((t / length) + 0.5).clamp(0.0, 1.0) as f32;
                 return Some(Hit { value, axis, depth });
             }
-            // The next face that the line of sight crosses.
+            // The next face on the line of sight.
             let face = |i: usize| cell[i] as f64 + if towards[i] > 0.0 { 1.0 } else { 0.0 };
             let crossing = |i: usize| (face(i) - from[i]) / towards[i];
             axis = (0..3).min_by(|&a, &b| crossing(a).total_cmp(&crossing(b)))?;
@@ -160,7 +162,7 @@ impl<'a> BlockPicture<'a> {
         }
     }
 
-    /// The value of a cell that is drawn.
+    /// The value of a cell, if it is drawn.
     fn solid(&self, [x, y, z]: [usize; 3]) -> Option<f64> {
         let [columns, rows, _] = self.extents;
         let cell = (z * rows + y) * columns + x;
@@ -177,18 +179,18 @@ impl<'a> BlockPicture<'a> {
         }
     }
 
-    /// The corner of the octant that is cut out, in the middle of the block, if any is.
+    /// The corner of the octant that is cut out, in the middle of the block. `None` if there is no cut.
     fn cut(&self) -> Option<[usize; 3]> {
         let [columns, rows, layers] = self.extents;
         let has_inside = self.empty.is_none() && self.extents.iter().all(|extent| *extent > 1);
         has_inside.then(|| [columns.div_ceil(2), rows / 2, layers.div_ceil(2)])
     }
 
-    /// The edges of the block, those in front of it or those behind; where an octant is cut out, its edges
-    /// instead of those that are gone.
+    /// Draws the edges of the block, either those in front of it or those behind. If an octant is cut out,
+    /// its edges replace the missing ones.
     fn draw_edges(&self, canvas: &mut Canvas, eye: &Eye, in_front: bool) {
         let half = self.extents.map(|extent| extent as f64 / 2.0);
-        // The corner that is farthest from the eye has the three edges that it does not see.
+        // The corner farthest from the viewer has the three hidden edges.
         let far: usize = (0..3).filter(|&i| eye.forward[i] > 0.0).map(|i| 1 << i).sum();
         let near = 7 - far;
         let cut = self.cut().map(|cut| -> [f64; 3] { std::array::from_fn(|i| cut[i] as f64 - half[i]) });
@@ -213,7 +215,7 @@ impl<'a> BlockPicture<'a> {
                     corner
                 }));
             }
-            // The nine edges of the octant that do not meet in the corner that is gone.
+            // The nine edges of the octant that do not meet in the missing corner.
             let octants = cut.filter(|_| in_front).map(|cut| (cut, of_block(near)));
             for start in (0..8_usize).filter(|start| start >> axis & 1 == 0) {
                 let ends = [start, start | 1 << axis];
@@ -228,7 +230,7 @@ impl<'a> BlockPicture<'a> {
         let strength = match (in_front, self.empty) {
             (false, _) => 1.0,
             (true, None) => 0.55,
-            // They lie before cubes that they must not divide.
+            // These edges lie in front of cubes and must not divide them.
             (true, Some(_)) => 0.3,
         };
         strokes.cover(canvas.width(), canvas.height(), |x, y, cover| {
@@ -237,12 +239,12 @@ impl<'a> BlockPicture<'a> {
     }
 }
 
-/// What a line of sight meets.
+/// The first cell on a line of sight.
 struct Hit {
     value: f64,
-    /// The axis along which the face looks that is seen.
+    /// The axis along which the visible face faces.
     axis: usize,
-    /// From 0, next to the eye, to 1.
+    /// The depth from 0 (nearest) to 1.
     depth: f32,
 }
 
@@ -255,7 +257,7 @@ mod tests {
         Eye::new(extents.map(|n| n as f64), [40.0, 92.0], [800.0 - 176.0, 560.0])
     }
 
-    /// The colour where the middle of a cell's face along `axis` is drawn, the face that looks at the eye.
+    /// The colour in the middle of the visible face of a cell along `axis`.
     fn at_face(picture: &Picture, extents: [usize; 3], cell: [usize; 3], axis: usize) -> [u8; 3] {
         let towards_eye = [1.0, 0.0, 1.0];
         let point = std::array::from_fn(|i| {
@@ -280,8 +282,8 @@ mod tests {
         let extents = [4, 6, 2];
         let values: Vec<f64> = (0..48).map(f64::from).collect();
         let picture = BlockPicture::new(extents, Scalar::new("t", &values)).render().unwrap();
-        // Upper faces, and faces towards x and y: outer ones, and those of the cut below z = 1, at y = 3 and
-        // at x = 2.
+        // Upper faces, and faces towards x and y. Some are outer faces, others those of the cut below z = 1,
+        // at y = 3 and at x = 2.
         for (cell, axis) in [
             ([0, 0, 1], 2),
             ([1, 5, 1], 2),
@@ -330,7 +332,7 @@ mod tests {
             .filter(|i| none.pixel(i % 800, i / 800) != one.pixel(i % 800, i / 800))
             .map(|i| [(i % 800) as f64, (i / 800) as f64])
             .collect();
-        // One cube in the middle: a hexagon of three rhombuses, each of which has the area 1 / sqrt(3).
+        // One cube in the middle is a hexagon of three rhombuses, each with the area 1 / sqrt(3).
         let eye = eye(extents);
         let area = 3.0_f64.sqrt() * eye.scale * eye.scale;
         assert!((differing.len() as f64 / area - 1.0).abs() < 0.05, "{} {area}", differing.len());

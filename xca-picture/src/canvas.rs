@@ -1,22 +1,22 @@
-//! A surface to draw flat things on: rectangles, lines, text.
+//! A canvas for rectangles, lines and text.
 
 use super::Picture;
 use super::colour::mix;
 
-/// Pixels in encoded RGB, from the top left, row by row. Coordinates are in pixels; the middle of the first
-/// pixel is at (0.5, 0.5). What lies outside is cut off.
+/// Pixels in encoded RGB, from the top left, row by row. Coordinates are in pixels. The middle of the first
+/// pixel is at (0.5, 0.5). Everything outside is clipped.
 pub(super) struct Canvas {
     width: usize,
     height: usize,
     pixels: Vec<[f32; 3]>,
 }
 
-/// A set of strokes, drawn at once so that their crossings are not drawn twice.
+/// A set of strokes. They are drawn at once, so that crossings are not drawn twice.
 #[derive(Default)]
 pub(super) struct Strokes {
     /// Segments; a dot is a segment without length.
     pub(super) segments: Vec<[[f32; 2]; 2]>,
-    /// The width of the pen, in pixels; its tip is round.
+    /// The width of the round pen in pixels.
     pub(super) width: f32,
 }
 
@@ -39,7 +39,7 @@ impl Canvas {
         }
     }
 
-    /// Lays `colour` over a pixel; `cover` is its share, from 0 to 1.
+    /// Blends `colour` over a pixel. `cover` is its share, from 0 to 1.
     pub(super) fn blend(&mut self, x: usize, y: usize, colour: [f32; 3], cover: f32) {
         if x < self.width && y < self.height {
             let pixel = &mut self.pixels[y * self.width + x];
@@ -47,7 +47,7 @@ impl Canvas {
         }
     }
 
-    /// The outline of a rectangle, one pixel wide, just outside of it.
+    /// Draws the outline of a rectangle, one pixel wide, just outside it.
     pub(super) fn frame(&mut self, [x, y]: [usize; 2], [w, h]: [usize; 2], colour: [f32; 3]) {
         for i in x.saturating_sub(1)..=x + w {
             self.set(i, y.wrapping_sub(1), colour);
@@ -73,7 +73,7 @@ impl Canvas {
         }
     }
 
-    /// Lays a picture over a rectangle whose top left corner is at `[x, y]`.
+    /// Copies a picture to the rectangle with its top left corner at `[x, y]`.
     pub(super) fn paste(&mut self, [x, y]: [usize; 2], picture: &Picture) {
         let pixels = picture.rgb.as_chunks::<3>().0.iter().enumerate();
         for (at, pixel) in pixels {
@@ -90,8 +90,8 @@ impl Canvas {
 }
 
 impl Strokes {
-    /// Calls `paint` with each pixel of a surface of `width` by `height` that the pen touches, and the share
-    /// of it that is covered.
+    /// Calls `paint` for each pixel that the pen touches, with the share of the pixel that it covers. The
+    /// surface has `width` by `height` pixels.
     pub(super) fn cover(&self, width: usize, height: usize, mut paint: impl FnMut(usize, usize, f32)) {
         let reach = self.width / 2.0 + 1.0;
         let (mut low, mut high) = ([f32::MAX; 2], [f32::MIN; 2]);
@@ -101,7 +101,7 @@ impl Strokes {
                 high[i] = high[i].max(point[i] + reach);
             }
         }
-        // Casts of negative numbers, and of those of an empty set, give zero.
+        // Casts of negative numbers give zero, also for an empty set.
         let (x0, y0) = (low[0] as usize, low[1] as usize);
         let (x1, y1) =
             ((high[0].max(0.0) as usize + 1).min(width), (high[1].max(0.0) as usize + 1).min(height));
@@ -126,7 +126,7 @@ impl Strokes {
     }
 }
 
-/// The distance of `p` from the segment `a` to `b`.
+/// The distance of `p` from the segment from `a` to `b`.
 fn distance(p: [f32; 2], a: [f32; 2], b: [f32; 2]) -> f32 {
     let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
     let length2 = dx * dx + dy * dy;
@@ -163,7 +163,7 @@ mod tests {
         canvas.stroke(&Strokes::default(), BLACK);
         let picture = canvas.into_picture();
         assert_eq!(picture.pixel(0, 5), picture.pixel(9, 5));
-        // Drawn twice in one set, the ink is laid once: a quarter of the pixel on either side.
+        // Two equal strokes in one set leave ink once: a quarter of the pixel on either side.
         assert_eq!(picture.pixel(5, 4), [191; 3]);
         assert_eq!(picture.pixel(5, 5), [191; 3]);
         assert_eq!(picture.pixel(0, 0), [255; 3]);

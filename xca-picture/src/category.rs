@@ -1,4 +1,4 @@
-//! Values that are kinds or states, each with a name and a colour of its own.
+//! Categories: values that stand for kinds or states, each with a name and a colour.
 
 use super::colour::{decode, encode};
 
@@ -7,16 +7,15 @@ use super::colour::{decode, encode};
 pub struct Category {
     /// The value.
     pub value: f64,
-    /// What the legend calls it.
+    /// The name in the legend.
     pub name: String,
     /// Its colour in sRGB.
     pub colour: [u8; 3],
 }
 
 impl Category {
-    /// A value in the colour that the palette has for the category with this number. The first is nearly
-    /// white, for what is dead, empty or false. Colour-blind readers can tell all ten apart; after ten they
-    /// repeat.
+    /// A category with a colour of the palette. The first colour is nearly white, for dead, empty or false.
+    /// Colour-blind readers can distinguish all ten colours. After ten they repeat.
     #[must_use]
     pub fn new(number: usize, value: f64, name: impl Into<String>) -> Self {
         Self { value, name: name.into(), colour: PALETTE[number % PALETTE.len()] }
@@ -32,14 +31,14 @@ impl Category {
         encode(self.linear())
     }
 
-    /// The number of the category of a value.
+    /// The index of the category of a value.
     pub fn number_of(categories: &[Self], value: f64) -> Option<usize> {
         categories.iter().position(|category| category.value == value)
     }
 }
 
 /// Near-white, navy, the colours of Okabe and Ito (orange, sky blue, bluish green, vermilion, reddish purple,
-/// yellow), black, and blue.
+/// yellow), black and blue.
 const PALETTE: [[u8; 3]; 10] = [
     [246, 246, 250],
     [26, 52, 98],
@@ -59,7 +58,7 @@ mod tests {
 
     type Matrix = [[f32; 3]; 3];
 
-    /// What is left of linear RGB without red and without green cones (Machado, Oliveira and Fernandes,
+    /// Simulates vision without red and without green cones, in linear RGB (Machado, Oliveira and Fernandes,
     /// 2009).
     const WITHOUT_RED: Matrix = [
         [0.152_286, 1.052_583, -0.204_868],
@@ -101,7 +100,7 @@ mod tests {
             for (number, one) in PALETTE.iter().enumerate() {
                 for other in &PALETTE[..number] {
                     let apart = distance(oklab(*one), oklab(*other));
-                    // A third of what lies between grey and orange.
+                    // A third of the distance between grey and orange.
                     assert!(apart > 0.07, "{one:?} and {other:?} are {apart} apart ({eye})");
                 }
             }

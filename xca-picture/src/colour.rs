@@ -1,25 +1,25 @@
 //! Colours and colour maps.
 //!
-//! Light adds up in *linear* RGB, files hold *encoded* (sRGB) values; both are `[f32; 3]` from 0 to 1 here,
-//! and the names of functions and fields say which.
+//! Light adds up in *linear* RGB. Files hold *encoded* (sRGB) values. Both are `[f32; 3]` from 0 to 1 here.
+//! The names of functions and fields say which.
 
-/// How a value becomes a colour.
+/// A colour map.
 ///
-/// The maps are paths through Oklab, in which equal steps look equal, so that a map does not invent edges.
+/// The maps are paths through Oklab. In Oklab equal steps look equal, so a map adds no false edges.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum ColourMap {
-    /// From dark violet through blue and green to yellow, ever lighter: for magnitudes.
+    /// From dark violet through blue and green to yellow, with increasing lightness. For magnitudes.
     #[default]
     Sequential,
-    /// From blue through near-white to red: for signed values; give it a range that is symmetric about zero.
+    /// From blue through near-white to red. For signed values, with a range symmetric about zero.
     Diverging,
-    /// From near-white to dark blue: for shares and densities on paper.
+    /// From near-white to dark blue. For shares and densities on paper.
     Paper,
 }
 
 impl ColourMap {
-    /// Lightness, chroma and hue in degrees, at equal distances along the map.
+    /// The points of the map: lightness, chroma and hue in degrees, at equal distances.
     fn path(self) -> &'static [[f32; 3]] {
         match self {
             Self::Sequential => &[
@@ -44,8 +44,8 @@ impl ColourMap {
         }
     }
 
-    /// The colour at `t`, from 0 to 1, in linear RGB. Values beyond an end give the colour of
-    /// that end, NaN that of the lower one.
+    /// The colour at `t`, from 0 to 1, in linear RGB. Values beyond an end have the colour of that end. NaN
+    /// has the colour of the lower end.
     #[must_use]
     pub fn linear(self, t: f64) -> [f32; 3] {
         let path = self.path();
@@ -54,7 +54,7 @@ impl ColourMap {
         let place = t as f32 * last as f32;
         let from = (place as usize).min(last.saturating_sub(1));
         let share = place - from as f32;
-        // Between the points along straight lines in Oklab, so that a hue without chroma does not matter.
+        // Interpolate linearly in Oklab. The hue of a point without chroma then does not matter.
         let [a, b] = [oklab(path[from]), oklab(path[(from + 1).min(last)])];
         linear_of_oklab(mix(a, b, share)).map(|x| x.clamp(0.0, 1.0))
     }
@@ -65,19 +65,19 @@ impl ColourMap {
     }
 }
 
-/// `a` and `b` mixed: `b`'s share is `share`.
+/// Mixes `a` and `b`. `share` is the share of `b`.
 pub(super) fn mix(a: [f32; 3], b: [f32; 3], share: f32) -> [f32; 3] {
     std::array::from_fn(|i| a[i] + (b[i] - a[i]) * share)
 }
 
-/// Oklab's lightness and two axes from lightness, chroma and hue in degrees.
+/// Converts lightness, chroma and hue in degrees to Oklab's lightness and two axes.
 fn oklab([lightness, chroma, hue]: [f32; 3]) -> [f32; 3] {
     let (sin, cos) = hue.to_radians().sin_cos();
     [lightness, chroma * cos, chroma * sin]
 }
 
-/// Linear RGB of an Oklab colour (B. Ottosson, "A perceptual color space for image processing", 2020); beyond
-/// 0 and 1 where no screen can show it.
+/// Converts an Oklab colour to linear RGB (B. Ottosson, "A perceptual color space for image processing",
+/// 2020). The result is outside 0 to 1 if no screen can show the colour.
 fn linear_of_oklab([l, a, b]: [f32; 3]) -> [f32; 3] {
     let long = (l + 0.396_337_78 * a + 0.215_803_76 * b).powi(3);
     let medium = (l - 0.105_561_346 * a - 0.063_854_17 * b).powi(3);
@@ -89,7 +89,7 @@ fn linear_of_oklab([l, a, b]: [f32; 3]) -> [f32; 3] {
     ]
 }
 
-/// Encoded from linear RGB.
+/// Converts linear RGB to encoded RGB.
 pub fn encode(linear: [f32; 3]) -> [f32; 3] {
     linear.map(|x| {
         let x = x.clamp(0.0, 1.0);
@@ -97,7 +97,7 @@ pub fn encode(linear: [f32; 3]) -> [f32; 3] {
     })
 }
 
-/// Linear from encoded RGB.
+/// Converts encoded RGB to linear RGB.
 pub(super) fn decode(encoded: [u8; 3]) -> [f32; 3] {
     encoded.map(|byte| {
         let x = f32::from(byte) / 255.0;
@@ -109,7 +109,7 @@ pub(super) fn decode(encoded: [u8; 3]) -> [f32; 3] {
 mod tests {
     use super::*;
 
-    /// Relative luminance of a linear colour.
+    /// The relative luminance of a linear colour.
     fn luminance([r, g, b]: [f32; 3]) -> f32 {
         0.2126 * r + 0.7152 * g + 0.0722 * b
     }

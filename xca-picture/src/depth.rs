@@ -1,6 +1,6 @@
-//! Which sphere is in front.
+//! A depth buffer of spheres.
 
-/// For each sample the nearest sphere and its depth.
+/// The nearest sphere and its depth for each sample.
 #[derive(Debug)]
 pub struct DepthBuffer {
     pub(super) width: usize,
@@ -9,27 +9,27 @@ pub struct DepthBuffer {
     owner: Vec<u32>,
 }
 
-/// A sphere as a surface sees it.
+/// A sphere in projection.
 #[derive(Debug, Clone, Copy)]
 pub struct Disc {
-    /// The middle, in samples from the top left.
+    /// The centre, in samples from the top left.
     pub at: [f32; 2],
     /// The radius in samples.
     pub radius: f32,
-    /// The depth of the middle.
+    /// The depth of the centre.
     pub depth: f32,
     /// The radius in units of depth.
     pub thickness: f32,
 }
 
 impl Disc {
-    /// The disc as it is drawn: never smaller than a sample, or far spheres would flicker.
+    /// The disc as drawn. It is never smaller than a sample, because far spheres would flicker.
     fn visible(mut self) -> Self {
         self.radius = self.radius.max(0.75);
         self
     }
 
-    /// The direction of the surface at a sample: right, up and towards the eye.
+    /// The normal of the surface at a sample: right, up, towards the viewer.
     pub fn normal(&self, x: usize, y: usize) -> [f32; 3] {
         let disc = self.visible();
         let u = (x as f32 + 0.5 - disc.at[0]) / disc.radius;
@@ -39,10 +39,10 @@ impl Disc {
 }
 
 impl DepthBuffer {
-    /// The owner of a sample that shows no sphere.
+    /// The owner of a sample without a sphere.
     const NONE: u32 = u32::MAX;
 
-    /// Nothing, in so many samples.
+    /// An empty buffer of `width` by `height` samples.
     pub fn new(width: usize, height: usize) -> Self {
         Self {
             width,
@@ -52,7 +52,7 @@ impl DepthBuffer {
         }
     }
 
-    /// Draws sphere `owner` where it is in front of what is there.
+    /// Draws sphere `owner` where it is in front of the spheres drawn so far.
     pub fn draw(&mut self, disc: Disc, owner: u32) {
         let disc = disc.visible();
         let [cx, cy] = disc.at;
@@ -87,19 +87,19 @@ impl DepthBuffer {
         }
     }
 
-    /// The depth at a sample, infinite where there is no sphere. The sample must be inside.
+    /// The depth at a sample. Infinite without a sphere. The sample must be inside.
     pub(super) fn depth(&self, x: usize, y: usize) -> f32 {
         self.depth[y * self.width + x]
     }
 
-    /// The depth at the sample nearest to a place, which may be outside.
+    /// The depth at the sample nearest to a place that may be outside.
     pub(super) fn depth_near(&self, x: i64, y: i64) -> f32 {
         let x = x.clamp(0, self.width as i64 - 1) as usize;
         let y = y.clamp(0, self.height as i64 - 1) as usize;
         self.depth(x, y)
     }
 
-    /// The sphere at a sample; none outside.
+    /// The sphere at a sample. `None` outside.
     pub fn owner(&self, x: usize, y: usize) -> Option<usize> {
         let owner = *self.owner.get(y * self.width + x)?;
         (x < self.width && owner != Self::NONE).then_some(owner as usize)

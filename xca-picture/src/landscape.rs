@@ -11,14 +11,15 @@ use super::relief::{Ground, Relief};
 use super::{Picture, PictureError, check_size};
 use xca_io::numbers::significant;
 
-/// The ground below its lowest point, and how high it looks in all, as shares of the longer side.
+/// The thickness of the ground below its lowest point, and the apparent height of the relief, as shares of
+/// the longer side.
 const BASE: f64 = 0.03;
 const HEIGHT: f64 = 0.2;
 
-/// One layer of a dense substate as columns as high as the ground, seen from above and the front without
-/// perspective.
+/// One layer of a dense substate as columns as high as the ground. The view is from above and the front
+/// without perspective.
 ///
-/// Heights are multiplied so that the relief is seen; the caption says by how much.
+/// Heights are exaggerated to show the relief. The caption states the factor.
 #[derive(Debug, Clone)]
 pub struct LandscapePicture<'a> {
     /// The number of cells along x and y.
@@ -27,7 +28,7 @@ pub struct LandscapePicture<'a> {
     pub cell_side: f64,
     /// The values, x fastest, the lowest y first.
     pub scalar: Scalar<'a>,
-    /// If not empty, the values are no magnitudes but these kinds or states. Others are drawn in grey.
+    /// The categories of the values, if not empty. Other values are drawn in grey.
     pub categories: &'a [Category],
     /// The heights of the columns.
     pub relief: Relief<'a>,
@@ -41,19 +42,19 @@ pub struct LandscapePicture<'a> {
     pub size: [usize; 2],
 }
 
-/// A step from column to column that is drawn as a wall, in sides of a cell.
+/// The least step between columns that is drawn as a wall, in sides of a cell.
 const STEP: f64 = 2.0;
 
 /// The columns, in sides of a cell.
 struct Columns {
-    /// NaN where there is none.
+    /// NaN without ground.
     heights: Vec<f64>,
     highest: f64,
-    /// By how much heights are multiplied.
+    /// The factor of exaggeration.
     factor: f64,
 }
 
-/// What a line of sight meets: the top of a column, or a side of it along an axis.
+/// The first hit of a line of sight: the top of a column, or a side of it along an axis.
 struct Hit {
     cell: usize,
     side: Option<usize>,
@@ -160,7 +161,7 @@ impl<'a> LandscapePicture<'a> {
         }
     }
 
-    /// The first column in the direction of sight, which runs downwards: walks from column to column.
+    /// The first column on a line of sight that runs downwards: walks from column to column.
     fn hit(&self, columns: &Columns, extents: [f64; 3], from: [f64; 3], towards: [f64; 3]) -> Option<Hit> {
         let (mut enter, mut leave, mut axis) = (f64::NEG_INFINITY, f64::INFINITY, 2);
         for i in 0..3 {
@@ -187,7 +188,7 @@ impl<'a> LandscapePicture<'a> {
             let top = columns.heights[number];
             let at = |t: f64| from[2] + t * towards[2];
             if at(t) <= top {
-                // Low steps are a slope, whose light is that of the top.
+                // Low steps are a slope, lit like the top.
                 let is_step = before.is_nan() || top - before > STEP;
                 return Some(Hit { cell: number, side: (axis < 2 && is_step).then_some(axis) });
             }
@@ -217,8 +218,7 @@ mod tests {
         LandscapePicture::new(cells, 10.0, Scalar::new("t", &values), relief).render().unwrap()
     }
 
-    /// The heights of the columns as the picture shows them: where its top is on the vertical line through
-    /// its middle.
+    /// The heights of the columns in the picture: the top of each on the vertical line through its middle.
     #[test]
     fn columns_are_as_high_as_the_ground() {
         // A tower in the middle of a plain.
@@ -231,7 +231,7 @@ mod tests {
             Relief { heights: &heights, bare: -1.0 },
         );
         let columns = picture_of.columns();
-        // 60 m are 6 sides of a cell, more than a fifth of 9 cells: they stay as they are.
+        // 60 m are 6 sides of a cell. This is more than a fifth of 9 cells, so heights are not exaggerated.
         assert_eq!((columns.factor, columns.heights[40] - columns.heights[0]), (1.0, 6.0));
         let extents = [9.0, 9.0, columns.highest];
         let eye = Eye::new(extents, [40.0, 92.0], [800.0 - 176.0, 560.0]);
@@ -244,7 +244,7 @@ mod tests {
             let hit = picture_of.hit(&columns, extents, from, eye.forward).unwrap();
             assert_eq!((hit.cell, hit.side), (number, side), "{cell:?}");
         }
-        // Behind the tower, which is to the north-west, its side is seen instead of the plain.
+        // The picture shows the side of the tower in place of the plain behind it, in the north-west.
         let hidden = [2.5, 6.5, columns.heights[0]];
         let [x, y] = eye.project(std::array::from_fn(|i| hidden[i] - extents[i] / 2.0));
         let point = eye.point(x, y);
@@ -260,7 +260,7 @@ mod tests {
         let relief = Relief { heights: &heights, bare: -1.0 };
         let hidden: Vec<bool> = (0..100).map(|cell| cell >= 50).collect();
         let mut drawn = LandscapePicture::new([10, 10], 10.0, Scalar::new("t", &values), relief);
-        // 0.9 m are 0.09 sides of a cell, and look like 2.
+        // 0.9 m are 0.09 sides of a cell, and are drawn as 2.
         assert!((drawn.columns().factor - 2.0 / 0.09).abs() < 1e-9);
         let whole = drawn.render().unwrap();
         drawn.hidden = Some(&hidden);

@@ -1,4 +1,4 @@
-//! Values as colours, and the bar that explains them.
+//! Colour scales, and the legends that explain them.
 
 use super::PictureError;
 use super::canvas::{Canvas, Strokes};
@@ -10,19 +10,19 @@ use xca_io::numbers::significant;
 
 /// The colour of text and frames, in encoded RGB.
 pub(super) const INK: [f32; 3] = [0.16, 0.18, 0.22];
-/// The colour of what is said more quietly.
+/// The colour of less important text, in encoded RGB.
 pub(super) const FAINT_INK: [f32; 3] = [0.42, 0.45, 0.50];
 
-/// A scalar that is shown as a colour: one value for each particle or cell.
+/// A scalar shown by colour: one value for each particle or cell.
 #[derive(Debug, Clone, Copy)]
 pub struct Scalar<'a> {
-    /// What it is, with its unit; `^` raises what follows: `speed (m s^-1)`.
+    /// The name with its unit. `^` begins a superscript: `speed (m s^-1)`.
     pub label: &'a str,
-    /// The values. Those that are not finite are drawn in grey.
+    /// The values. Values that are not finite are drawn in grey.
     pub values: &'a [f64],
-    /// The values at the ends of the colour map; `None` for the least and the largest finite value.
+    /// The values at the ends of the colour map. `None`: the least and the largest finite value.
     pub range: Option<[f64; 2]>,
-    /// The colours.
+    /// The colour map.
     pub map: ColourMap,
 }
 
@@ -33,9 +33,8 @@ impl<'a> Scalar<'a> {
         Self { label, values, range: None, map: ColourMap::default() }
     }
 
-    /// The scalar with a range that leaves out the given share of the values, from 0 to 1, at its upper end:
-    /// a few fast particles then do not make all others look alike. Values beyond the range have the colour
-    /// of its end.
+    /// Sets a range that leaves out the given share of the values, from 0 to 1, at its upper end. A few fast
+    /// particles then do not make all others look alike. Values beyond the range have the colour of its end.
     #[must_use]
     pub fn without_largest(mut self, share: f64) -> Self {
         let mut finite: Vec<f64> = self.values.iter().copied().filter(|value| value.is_finite()).collect();
@@ -56,7 +55,7 @@ impl<'a> Scalar<'a> {
         Err(PictureError::Length { name: self.label.to_owned(), found, expected, of })
     }
 
-    /// The scale from values to places on the map.
+    /// The scale from values to positions on the map.
     pub fn scale(&self) -> Scale {
         let found = || {
             let finite = self.values.iter().copied().filter(|value| value.is_finite());
@@ -65,7 +64,7 @@ impl<'a> Scalar<'a> {
         match self.range.filter(|range| range.iter().all(|x| x.is_finite())).unwrap_or_else(found) {
             [low, high] if low <= high => Scale { low, high },
             [low, high] if low.is_finite() => Scale { low: high, high: low },
-            // No finite value at all.
+            // No value is finite.
             _ => Scale { low: 0.0, high: 0.0 },
         }
     }
@@ -81,19 +80,19 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// The place of a value on the map, from 0 to 1; `None` if it is not finite.
+    /// The position of a value on the map, from 0 to 1. `None` if it is not finite.
     pub fn place(&self, value: f64) -> Option<f64> {
         if !value.is_finite() {
             return None;
         }
-        // Halved, so that a range over nearly all numbers does not overflow.
+        // Halved, so that the range of nearly all numbers does not overflow.
         let span = self.high / 2.0 - self.low / 2.0;
         let place = if span > 0.0 { (value / 2.0 - self.low / 2.0) / span } else { 0.0 };
         Some(place.clamp(0.0, 1.0))
     }
 }
 
-/// Draws a vertical colour bar with its ticks to the right and its label above.
+/// Draws a vertical colour bar, its ticks to the right and its label above.
 pub(super) fn draw_bar(
     canvas: &mut Canvas,
     [x, y]: [usize; 2],
@@ -120,7 +119,7 @@ pub(super) fn draw_bar(
             text::draw(canvas, text, [right + 12.0, at + 5.5], Anchor::Left, &style);
         }
     } else {
-        // One value: one swatch.
+        // A single value is a single swatch.
         let top = y + h / 2 - w / 2;
         canvas.fill([x, top], [w, w], encode(map.linear(0.0)));
         canvas.frame([x, top], [w, w], INK);
@@ -137,8 +136,8 @@ pub(super) fn draw_bar(
     text::draw(canvas, label, [left, above], Anchor::Left, &text::fitted(label, style, room));
 }
 
-/// Draws a list of categories with their colours, as many as there is room for above `bottom`; says how many
-/// more there are.
+/// Draws a list of categories with their colours, as far as there is room above `bottom`. Then draws the
+/// number of categories left out.
 pub(super) fn draw_categories(
     canvas: &mut Canvas,
     [x, y]: [usize; 2],

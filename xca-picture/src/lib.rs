@@ -1,15 +1,15 @@
-//! Pictures of a state as PNG files, made without a display.
+//! Pictures of a state as PNG files, without a display.
 //!
 //! | type | shows |
 //! |---|---|
 //! | [`ParticlePicture`] | particles as shaded spheres in their box, z up, coloured by a scalar |
-//! | [`SlicePicture`] | one layer of a dense substate, a colour a cell: squares or hexagons |
-//! | [`LandscapePicture`] | one layer of a dense substate over the relief of the ground, in three dimensions |
+//! | [`SlicePicture`] | one layer of a dense substate, one colour per cell: squares or hexagons |
+//! | [`LandscapePicture`] | one layer of a dense substate over the relief of the ground, in 3D |
 //! | [`BlockPicture`] | all layers of a dense substate, as cubes |
 //! | [`PanelPicture`] | several of these side by side |
-//! | [`animation`] | pictures in motion |
+//! | [`animation`] | animations of pictures |
 //!
-//! All are filled in, rendered to a [`Picture`] and written:
+//! Fill in the fields, render to a [`Picture`], and write:
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -76,14 +76,14 @@ pub use slice::SlicePicture;
 pub use view::Viewpoint;
 pub use xca_io::lattice::Lattice;
 
-/// Data that cannot be shown.
+/// Data that cannot be drawn.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PictureError {
-    /// There is not one value for each particle or cell.
+    /// The number of values is not that of the particles or cells.
     #[error("cannot draw `{name}`: {found} values for {expected} {of}")]
     Length {
-        /// What the values stand for.
+        /// The name of the scalar.
         name: String,
         /// The number of values.
         found: usize,
@@ -92,19 +92,19 @@ pub enum PictureError {
         /// `particles` or `cells`.
         of: &'static str,
     },
-    /// The box has a corner that is not finite, or an upper corner that is not above the lower one; or the
-    /// radius is not a positive number.
+    /// The box, the radius or the viewpoint is not valid. Corners and angles must be finite, the upper corner
+    /// above the lower one, and the radius positive.
     #[error("cannot draw particles: {what} is {value}")]
     Geometry {
-        /// What the value stands for.
+        /// The name of the quantity.
         what: &'static str,
         /// The value.
         value: f64,
     },
-    /// A picture must have 200 to 8192 pixels each way.
+    /// A size outside 200 to 8192 pixels.
     #[error("cannot draw a picture of {} by {} pixels: both must be from 200 to 8192", size[0], size[1])]
     Size {
-        /// The size asked for.
+        /// The requested size.
         size: [usize; 2],
     },
     /// A slice without cells.
@@ -126,7 +126,7 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// A picture of pixels in sRGB, row by row from the top left: three bytes for each.
+    /// A picture of sRGB pixels, row by row from the top left, three bytes each.
     pub(crate) fn new(width: usize, height: usize, rgb: Vec<u8>) -> Self {
         Self { width, height, rgb }
     }
@@ -149,7 +149,8 @@ impl Picture {
         &self.rgb
     }
 
-    /// Red, green and blue of the pixel in column `x` and row `y`, counted from the top left; black outside.
+    /// Red, green and blue of the pixel in column `x` and row `y`, counted from the top left. Black outside
+    /// the picture.
     #[must_use]
     pub fn pixel(&self, x: usize, y: usize) -> [u8; 3] {
         let at = 3 * (y * self.width + x);
@@ -178,11 +179,11 @@ impl Picture {
     }
 }
 
-/// By what a PNG file tells what has made it.
+/// The key in a PNG file that names the program.
 const SOFTWARE: &str = "Software";
 const XCA: &str = "xca";
 
-/// Whether a file is a picture that [`Picture::write`] has written.
+/// Whether [`Picture::write`] has written a file.
 #[must_use]
 pub fn is_picture_of_xca(path: &Path) -> bool {
     let Ok(file) = regular_file::open(path) else { return false };

@@ -1,17 +1,17 @@
-//! The lamp: how bright a surface is, and what lies in the shadow.
+//! Light and shadow on spheres.
 
 use super::depth::{DepthBuffer, Disc};
 use super::view::{Camera, along, cross, dot, unit};
 
-/// A far lamp at the upper left of the eye, with the shadows of the spheres.
+/// A distant lamp at the upper left of the viewer, with the shadows of the spheres.
 pub(super) struct Light {
-    /// Towards the lamp.
+    /// The direction to the lamp.
     direction: [f32; 3],
     right: [f32; 3],
     up: [f32; 3],
-    /// The spheres as the lamp sees them.
+    /// The spheres as seen from the lamp.
     shadows: DepthBuffer,
-    /// Samples of the shadows for a length of 1.
+    /// The samples of the shadows per unit of length.
     scale: f32,
     radius: f32,
 }
@@ -21,17 +21,16 @@ pub(super) struct Light {
 pub(super) struct Surface {
     pub(super) at: [f32; 3],
     pub(super) normal: [f32; 3],
-    /// Linear RGB.
+    /// The albedo in linear RGB.
     pub(super) albedo: [f32; 3],
     /// The share of the sky that is open.
     pub(super) open: f32,
-    /// How much it shines.
+    /// The strength of the gloss.
     pub(super) gloss: f32,
 }
 
 impl Light {
-    /// A lamp above `camera` that shines on spheres in a space with its centre at the origin and a diagonal
-    /// of 1.
+    /// A lamp above `camera` for spheres in a space with its centre at the origin and a diagonal of 1.
     pub(super) fn new(camera: &Camera, spheres: &[[f32; 3]], radius: f32) -> Self {
         const SIZE: usize = 2048;
         let flat = unit([camera.forward[0], camera.forward[1], 0.0]);
@@ -53,7 +52,7 @@ impl Light {
         (at, -dot(p, self.direction))
     }
 
-    /// The share of the lamp that reaches a point, from 0 to 1, with a soft edge.
+    /// The share of the light that reaches a point, from 0 to 1, with a soft edge.
     fn reaching(&self, p: [f32; 3]) -> f32 {
         let ([x, y], depth) = self.project(p);
         let depth = depth - 0.4 * self.radius;
@@ -69,12 +68,12 @@ impl Light {
         open / 16.0
     }
 
-    /// The light from `surface` to an eye in the direction `to_eye`, in linear RGB.
+    /// The light from `surface` in the direction `to_eye`, in linear RGB.
     pub(super) fn shade(&self, surface: &Surface, to_eye: [f32; 3]) -> [f32; 3] {
         let Surface { at, normal, albedo, open, gloss } = *surface;
         let facing = dot(normal, self.direction);
         let reaching = if facing > 0.0 { self.reaching(along(at, 0.15 * self.radius, normal)) } else { 0.0 };
-        // A bright sky and a ground that throws some of it back.
+        // A bright sky, and a ground that reflects some of it.
         let sky = 0.36 + 0.16 * normal[2];
         let diffuse = sky * open + 0.72 * facing.max(0.0) * reaching * (0.55 + 0.45 * open);
         let halfway = unit(along(self.direction, 1.0, to_eye));
@@ -99,12 +98,12 @@ mod tests {
         assert_eq!(light.reaching(behind), 0.0);
         assert_eq!(light.reaching(beside), 1.0);
         assert_eq!(light.reaching(above), 1.0);
-        // The lamp's own side of the sphere is not in its own shadow.
+        // The side of the sphere that faces the lamp is not in its own shadow.
         assert_eq!(light.reaching(along([0.0; 3], 0.05, light.direction)), 1.0);
         let surface = |at| Surface { at, normal: light.direction, albedo: [0.5; 3], open: 1.0, gloss: 0.0 };
         let to_eye = camera.forward.map(|x| -x);
         assert!(light.shade(&surface(behind), to_eye)[0] < 0.5 * light.shade(&surface(beside), to_eye)[0]);
-        // The lamp stands above the ground, on the side of the eye.
+        // The lamp is above the ground, on the side of the viewer.
         assert!(light.direction[2] > 0.5 && dot(light.direction, camera.forward) < 0.0);
     }
 }

@@ -1,4 +1,4 @@
-//! A layer of cells in as many pixels as there is room for.
+//! A layer of cells, drawn in any number of pixels.
 
 use super::averaging::Share;
 use super::category::Category;
@@ -7,10 +7,10 @@ use super::legend::Scale;
 use super::relief::Ground;
 use xca_io::lattice::Lattice;
 
-/// Linear RGB of what has no value.
+/// The colour of cells without a value, in linear RGB.
 pub(super) const GREY: [f32; 3] = [0.35, 0.35, 0.35];
 
-/// What values look like, in linear RGB.
+/// The colours of values, in linear RGB.
 #[derive(Debug, Clone)]
 pub struct Palette {
     map: Vec<[f32; 3]>,
@@ -19,12 +19,12 @@ pub struct Palette {
 }
 
 impl Palette {
-    /// The colours of a map, and of kinds.
+    /// The colours of a colour map, and of categories.
     pub fn coloured(map: ColourMap, kinds: &[Category]) -> Self {
         Self { map: map.table(), kinds: kinds.iter().map(Category::linear).collect(), unknown: GREY }
     }
 
-    /// Without colours: ever lighter, from this lightness to 1, for values and for kinds.
+    /// Greys of increasing lightness, from `darkest` to 1, for values and for categories.
     pub fn shades(darkest: f32, kinds: usize) -> Self {
         let shades = |number: usize| {
             let last = number.saturating_sub(1).max(1) as f32;
@@ -33,29 +33,30 @@ impl Palette {
         Self { map: shades(256), kinds: shades(kinds), unknown: [0.5; 3] }
     }
 
-    /// The colour at a place of the scale, from 0 to 1.
+    /// The colour at a position of the scale, from 0 to 1.
     pub fn of(&self, place: Option<f64>) -> [f32; 3] {
         let entry = place.and_then(|place| self.map.get((place * 255.0).round() as usize));
         entry.copied().unwrap_or(self.unknown)
     }
 
-    /// The colour of the kind with this number.
+    /// The colour of the category with this index.
     pub fn kind(&self, number: Option<usize>) -> [f32; 3] {
         number.and_then(|number| self.kinds.get(number)).copied().unwrap_or(self.unknown)
     }
 }
 
-/// A layer of cells, x fastest, the lowest y first. A cell without a value has no colour of its own.
+/// A layer of cells, x fastest, the lowest y first. A cell without a value has the palette's colour for
+/// unknown values.
 #[derive(Debug)]
 pub struct Mosaic<'a> {
     columns: usize,
     rows: usize,
     values: &'a [f64],
     scale: Scale,
-    /// If not empty, the values are no magnitudes but these kinds; others are unknown.
+    /// The values of the categories, if not empty. Other values are unknown.
     kinds: &'a [f64],
     palette: &'a Palette,
-    /// What it is drawn over.
+    /// The ground below the layer.
     ground: Option<&'a Ground>,
     /// The cells that are not drawn.
     hidden: Option<&'a [bool]>,
@@ -63,7 +64,7 @@ pub struct Mosaic<'a> {
 }
 
 impl<'a> Mosaic<'a> {
-    /// A layer of magnitudes, or of kinds, on no ground.
+    /// A layer of magnitudes or of categories, without ground.
     pub fn new(
         [columns, rows]: [usize; 2],
         values: &'a [f64],
@@ -84,26 +85,26 @@ impl<'a> Mosaic<'a> {
         }
     }
 
-    /// The same over this ground.
+    /// Sets the ground.
     pub(super) fn over(self, ground: Option<&'a Ground>) -> Self {
         Self { ground, ..self }
     }
 
-    /// The same of cells that lie so in the plane.
+    /// Sets the lattice.
     #[must_use]
     pub fn on(self, lattice: Lattice) -> Self {
         Self { lattice, ..self }
     }
 
-    /// The same without the cells where this mask is true: the background is seen there.
+    /// Hides the cells where this mask is true. The background shows there.
     #[must_use]
     pub fn without(self, hidden: Option<&'a [bool]>) -> Self {
         Self { hidden, ..self }
     }
 
-    /// Calls `set` with the column and the row of each pixel, from the top left, and its colour: that of its
-    /// cell, or of the mean of its cells. Pixels whose cells are all hidden are left out, and those beside
-    /// all hexagons.
+    /// Calls `set` with the column and row of each pixel, from the top left, and its colour. The colour is
+    /// that of its cell, or of the mean of its cells. Skips pixels whose cells are all hidden, and pixels
+    /// outside all hexagons.
     pub fn draw(&self, [width, height]: [usize; 2], mut set: impl FnMut(usize, usize, [f32; 3])) {
         if self.columns == 0 || self.rows == 0 {
             return;
@@ -126,7 +127,7 @@ impl<'a> Mosaic<'a> {
         }
     }
 
-    /// Looks at several points of each pixel: two a cell in each direction, from 3 to 8.
+    /// Takes several samples of each pixel: two per cell in each direction, from 3 to 8.
     fn draw_hexagons(&self, pixels: [usize; 2], mut set: impl FnMut(usize, usize, [f32; 3])) {
         let cells = [self.columns, self.rows];
         let size = self.lattice.size(cells);
@@ -157,7 +158,7 @@ impl<'a> Mosaic<'a> {
         self.hidden.is_some_and(|hidden| hidden.get(cell) == Some(&true))
     }
 
-    /// The colour of a pixel with these parts of cells.
+    /// The colour of a pixel with these shares of cells.
     fn colour(&self, cells: impl Iterator<Item = (usize, f64)>) -> Option<[f32; 3]> {
         let mut cells = cells.filter(|(cell, _)| !self.is_hidden(*cell)).peekable();
         cells.peek()?;
@@ -197,7 +198,7 @@ mod tests {
         assert_eq!(palette.of(Some(0.0)), [0.5; 3]);
         assert_eq!(palette.of(Some(1.0)), [1.0; 3]);
         assert_eq!([0, 1, 2].map(|kind| palette.kind(Some(kind))[0]), [0.5, 0.75, 1.0]);
-        // One kind, and none.
+        // One category, and no category.
         assert_eq!(Palette::shades(0.25, 1).kind(Some(0)), [0.25; 3]);
         assert_eq!(palette.kind(None), palette.of(None));
     }

@@ -1,25 +1,25 @@
-//! Several pictures in one.
+//! Several pictures side by side.
 
 use super::canvas::Canvas;
 use super::legend::draw_title;
 use super::{Picture, PictureError, check_size};
 
-/// Pictures without titles side by side, below one title.
+/// Pictures side by side, below one title.
 #[derive(Debug, Clone)]
 pub struct PanelPicture<'a> {
-    /// The pictures, from the left. Each has its own caption where a title would stand above it.
+    /// The pictures, from the left, without titles. Their captions are at the top.
     pub panels: &'a [Picture],
     /// The text above the picture.
     pub title: &'a str,
     /// The smaller text below the title.
     pub caption: &'a str,
-    /// Width and height of the whole picture in pixels, if it must have these; white is added to the right
-    /// and below.
+    /// Width and height of the whole picture in pixels, if they are fixed. White is added at the right and
+    /// below.
     pub size: Option<[usize; 2]>,
 }
 
 impl PanelPicture<'_> {
-    /// How much higher the picture is than its panels, in pixels.
+    /// The height that the title adds to the panels, in pixels.
     pub const ABOVE: usize = 34;
 
     /// Draws the picture.
@@ -37,7 +37,7 @@ impl PanelPicture<'_> {
             canvas.paste([left, Self::ABOVE], panel);
             left += panel.width();
         }
-        // Where panels with captions alone are white.
+        // Panels without titles are white here.
         draw_title(&mut canvas, 36.0, self.title, self.caption);
         Ok(canvas.into_picture())
     }
@@ -66,7 +66,7 @@ mod tests {
             }
         }
         assert_eq!(picture.pixel(10, PanelPicture::ABOVE + 220), [255; 3]);
-        // The title is above them, and changes nothing else.
+        // The title is above the panels, and changes nothing else.
         let titled = PanelPicture { title: "heat", caption: "step 7", ..wanted.clone() }.render().unwrap();
         let differs = |y: usize| (0..620).any(|x| titled.pixel(x, y) != picture.pixel(x, y));
         assert!((20..80).any(differs) && !(80..274).any(differs));

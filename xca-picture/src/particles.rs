@@ -9,7 +9,7 @@ use super::view::{Camera, Viewpoint};
 use super::{Picture, PictureError, check_size};
 use xca_io::numbers::significant;
 
-/// The box that the particles live in: two opposite corners, as lengths.
+/// The box of the particles: two opposite corners, as lengths.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Domain {
     /// The corner with the least coordinates.
@@ -20,21 +20,20 @@ pub struct Domain {
 
 /// Particles as shaded spheres in their box, in perspective, z up.
 ///
-/// Make one with [`ParticlePicture::new`], set what else is wanted, and [`render`](ParticlePicture::render)
-/// it. At the default size, in a release build and on one core, 2,602 particles take about a quarter of a
-/// second and 316,000 less than a second; meanwhile some 100 MB of memory are in use.
+/// Create one with [`ParticlePicture::new`], set its fields, and call [`render`](ParticlePicture::render). At
+/// the default size, in a release build on one core, 2,602 particles take about a quarter of a second.
+/// 316,000 particles take less than a second. Rendering uses about 100 MB of memory.
 #[derive(Debug, Clone)]
 pub struct ParticlePicture<'a> {
-    /// The middles of the particles, as lengths; those that are not finite are left out.
+    /// The centres of the particles, as lengths. Positions that are not finite are left out.
     pub positions: &'a [[f64; 3]],
     /// The radius of all particles, as a length.
     pub radius: f64,
-    /// The box, whose edges are drawn, standing on the ground.
+    /// The box. Its edges are drawn, and it stands on the ground.
     pub domain: Domain,
-    /// The scalar that colours the particles; `None` for one colour.
+    /// The scalar that colours the particles. `None` for one colour.
     pub colour: Option<Scalar<'a>>,
-    /// If not empty, the scalar's values are no magnitudes but these kinds or states. Others are drawn in
-    /// grey.
+    /// The categories of the scalar's values, if not empty. Other values are drawn in grey.
     pub categories: &'a [Category],
     /// The text above the picture, such as the model and the case.
     pub title: &'a str,
@@ -44,7 +43,7 @@ pub struct ParticlePicture<'a> {
     pub length_unit: &'a str,
     /// Width and height in pixels, from 200 to 8192 each.
     pub size: [usize; 2],
-    /// Where the eye is.
+    /// The direction of view.
     pub viewpoint: Viewpoint,
 }
 
@@ -80,7 +79,7 @@ impl<'a> ParticlePicture<'a> {
         let [width, height] = self.size;
         let mut canvas = Canvas::new(width, height, [1.0; 3]);
 
-        // Lengths relative to the diagonal of the box, from its middle.
+        // Lengths are relative to the diagonal of the box, and measured from its middle.
         let Domain { lower, upper } = self.domain;
         let sides: [f64; 3] = std::array::from_fn(|i| upper[i] - lower[i]);
         let diagonal = sides.iter().map(|side| side * side).sum::<f64>().sqrt();
@@ -134,7 +133,7 @@ impl<'a> ParticlePicture<'a> {
         Ok(())
     }
 
-    /// The colours in linear RGB, and the entry that a particle has.
+    /// The colours in linear RGB, and the index of each particle's colour.
     fn palette(&self) -> (Vec<[f32; 3]>, impl Fn(usize) -> u16 + '_) {
         const GREY: u16 = 256;
         const PLAIN: u16 = 257;
@@ -147,7 +146,7 @@ impl<'a> ParticlePicture<'a> {
             None => PLAIN,
             Some((values, _)) if !self.categories.is_empty() => {
                 let number = Category::number_of(self.categories, values[i]);
-                // A state is a byte, so that there are 256 at most.
+                // A state is a byte, so there are at most 256.
                 number.and_then(|number| u16::try_from(number).ok()).map_or(GREY, |number| PLAIN + 1 + number)
             }
             Some((values, scale)) => {
@@ -157,13 +156,13 @@ impl<'a> ParticlePicture<'a> {
         (palette, colour_of)
     }
 
-    /// Writes the lengths of the sides next to three edges of the box.
+    /// Labels three edges of the box with the lengths of the sides.
     fn draw_sides(&self, canvas: &mut Canvas, scene: &Scene<'_>, sides: [f64; 3]) {
         let style = Style { height: 11.0, colour: FAINT_INK };
         let middle = scene.camera.project([0.0; 3]);
         for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
-            // The edge on the outline of the box, where one of its two faces is seen and the other is not:
-            // for x and y the lower one, for z the left one.
+            // An edge on the outline of the box, with one visible and one hidden face. For x and y it is the
+            // lower one, for z the left one.
             let outline = (0..8_usize).filter(|start| start >> axis & 1 == 0).filter(|start| {
                 let seen = (0..3).filter(|&a| a != axis).filter(|&a| scene.faces_eye(a, start >> a & 1 == 1));
                 seen.count() == 1
@@ -200,8 +199,8 @@ mod tests {
         picture
     }
 
-    /// The pixels of the drawing proper, without the bar, whose colour is blueish and dark (`true`, the low
-    /// end of the map) or yellowish (`false`, the high end).
+    /// Counts pixels of the drawing without the bar: bluish dark ones (`true`, the low end of the map) or
+    /// yellowish ones (`false`, the high end).
     fn count(picture: &Picture, low: bool) -> usize {
         let in_drawing = |i: &usize| i % picture.width() < 430;
         (0..picture.width() * picture.height())
@@ -219,7 +218,7 @@ mod tests {
         viewed.viewpoint = Viewpoint { azimuth: -90.0, elevation: 0.0 };
         let (near, far) = ([0.5, 0.2, 0.5], [0.5, 0.8, 0.5]);
         for positions in [[near, far], [far, near]] {
-            // The near one is low (violet), whichever comes first.
+            // The near sphere has the low value (violet), in either order.
             let values = positions.map(|p| if p == near { 0.0 } else { 1.0 });
             let both = ParticlePicture { positions: &positions, ..viewed.clone() };
             let both =

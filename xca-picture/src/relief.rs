@@ -1,25 +1,25 @@
-//! The ground below a layer of cells, in the light of a low sun in the north-west.
+//! The ground below a layer of cells, lit by a low sun in the north-west.
 
 /// Heights to draw a layer of cells over.
 #[derive(Debug, Clone, Copy)]
 pub struct Relief<'a> {
-    /// The height of the ground in each cell, in the unit of the cell's side, in the order of the values; NaN
-    /// where there is no ground.
+    /// The height of the ground in each cell, in the unit of the cell's side, in the order of the values. NaN
+    /// without ground.
     pub heights: &'a [f64],
-    /// Where the drawn value is not more than this, the bare ground is seen.
+    /// The bare ground shows where the drawn value is at most this.
     pub bare: f64,
 }
 
-/// Linear RGB of the bare ground where the sun meets it head-on.
+/// Linear RGB of the bare ground at right angles to the sun.
 const GROUND: [f32; 3] = [0.86, 0.82, 0.74];
-/// Where the sun stands: to the west, to the north, and up; of length 1.
+/// The direction of the sun: to the west, to the north, and up. Of length 1.
 const SUN: [f64; 3] = [-0.5, 0.5, std::f64::consts::FRAC_1_SQRT_2];
-/// The light that comes from all sides.
+/// The light from all directions.
 const SKY: f64 = 0.25;
-/// Slopes are made steeper until their root mean square is this.
+/// Slopes are exaggerated up to this root mean square.
 const SLOPE: f64 = 0.5;
 
-/// How light the ground is, cell by cell.
+/// The lightness of the ground in each cell.
 #[derive(Debug)]
 pub(super) struct Ground {
     lightness: Vec<f32>,
@@ -27,10 +27,10 @@ pub(super) struct Ground {
 }
 
 impl Ground {
-    /// There must be a height for each of so many columns and rows.
+    /// `relief` must have one height for each cell.
     pub(super) fn new(relief: Relief<'_>, [columns, rows]: [usize; 2], side: f64) -> Self {
         let height = |x: usize, y: usize| relief.heights[y * columns + x];
-        // Up to a border, and to what has no height, it is level.
+        // The ground is level towards a border, and towards cells without a height.
         let slope = |low: f64, high: f64, cells: usize| {
             let slope = (high - low) / (cells.max(1) as f64 * side);
             if slope.is_finite() { slope } else { 0.0 }
@@ -45,7 +45,7 @@ impl Ground {
             })
             .collect();
         let squares: f64 = slopes.iter().flatten().map(|slope| slope * slope).sum();
-        // Cells without ground do not make the others look steeper.
+        // Cells without ground do not change the exaggeration.
         let count = relief.heights.iter().filter(|height| height.is_finite()).count();
         let mean = (squares / count.max(1) as f64).sqrt();
         let factor = if mean > 0.0 { (SLOPE / mean).max(1.0) } else { 1.0 };
@@ -58,13 +58,13 @@ impl Ground {
         Self { lightness: slopes.iter().map(lightness).collect(), bare: relief.bare }
     }
 
-    /// The colour of a cell with this value, where it has this colour on its own.
+    /// The colour of a cell with this value, where `own` is its colour without ground.
     pub(super) fn colour(&self, cell: usize, value: f64, own: [f32; 3]) -> [f32; 3] {
         let lightness = self.lightness[cell];
         if value <= self.bare {
             return GROUND.map(|lane| lane * lightness);
         }
-        // Half of the shadow, so that the colour can be told on the scale.
+        // Half of the shadow only, so that the colour remains recognizable on the scale.
         own.map(|lane| lane * (0.5 + 0.5 * lightness))
     }
 }
@@ -86,7 +86,7 @@ mod tests {
         let level = ground(&[3.0; 25], 5).lightness[12];
         assert!(north_west > level && level > south_east, "{north_west} {level} {south_east}");
         assert!((level - 0.78).abs() < 0.01, "{level}");
-        // Mirrored, the sides change their places.
+        // In the mirror image, the sides change places.
         let hole: Vec<f64> = heights.iter().map(|height| -height).collect();
         assert!(ground(&hole, 5).lightness[16] < level);
     }
@@ -107,7 +107,7 @@ mod tests {
     fn cells_without_ground_do_not_change_how_steep_the_others_look() {
         let steepness = |x: i32| f64::from(x) * 1e-3;
         let whole: Vec<f64> = (0..9).map(|cell| steepness(cell % 3)).collect();
-        // The same with six columns of nothing beside it. The last column that has ground is level then.
+        // The same ground beside six columns without ground. The last column with ground is then level.
         let wide: Vec<f64> =
             (0..27).map(|cell| if cell % 9 < 3 { steepness(cell % 9) } else { f64::NAN }).collect();
         let (whole, wide) = (ground(&whole, 3).lightness[4], ground(&wide, 9).lightness[10]);

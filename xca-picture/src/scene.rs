@@ -1,4 +1,4 @@
-//! Spheres in their box, lit, on the ground.
+//! Lit spheres in their box, on the ground.
 
 use super::canvas::{Canvas, Strokes};
 use super::colour::{encode, mix};
@@ -6,23 +6,23 @@ use super::depth::{DepthBuffer, Disc};
 use super::light::{Light, Surface};
 use super::view::{Camera, along, unit};
 
-/// Samples a pixel, each way.
+/// Samples per pixel in each direction.
 const SAMPLES: usize = 2;
-/// The least depth at which spheres are drawn; the box begins at more than 2.
+/// The least depth of drawn spheres. The box begins at more than 2.
 const NEAREST: f32 = 1.5;
 
-/// What there is to see, in a space where the box has its centre at the origin and a diagonal of 1.
+/// The scene, in a space where the box has its centre at the origin and a diagonal of 1.
 pub(super) struct Scene<'a> {
-    /// The eye, in pixels of the canvas.
+    /// The camera, in pixels of the canvas.
     pub(super) camera: Camera,
-    /// The middles of the spheres.
+    /// The centres of the spheres.
     pub(super) spheres: &'a [[f32; 3]],
     pub(super) radius: f32,
-    /// For each sphere the entry of `palette`.
+    /// The index into `palette` for each sphere.
     pub(super) colours: &'a [u16],
-    /// Linear RGB.
+    /// The colours in linear RGB.
     pub(super) palette: &'a [[f32; 3]],
-    /// The upper corner of the box; the lower one is its opposite.
+    /// The upper corner of the box. The lower corner is opposite.
     pub(super) corner: [f32; 3],
 }
 
@@ -33,7 +33,7 @@ impl Scene<'_> {
         let mut buffer = DepthBuffer::new(canvas.width() * SAMPLES, canvas.height() * SAMPLES);
         for (owner, &sphere) in (0..).zip(self.spheres) {
             let disc = self.disc(&eye, sphere);
-            // What has left the box towards the eye, or beyond it, would cover everything.
+            // A sphere outside the box and close to the camera would cover everything.
             if disc.depth > NEAREST {
                 buffer.draw(disc, owner);
             }
@@ -53,14 +53,14 @@ impl Scene<'_> {
         Disc { at: [x, y], radius: self.radius * eye.focal / depth, depth, thickness: self.radius }
     }
 
-    /// A corner of the box: bit `axis` of `index` says whether it is the upper one.
+    /// A corner of the box. Bit `axis` of `index` is set at the upper end of the axis.
     pub(super) fn corner(&self, index: usize) -> [f32; 3] {
         std::array::from_fn(
             |axis| if index >> axis & 1 == 1 { self.corner[axis] } else { -self.corner[axis] },
         )
     }
 
-    /// Whether the face of the box at the upper or lower end of `axis` is seen from outside.
+    /// Whether the face of the box at the upper or lower end of `axis` is visible from outside.
     pub(super) fn faces_eye(&self, axis: usize, upper: bool) -> bool {
         let eye = self.camera.eye[axis];
         if upper { eye > self.corner[axis] } else { eye < -self.corner[axis] }
@@ -69,7 +69,7 @@ impl Scene<'_> {
     fn draw_edges(&self, canvas: &mut Canvas, buffer: &DepthBuffer) {
         for axis in 0..3 {
             for start in (0..8).filter(|start| start >> axis & 1 == 0) {
-                // Two faces meet at the edge; it is hidden by the box itself when both look away.
+                // Two faces meet at the edge. The box hides the edge if both face away.
                 let in_front = (0..3).filter(|&a| a != axis).any(|a| self.faces_eye(a, start >> a & 1 == 1));
                 let (colour, strength, width) =
                     if in_front { ([0.20, 0.23, 0.29], 0.75, 1.3) } else { ([0.45, 0.48, 0.54], 0.60, 1.0) };
@@ -92,8 +92,8 @@ impl Scene<'_> {
     }
 }
 
-/// The depth of the line from `a` to `b` (pixels and depth) next to the pixel `p`: 1 / depth is linear on the
-/// screen.
+/// The depth of the line from `a` to `b` (pixels and depth) next to the pixel `p`. On the screen, 1 / depth
+/// is linear.
 fn depth_on_line(a: [f32; 3], b: [f32; 3], p: [f32; 2]) -> f32 {
     let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
     let length2 = (dx * dx + dy * dy).max(1e-6);
@@ -101,7 +101,7 @@ fn depth_on_line(a: [f32; 3], b: [f32; 3], p: [f32; 2]) -> f32 {
     1.0 / ((1.0 - t) / a[2] + t / b[2])
 }
 
-/// A scene with what is needed to colour one sample of it.
+/// A scene prepared for colouring one sample.
 struct Lit<'a> {
     scene: &'a Scene<'a>,
     eye: Camera,
@@ -116,7 +116,7 @@ impl Lit<'_> {
         let owners: [Option<usize>; SAMPLES * SAMPLES] = std::array::from_fn(|sample| {
             self.buffer.owner(x * SAMPLES + sample % SAMPLES, y * SAMPLES + sample / SAMPLES)
         });
-        // The ground is smooth: one look is enough for the samples that show it.
+        // The ground is smooth: one evaluation serves all samples that show it.
         let bare = owners.iter().filter(|owner| owner.is_none()).count() as f32 * SHARE;
         let mut sum = if bare > 0.0 { self.ground(x, y).map(|c| c * bare) } else { [0.0; 3] };
         for (sample, owner) in owners.into_iter().enumerate() {
@@ -129,7 +129,7 @@ impl Lit<'_> {
         sum
     }
 
-    /// The light that a sphere sends through a sample.
+    /// The light of a sphere at a sample.
     fn sphere(&self, x: usize, y: usize, owner: usize) -> [f32; 3] {
         let ray = self.eye.ray(x as f32 + 0.5, y as f32 + 0.5);
         let to_eye = unit(ray.map(|c| -c));
@@ -149,7 +149,7 @@ impl Lit<'_> {
         self.light.shade(&surface, to_eye)
     }
 
-    /// The background of a pixel and, around the box, the ground, which fades into it.
+    /// The background of a pixel. Around the box it is the ground, which fades into the background.
     fn ground(&self, x: usize, y: usize) -> [f32; 3] {
         const PAPER: [f32; 3] = [1.0, 1.0, 1.0];
         const FADE: f32 = 0.11;
@@ -173,8 +173,9 @@ impl Lit<'_> {
         mix(PAPER, self.light.shade(&surface, unit(ray.map(|c| -c))), share)
     }
 
-    /// How open a place is, from 0 to 1, judged by how far its neighbours on the screen stand in front of it:
-    /// spheres stand out from those behind. `radius` is that of a sphere there, in samples.
+    /// The openness of a place, from 0 to 1. It falls with the distance by which neighbours on the screen
+    /// stand in front, so that spheres stand out from those behind. `radius` is that of a sphere there, in
+    /// samples.
     fn openness(&self, x: usize, y: usize, depth: f32, radius: f32) -> f32 {
         const RING: [[f32; 2]; 8] = [
             [1.0, 0.0],
@@ -209,7 +210,7 @@ mod tests {
         let (a, b) = ([0.0, 0.0, 1.0], [100.0, 0.0, 3.0]);
         assert_eq!(depth_on_line(a, b, [0.0, 5.0]), 1.0);
         assert_eq!(depth_on_line(a, b, [200.0, 5.0]), 3.0);
-        // Half way on the screen is nearer than half way in space.
+        // Halfway on the screen is nearer than halfway in space.
         assert!((depth_on_line(a, b, [50.0, 0.0]) - 1.5).abs() < 1e-6);
     }
 
@@ -225,7 +226,7 @@ mod tests {
         (eye, canvas.into_picture())
     }
 
-    /// How much darker the middle of an edge along z is than what lies on either side of it.
+    /// How much darker the middle of an edge along z is than the pixels on either side.
     fn edge(spheres: &[[f32; 3]], x: f32, y: f32) -> i32 {
         let (camera, picture) = drawn(spheres);
         let half = 1.0 / 12.0_f32.sqrt();
@@ -236,7 +237,7 @@ mod tests {
 
     #[test]
     fn spheres_hide_the_edges_behind_them_and_no_others() {
-        // The far edge, and the near one.
+        // The far edge, then the near one.
         assert!(edge(&[], -1.0, 1.0) > 60);
         assert!(edge(&[], 1.0, -1.0) > 60);
         let (camera, _) = drawn(&[]);
@@ -266,7 +267,7 @@ mod tests {
         let (_, shaded) = drawn(&[[0.0; 3]]);
         let darker = |i: &usize| {
             let (before, after) = (bare.pixel(i % 300, i / 300), shaded.pixel(i % 300, i / 300));
-            // Grey, so not the sphere itself.
+            // Grey, so it is not the sphere itself.
             after[0].saturating_add(25) < before[0] && after[0].abs_diff(after[2]) < 12
         };
         assert!((0..300 * 300).filter(darker).count() > 100);

@@ -1,4 +1,4 @@
-//! Pictures of dense substates, one layer at a time.
+//! Pictures of one layer of a dense substate.
 
 use super::averaging::fitted_layer;
 use super::axes::{Axes, Drawn};
@@ -14,59 +14,59 @@ use xca_io::lattice::Lattice;
 use xca_io::numbers::significant;
 
 const LEFT: usize = 36;
-/// The room for the labels of an axis.
+/// The room for the labels of an axis, in pixels.
 const LEFT_OF_AXES: usize = 96;
 const TOP: usize = 96;
-/// With the name of an axis.
+/// The room above the drawing with the name of an axis, in pixels.
 const TOP_OF_AXES: usize = 120;
 const BOTTOM: usize = 64;
-/// The room for the bar, or the list of the categories.
+/// The room for the bar or the list of categories, in pixels.
 const RIGHT: usize = 176;
-/// The bar, or the list, is so far to the right of the drawing.
+/// The distance from the drawing to the bar or list, in pixels.
 const BAR: usize = 34;
-/// A narrower drawing has no axes, unless it may be wider.
+/// The least width of a drawing with axes, unless it may be wider.
 const LEAST_WITH_AXES: usize = 200;
 
-/// One layer of a dense substate, a colour a cell, x to the right and y upwards.
+/// One layer of a dense substate, one colour per cell, x to the right and y upwards.
 ///
-/// Square cells become squares of a whole number of pixels as long as there is room; where there are more
-/// cells than pixels, a pixel shows the mean of its cells.
+/// Square cells become squares of a whole number of pixels if there is room. If there are more cells than
+/// pixels, a pixel shows the mean of its cells.
 #[derive(Debug, Clone)]
 pub struct SlicePicture<'a> {
     /// The number of cells along x.
     pub columns: usize,
     /// The number of cells along y.
     pub rows: usize,
-    /// How the cells lie in the plane.
+    /// The arrangement of the cells: squares or hexagons.
     pub lattice: Lattice,
     /// The values, `columns * rows` of them, x fastest, the lowest y first.
     pub scalar: Scalar<'a>,
-    /// If not empty, the values are no magnitudes but these kinds or states. Others are drawn in grey.
+    /// The categories of the values, if not empty. Other values are drawn in grey.
     pub categories: &'a [Category],
-    /// What the layer is drawn over, if it is no plain.
+    /// The relief below the layer, if there is one.
     pub relief: Option<Relief<'a>>,
-    /// The cells that are not drawn, in the order of the values: where this is true, the background is seen.
+    /// The hidden cells, in the order of the values. The background shows where this is true.
     pub hidden: Option<&'a [bool]>,
     /// The text above the picture.
     pub title: &'a str,
     /// The smaller text below the title.
     pub caption: &'a str,
-    /// The side of a cell in `length_unit`, of a hexagon the distance to its neighbours, for the scale below
-    /// the picture.
+    /// The side of a cell in `length_unit`, for the scale below the picture. For a hexagon, the distance to
+    /// its neighbours.
     pub cell_side: f64,
     /// The unit of length.
     pub length_unit: &'a str,
-    /// The coordinates along the left and the lower edge, in place of the scale; none where `size` has no
-    /// room for them.
+    /// The coordinates along the left and the lower edge. They replace the scale, and are left out if `size`
+    /// has no room for them.
     pub axes: Option<Axes<'a>>,
-    /// The longer side of the drawing in pixels, at most; the texts around it come on top. From 200 to 7900.
+    /// The longer side of the drawing without the surrounding text, in pixels, at most. From 200 to 7900.
     pub pixels: usize,
-    /// Width and height of the whole picture in pixels, if it must have these; `pixels` is then left aside.
+    /// Width and height of the whole picture in pixels, if they are fixed. `pixels` is then ignored.
     pub size: Option<[usize; 2]>,
 }
 
 impl<'a> SlicePicture<'a> {
-    /// A picture of at most 768 pixels each way, its scale in cells, without text.
+    /// A picture of at most 768 pixels each way, with a scale in cells, without text.
     #[must_use]
     pub fn new(columns: usize, rows: usize, scalar: Scalar<'a>) -> Self {
         Self {
@@ -120,7 +120,7 @@ impl<'a> SlicePicture<'a> {
         }
         let x = left + plate[0] + BAR;
         if self.categories.is_empty() {
-            // The label stands above the bar.
+            // The label is above the bar.
             let room = plate[1] - 40;
             let height = room.min(420);
             let y = top + 40 + (room - height) / 2;
@@ -145,7 +145,7 @@ impl<'a> SlicePicture<'a> {
         if self.axes().is_some() { [LEFT_OF_AXES, TOP_OF_AXES] } else { [LEFT, TOP] }
     }
 
-    /// The room for the drawing and what of it the drawing takes, in pixels across and down.
+    /// The room for the drawing and the size of the drawing, in pixels across and down.
     fn plate_and_drawing(&self) -> Result<[[usize; 2]; 2], PictureError> {
         let Some(size) = self.size else {
             check_size([self.pixels; 2])?;
@@ -174,8 +174,8 @@ impl<'a> SlicePicture<'a> {
             .draw(size, |x, y, colour| canvas.set(x0 + x, y0 + y, encode(colour)));
     }
 
-    /// A bar of a round length below the drawing, whose lower left corner is at `[x, y]`, and which is so
-    /// long.
+    /// Draws a bar of a round length below the drawing. `[x, y]` is the lower left corner of the drawing,
+    /// `width` its width in pixels and `length` its length in `length_unit`.
     fn draw_scale(&self, canvas: &mut Canvas, [x, y]: [usize; 2], width: usize, length: f64) {
         if !(length.is_finite() && length > 0.0) {
             return;
@@ -226,7 +226,7 @@ mod tests {
 
     #[test]
     fn many_cells_are_averaged_by_their_areas() {
-        // Columns of 0 and 1 in turn: every pixel shows the mean, one half.
+        // Columns of 0 and 1 alternate: every pixel shows the mean, one half.
         let values: Vec<f64> = (0..800 * 400).map(|i| f64::from(i % 2)).collect();
         let mut slice = SlicePicture::new(800, 400, Scalar::new("t", &values));
         slice.pixels = 400;
@@ -240,7 +240,7 @@ mod tests {
 
     #[test]
     fn a_cell_that_two_pixels_share_counts_by_halves() {
-        // Three cells to two pixels: the first shows (0 + 0 / 2) / 1.5, the second (0 / 2 + 1) / 1.5.
+        // Three cells on two pixels: the first shows (0 + 0 / 2) / 1.5, the second (0 / 2 + 1) / 1.5.
         let values: Vec<f64> = (0..300).map(|i| f64::from(i % 3 / 2)).collect();
         let mut slice = SlicePicture::new(300, 1, Scalar::new("t", &values));
         slice.pixels = 200;
@@ -276,8 +276,8 @@ mod tests {
         let at = |cell: usize| picture.pixel(LEFT + 10 + 100 * cell + 50, TOP + 70 + 50);
         assert_eq!(at(1), [255; 3]);
         assert!(near(at(0), colour(0.0)) && near(at(2), colour(1.0)));
-        // Of a pixel with three cells, the hidden one has no part; where all are hidden, the background is
-        // seen.
+        // In a pixel with three cells, the hidden cell does not count. If all cells are hidden, the
+        // background shows.
         let values: Vec<f64> = (0..1200).map(|i| [0.0, 1.0, 1e9][i % 3]).collect();
         let hidden: Vec<bool> = (0..1200).map(|i| i % 3 == 2 || i >= 600).collect();
         let mut scalar = Scalar::new("t", &values);
@@ -303,7 +303,7 @@ mod tests {
         assert!(SlicePicture { size: Some([300, 300]), ..slice }.render().is_err());
     }
 
-    /// The columns, or rows, of ticks: dark pixels at the middle of their length outside of the frame.
+    /// The columns or rows of ticks: dark pixels halfway along their length outside the frame.
     fn ticks(picture: &Picture, along: impl Fn(usize) -> [usize; 2], count: usize) -> Vec<usize> {
         let is_dark = |at: &usize| {
             let [x, y] = along(*at);
@@ -324,22 +324,22 @@ mod tests {
             (picture.width(), picture.height()),
             (LEFT_OF_AXES + 600 + RIGHT, TOP_OF_AXES + 400 + BOTTOM)
         );
-        // The drawing itself is where it was.
+        // The drawing itself is in the same place.
         assert!(near(picture.pixel(LEFT_OF_AXES, TOP_OF_AXES + 399), colour(0.0)));
         let below = ticks(&picture, |x| [x, TOP_OF_AXES + 404], LEFT_OF_AXES + 600);
-        // 4,251,200 is 10 m or 40 pixels from the corner, the next one 20 m from there, the last the end of
-        // all.
+        // 4,251,200 is 10 m or 40 pixels from the corner. The next tick is 20 m farther. The last tick is the
+        // right end.
         let mut wanted: Vec<usize> = (0..8).map(|i| LEFT_OF_AXES + 40 + 80 * i).collect();
         wanted[7] -= 1;
         assert_eq!(below, wanted);
-        // -20 is 5 m above the corner: 20 pixels, counted from below; the next one is 0.
+        // -20 is 5 m above the corner: 20 pixels, counted from below. The next tick is 0.
         let beside = ticks(&picture, |y| [LEFT_OF_AXES - 5, y], picture.height());
         let mut wanted: Vec<usize> = (0..5).map(|i| TOP_OF_AXES + 399 - 20 - 80 * i).collect();
         wanted.reverse();
         assert_eq!(beside, wanted);
     }
 
-    /// No two labels touch, and none is cut, whatever the numbers are; there are enough of them.
+    /// For any coordinates, there are enough labels, no two labels touch, and none is clipped.
     #[test]
     fn labels_do_not_overlap() {
         for (corner, side) in [([4_251_003.0, 651_234.0], 2.0), ([-9.5e6, 0.25], 0.125), ([0.0, 0.0], 3e4)] {
@@ -353,14 +353,14 @@ mod tests {
                 let plate = [drawing[0].max(320), drawing[1].max(240)];
                 let bottom = TOP_OF_AXES + (plate[1] - drawing[1]) / 2 + drawing[1];
                 let count = ticks(&picture, |x| [x, bottom + 4], picture.width()).len();
-                // The rows of the labels: where no ink is for some pixels, one ends.
+                // Ink in the rows of the labels. A label ends where some pixels have no ink.
                 let has_ink = |x: usize| (bottom + 9..bottom + 22).any(|y| picture.pixel(x, y)[0] < 200);
                 let inked: Vec<usize> = (0..picture.width()).filter(|x| has_ink(*x)).collect();
                 let labels = 1 + inked.windows(2).filter(|pair| pair[1] - pair[0] > 8).count();
                 let what = format!("{corner:?} {columns}: {labels} labels of {count} ticks");
                 assert!(count >= 2 && labels <= count && labels + 1 >= count, "{what}");
                 assert!(inked[0] > 3 && inked[inked.len() - 1] < picture.width() - RIGHT + BAR, "{what}");
-                // Those beside the frame begin within the picture.
+                // The labels beside the frame begin inside the picture.
                 let is_white = |y: usize| (0..6).all(|x| picture.pixel(x, y) == [255; 3]);
                 assert!((TOP_OF_AXES..bottom).all(is_white), "{what}");
             }
@@ -378,7 +378,7 @@ mod tests {
         assert_eq!(drawn([400, 300], axes), drawn([400, 300], None));
         let (with, without) = (drawn([500, 300], axes), drawn([500, 300], None));
         assert!(with != without && (with.width(), with.height()) == (500, 300));
-        // Coordinates that are no numbers have no ticks.
+        // NaN coordinates have no ticks.
         let nowhere = Some(Axes { names: ["", ""], corner: [f64::NAN, 0.0] });
         drawn([500, 300], nowhere);
     }

@@ -1,4 +1,4 @@
-//! Text in pictures: DejaVu Sans, which has the letters, superscripts and signs of most units.
+//! Text in pictures, in DejaVu Sans. It has the letters, superscripts and signs of most units.
 
 use super::canvas::Canvas;
 use ab_glyph::{Font, FontRef, Glyph, GlyphId, Point, PxScale, ScaleFont, point};
@@ -10,7 +10,7 @@ const CAPITAL: f32 = 1493.0 / 2384.0;
 const SUPERSCRIPT: f32 = 0.68;
 const RAISED: f32 = 0.55;
 
-/// Where a text is anchored.
+/// The anchor of a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Anchor {
     Left,
@@ -18,7 +18,7 @@ pub(super) enum Anchor {
     Right,
 }
 
-/// How a text looks.
+/// The style of a text.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Style {
     /// The height of a capital, in pixels.
@@ -27,14 +27,14 @@ pub(super) struct Style {
     pub(super) colour: [f32; 3],
 }
 
-/// The font. It is part of the program, so its bytes are those of a font.
+/// The font. It is part of the program, so its bytes are valid.
 fn font() -> Option<&'static FontRef<'static>> {
     static FONT: OnceLock<Option<FontRef<'static>>> = OnceLock::new();
     FONT.get_or_init(|| FontRef::try_from_slice(dejavu::sans::regular()).ok()).as_ref()
 }
 
-/// Draws one line of text with its base line at `at`. `^` raises the characters up to the next blank or
-/// closing bracket: `m s^-2`. Characters without a glyph show as a box.
+/// Draws one line of text with its baseline at `at`. `^` raises the characters up to the next blank or
+/// closing bracket: `m s^-2`. Characters without a glyph are drawn as a box.
 pub(super) fn draw(canvas: &mut Canvas, text: &str, at: [f32; 2], anchor: Anchor, style: &Style) {
     let Some(font) = font() else { return };
     let line = Line::new(font, text, style);
@@ -57,7 +57,7 @@ pub(super) fn draw(canvas: &mut Canvas, text: &str, at: [f32; 2], anchor: Anchor
     }
 }
 
-/// `style`, or as much smaller as it takes for `text` to fit into `width` pixels.
+/// `style`, reduced in size if `text` would be wider than `width` pixels.
 pub(super) fn fitted(text: &str, style: Style, width: f32) -> Style {
     let found = self::width(text, &style);
     if found > width { Style { height: style.height * (width / found).max(0.1), ..style } } else { style }
@@ -91,7 +91,7 @@ impl Line {
             let (size, lift) = if raised { (SUPERSCRIPT, RAISED * style.height) } else { (1.0, 0.0) };
             let scale = PxScale::from(style.height / CAPITAL * size);
             let scaled = font.as_scaled(scale);
-            // The hyphen is short for the sign of an exponent.
+            // In an exponent, the hyphen stands for the minus sign.
             let shown = if raised && letter == '-' { '\u{2212}' } else { letter };
             let id = font.glyph_id(shown);
             x += before.map_or(0.0, |before| scaled.kern(before, id));
@@ -144,7 +144,7 @@ mod tests {
         let mut drawings: Vec<(char, Vec<(usize, usize)>)> = Vec::new();
         let others = "αβγδεζηθικλμνξπρστφχψωΓΔΘΛΞΠΣΦΨΩ°·×÷±¹²³⁻⁴⁵⁰₀₂√∂∇∞≈≤≥‰…äöüßéñçÅøłšž";
         let letters = (33..127_u8).map(char::from).chain(others.chars());
-        // The first is the box of what the font does not have.
+        // The first is the box for characters that the font lacks.
         for c in std::iter::once('\u{e000}').chain(letters.filter(|&c| c != '^')) {
             let drawn = ink(&c.to_string());
             assert!(!drawn.is_empty(), "{c}");

@@ -1,4 +1,4 @@
-//! The round numbers that stand along a scale.
+//! The round numbers along a scale.
 
 use xca_io::numbers::significant;
 
@@ -7,14 +7,14 @@ use xca_io::numbers::significant;
 pub(crate) struct Ticks {
     /// Value and label of each, ascending, all within the scale.
     pub(crate) marks: Vec<(f64, String)>,
-    /// The labels have to be multiplied by ten to this power.
+    /// The labels must be multiplied by ten to this power.
     pub(crate) exponent: i32,
 }
 
 /// About `wanted` round numbers (steps of 1, 2 or 5 times a power of ten) between `low` and `high`.
 pub(crate) fn ticks(low: f64, high: f64, wanted: usize) -> Ticks {
     let span = high - low;
-    // Spans that the arithmetic below cannot divide count as none.
+    // The arithmetic below cannot divide such spans. They count as empty.
     if !(span.is_finite() && span > 1e-300 && span > 1e-12 * low.abs().max(high.abs())) {
         return Ticks { marks: vec![(low, significant(low, 4))], exponent: 0 };
     }
@@ -29,8 +29,8 @@ pub(crate) fn ticks(low: f64, high: f64, wanted: usize) -> Ticks {
     Ticks { marks: marks.collect(), exponent }
 }
 
-/// About `wanted` round numbers between `low` and `high`, written out with commas: `4,251,000`. None where
-/// the span is too small for the numbers.
+/// About `wanted` round numbers between `low` and `high`, with commas: `4,251,000`. Empty if the span is too
+/// small for the numbers.
 pub(crate) fn coordinates(low: f64, high: f64, wanted: usize) -> Vec<(f64, String)> {
     let (span, largest) = (high - low, low.abs().max(high.abs()));
     if !(span.is_finite() && span > 1e-12 * largest && (1e-300..1e15).contains(&largest)) {
@@ -42,7 +42,7 @@ pub(crate) fn coordinates(low: f64, high: f64, wanted: usize) -> Vec<(f64, Strin
     multiples.map(|value| (value.clamp(low, high), with_commas(&format!("{value:.decimals$}")))).collect()
 }
 
-/// A decimal with a comma before each three digits of its whole part.
+/// Adds a comma before each three digits of the integer part.
 fn with_commas(decimal: &str) -> String {
     let (sign, digits) = decimal.strip_prefix('-').map_or(("", decimal), |digits| ("-", digits));
     let (whole, rest) = digits.split_at(digits.find('.').unwrap_or(digits.len()));
@@ -59,7 +59,7 @@ fn with_commas(decimal: &str) -> String {
 /// A round distance: 1, 2 or 5 times a power of ten.
 struct Step {
     length: f64,
-    /// The power of ten that its last digit stands for.
+    /// The power of ten of its last digit.
     power: i32,
 }
 
@@ -76,12 +76,12 @@ impl Step {
         Self { length: factor * ten_to(power), power }
     }
 
-    /// Its multiples within a range.
+    /// Its multiples in a range.
     fn multiples(&self, low: f64, high: f64) -> impl Iterator<Item = f64> {
         let length = self.length;
         let first = (low / length - 1e-9).ceil() as i64;
         let last = (high / length + 1e-9).floor() as i64;
-        // The sum has no zero with a sign.
+        // Adding zero removes the sign of -0.
         (first..=last).map(move |number| number as f64 * length + 0.0)
     }
 }

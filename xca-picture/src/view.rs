@@ -1,18 +1,18 @@
-//! Where the eye is.
+//! The direction of view, and the camera.
 
 use super::PictureError;
 
-/// The direction that a box is seen from, in degrees.
+/// The direction from which a box is seen, in degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Viewpoint {
-    /// The direction of the eye in the horizontal plane, from the x axis towards the y axis.
+    /// The direction of the viewer in the horizontal plane, from the x axis towards the y axis.
     pub azimuth: f64,
-    /// The height of the eye above that plane, from -89 to 89.
+    /// The elevation of the viewer above that plane, from -89 to 89.
     pub elevation: f64,
 }
 
 impl Default for Viewpoint {
-    /// From the front and above: x runs to the right, y away from the eye.
+    /// From the front and above: x runs to the right, y away from the viewer.
     fn default() -> Self {
         Self { azimuth: -62.0, elevation: 24.0 }
     }
@@ -26,9 +26,9 @@ pub(super) struct Camera {
     pub(super) up: [f32; 3],
     pub(super) forward: [f32; 3],
     pub(super) eye: [f32; 3],
-    /// Pixels for a tangent of 1.
+    /// The number of pixels for a tangent of 1.
     pub(super) focal: f32,
-    /// The pixel that the camera looks at.
+    /// The pixel in the direction of sight.
     pub(super) centre: [f32; 2],
 }
 
@@ -75,12 +75,12 @@ impl Camera {
         Ok(camera)
     }
 
-    /// The same view with `factor` times as many pixels each way.
+    /// The same view with `factor` times as many pixels in each direction.
     pub(super) fn magnified(&self, factor: f32) -> Self {
         Self { focal: self.focal * factor, centre: self.centre.map(|x| x * factor), ..self.clone() }
     }
 
-    /// The pixel of a point, and its depth: the distance along the line of sight.
+    /// The pixel of a point, and its depth along the line of sight.
     pub(super) fn project(&self, point: [f32; 3]) -> [f32; 3] {
         let p = sub(point, self.eye);
         let depth = dot(p, self.forward).max(1e-3);
@@ -88,8 +88,8 @@ impl Camera {
         [self.centre[0] + scale * dot(p, self.right), self.centre[1] - scale * dot(p, self.up), depth]
     }
 
-    /// The direction in which a pixel looks, of length 1 along the line of sight: the point of depth `d` is
-    /// at `eye + d * ray`.
+    /// The direction of a pixel, of length 1 along the line of sight. The point at depth `d` is `eye + d *
+    /// ray`.
     pub(super) fn ray(&self, x: f32, y: f32) -> [f32; 3] {
         let (u, v) = ((x - self.centre[0]) / self.focal, (self.centre[1] - y) / self.focal);
         std::array::from_fn(|i| self.forward[i] + u * self.right[i] + v * self.up[i])

@@ -1,20 +1,19 @@
-//! What the code of the macros leans on so that one mistake in a process gives one message.
+//! Types in the code of the macros, by which one mistake in a process gives one message.
 //!
-//! From a process the macros write a copy that is checked against the words of [`crate::Cell`] and its kin,
-//! and kernels for each precision. The copy stands in a constant. All types of the kernels go through
-//! [`Checked`] of that constant: where the copy has an error the constant has no value, so that these types
-//! are unknown to the compiler, and it is silent about them.
+//! From a process the macros write a copy, which is checked against the types of [`crate::Cell`], and kernels
+//! for each precision. The copy stands in a constant. All types of the kernels go through [`Checked`] of that
+//! constant. If the copy has an error, the constant has no value. The compiler then does not know these
+//! types, and reports nothing about them.
 
 use crate::ir::Function;
 
-/// The bytes that the arrays of a process or helper may take together, so that no thread and no GPU runs out
-/// of them.
+/// The most bytes of all arrays in a process or helper. The limit protects the memory of threads and GPUs.
 pub const MOST_BYTES: usize = 65_536;
 
-/// Ends the compilation with a message where arrays take more than [`MOST_BYTES`].
+/// Ends the compilation with a message if arrays take more than [`MOST_BYTES`].
 ///
 /// # Panics
-/// While constants are computed, where there are too many bytes.
+/// During constant evaluation, if there are too many bytes.
 pub const fn arrays_fit(bytes: usize) {
     if bytes <= MOST_BYTES {
         return;
@@ -49,10 +48,10 @@ const fn append(text: &mut [u8; 160], start: usize, more: &[u8]) -> usize {
     start + more.len()
 }
 
-/// The name of a process that is generic in constants, with their values: `update<0>`.
+/// The name of a process with constant generics, including their values: `update<0>`.
 pub fn name_of<T>(name: &'static str) -> &'static str {
     let path = std::any::type_name::<T>();
-    // Constants have no `::` in them, so that the last one stands before the name.
+    // The values of constants contain no `::`, so the last `::` precedes the name.
     path.rsplit("::").next().filter(|last| last.starts_with(name)).unwrap_or(name)
 }
 
@@ -78,7 +77,7 @@ impl<T> Then<T> for Checked<true> {
     }
 }
 
-/// A function that a process can call, with its result.
+/// A function that a process can call, and its result.
 #[diagnostic::on_unimplemented(
     message = "a process calls functions that are marked `#[helper]` only",
     label = "this function is not marked",
@@ -86,7 +85,7 @@ impl<T> Then<T> for Checked<true> {
     note = "numbers have methods of their own: `a.max(b)` instead of a function `max(a, b)`"
 )]
 pub trait Callable<T: Itself> {
-    /// The result itself. What is expected of it says nothing about `T`.
+    /// Returns the result. The expected type tells nothing about `T`.
     fn result(result: T) -> T::Type {
         result.itself()
     }
@@ -109,29 +108,29 @@ impl<T> Itself for T {
     }
 }
 
-/// Stands for a function that is not marked.
+/// A function without `#[helper]`.
 #[derive(Debug, Clone, Copy)]
 pub struct PlainFunction;
 
 impl PlainFunction {
-    /// The body, which there is not.
+    /// Never called.
     pub fn body() -> Function {
         unreachable!("a process that calls an unmarked function does not compile")
     }
 }
 
-/// A result that no function has.
+/// A result type that no function has.
 #[derive(Debug, Clone, Copy)]
 pub struct NoResult<const NUMBER: u8>;
 
-// With two candidates the compiler waits for the type of the result: where that is unknown, another message
-// says why, and none comes from here.
+// With two candidates, the compiler waits for the type of the result. If that type is unknown, another
+// message explains it, and none comes from here.
 #[diagnostic::do_not_recommend]
 impl Callable<NoResult<0>> for PlainFunction {}
 #[diagnostic::do_not_recommend]
 impl Callable<NoResult<1>> for PlainFunction {}
 
-/// A type whose constants can stand in a pattern.
+/// A type whose constants can be patterns.
 #[diagnostic::on_unimplemented(
     message = "a constant of type `{Self}` cannot be a pattern in a process",
     label = "this constant is neither an integer nor a bool nor a state",

@@ -1,7 +1,8 @@
-//! Names for the indices of the ready-made neighbourhoods of radius 1, in a process and in a host.
+//! Names for the neighbour indices of the ready-made neighbourhoods of radius 1, in processes and on the
+//! host.
 //!
-//! North is +y, east +x, up +z. Each module belongs to one neighbourhood; in another one the same number is
-//! another direction.
+//! North is +y, east +x, up +z. Each module belongs to one neighbourhood. In another neighbourhood, the same
+//! index means another direction.
 //!
 //! ```
 //! use xca_core::prelude::*;
@@ -18,7 +19,7 @@
 //! }
 //! ```
 
-/// Of [`Neighbourhood::von_neumann_2d`](crate::Neighbourhood::von_neumann_2d) with radius 1.
+/// For [`Neighbourhood::von_neumann_2d`](crate::Neighbourhood::von_neumann_2d) with radius 1.
 #[expect(missing_docs, reason = "the names say it")]
 pub mod von_neumann_2d {
     pub const CENTRE: usize = 0;
@@ -28,7 +29,7 @@ pub mod von_neumann_2d {
     pub const NORTH: usize = 4;
 }
 
-/// Of [`Neighbourhood::von_neumann`](crate::Neighbourhood::von_neumann) with radius 1.
+/// For [`Neighbourhood::von_neumann`](crate::Neighbourhood::von_neumann) with radius 1.
 #[expect(missing_docs, reason = "the names say it")]
 pub mod von_neumann {
     pub const CENTRE: usize = 0;
@@ -40,7 +41,7 @@ pub mod von_neumann {
     pub const UP: usize = 6;
 }
 
-/// Of [`Neighbourhood::moore_2d`](crate::Neighbourhood::moore_2d) with radius 1.
+/// For [`Neighbourhood::moore_2d`](crate::Neighbourhood::moore_2d) with radius 1.
 #[expect(missing_docs, reason = "the names say it")]
 pub mod moore_2d {
     pub const CENTRE: usize = 0;
@@ -54,7 +55,7 @@ pub mod moore_2d {
     pub const NORTH_EAST: usize = 8;
 }
 
-/// Of [`Neighbourhood::moore`](crate::Neighbourhood::moore) with radius 1.
+/// For [`Neighbourhood::moore`](crate::Neighbourhood::moore) with radius 1.
 #[expect(missing_docs, reason = "the names say it")]
 pub mod moore {
     pub const CENTRE: usize = 0;
@@ -86,9 +87,9 @@ pub mod moore {
     pub const UP_NORTH_EAST: usize = 26;
 }
 
-/// Of [`Neighbourhood::hexagonal`](crate::Neighbourhood::hexagonal).
+/// For [`Neighbourhood::hexagonal`](crate::Neighbourhood::hexagonal).
 pub mod hexagonal {
-    /// With [`Hexagons::CornerUp`](crate::Hexagons::CornerUp).
+    /// For [`Hexagons::CornerUp`](crate::Hexagons::CornerUp).
     #[expect(missing_docs, reason = "the names say it")]
     pub mod corner_up {
         pub const CENTRE: usize = 0;
@@ -100,7 +101,7 @@ pub mod hexagonal {
         pub const NORTH_EAST: usize = 6;
     }
 
-    /// With [`Hexagons::SideUp`](crate::Hexagons::SideUp).
+    /// For [`Hexagons::SideUp`](crate::Hexagons::SideUp).
     #[expect(missing_docs, reason = "the names say it")]
     pub mod side_up {
         pub const CENTRE: usize = 0;

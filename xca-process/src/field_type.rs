@@ -1,9 +1,8 @@
-//! What the type of a field means: the proof behind the derives.
+//! The meaning of the type of a field, for the derives.
 //!
-//! A derive sees words, and a word can be an alias of anything. So it writes the type of each field once
-//! more, with [`RealWord`] where the word `Real` stands, and all that it says of the field follows from the
-//! traits here: the host's type, that of kernels and the description are those of one type, whatever its
-//! words mean.
+//! A derive sees only words, and a word can be an alias of any type. So the derive repeats the type of each
+//! field, with [`RealWord`] in place of `Real`. The traits here then give the host's type, the type in
+//! kernels and the description. All three follow from the same type, whatever its words mean.
 
 use crate::float::Float;
 use crate::host_value::{HostScalar, HostValue};
@@ -12,7 +11,7 @@ use crate::states::States;
 use xca_values::{ScalarType, ValueType};
 use xca_values::{Vector2, Vector3, Vector4};
 
-/// Stands for the word `Real` in the type of a field.
+/// Replaces the word `Real` in the type of a field.
 #[derive(Debug, Clone, Copy)]
 pub struct RealWord;
 
@@ -25,28 +24,28 @@ pub trait FieldType {
     /// Its description.
     const TYPE: ValueType;
 
-    /// The type that the host uses.
+    /// The type on the host.
     type Host: HostValue;
 
     /// The type in a kernel of precision `R`.
     type Native<R: Float>: KernelValue;
 
-    /// Converts a value of the host to that of a kernel.
+    /// Converts a value from the host to a kernel.
     fn native<R: Float>(value: Self::Host) -> Self::Native<R>;
 }
 
-/// The type of a field that is no array.
+/// The type of a field without arrays.
 pub trait ElementType {
     /// Its description.
     const TYPE: ValueType;
 
-    /// The type that the host uses.
+    /// The type on the host.
     type Host: HostValue;
 
     /// The type in a kernel of precision `R`.
     type Native<R: Float>: KernelElement;
 
-    /// Converts a value of the host to that of a kernel.
+    /// Converts a value from the host to a kernel.
     fn native<R: Float>(value: Self::Host) -> Self::Native<R>;
 }
 
@@ -55,13 +54,13 @@ pub trait NumberType {
     /// Its description.
     const SCALAR: ScalarType;
 
-    /// The type that the host uses.
+    /// The type on the host.
     type Host: HostScalar;
 
     /// The type in a kernel of precision `R`.
     type Native<R: Float>: bytemuck::Pod;
 
-    /// Converts a value of the host to that of a kernel.
+    /// Converts a value from the host to a kernel.
     fn native<R: Float>(value: Self::Host) -> Self::Native<R>;
 }
 
@@ -75,7 +74,7 @@ impl<T: ElementType> FieldType for T {
     }
 }
 
-/// The most elements of an array in a struct of substates or parameters: a cell is loaded as a whole.
+/// The longest array in a struct of substates or parameters. A cell is loaded as a whole.
 const LONGEST: usize = 1024;
 
 impl<T: ElementType, const N: usize> FieldType for [T; N] {

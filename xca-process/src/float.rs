@@ -24,7 +24,7 @@ pub trait Float:
     + std::ops::Sub<Output = Self>
     + std::ops::Mul<Output = Self>
 {
-    /// Which of the two.
+    /// The precision of the type.
     const PRECISION: Precision;
 
     /// The nearest value.
@@ -33,11 +33,11 @@ pub trait Float:
     /// The same value.
     fn to_f64(self) -> f64;
 
-    /// A number in [0, 1) made of random bits: 24 bits of the first word, or 27 and 26 bits of both.
+    /// A number in [0, 1) from random bits: 24 bits of the first word, or 27 and 26 bits of both.
     fn uniform(words: [u32; 2]) -> Self;
 
-    /// The number of the cell of this side that holds the coordinate: `floor(coordinate / side)`, or nothing
-    /// where that is no number of a cell (NaN, or too far away).
+    /// The index of the cell of this side that contains the coordinate: `floor(coordinate / side)`. `None` if
+    /// there is no such index (NaN, or too far away).
     fn cell_number(coordinate: Self, side: Self) -> Option<i64>;
 }
 
@@ -64,13 +64,13 @@ macro_rules! float {
             #[inline(always)]
             fn cell_number(coordinate: Self, side: Self) -> Option<i64> {
                 let quotient = coordinate / side;
-                // 2^31: far beyond any space, and exact in both types.
+                // 2^31 is far beyond any space, and exact in both types.
                 let numbered = quotient.abs() < 2_147_483_648.0;
                 if !numbered {
                     return None;
                 }
-                // The floor without a call of the mathematical library: cut off, and one less where that went
-                // up.
+                // The floor without a call of the mathematical library: the cast rounds toward zero, so
+                // subtract one if that went up.
                 let cut = quotient as i32;
                 Some(i64::from(cut) - i64::from(cut as $type > quotient))
             }

@@ -1,4 +1,4 @@
-//! The cellular space: extents, boundaries, and which cell lies where.
+//! The cellular space: extents, boundaries, and the positions of cells.
 
 mod cover;
 mod faces;
@@ -127,7 +127,7 @@ impl Geometry {
 
     /// Whether the axes x, y, z are toroidal.
     pub fn toroidal(&self) -> [bool; 3] {
-        // Both faces of an axis are, or neither: a model is checked for it.
+        // Both faces of an axis are toroidal, or neither: the model is checked.
         Face::ALONG.map(|[low, _]| self.boundaries[low] == Boundary::Toroidal)
     }
 
@@ -210,7 +210,7 @@ impl Geometry {
         }
     }
 
-    /// Where a step along an axis leads, or the flat face beyond which it does.
+    /// The index to which a step along an axis leads, or the flat face that the step crosses.
     fn along(&self, axis: usize, index: usize, step: i32) -> Result<usize, Face> {
         let (mut target, extent) = (index as i64 + i64::from(step), self.extents[axis] as i64);
         let [low, high] = Face::ALONG[axis];
@@ -264,7 +264,8 @@ mod tests {
         ] {
             assert_eq!(row(west, east).to_vec(), list(wanted), "{west} {east}");
         }
-        // Two mirrors: there and back again. One mirror before a flat face: the image of what lies outside.
+        // Between two mirrors, the pattern repeats. With a flat face opposite, a mirror shows the image of
+        // the outside.
         let space = |east| geometry([5, 1, 1], Faces { west: Reflecting, east, ..Faces::default() });
         assert_eq!(space(Reflecting).at([1, 0, 0], [-12, 0, 0]), Some([0; 3]));
         assert_eq!(space(Flat).reach([1, 0, 0], [-7, 0, 0]), Reached::Outside(Face::East));

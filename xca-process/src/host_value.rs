@@ -1,19 +1,19 @@
-//! Values of substates and parameters as the host sees them.
+//! Values of substates and parameters on the host.
 
 use xca_values::{StoredScalar, StoredType, Vector2, Vector3, Vector4};
 
-/// A scalar as the host sees it: `Real` is `f64` there.
+/// A scalar on the host, where `Real` is `f64`.
 pub trait HostScalar: Copy + PartialEq + Send + Sync + 'static {
-    /// Writes the value in the stored type: `f64` may be stored as `f32`.
+    /// Writes the value as the stored type. `f64` may be stored as `f32`.
     fn encode(self, stored: StoredScalar, out: &mut [u8]);
 
     /// Reads the value back.
     fn decode(stored: StoredScalar, bytes: &[u8]) -> Self;
 
-    /// The value as a number, into which it fits exactly: of `bool` 0 or 1, of a state its number.
+    /// The value as a number, without loss. `bool` gives 0 or 1, a state its number.
     fn to_number(self) -> f64;
 
-    /// The value that is this number, which fits the type.
+    /// The value of a number that fits the type.
     fn from_number(number: f64) -> Self;
 }
 
@@ -88,22 +88,22 @@ impl HostScalar for bool {
     }
 }
 
-/// A value of a substate or parameter as the host sees it.
+/// A value of a substate or parameter on the host.
 pub trait HostValue: Copy + PartialEq + Send + Sync + 'static {
     /// The type of its components.
     type Scalar: HostScalar;
 
-    /// The number of components: the lanes of a vector, the elements of an array, the lanes of all elements
-    /// of an array of vectors.
+    /// The number of components: the lanes of a vector, the elements of an array, or the lanes of all
+    /// elements of an array of vectors.
     const COMPONENTS: usize;
 
     /// One component.
     fn component(&self, index: usize) -> Self::Scalar;
 
-    /// The value with these components, asked for in order.
+    /// The value with these components, which are requested in order.
     fn from_components(component: &mut dyn FnMut(usize) -> Self::Scalar) -> Self;
 
-    /// Writes the value in the stored type.
+    /// Writes the value as the stored type.
     fn encode(&self, stored: StoredType, out: &mut [u8]) {
         let size = stored.scalar.size();
         for (index, bytes) in out.chunks_exact_mut(size).enumerate() {

@@ -1,11 +1,11 @@
 //! The body of an elementary process as data.
 //!
-//! `#[elementary_process]`, `#[migration]` and `#[helper]` keep, beside the native kernel, the parsed body of
-//! the function. An engine that cannot call Rust (a GPU) writes its own program from it. Types are those the
-//! user wrote; whatever Rust infers is inferred again by the reader of the data, from the schemas of the
-//! substates and parameters.
+//! `#[elementary_process]`, `#[migration]` and `#[helper]` keep the parsed body of the function beside the
+//! native kernel. An engine that cannot call Rust (a GPU) generates its program from the body. Types are
+//! those in the source. The reader repeats the type inference of Rust from the schemas of the substates and
+//! parameters.
 //!
-//! This module is for engines and for code that the macros write; models do not need it.
+//! This module is for engines and for code that the macros write. Models do not need it.
 
 mod expression;
 
@@ -21,9 +21,9 @@ use xca_values::StateNames;
 pub struct Function {
     /// The function's name in the source.
     pub name: &'static str,
-    /// The module that it stands in, `module_path!()`.
+    /// The module of the function, `module_path!()`.
     pub module: &'static str,
-    /// What the function is for.
+    /// The kind of the function.
     pub kind: FunctionKind,
     /// The arguments in order.
     pub arguments: Vec<Argument>,
@@ -33,14 +33,14 @@ pub struct Function {
     pub body: Block,
 }
 
-/// What a function is for.
+/// The kind of a function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FunctionKind {
     /// An elementary process, run once for each cell.
     Cells,
     /// An elementary process, run once for each item of a population.
     Items,
-    /// Says to which cell an item belongs.
+    /// A migration: returns the cell of an item.
     Migration,
     /// A function called by the others.
     Helper,
@@ -51,15 +51,15 @@ pub enum FunctionKind {
 pub struct Argument {
     /// Its name in the source.
     pub name: &'static str,
-    /// What it stands for.
+    /// Its role.
     pub role: Role,
 }
 
-/// What an argument stands for.
+/// The role of an argument.
 #[derive(Debug, Clone)]
 pub enum Role {
-    /// The central cell: the struct that the process writes (`&mut Cell<S>`), and others of the cell
-    /// (`&Cell<S>`); in a process over items the cell that the item stands in.
+    /// The central cell. Either the struct that the process writes (`&mut Cell<S>`), or another struct of the
+    /// cell (`&Cell<S>`). In a process over items, the cell of the item.
     Cell(&'static Schema),
     /// The item of a population (`&mut Slot<S>`, `&Slot<S>`).
     Slot(&'static Schema),
@@ -73,14 +73,14 @@ pub enum Role {
     Value(Type),
 }
 
-/// A type that the user wrote.
+/// A type in the source.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Type {
     /// `bool`
     Bool,
     /// A number.
     Scalar(ScalarType),
-    /// `Vector2`, `Vector3` or `Vector4` of a scalar; the second is the number of lanes.
+    /// `Vector2`, `Vector3` or `Vector4` of a scalar, and the number of lanes.
     Vector(ScalarType, u8),
     /// An enum that derives `States`.
     State(&'static StateNames),
@@ -92,7 +92,7 @@ pub enum Type {
     Destination,
 }
 
-/// Statements, and the value of the last expression where the block has one.
+/// Statements, and the value of the last expression if the block has one.
 #[derive(Debug, Clone)]
 pub struct Block {
     /// The statements in order.
@@ -104,13 +104,13 @@ pub struct Block {
 /// A statement.
 #[derive(Debug, Clone)]
 pub enum Statement {
-    /// `let name: type_ = value;` A later `let` of the same name hides the earlier one, as in Rust.
+    /// `let name: type_ = value;` A later `let` with the same name shadows the earlier one, as in Rust.
     Let {
         /// The variable.
         name: &'static str,
         /// Whether it is `mut`.
         mutable: bool,
-        /// The type, where it is written.
+        /// The type, if it is written.
         type_: Option<Type>,
         /// The first value.
         value: Expression,
@@ -119,21 +119,21 @@ pub enum Statement {
     LetTuple {
         /// The variables.
         parts: Vec<TuplePart>,
-        /// The type, where it is written.
+        /// The type, if it is written.
         type_: Option<Type>,
         /// The tuple.
         value: Expression,
     },
     /// `let name = cell.neighbour(index);`
     LetNeighbour {
-        /// The variable that stands for the neighbour.
+        /// The variable for the neighbour.
         name: &'static str,
         /// The index of the neighbour, `u32`.
         index: Expression,
     },
     /// `place = value`, `place += value` and the like.
     Assign {
-        /// What is written.
+        /// The target of the assignment.
         place: Place,
         /// The operator of a compound assignment.
         operator: Option<BinaryOperator>,
@@ -159,10 +159,10 @@ pub enum Statement {
     },
 }
 
-/// A variable that takes a part of a tuple.
+/// A variable for a part of a tuple.
 #[derive(Debug, Clone)]
 pub struct TuplePart {
-    /// Its name, nothing where it is `_`.
+    /// Its name. `None` for `_`.
     pub name: Option<&'static str>,
     /// Whether it is `mut`.
     pub mutable: bool,
@@ -171,15 +171,15 @@ pub struct TuplePart {
 /// A loop.
 #[derive(Debug, Clone)]
 pub struct Loop {
-    /// Its label, without the apostrophe. No loop around it has the same.
+    /// Its label, without the apostrophe. No enclosing loop has the same label.
     pub label: Option<&'static str>,
-    /// What it runs over.
+    /// The kind of loop.
     pub kind: LoopKind,
     /// The body.
     pub body: Block,
 }
 
-/// What a loop runs over.
+/// The kind of a loop.
 #[derive(Debug, Clone)]
 pub enum LoopKind {
     /// `while condition`
@@ -200,38 +200,38 @@ pub enum LoopKind {
         /// The array.
         array: Expression,
     },
-    /// `for variable in me.others…()`: over other items, in the order neighbour index, then label.
+    /// `for variable in me.others…()`: over other items, sorted by neighbour index, then label.
     Others {
-        /// The variable that stands for the other item.
+        /// The variable for the other item.
         variable: &'static str,
-        /// Where the items are looked for.
+        /// The cells to search.
         reach: Reach,
-        /// With a radius, only items whose position is nearer than this (strictly).
+        /// With a radius, only items at a smaller distance.
         radius: Option<Expression>,
     },
     /// `for variable in slots` in a process over cells: the items of the central cell, by label.
     Items {
-        /// The variable that stands for the item.
+        /// The variable for the item.
         variable: &'static str,
     },
 }
 
-/// `from..to`, and with `..=` where `inclusive`.
+/// `from..to`, or `from..=to` if `inclusive`.
 #[derive(Debug, Clone)]
 pub struct Range {
     /// The first value.
     pub from: Expression,
     /// The end.
     pub to: Expression,
-    /// Whether the end belongs to the range.
+    /// Whether the range includes the end.
     pub inclusive: bool,
     /// `.rev()`: from the end to the first value.
     pub reversed: bool,
-    /// `.step_by(step)`, of what `reversed` gives: every so many values, `usize`, at least 1.
+    /// `.step_by(step)`, applied after `reversed`. A `usize`, at least 1.
     pub step: Option<Expression>,
 }
 
-/// Where a search for other items looks.
+/// The cells in which a search for other items looks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reach {
     /// The item's own cell.
@@ -242,16 +242,16 @@ pub enum Reach {
     All,
 }
 
-/// Something that can be assigned to: a variable or an own substate, then components and elements of it.
+/// The target of an assignment: a variable or an own substate, then components and elements of it.
 #[derive(Debug, Clone)]
 pub struct Place {
-    /// Where it starts.
+    /// The root of the path.
     pub root: PlaceRoot,
     /// The path from there, outermost first.
     pub path: Vec<Projection>,
 }
 
-/// Where a place starts.
+/// The root of a place.
 #[derive(Debug, Clone)]
 pub enum PlaceRoot {
     /// A variable.

@@ -4,7 +4,7 @@ use crate::ir::Constant;
 use crate::states::States;
 use xca_values::{Vector2, Vector3, Vector4};
 
-/// A type that a constant can have which a process uses.
+/// The type of a constant that a process can use.
 #[diagnostic::on_unimplemented(
     message = "a constant of type `{Self}` cannot be used in a process",
     label = "used in a process",

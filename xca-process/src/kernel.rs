@@ -1,12 +1,12 @@
-//! What native kernels run on: a row of cells, or the items of a row of cells.
+//! The input of native kernels: a row of cells, or the items of a row of cells.
 //!
-//! An engine describes a row by a [`Row`]; a kernel, made by the macros, asks it for the substates that its
-//! process declares (its [`Access`] list) and works through the row. One dynamic call serves a whole row, and
-//! inside it everything is monomorphic, so that the compiler can vectorise.
+//! An engine describes a row by a [`Row`]. A kernel, made by the macros, requests the substates that its
+//! process declares (its [`Access`] list), and works through the row. A whole row takes one dynamic call.
+//! Inside it everything is monomorphic, so the compiler can vectorize.
 //!
-//! This module is for engines and for code that the macros write. An engine promises much of a row
-//! ([`Row::new`]); a kernel is trusted with nothing: what it asks for is compared with the row's entries,
-//! once a row.
+//! This module is for engines and for code that the macros write. An engine guarantees the properties of a
+//! row ([`Row::new`]). A kernel is not trusted: each of its requests is compared with the row's entries, once
+//! a row.
 #![allow(unsafe_code)]
 
 use crate::float::Float;
@@ -48,36 +48,36 @@ pub use work::{Work, run};
 use work::{announce, announce_bytes};
 pub use written::{Lanes, Planes, Stage, Written, WrittenArrays, block};
 
-/// A migration's answer: the item stays where it is.
+/// The result of a migration: the item stays in its cell.
 pub const STAY: u32 = u32::MAX;
-/// A migration's answer: the item leaves the space.
+/// The result of a migration: the item leaves the space.
 pub const OUTSIDE: u32 = u32::MAX - 1;
-/// A migration's answer: the position is no number.
+/// The result of a migration: the position is NaN.
 pub const NOWHERE: u32 = u32::MAX - 2;
-/// The code of the fault that a neighbour index beyond the neighbourhood is.
+/// The fault code of a neighbour index beyond the neighbourhood.
 pub const BEYOND_NEIGHBOURHOOD: u32 = u32::MAX;
-/// The code of the fault that a search is whose radius is too large, negative or NaN.
+/// The fault code of a search radius that is too large, negative or NaN.
 pub const WRONG_RADIUS: u32 = u32::MAX - 1;
 
 /// A kernel: runs a process over one row.
 pub type RowKernel = fn(&Row<'_>);
 
-/// How a process uses one substate; derived from its body.
+/// The use of one substate by a process, derived from the body.
 #[derive(Debug, Clone, Copy)]
 pub struct Access {
-    /// The number of its struct among those that the process takes.
+    /// The index of its struct among the structs that the process takes.
     pub argument: usize,
-    /// The number of the field.
+    /// The index of the field.
     pub field: usize,
-    /// Read at the centre.
+    /// Whether it is read at the centre.
     pub centre: bool,
-    /// Read at neighbours, or of other items.
+    /// Whether it is read at neighbours, or from other items.
     pub others: bool,
-    /// Written.
+    /// Whether it is written.
     pub write: bool,
 }
 
-/// What is the same in all rows of a step.
+/// The data that all rows of a step share.
 #[derive(Debug, Clone, Copy)]
 pub struct Frame<'a> {
     /// The shape of the space.
@@ -96,26 +96,26 @@ pub struct Frame<'a> {
     pub stream: Stream,
     /// `P::Native<R>` of each struct of the model's parameters.
     pub parameters: &'a [Arc<dyn Any + Send + Sync>],
-    /// The distance in elements from a cell to each cell of its neighbourhood, index 0 being the cell itself.
+    /// The distance in elements from a cell to each cell of its neighbourhood. Index 0 is the cell itself.
     pub offsets: &'a [isize],
-    /// Which cells a search can leave out; nothing to look at all of them.
+    /// The cells that a search can skip. `None`: search all cells.
     pub filter: Option<&'a CellFilter>,
 }
 
-/// Where the items of a row's cells and of their neighbours are.
+/// The places of the items of a row's cells and of their neighbours.
 #[derive(Debug, Clone, Copy)]
 pub struct RowItems<'a> {
-    /// The first item of the row's first cell; at an offset, of that neighbour.
+    /// The first item of the row's first cell. At an offset: of that neighbour.
     pub starts: *const u32,
-    /// One past the last item, likewise.
+    /// One past the last item, addressed in the same way.
     pub ends: *const u32,
     /// The labels of all items.
     pub labels: &'a [u32],
-    /// The row's own items: no other row shares them.
+    /// The row's own items. No other row has them.
     pub own: (usize, usize),
-    /// For each of the row's own items the linear index of its cell.
+    /// The linear index of the cell, for each of the row's own items.
     pub cells: &'a [u32],
-    /// Lists of what is near, where the engine has them.
+    /// Neighbour lists, if the engine has them.
     pub near: Option<&'a NearLists<'a>>,
 }
 
@@ -132,7 +132,7 @@ pub struct RowFault {
     pub value: f64,
 }
 
-/// Where a kernel has panicked.
+/// The place at which a kernel panicked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct StoppedAt {
     /// The linear index of the cell.
@@ -141,19 +141,20 @@ pub struct StoppedAt {
     pub label: Option<u32>,
 }
 
-/// Where a kernel is in its row. It tells the row when it is dropped, which only a panic does; a kernel that
-/// arrives leaves it by [`Self::leave`]. So it lives in registers, and costs nothing where nothing can panic.
+/// The place of a kernel in its row. Only a panic drops it, and the drop records the place in the row. A
+/// kernel that ends calls [`Self::leave`]. The place therefore stays in registers, and costs nothing if
+/// nothing can panic.
 #[derive(Debug)]
 pub struct Place<'r, 'a> {
-    /// The number of the cell in the row, in a process over cells.
+    /// The index of the cell in the row, in a process over cells.
     pub x: usize,
-    /// The number of the item, in a process over items.
+    /// The index of the item, in a process over items.
     pub item: Option<usize>,
     row: &'r Row<'a>,
 }
 
 impl Place<'_, '_> {
-    /// At the end of the row.
+    /// Ends the row.
     #[inline(always)]
     pub fn leave(self) {
         std::mem::forget(self);
@@ -167,7 +168,7 @@ impl Drop for Place<'_, '_> {
     }
 }
 
-/// A row of cells as a kernel sees it.
+/// A row of cells, for a kernel.
 pub struct Row<'a> {
     frame: &'a Frame<'a>,
     entries: &'a [Entry],
@@ -178,13 +179,13 @@ pub struct Row<'a> {
     /// The linear index of the first cell.
     first_cell: u32,
     length: usize,
-    /// The entries that the kernel has asked to write.
+    /// The entries that the kernel has requested for writing.
     taken: Cell<u128>,
-    /// The largest radius of a search.
+    /// The largest search radius so far.
     widest: Cell<f64>,
-    /// The radius, in bits, within which what is near all items has been found by lists.
+    /// The radius, as bits, for which the lists have been searched for all items.
     walked: Cell<Option<u64>>,
-    /// Whether a random number or the number of the step has been asked for.
+    /// Whether the kernel has requested a random number or the number of the step.
     asked_for_step: Cell<bool>,
     fault: Cell<Option<RowFault>>,
     stopped: Cell<Option<StoppedAt>>,
@@ -206,15 +207,15 @@ impl<'a> Row<'a> {
     /// For the lifetime `'a`, and for every entry (that is not null, aligned for its elements):
     /// - each plane of cells can be read at every cell of the row and, with `around`, at all of
     ///   `frame.offsets` from there;
-    /// - of items, the row's own can be read and, with `all`, as many as `labels.len()`;
+    /// - of items, the row's own can be read, and with `all` as many as `labels.len()`;
     /// - no one writes meanwhile what can be read by this (other rows' cells and own items may be written by
     ///   other threads);
     /// - `length` elements of each plane of cells at `write` are this row's alone;
     /// - the row's own items at `write` are this row's alone;
-    /// - `write` is apart from everything that can be read through any entry, but for another entry's `read`
-    ///   of cells or own items of the same substate;
-    /// - `starts` and `ends` can be read at every cell of the row and at all offsets from there, hold ranges
-    ///   within `labels.len()`, and the ranges of the row's cells lie within `own`, which lies within
+    /// - `write` does not overlap what can be read through any entry, except another entry's `read` of cells
+    ///   or own items of the same substate;
+    /// - `starts` and `ends` can be read at every cell of the row and at all offsets from there;
+    /// - they hold ranges within `labels.len()`, those of the row's cells within `own`, and `own` lies within
     ///   `labels.len()`.
     pub unsafe fn new(
         frame: &'a Frame<'a>,
@@ -244,13 +245,13 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// The first fault in the row, in the order of cells and labels.
+    /// The first fault in the row, by cell and label.
     pub fn first_fault(&self) -> Option<RowFault> {
         self.fault.get()
     }
 
-    /// Whether the kernel has asked for a random number or for the number of the step, so that its results
-    /// may be others in another step.
+    /// Whether the kernel has requested a random number or the number of the step. If not, its results do not
+    /// depend on the step.
     pub fn has_asked_for_step(&self) -> bool {
         self.asked_for_step.get()
     }
@@ -259,11 +260,11 @@ impl<'a> Row<'a> {
     #[inline(always)]
     pub fn draws(&self) -> Draws {
         let Frame { stream, step, seed, extents, .. } = *self.frame;
-        // A space has a cell along x at least.
+        // A space has at least one cell along x.
         Draws::new((stream, step, seed), self.first_cell, extents[0])
     }
 
-    /// What a kernel has asked for, at its end.
+    /// Records the requests of a kernel at its end.
     #[inline(always)]
     pub fn has_drawn(&self, draws: &Draws) {
         if draws.is_asked() {
@@ -271,12 +272,12 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// Where the kernel was when it panicked: in the first cell if that was before it began.
+    /// The place at which the kernel panicked. The first cell if it panicked before it began.
     pub fn stopped_at(&self) -> StoppedAt {
         self.stopped.get().unwrap_or_else(|| StoppedAt { cell: self.cell(0), label: None })
     }
 
-    /// Where a kernel is that is about to begin.
+    /// The place of a kernel that is about to begin.
     #[inline(always)]
     pub fn place(&self) -> Place<'_, 'a> {
         Place { x: 0, item: None, row: self }
@@ -295,7 +296,7 @@ impl<'a> Row<'a> {
         self.length
     }
 
-    /// A struct of parameters; nothing where the model has none of this type, which building it has excluded.
+    /// A struct of parameters. `None` if the model lacks this type, which building the model prevents.
     #[inline(always)]
     pub fn parameters<P: 'static>(&self) -> Option<&'a P> {
         self.frame.parameters.iter().find_map(|parameters| parameters.downcast_ref())
@@ -313,33 +314,33 @@ impl<'a> Row<'a> {
         Columns { first: 0, lanes: 0..self.length, row: PhantomData }
     }
 
-    /// The cells of the row, in blocks of so many at most.
+    /// The cells of the row, in blocks of at most `most` cells.
     #[inline(always)]
     pub fn blocks(&self, most: usize) -> Blocks<'_> {
         Blocks { rest: 0..self.length, most, row: PhantomData }
     }
 
-    /// The number of the row's first own item.
+    /// The index of the row's first own item.
     #[inline(always)]
     pub fn first_item(&self) -> usize {
         self.items.map_or(0, |items| items.own.0)
     }
 
-    /// How many items the row has of its own.
+    /// The number of the row's own items.
     #[inline(always)]
     pub fn own_items(&self) -> usize {
         self.items.map_or(0, |items| items.own.1 - items.own.0)
     }
 
-    /// The cell of an own item, which is given by its number among them. It cannot panic, so a kernel that
-    /// has no use for it does not pay for it.
+    /// The cell of an own item, given by its index among the own items. It cannot panic, so that a kernel
+    /// that does not use the cell pays nothing for it.
     #[inline(always)]
     pub fn column_of(&self, number: usize) -> Column<'_> {
         let cell = self.items.and_then(|items| items.cells.get(number).copied()).unwrap_or_default();
         self.column(cell.wrapping_sub(self.cell(0)) as usize)
     }
 
-    /// The answers of a migration, one for each own item of the row.
+    /// The results of a migration, one for each own item of the row.
     #[inline(always)]
     pub fn destinations(&self) -> &'a mut [u32] {
         self.destinations.take().unwrap_or_default()
@@ -371,7 +372,7 @@ impl<'a> Row<'a> {
         self.items.map_or(0, |items| items.labels[item])
     }
 
-    /// Records a fault of an item or cell of the row; the first one stays.
+    /// Records a fault of an item or cell of the row. The first one stays.
     #[cold]
     pub fn report<R: Float>(&self, x: usize, label: Option<u32>, code: u32, value: R) {
         if self.fault.get().is_none() {
@@ -379,10 +380,10 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// Records that a neighbour index lies beyond the neighbourhood.
+    /// Records a neighbour index beyond the neighbourhood.
     #[cold]
     pub fn beyond_neighbourhood(&self, x: usize, index: usize) {
-        // Indices have 32 bits on other engines, and in the message.
+        // Indices have 32 bits on other engines and in the message.
         let index = u32::try_from(index).unwrap_or(u32::MAX);
         self.report(x, None, BEYOND_NEIGHBOURHOOD, f64::from(index));
     }

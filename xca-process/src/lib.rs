@@ -1,10 +1,10 @@
-//! Elementary processes as engines see them: the words of their source, their kernels and bodies, and the
-//! space that they work in.
+//! Elementary processes for engines: the vocabulary of their source, their kernels and bodies, and their
+//! space.
 //!
-//! Models name what is here by `xca_core`. The modules [`ir`], [`kernel`] and [`storage`] are for engines and
-//! generated code; they change with these, in any version.
+//! Models import these items from `xca_core`. The modules [`ir`], [`kernel`] and [`storage`] are for engines
+//! and generated code. They can change in any version.
 
-// The macros name `xca_core`, also in the helpers of this crate.
+// The macros name `xca_core`, also for the helpers of this crate.
 extern crate self as xca_core;
 
 #[doc(hidden)]

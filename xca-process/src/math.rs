@@ -1,8 +1,8 @@
 //! Mathematical functions with the same bits on every engine.
 //!
-//! They are made of + - * /, comparisons and whole numbers alone, which are the same everywhere; the
-//! platform's own functions are not. In a process `x.exp()` is [`exp`] here, computed in the precision of the
-//! run. In ordinary code these functions compute in `f64`.
+//! They use only + - * /, comparisons and integers, which give the same bits everywhere. The platform's own
+//! functions do not. In a process `x.exp()` is [`exp`] of this module, computed in the precision of the run.
+//! In ordinary code these functions compute in `f64`.
 //!
 //! ```
 //! use xca_core::prelude::*;
@@ -24,10 +24,9 @@
 //! assert_eq!(xca_core::math::exp(0.0), 1.0);
 //! ```
 //!
-//! The errors stated with each function are the largest that were found in hundreds of thousands of values of
-//! each precision, in units of the last digit of the exact value (half a unit is a correctly rounded value).
-//! `docs/mathematics.md` in the repository says how they were measured, what a call costs and what GPUs may
-//! do with denormal numbers.
+//! The stated errors are the largest found in hundreds of thousands of values of each precision. They are in
+//! units in the last place (ulp) of the exact value. Correct rounding has half a unit. `docs/mathematics.md`
+//! in the repository describes the measurements, the cost of a call, and denormal numbers on GPUs.
 
 mod exact;
 mod exponential;

@@ -31,7 +31,7 @@ pub struct Neighbourhood {
     /// For cells in even and in odd rows (or columns): the same list except in hexagonal grids.
     displacements: [Vec<[i32; 3]>; 2],
     parity: Parity,
-    /// For each index that of the opposite direction, the same for all cells.
+    /// The index of the opposite direction for each index, the same for all cells.
     opposites: Vec<Option<usize>>,
     shape: ShapeNumber,
 }
@@ -106,7 +106,8 @@ impl Neighbourhood {
     /// An index means the same direction in all rows or columns. With a corner up, the two cells below come
     /// first, then those at the sides, then the two above. With a side up, x and y are exchanged.
     pub fn hexagonal(hexagons: Hexagons) -> Self {
-        // In even rows the two neighbours below and above stand at x - 1 and x, in odd rows at x and x + 1.
+        // In even rows, the neighbours below and above are at x - 1 and x. In odd rows they are at x and x +
+        // 1.
         let rows = |shift: i32| {
             vec![
                 [0, 0, 0],
@@ -212,7 +213,7 @@ impl Neighbourhood {
         &self.opposites
     }
 
-    /// The shape that kernels know it by.
+    /// The shape for kernels.
     pub(crate) fn shape(&self) -> ShapeNumber {
         self.shape
     }
@@ -240,8 +241,7 @@ impl Neighbourhood {
     }
 }
 
-/// For each index that under which the neighbour sees the cell: its displacement, turned round, is in the
-/// list of the neighbour's row or column.
+/// The opposite of each index. The list of the neighbour's row or column contains the reversed displacement.
 fn opposites(displacements: &[Vec<[i32; 3]>; 2], parity: Parity) -> Vec<Option<usize>> {
     let indices = displacements
         .each_ref()
@@ -252,7 +252,7 @@ fn opposites(displacements: &[Vec<[i32; 3]>; 2], parity: Parity) -> Vec<Option<u
             Parity::Row => y & 1,
             Parity::Column => x & 1,
         };
-        // A displacement that no number can turn round has no opposite.
+        // A displacement that cannot be negated has no opposite.
         let turned = [x.checked_neg()?, y.checked_neg()?, z.checked_neg()?];
         indices[list as usize].get(&turned).copied()
     };

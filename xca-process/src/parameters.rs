@@ -291,7 +291,7 @@ fn in_precision(number: f64, precision: Precision) -> String {
     }
 }
 
-/// Parameters whose type is not known: what a model keeps and an engine reads.
+/// Parameters of unknown type: those that a model keeps and an engine reads.
 pub trait AnyParameters: Any + fmt::Debug + Send + Sync {
     /// The fields.
     fn schema(&self) -> &'static Schema;
@@ -299,16 +299,16 @@ pub trait AnyParameters: Any + fmt::Debug + Send + Sync {
     /// The value of the field with this number.
     fn value_of(&self, field: usize) -> ParameterValue;
 
-    /// Sets the field with this number; the value has as many components as the field and fits its type.
+    /// Sets the field with this number. The value has the components of the field and fits its type.
     fn set_value_of(&mut self, field: usize, value: &ParameterValue);
 
     /// Sets the parameter with this name from text.
     ///
     /// # Errors
-    /// As [`Parameters::set`].
+    /// Those of [`Parameters::set`].
     fn set_by_name(&mut self, name: &str, text: &str) -> Result<(), ParameterError>;
 
-    /// What a kernel of this precision sees: `P::Native<R>`.
+    /// The form in a kernel of this precision: `P::Native<R>`.
     fn kernel_view(&self, precision: Precision) -> Arc<dyn Any + Send + Sync>;
 
     /// The type of the struct.

@@ -13,7 +13,7 @@ pub enum ProcessKind {
     Cells,
     /// Each item of a population.
     Items,
-    /// Each item of a population, to say to which cell it belongs.
+    /// Each item of a population, to decide its cell.
     Migration,
 }
 

@@ -54,7 +54,7 @@ pub trait States: Copy + PartialEq + Send + Sync + 'static {
     /// The number of the state, from 0 in the order of the source.
     fn number(self) -> u8;
 
-    /// The state with this number; the first one where there is none.
+    /// The state with this number, or the first state if there is none.
     fn from_number(number: u8) -> Self;
 }
 

@@ -1,35 +1,34 @@
 //! Memory for substates. This module is for engines; models do not need it.
 
-/// The bytes to which buffers are aligned: a line of a processor's cache, and its widest register.
+/// The alignment of buffers in bytes: a cache line, and the widest register.
 const ALIGNMENT: usize = 64;
 const WORD: usize = size_of::<u64>();
 
-/// A processor takes a load for one of what was stored last where their addresses differ by a multiple of
-/// this, and waits.
+/// A processor mistakes a load for a recent store if their addresses differ by a multiple of this, and waits
+/// (4K aliasing).
 const PAGE: usize = 4096;
-/// The lines from a buffer's place in a page to that of the next: no multiple of it is near a whole page for
-/// long.
+/// The distance in cache lines between the places of two buffers in a page. No small multiple of it is close
+/// to a whole page.
 const LINES_APART: usize = 17;
 
-/// Bytes whose first one is aligned for every scalar and for wide registers.
+/// Bytes, the first of which is aligned for every scalar and for wide registers.
 #[derive(Debug, Default)]
 pub struct Buffer {
     words: Vec<u64>,
     /// The words before the first byte.
     start: usize,
     length: usize,
-    /// Where the first byte is in a page; anywhere where there is nothing.
+    /// The place of the first byte in a page. `None`: any place.
     place: Option<usize>,
 }
 
 impl Buffer {
-    /// So many zero bytes.
+    /// A buffer of zeros.
     pub fn zeroed(length: usize) -> Self {
         Self::placed(length, None)
     }
 
-    /// So many zero bytes, in a buffer that is used together with others of other numbers, and does not
-    /// hinder them.
+    /// A buffer of zeros. Buffers with different numbers that are used together do not slow each other down.
     pub fn zeroed_apart(length: usize, number: usize) -> Self {
         Self::placed(length, Some(number * LINES_APART * ALIGNMENT % PAGE))
     }
@@ -49,12 +48,12 @@ impl Buffer {
         self.length == 0
     }
 
-    /// The bytes that it takes.
+    /// The allocated size in bytes.
     pub fn capacity(&self) -> usize {
         self.words.capacity() * WORD
     }
 
-    /// Changes the number of bytes; new ones are zero.
+    /// Changes the number of bytes. New bytes are zero.
     pub fn resize(&mut self, length: usize) {
         let kept = self.length.min(length);
         let old = self.start;
@@ -71,34 +70,35 @@ impl Buffer {
         &bytemuck::cast_slice(&self.words[self.start..])[..self.length]
     }
 
-    /// The bytes, to be written.
+    /// The bytes, for writing.
     pub fn bytes_mut(&mut self) -> &mut [u8] {
         &mut bytemuck::cast_slice_mut(&mut self.words[self.start..])[..self.length]
     }
 
-    /// Where the bytes start. Asking again, or for [`Self::as_mut_ptr`], leaves earlier pointers valid.
+    /// The address of the first byte. Later calls, also of [`Self::as_mut_ptr`], leave earlier pointers
+    /// valid.
     pub fn as_ptr(&self) -> *const u8 {
         self.words.as_ptr().wrapping_add(self.start).cast()
     }
 
-    /// Where the bytes start, to be written. Asking again leaves earlier pointers valid.
+    /// The address of the first byte, for writing. Later calls leave earlier pointers valid.
     pub fn as_mut_ptr(&mut self) -> *mut u8 {
         self.words.as_mut_ptr().wrapping_add(self.start).cast()
     }
 }
 
-/// The words that hold so many bytes from their place on, wherever that is.
+/// The number of words for `length` bytes at any place.
 fn words(length: usize, place: Option<usize>) -> usize {
     if length == 0 { 0 } else { length.div_ceil(WORD) + grid(place) / WORD - 1 }
 }
 
-/// The words before the first byte.
+/// The number of words before the first byte.
 fn start(words: &[u64], place: Option<usize>) -> usize {
     let apart = place.unwrap_or(0).wrapping_sub(words.as_ptr().addr());
     if words.is_empty() { 0 } else { apart % grid(place) / WORD }
 }
 
-/// The bytes from one address at which a buffer may begin to the next.
+/// The distance in bytes between possible addresses of a buffer.
 fn grid(place: Option<usize>) -> usize {
     if place.is_some() { PAGE } else { ALIGNMENT }
 }

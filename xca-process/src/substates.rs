@@ -38,14 +38,14 @@ pub trait Substates: Clone + Send + Sync + 'static {
     /// The fields.
     const SCHEMA: &'static Schema;
 
-    /// Writes the field with this number in the type that it is stored in.
+    /// Writes the field with this number as its stored type.
     fn encode(&self, field: usize, precision: Precision, out: &mut [u8]);
 
-    /// Reads all fields: the closure lends the bytes of a field by its number.
+    /// Reads all fields. The closure returns the bytes of a field by its number.
     fn decode<'a>(precision: Precision, field: impl FnMut(usize) -> &'a [u8]) -> Self;
 }
 
-/// The type in kernels and the number of the field whose name has this hash; made by the derive for the
+/// The type in kernels and the index of the field whose name has this hash. The derive implements it for the
 /// macros.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no substate of this name",

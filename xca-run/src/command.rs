@@ -41,6 +41,7 @@ use std::fmt;
 use std::panic::{self, AssertUnwindSafe};
 use std::process::ExitCode;
 use std::sync::{Mutex, PoisonError};
+use std::thread;
 use xca_record::Failure;
 use xca_record::SetUp;
 
@@ -166,12 +167,12 @@ fn main_of(definition: &Definition<'_>) -> ExitCode {
     let arguments: Vec<OsString> = std::env::args_os().collect();
     let panics = Panics::caught();
     // After a panic nothing of the definition is used.
-    let all = AssertUnwindSafe(|| match parse::invocation(definition, &arguments) {
-        // What is wrong with a command line one of many processes says for all.
-        Err(_) if launcher::is_silent() => Ok(Ended::Done),
-        invocation => execute(invocation?),
-    });
-    match panic::catch_unwind(all) {
+    let all = AssertUnwindSafe(|| execute(parse::invocation(definition, &arguments)?));
+    let ended = panic::catch_unwind(all);
+    if launcher::is_silent() && !matches!(ended, Ok(Ok(_))) {
+        thread::sleep(launcher::PATIENCE);
+    }
+    match ended {
         Ok(Ok(Ended::Done)) => ExitCode::SUCCESS,
         Ok(Ok(Ended::Different)) => ExitCode::from(DIFFERENT),
         Ok(Ok(Ended::Interrupted)) => ExitCode::from(EXIT_INTERRUPTED),
@@ -192,6 +193,10 @@ fn main_of(definition: &Definition<'_>) -> ExitCode {
             terminal::complain(&*error);
             terminal::remark(&left);
             ExitCode::from(FAILED)
+        }
+        // Help is printed once.
+        Ok(Err(Unable::CommandLine(error))) if launcher::is_silent() && !error.use_stderr() => {
+            ExitCode::SUCCESS
         }
         Ok(Err(Unable::CommandLine(error))) => {
             let shown = terminal::show(&error);

@@ -1,6 +1,7 @@
 //! What a launcher of many processes, such as `mpirun` or `srun`, says to each of them.
 
 use std::env;
+use std::time::Duration;
 
 /// The number of processes: of Open MPI, of MPICH and its kin, and of a step of Slurm. A batch script of
 /// Slurm is one process, whatever `SLURM_NTASKS` says in it.
@@ -22,3 +23,8 @@ pub(crate) fn processes() -> usize {
 pub(crate) fn is_silent() -> bool {
     processes() > 1 && number(RANK).is_some_and(|rank| rank > 0)
 }
+
+/// How long a silent process waits before it prints an error. Most errors are found by all processes, and
+/// Open MPI ends the others about a second after the first has ended with an error. What is printed after
+/// the wait is the error of one process alone.
+pub(crate) const PATIENCE: Duration = Duration::from_secs(3);

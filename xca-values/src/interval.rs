@@ -1,9 +1,9 @@
-//! The ranges of parameters.
+//! Ranges of parameters.
 
 use crate::value::{Precision, Shortest};
 use std::fmt;
 
-/// An interval of numbers. A missing end means no limit.
+/// An interval of numbers. A missing end is unlimited.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Interval {
     /// The lower end.
@@ -17,7 +17,7 @@ pub struct Interval {
 pub struct End {
     /// The number.
     pub number: f64,
-    /// Whether the interval includes it.
+    /// Whether the interval includes the end.
     pub included: bool,
 }
 
@@ -25,7 +25,7 @@ impl Interval {
     /// All numbers.
     pub const ALL: Self = Self { low: None, high: None };
 
-    /// Whether the number is in the interval. NaN never is.
+    /// Whether the number is in the interval. NaN is in none.
     pub fn contains(&self, number: f64) -> bool {
         let above = self.low.is_none_or(|end| number > end.number || (end.included && number == end.number));
         let below = self.high.is_none_or(|end| number < end.number || (end.included && number == end.number));
@@ -94,7 +94,7 @@ mod tests {
         assert!(!half_open.contains(f64::NAN));
         assert!(!Interval::ALL.contains(f64::NAN));
         assert!(Interval::ALL.contains(f64::INFINITY));
-        // In f32 the number is 1, which does not belong to it.
+        // In f32 the number rounds to 1, which is not in the interval.
         let nearly_one = 1.0 - 1e-12;
         assert!(half_open.contains(nearly_one));
         assert!(!half_open.rounded(Precision::F32).contains(Precision::F32.rounded(nearly_one)));

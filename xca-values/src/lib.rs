@@ -1,6 +1,6 @@
 //! The values of substates and parameters: scalar types, small vectors, states, and their ranges.
 //!
-//! Models name them by `xca_core`, which has all of them too.
+//! Models import them from `xca_core`, which re-exports all of them.
 
 mod interval;
 #[doc(hidden)]

@@ -1,9 +1,8 @@
-//! The operations behind the methods of numbers, vectors and arrays, in kernels and in what the compiler
-//! checks.
+//! The operations behind the methods of numbers, vectors and arrays, in kernels and in code for the type
+//! checker.
 //!
-//! The macros write `methods::sqrt(x)` for `x.sqrt()`: the receiver may be a literal whose type is found out
-//! later, and the bits are those that every engine gives. Which methods there are is the list of
-//! `xca_methods`.
+//! The macros write `methods::sqrt(x)` for `x.sqrt()`. The receiver may then be a literal whose type is
+//! inferred later. The bits are the same on every engine. For the list of methods see `xca_methods`.
 
 mod floats;
 mod functions;
@@ -19,13 +18,13 @@ use crate::value::Real;
 use crate::vector::Vector3;
 use std::ops::{Mul, Sub};
 
-/// The receiver of a function of `xca_core::math`.
+/// Returns the receiver of a function of `xca_core::math`.
 #[inline(always)]
 pub fn real<T: IsReal>(value: T) -> Real {
     value.real()
 }
 
-/// `Real`.
+/// Implemented for `Real` only.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no such method, `Real` has",
     label = "this is no `Real`",

@@ -1,4 +1,4 @@
-//! What the fields of a substate or parameter struct are called and hold.
+//! Names and types of the fields of a substate or parameter struct.
 
 use crate::interval::Interval;
 use crate::value::ValueType;
@@ -19,15 +19,15 @@ pub struct Schema {
 pub struct Field {
     /// Its name.
     pub name: &'static str,
-    /// What it holds.
+    /// Its type.
     pub value_type: ValueType,
-    /// Its documentation in the source, its lines joined.
+    /// Its documentation in the source, in one line.
     pub documentation: &'static str,
-    /// Its unit, as in `m/s`.
+    /// Its unit, such as `m/s`.
     pub unit: Option<&'static str>,
-    /// Which numbers a parameter can be, in each component.
+    /// The range of a parameter, for each component.
     pub range: Interval,
-    /// Whether a parameter is computed from others, so that it cannot be set by itself.
+    /// Whether a parameter is computed from others, and cannot be set.
     pub computed: bool,
 }
 
@@ -37,9 +37,9 @@ impl Schema {
         self.fields.iter().enumerate().find(|(_, field)| field.name == name)
     }
 
-    /// What the components of the field with this number are called in tables: a scalar like the field,
-    /// others `field_x`, `field_3` or `field_3_x` ([`ValueType::component_names`]), those of the position
-    /// `x`, `y`, `z`.
+    /// The names of the components of a field in tables. A scalar has the name of the field. Others are
+    /// called `field_x`, `field_3` or `field_3_x` ([`ValueType::component_names`]). Those of the position are
+    /// `x`, `y` and `z`.
     pub fn columns(&self, field: usize) -> Vec<String> {
         let Field { name, value_type, .. } = &self.fields[field];
         let whole = |component: String| match component.as_str() {

@@ -1,16 +1,16 @@
 //! The names of the states of an enum.
 
-/// What the states of an enum are called.
+/// The name of an enum, and those of its states.
 #[derive(Debug, PartialEq, Eq, Hash)]
 pub struct StateNames {
     /// The name of the enum.
     pub name: &'static str,
-    /// The names of the states; the number of a state is its place here.
+    /// The names of the states. The number of a state is its index.
     pub states: &'static [&'static str],
 }
 
 impl StateNames {
-    /// The largest number that a state has.
+    /// The largest number of a state.
     pub fn largest(&self) -> u8 {
         u8::try_from(self.states.len().saturating_sub(1)).unwrap_or(u8::MAX)
     }

@@ -16,11 +16,11 @@ pub enum ScalarType {
     I32,
     /// `u32`
     U32,
-    /// `f32`, whatever the precision of the run
+    /// `f32` in either precision of the run
     F32,
-    /// `f64`, whatever the precision of the run
+    /// `f64` in either precision of the run
     F64,
-    /// `f32` or `f64`, as the run's [`Precision`] says
+    /// `f32` or `f64`, depending on the run's [`Precision`]
     Real,
 }
 
@@ -35,10 +35,10 @@ pub enum Precision {
     F64,
 }
 
-/// The floating-point type that is chosen for each run.
+/// The floating-point type chosen for each run.
 ///
-/// Write `Real` in processes and in structs that derive `Substates` or `Parameters`. The macros make one copy
-/// for each [`Precision`]. In all other code `Real` is `f64`, which holds the values of either precision
+/// Write `Real` in processes, and in structs that derive `Substates` or `Parameters`. The macros make one
+/// copy for each [`Precision`]. In all other code `Real` is `f64`, which holds the values of either precision
 /// exactly.
 pub type Real = f64;
 
@@ -53,8 +53,8 @@ pub struct ValueType {
     pub length: Option<u32>,
 }
 
-/// The machine type of a stored scalar, after `Real` has been resolved by the run's precision. `bool` is
-/// stored as 0 or 1 in a `U8`, a state by its number in a `U8`.
+/// The machine type of a stored scalar. The run's precision has replaced `Real`. `bool` is stored as 0 or 1
+/// in a `U8`, a state as its number in a `U8`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[expect(missing_docs, reason = "the names say it")]
@@ -78,8 +78,8 @@ pub struct StoredType {
 }
 
 impl ScalarType {
-    /// Whether a number is a value of this type. Floating-point numbers must be finite. `bool` has 0 and 1,
-    /// states have their numbers.
+    /// Whether a number is a value of this type. Floating-point numbers must be finite. `bool` has the values
+    /// 0 and 1, states have their numbers.
     pub fn fits(self, number: f64) -> bool {
         let within = |least: f64, largest: f64| number.fract() == 0.0 && (least..=largest).contains(&number);
         match self {
@@ -92,14 +92,14 @@ impl ScalarType {
         }
     }
 
-    /// Whether a number can be a stored value of this type: as [`Self::fits`], but floating-point numbers may
-    /// be NaN or infinite.
+    /// Whether a number can be a stored value of this type. As for [`Self::fits`], but floating-point numbers
+    /// may be NaN or infinite.
     pub fn holds(self, number: f64) -> bool {
         matches!(self, Self::F32 | Self::F64 | Self::Real) || self.fits(number)
     }
 
-    /// Parses a value. `bool` becomes 0 or 1, a state its number. `None` if the text is not a value of this
-    /// type.
+    /// Parses a value. `bool` becomes 0 or 1, a state its number. Returns `None` if the text is not a value
+    /// of this type.
     pub fn parse(self, text: &str) -> Option<f64> {
         match self {
             Self::Bool => text.parse().ok().map(|value: bool| value.into()),
@@ -108,7 +108,7 @@ impl ScalarType {
         }
     }
 
-    /// The number as a text for [`Self::parse`].
+    /// The text of a number, which [`Self::parse`] reads back.
     pub fn text(self, number: f64) -> String {
         match self {
             Self::Bool => (number != 0.0).to_string(),
@@ -139,7 +139,7 @@ impl fmt::Display for Shortest {
 }
 
 impl StoredScalar {
-    /// Writes a number that fits the type.
+    /// Writes a number that fits the type into bytes.
     pub fn encode(self, number: f64, out: &mut [u8]) {
         match self {
             Self::U8 => out.copy_from_slice(&(number as u8).to_ne_bytes()),
@@ -161,13 +161,12 @@ impl StoredScalar {
 }
 
 impl StoredType {
-    /// The size in bytes of one value: its elements one after the other, the lanes of each next to each
-    /// other.
+    /// The size of one value in bytes: its elements one after the other, the lanes of each side by side.
     pub const fn size(self) -> usize {
         self.scalar.size() * self.components()
     }
 
-    /// The size in bytes of an element: of a value that is no array, its own.
+    /// The size of an element in bytes. Without an array, the size of the value.
     pub const fn element_size(self) -> usize {
         self.scalar.size() * self.lanes as usize
     }
@@ -189,12 +188,12 @@ impl ValueType {
         Self { scalar, lanes, length: None }
     }
 
-    /// An array of so many values of this type, which is none itself.
+    /// An array of `length` values of this type, which must not be an array.
     pub const fn array(self, length: u32) -> Self {
         Self { length: Some(length), ..self }
     }
 
-    /// The type of an element: of a value that is no array, its own.
+    /// The type of an element. Without an array, the type itself.
     pub const fn element(self) -> Self {
         Self { length: None, ..self }
     }
@@ -208,7 +207,7 @@ impl ValueType {
         self.lanes as usize * length
     }
 
-    /// The type in a sentence, with what it can be where that is a matter of names.
+    /// The type for messages, with the possible values of `bool` and states.
     pub fn described(self) -> String {
         match self.scalar {
             ScalarType::Bool => format!("a {self}: true or false"),
@@ -217,8 +216,8 @@ impl ValueType {
         }
     }
 
-    /// What tells the components of a value apart in names: nothing for a scalar, `x` to `w` for the lanes of
-    /// a vector, the number for the elements of an array, both (`3_x`) for an array of vectors.
+    /// The names of the components, for columns and files. A scalar has an empty name. Lanes of a vector are
+    /// `x` to `w`, elements of an array have their index, lanes of elements have both (`3_x`).
     pub fn component_names(self) -> Vec<String> {
         let lanes = &["x", "y", "z", "w"][..usize::from(self.lanes)];
         match (self.length, self.lanes) {
@@ -231,8 +230,8 @@ impl ValueType {
         }
     }
 
-    /// What follows the name of a value for each of its components, for people: nothing for a scalar, `.x`
-    /// for a lane, `[3]` for an element, `[3].x` for a lane of an element.
+    /// The suffixes of the components, for people. Empty for a scalar, `.x` for a lane, `[3]` for an element,
+    /// `[3].x` for a lane of an element.
     pub fn component_suffixes(self) -> Vec<String> {
         let suffix = |part: &str| match part.parse::<u32>() {
             Ok(element) => format!("[{element}]"),
@@ -242,8 +241,8 @@ impl ValueType {
         self.component_names().iter().map(|name| name.split('_').map(suffix).collect()).collect()
     }
 
-    /// The number of the component with this name: as [`Self::component_names`] has it, or written `[3].x`,
-    /// `3.x`.
+    /// The index of the component with this name. Accepts the form of [`Self::component_names`], and `[3].x`
+    /// and `3.x`.
     pub fn component_named(self, name: &str) -> Option<usize> {
         let name = name.replace(['.', '['], "_").replace(']', "");
         let name = name.trim_start_matches('_');
@@ -293,7 +292,7 @@ impl fmt::Display for ValueType {
 }
 
 impl Precision {
-    /// The number that a number becomes.
+    /// Rounds a number to this precision.
     pub fn rounded(self, number: f64) -> f64 {
         match self {
             Self::F32 => f64::from(number as f32),

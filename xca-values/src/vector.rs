@@ -1,7 +1,7 @@
-//! Small vectors for positions, velocities, forces.
+//! Small vectors for positions, velocities and forces.
 //!
-//! The operations are the same to the last bit everywhere. They work lane by lane; [`Vector3::dot`] adds from
-//! the first lane to the last.
+//! The operations have the same bits everywhere. They work lane by lane. [`Vector3::dot`] sums from the first
+//! lane to the last.
 
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -32,7 +32,7 @@ macro_rules! vector {
         }
 
         impl<T> $name<T> {
-            /// The vector of the results for each lane.
+            /// Applies a function to each lane.
             #[inline(always)]
             pub fn map<U>(self, mut each: impl FnMut(T) -> U) -> $name<U> {
                 $name { $first: each(self.$first) $(, $lane: each(self.$lane))+ }
@@ -48,7 +48,7 @@ macro_rules! vector {
         }
 
         impl<T: Copy + Mul<Output = T> + Add<Output = T>> $name<T> {
-            /// The scalar product, added from the first lane to the last.
+            /// The scalar product, summed from the first lane to the last.
             #[inline(always)]
             pub fn dot(self, other: Self) -> T {
                 self.$first * other.$first $(+ self.$lane * other.$lane)+
@@ -197,7 +197,7 @@ vector!(
 );
 
 impl<T: Copy + Mul<Output = T> + Sub<Output = T>> Vector3<T> {
-    /// The vector product.
+    /// The cross product.
     #[inline(always)]
     pub fn cross(self, other: Self) -> Self {
         Self {

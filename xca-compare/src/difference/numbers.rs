@@ -1,4 +1,4 @@
-//! Stored bytes as pairs of numbers.
+//! Stored bytes, compared in pairs of numbers.
 
 use xca_core::{StoredScalar, StoredType};
 
@@ -9,14 +9,14 @@ pub(super) struct Numbers<'a> {
     bytes: &'a [u8],
 }
 
-/// Two scalars that should be the same.
+/// Two scalars to compare.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pair {
     pub(super) first: f64,
     pub(super) other: f64,
-    /// To the last bit, in the coarser of their types.
+    /// Whether the bits are equal, in the lower of their precisions.
     pub(super) is_identical: bool,
-    /// How many representable values lie between them, counting one of the two.
+    /// The distance in representable values.
     pub(super) ulp: u64,
 }
 
@@ -39,7 +39,7 @@ impl<'a> Numbers<'a> {
         bytes
     }
 
-    /// The scalar with this number; each of the types fits into `f64`.
+    /// The scalar with this index. Each type fits into `f64`.
     fn number(&self, index: usize) -> f64 {
         match self.stored.scalar {
             StoredScalar::U8 => self.bytes[index].into(),
@@ -60,7 +60,7 @@ impl<'a> Numbers<'a> {
         }
     }
 
-    /// A scalar of these beside one of those.
+    /// A scalar of `self` and one of `others`.
     pub(super) fn pair(&self, index: usize, others: &Self, other: usize) -> Pair {
         let (a, b) = (self.number(index), others.number(other));
         let same_type = self.stored.scalar == others.stored.scalar;
@@ -80,7 +80,7 @@ impl<'a> Numbers<'a> {
 
 impl Pair {
     fn are_same_value(&self) -> bool {
-        // 0 and -0, and all that is no number.
+        // 0 equals -0, and NaN equals NaN.
         self.first == self.other || (self.first.is_nan() && self.other.is_nan())
     }
 
@@ -100,7 +100,7 @@ impl Pair {
     }
 }
 
-/// Numbers from least to largest as whole numbers one after the other; both zeros are 0.
+/// Maps floats to integers of the same order, without gaps. Both zeros become 0.
 fn ordered_64(value: f64) -> i64 {
     let bits = value.to_bits() as i64;
     if bits < 0 { i64::MIN.wrapping_sub(bits) } else { bits }

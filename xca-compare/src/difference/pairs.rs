@@ -1,12 +1,12 @@
-//! Which item of one state is which of the other.
+//! The pairs of items of two states.
 
 use std::collections::HashMap;
 use xca_core::engine::Population;
 
-/// Places of the first state with those of the other.
+/// Indices in the first state, paired with those in the other.
 #[derive(Debug)]
 pub(super) enum Pairs {
-    /// So many, each with its like.
+    /// This many pairs of equal indices.
     Same(usize),
     Listed(Vec<[usize; 2]>),
 }
@@ -26,7 +26,7 @@ impl Pairs {
         }
     }
 
-    /// The place in the first state.
+    /// The index in the first state.
     pub(super) fn first(&self, index: usize) -> usize {
         self.at(index)[0]
     }
@@ -36,7 +36,7 @@ impl Pairs {
     }
 }
 
-/// The items that have the same label, and how many have no like.
+/// The pairs of items with the same label, and the number of unpaired items.
 pub(super) fn by_label(first: &Population, other: &Population) -> (Pairs, usize) {
     if first.labels == other.labels {
         return (Pairs::Same(first.labels.len()), 0);

@@ -1,4 +1,4 @@
-//! Differences of states that were made by hand.
+//! Tests of differences with states made by hand.
 
 use super::*;
 use xca_core::prelude::*;
@@ -65,7 +65,7 @@ fn measures_are_those_of_their_definitions() {
     let found = &differences.substates[0];
     assert_eq!((found.different, found.values), (2, 12));
     assert_eq!((found.largest_absolute, found.largest_relative, found.scale), (1.0, 0.25, 8.0));
-    // From 3 to 4 there are half of the numbers of a power of two.
+    // Between 3 and 4 lie half of the numbers of a power of two.
     assert_eq!(found.largest_ulp, Some(1 << 51));
     assert!((found.rms - (1.0_f64 / 12.0).sqrt()).abs() < 1e-15);
     assert!((found.identical_share() - 10.0 / 12.0).abs() < 1e-15);
@@ -109,7 +109,7 @@ fn whole_numbers_have_no_tolerance() {
 #[test]
 fn items_are_compared_by_label_wherever_they_are() {
     let first = state(&BEADS, [1.0; 12], [3; 6]);
-    // 4 is in another cell, so that it comes last, and 5 weighs more.
+    // Item 4 is in another cell, and is therefore last. The weight of item 5 is different.
     let moved = [(1, 4, 1.0), (0, 7, 2.0), (1, 5, 3.5)];
     let differences = between(&first, &state(&moved, [1.0; 12], [3; 6]));
     let (weight, cells) = (&differences.substates[2], &differences.substates[3]);

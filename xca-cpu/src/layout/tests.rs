@@ -29,7 +29,7 @@ fn layouts() -> Vec<Layout> {
     spaces.into_iter().flat_map(of_space).collect()
 }
 
-/// The halo, filled by the rules, is the oracle.
+/// The halo filled by the boundary rules is the reference.
 #[test]
 fn images_of_a_row_are_the_lines_of_the_halo_that_show_it() {
     for layout in layouts() {

@@ -1,38 +1,38 @@
-//! What a pass has found.
+//! The findings of a pass.
 
 use crate::motion::Motion;
 use std::time::Duration;
 use xca_core::engine::Fault;
 
-/// What a pass over a block of rows found.
+/// The findings of a pass over a block of rows.
 #[derive(Default)]
 pub(super) struct Found {
-    /// Items that a migration sends elsewhere: item, linear index of its cell, answer.
+    /// The items that a migration moves: item, linear index of its cell, answer.
     pub(super) movers: Vec<Mover>,
-    /// Of the populations that are measured, in their order.
+    /// The measures of the measured populations, in their order.
     pub(super) motions: Vec<Motion>,
-    /// For each process the largest radius of its searches.
+    /// The largest search radius of each process.
     pub(super) widest: Vec<f64>,
-    /// The cells that were worked on, each counted once a process.
+    /// The number of updated cells, counted for each process.
     pub(super) worked: u64,
     pub(super) fault: Option<FirstFault>,
-    /// How long the rows took.
+    /// The time for the rows.
     pub(super) time: Duration,
 }
 
 /// The first fault by pass, process and cell.
 #[derive(Debug)]
 pub(crate) struct FirstFault {
-    /// The number of the pass among those that ran in each other's wake.
+    /// The index of the pass among those that run in each other's wake.
     pub(crate) pass: usize,
-    /// The number of the process in the model.
+    /// The index of the process in the model.
     pub(crate) process: usize,
     /// The linear index of the cell.
     pub(crate) cell: u32,
     pub(crate) fault: Fault,
 }
 
-/// An item on its way to another cell.
+/// An item that moves to another cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Mover {
     pub(crate) item: u32,
@@ -41,7 +41,7 @@ pub(crate) struct Mover {
 }
 
 impl Found {
-    /// Adds what was found in other rows by the same pass.
+    /// Adds the findings of the same pass in other rows.
     pub(super) fn add(&mut self, other: Self) {
         self.worked += other.worked;
         self.movers.extend(other.movers);

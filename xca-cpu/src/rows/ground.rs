@@ -1,17 +1,17 @@
-//! What passes work on, and what they are to do there.
+//! The input of passes.
 
 use crate::layout::Layout;
 use xca_core::engine::StepContext;
 use xca_core::{Model, Precision};
 
-/// Processes that run together over all rows, in a step.
+/// Processes that run together over all rows in a step.
 #[derive(Clone, Copy)]
 pub(crate) struct StageOfStep<'a> {
     pub(crate) processes: &'a [usize],
     pub(crate) context: StepContext<'a>,
 }
 
-/// What passes work on.
+/// The common input of passes.
 #[derive(Clone, Copy)]
 pub(crate) struct Ground<'a> {
     pub(crate) model: &'a Model,

@@ -1,11 +1,11 @@
-//! What continues a row in the halo.
+//! Continuation of rows into the halo.
 #![allow(unsafe_code)]
 
 use super::pass::Pass;
 use super::prepared::{Prepared, Shared};
 
 impl Pass<'_> {
-    /// Continues what a process has written to a row into the halo, while the row is in the cache.
+    /// Continues the rows that a process has written into the halo, while they are in the cache.
     pub(super) fn continue_row(&self, prepared: &Prepared<'_>, row: usize) {
         let first = self.layout.first(row);
         for shared in prepared.substates.iter().filter(|shared| shared.continued) {
@@ -18,10 +18,10 @@ impl Pass<'_> {
                 // SAFETY:
                 // - Source and target are cells of one padded line of a plane: the source in the row, the
                 //   target in the halo beside it.
-                // - No kernel writes the halo, and this is the only thread that has the row, so no one writes
+                // - No kernel writes the halo, and only this thread has the row. No one therefore writes
                 //   either of them meanwhile.
-                // - No one reads the target meanwhile: a plane that is read elsewhere in this pass is written
-                //   to the second buffer, of which nothing is read, or not written at all (`stages`). Another
+                // - No one reads the target meanwhile. A plane that is read elsewhere in this pass is written
+                //   to the second buffer, from which nothing is read, or is not written (`stages`). Another
                 //   pass is at rows that see this one only before or after (`Wavefront`).
                 unsafe {
                     copy_value(element, start.offset(source * size), start.offset(target * size));
@@ -33,7 +33,7 @@ impl Pass<'_> {
         }
     }
 
-    /// Copies the padded line of a row to those of the halo that show it.
+    /// Copies the padded line of a row to the halo lines that repeat it.
     fn continue_line(&self, shared: &Shared, row: usize) {
         let element = shared.memory.element;
         let source = self.layout.line(self.layout.row(row).map(|index| index as isize));
@@ -56,7 +56,7 @@ impl Pass<'_> {
     }
 }
 
-/// Copies one value. A size that the compiler knows makes it a move of a register.
+/// Copies one value. If the compiler knows the size, the copy is a register move.
 ///
 /// # Safety
 /// So many bytes can be read at `from` and written at `to`, and they do not overlap.

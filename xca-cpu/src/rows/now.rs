@@ -1,19 +1,19 @@
-//! What a thread is doing, to be known after a panic.
+//! The current work of a thread, for reports after a panic.
 
 use std::cell::Cell;
 use xca_core::kernel::{Row, RowFault, StoppedAt};
 
-/// What is being done, to be known after a panic.
+/// The current work of a thread, for reports after a panic.
 #[derive(Default)]
 pub(super) struct Now {
-    /// The number of the process in the pass.
+    /// The index of the process in the pass.
     pub(super) process: Cell<usize>,
     pub(super) row: Cell<usize>,
-    /// The number of the row in the list of those that are due, or the row.
+    /// The index in the list of due rows, or the row itself without a list.
     pub(super) place: Cell<usize>,
     /// The first fault that the process has reported in the row.
     pub(super) reported: Cell<Option<RowFault>>,
-    /// Where the process was when it ended or panicked.
+    /// The place of the process when it ended or panicked.
     pub(super) stopped: Cell<Option<StoppedAt>>,
 }
 
@@ -27,7 +27,7 @@ impl Now {
     }
 }
 
-/// Keeps what a kernel has reported when it ends, and when it panics.
+/// Keeps the reports of a kernel, both after it ends and after a panic.
 pub(super) struct Report<'a> {
     pub(super) row: &'a Row<'a>,
     pub(super) now: &'a Now,

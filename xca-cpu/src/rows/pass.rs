@@ -1,4 +1,4 @@
-//! The rows of a pass: its processes, one after the other, in each row.
+//! The rows of a pass: all processes, one after the other, in each row.
 #![allow(unsafe_code)]
 
 use super::found::{Found, Mover};
@@ -19,30 +19,30 @@ use xca_core::engine::Fault;
 use xca_core::kernel::{Frame, Row, RowItems, STAY, Scratch, StoppedAt};
 use xca_core::{Model, Parity, ProcessKind, Stream};
 
-/// What is known of where processes are due.
+/// The places where processes are due.
 #[derive(Clone, Copy)]
 pub(super) struct Followed<'a> {
     pub(super) activity: &'a Activity,
-    /// The rows in which they are, where not all rows are needed.
+    /// The due rows. `None` if all rows are needed.
     pub(super) due: Option<&'a [DueRow]>,
 }
 
-/// Everything that the rows of a pass share.
+/// The data that the rows of a pass share.
 pub(super) struct Pass<'a> {
     pub(super) model: &'a Model,
     pub(super) layout: &'a Layout,
     parity: Parity,
-    /// For each process those of even and odd rows or columns.
+    /// The frames of even and odd rows or columns, for each process.
     frames: Vec<[Frame<'a>; 2]>,
     pub(super) prepared: &'a [Prepared<'a>],
-    /// The cells of the halo that continue a row, with their sources.
+    /// The halo cells that continue a row, with their sources.
     pub(super) continuation: Vec<(isize, isize)>,
-    /// Whether rows are continued beyond the faces along y and z, too.
+    /// Whether rows are also continued beyond the faces along y and z.
     pub(super) continues_lines: bool,
     groups: &'a [Group],
     searches: &'a Searches,
     measured: &'a [Measured],
-    /// Nothing where all rows are worked on.
+    /// `None` if the pass updates all rows.
     followed: Option<Followed<'a>>,
 }
 
@@ -83,7 +83,7 @@ impl<'a> Pass<'a> {
         }
     }
 
-    /// What is found in no row.
+    /// The findings of a pass without rows.
     pub(super) fn nothing(&self) -> Found {
         Found {
             motions: vec![Motion::NONE; self.measured.len()],
@@ -92,18 +92,19 @@ impl<'a> Pass<'a> {
         }
     }
 
-    /// Runs all processes over some rows, one row after the other: ranges of rows, or of those that are due.
+    /// Runs all processes over some rows, one row after the other. `rows` are rows, or indices into the due
+    /// rows.
     pub(super) fn work(&self, rows: Range<usize>, found: &mut Found) {
         let model = self.model;
         let now = Now::default();
-        // Numbers in the list of those that are due, if there is one.
+        // Indices into the list of due rows, if there is one.
         let (mut rows, mut processes) = (rows, self.prepared.len());
         while let Err(panic) = catch_unwind(AssertUnwindSafe(|| {
             self.rows(rows.clone(), processes, &now, found);
         })) {
             let (number, row, at) = (now.process.get(), now.row.get(), now.stopped.get());
             let Prepared { process, index, .. } = self.prepared[number];
-            // What the row had reported before comes first.
+            // A fault reported earlier in the row comes first.
             match now.reported.get() {
                 Some(fault) => {
                     found.keep(index, fault.cell, Fault::reported(process, fault, model.geometry()));
@@ -114,12 +115,12 @@ impl<'a> Pass<'a> {
                     found.keep(index, at.cell, Fault::panicked(process, at, &*panic, model.geometry()));
                 }
             }
-            // The fault of an earlier process comes first, in whatever row.
+            // A fault of an earlier process comes first, in any row.
             (rows, processes) = (now.place.get() + 1..rows.end, number);
         }
     }
 
-    /// Runs the first processes over rows.
+    /// Runs the first processes of the pass over rows.
     fn rows(&self, rows: Range<usize>, processes: usize, now: &Now, found: &mut Found) {
         let model = self.model;
         let mut work = Work {
@@ -195,7 +196,7 @@ impl<'a> Pass<'a> {
             let frame = &frames[if self.parity == Parity::Row { cells.origin[1] as usize % 2 } else { 0 }];
             return self.run_cells(prepared, frame, cells, population, 0, work);
         }
-        // The neighbourhood changes from cell to cell: each is a row of its own.
+        // The neighbourhood differs between cells, so each cell is a row of its own.
         let mut outcome = Outcome::default();
         for number in 0..cells.length {
             let (first, x) = (cells.first + number, cells.origin[0] as usize + number);
@@ -203,7 +204,7 @@ impl<'a> Pass<'a> {
                 (population.starts[first] as usize, population.ends[first] as usize)
             });
             let cell = Cells { first, origin: [x as u32, cells.origin[1], cells.origin[2]], length: 1, own };
-            // In a row without items the ranges of cells are empty, but may start anywhere.
+            // In a row without items, the ranges of cells are empty and may start anywhere.
             let first_answer = own.0.saturating_sub(cells.own.0);
             let one = self.run_cells(prepared, &frames[x % 2], &cell, population, first_answer, work);
             outcome.widest = outcome.widest.max(one.widest);
@@ -228,7 +229,7 @@ impl<'a> Pass<'a> {
             Some(population.lists.as_ref()?.view(population, radius))
         });
         let items = population.map(|population| RowItems {
-            // Not of a part of the list: neighbours lie before the row too.
+            // Not a slice of the array, because neighbours also lie before the row.
             starts: population.starts.as_ptr().wrapping_add(cells.first),
             ends: population.ends.as_ptr().wrapping_add(cells.first),
             labels: &population.items.labels,
@@ -242,15 +243,15 @@ impl<'a> Pass<'a> {
         // SAFETY:
         // - `entries` follow the process's accesses, in buffers that are aligned for every scalar and hold
         //   values of the schema's types.
-        // - Planes have a halo as wide as the neighbourhood, and the offsets are made from the same layout,
-        //   so that all of them can be read from every cell of the row. Planes of items hold as many values
+        // - Planes have a halo as wide as the neighbourhood, and the offsets are made from the same layout.
+        //   All of them can therefore be read from every cell of the row. Planes of items hold as many values
         //   as labels.
         // - What is written belongs to the row's own cells or items. Rows are disjoint, and each is run by
         //   one thread.
-        // - A process that reads a substate elsewhere and writes it writes to the second buffer; no process
-        //   of a stage writes what another of it reads elsewhere (`stages`). A pass in the wake of another is
-        //   at no row that sees this one (`Wavefront`). So nothing readable is written meanwhile, by this row
-        //   or by another.
+        // - A process that reads a substate elsewhere and writes it writes to the second buffer. No process
+        //   of a stage writes what another process of the stage reads elsewhere (`stages`). A pass in the
+        //   wake of another is at no row that sees this one (`Wavefront`). So nothing readable is written
+        //   meanwhile, by this row or by another.
         // - `starts` and `ends` are padded like planes and hold ranges of items; those of a row's cells are
         //   the row's own items.
         let row = unsafe {

@@ -1,4 +1,4 @@
-//! Processes over cells, in those pieces of a row in which they are due, and what they have changed there.
+//! Processes over cells in the due pieces of a row, and their changes there.
 #![allow(unsafe_code)]
 
 use super::pass::Pass;
@@ -10,17 +10,17 @@ use crate::tiles::Tiles;
 use std::ops::Range;
 use xca_core::kernel::MemoryOf;
 
-/// What a process has done in a row.
+/// The work of a process in a row.
 #[derive(Default)]
 pub(super) struct Done {
-    /// The cells that it has worked on.
+    /// The number of updated cells.
     pub(super) cells: usize,
     /// The largest radius of a search.
     pub(super) widest: f64,
 }
 
 impl Pass<'_> {
-    /// Runs a process over cells where it is due in a row.
+    /// Runs a process over the due cells of a row.
     pub(super) fn run_pieces(
         &self,
         activity: &Activity,
@@ -37,7 +37,7 @@ impl Pass<'_> {
             marks.clear();
             marks.resize(tiles.words(), 0);
         }
-        // Where one cell has asked for a random number, no more than its tile stays due.
+        // One tile at a time: if a cell requests a random number, only its tile stays due.
         let most = if prepared.process.uses_step { 1 } else { usize::MAX };
         let mut done = Done::default();
         let mut from = 0;
@@ -78,8 +78,8 @@ impl Pass<'_> {
     }
 }
 
-/// The bytes of a piece in each plane that a process writes, and those that stood there before where these
-/// are in other memory.
+/// The bytes of a piece in each plane that a process writes. Includes the earlier bytes if they are in other
+/// memory.
 fn planes<'a>(shared: &'a Shared, piece: &Cells) -> impl Iterator<Item = Plane<'a>> {
     let element = shared.memory.element;
     let (first, bytes) = (piece.first * element, piece.length * element);
@@ -110,14 +110,14 @@ struct Plane<'a> {
     before: Option<&'a [u8]>,
 }
 
-/// Copies what a process is about to write in place.
+/// Copies the values that a process is about to overwrite in place.
 fn keep(shared: &Shared, piece: &Cells, before: &mut Vec<u8>) {
     for plane in planes(shared, piece).filter(|plane| plane.before.is_none()) {
         before.extend_from_slice(plane.now);
     }
 }
 
-/// Marks the tiles in which a substate is not what it was. Gives what is left of the copies.
+/// Marks the tiles in which a substate has changed. Returns the unused rest of the copies.
 fn compare<'a>(
     shared: &Shared,
     piece: &Cells,
@@ -144,7 +144,7 @@ fn compare<'a>(
             };
             if differs(&cells) {
                 Tiles::mark(here, tile);
-                // Few tiles see what changes in the middle of one.
+                // Few tiles see a change in the middle of another tile.
                 let ends = [cells.start, cells.end.saturating_sub(tiles.reach()).max(cells.start)];
                 let [low, high] = ends.map(|end| end..(end + tiles.reach()).min(cells.end));
                 let seen = if cells.len() <= 2 * tiles.reach() {

@@ -1,4 +1,4 @@
-//! What a pass needs before its rows: halos and second buffers, and where everything lies in memory.
+//! Preparation of a pass: halos, second buffers and addresses.
 
 use super::ground::{Ground, StageOfStep};
 use super::prepared::{Prepared, prepare};
@@ -12,18 +12,17 @@ use xca_core::engine::{StepContext, SubstateId};
 pub(super) struct Ready<'a> {
     pub(super) processes: Vec<Prepared<'a>>,
     pub(super) context: StepContext<'a>,
-    /// The substates that it writes, and whether to a second buffer.
+    /// The substates that it writes, and for each whether it uses the second buffer.
     pub(super) written: Vec<(SubstateId, bool)>,
     pub(super) searches: Searches,
     pub(super) measured: Vec<Measured>,
-    /// Whether rows are continued beyond the faces along y and z, too, as passes that follow in the wake see
-    /// them there.
+    /// Whether rows are also continued beyond the faces along y and z, where the following passes read them.
     pub(super) continues_lines: bool,
 }
 
 impl<'a> Ready<'a> {
-    /// After this the groups are as the pass will leave them: what it writes to second buffers is read from
-    /// now on, by passes that are made ready after it. `in_wake` says that there are such.
+    /// Prepares a pass, and leaves the groups in their state after it. Passes prepared later read the second
+    /// buffers that this one writes. `in_wake` is set if there are such passes.
     pub(super) fn new(
         Ground { model, layout, precision }: Ground<'a>,
         groups: &mut [Group],
@@ -60,8 +59,8 @@ impl<'a> Ready<'a> {
     }
 }
 
-/// Fills halos that will be read and makes second buffers; gives the substates that the pass writes, and
-/// whether to a second buffer.
+/// Fills the halos that will be read, and makes second buffers. Returns the substates that the pass writes,
+/// and for each whether it uses the second buffer.
 fn prepare_buffers(
     model: &Model,
     layout: &Layout,

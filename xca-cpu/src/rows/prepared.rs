@@ -1,4 +1,4 @@
-//! Processes made ready for a pass: where the memory of their substates starts.
+//! Processes prepared for a pass: the addresses of their substates.
 #![allow(unsafe_code)]
 
 use crate::group::Group;
@@ -7,16 +7,16 @@ use xca_core::engine::SubstateId;
 use xca_core::kernel::{Access, Entry, Memory, MemoryOf, RowKernel};
 use xca_core::{Model, Precision, Process};
 
-/// Where a substate's memory starts, shared by the threads.
+/// The address of a substate's memory, shared by the threads.
 #[derive(Clone, Copy)]
 pub(super) struct Shared {
     pub(super) substate: SubstateId,
-    /// Null where the process reads what it writes, in place.
+    /// Null if the process writes in place, and reads there too.
     pub(super) read: *const u8,
-    /// Null where the process does not write.
+    /// Null if the process does not write.
     pub(super) write: *mut u8,
     pub(super) memory: Memory,
-    /// Whether what is written has to go on into the halo along x.
+    /// Whether the written rows must be continued into the halo.
     pub(super) continued: bool,
 }
 
@@ -27,7 +27,7 @@ unsafe impl Send for Shared {}
 unsafe impl Sync for Shared {}
 
 impl Shared {
-    /// What a kernel gets for the row whose first cell has this padded number, and whose first item this one.
+    /// The entry for the row with this first cell (padded index) and this first item.
     pub(super) fn entry(&self, first_cell: usize, first_item: usize) -> Entry {
         let (element, length) = (self.memory.element, self.memory.length);
         let (read, write) = match self.memory.of {
@@ -45,19 +45,19 @@ impl Shared {
     }
 }
 
-/// A process made ready for a pass.
+/// A process prepared for a pass.
 pub(super) struct Prepared<'a> {
     pub(super) process: &'a Process,
-    /// Its place in the step.
+    /// Its index in the step.
     pub(super) index: usize,
-    /// Its place in the pass.
+    /// Its index in the pass.
     pub(super) number: usize,
     pub(super) kernel: RowKernel,
     pub(super) substates: Vec<Shared>,
     pub(super) population: Option<usize>,
 }
 
-/// Makes a process ready that has this number in the pass and this index in the model.
+/// Prepares the process with index `number` in the pass and `index` in the model.
 pub(super) fn prepare<'a>(
     model: &'a Model,
     layout: &Layout,

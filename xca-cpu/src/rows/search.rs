@@ -1,4 +1,4 @@
-//! What searches of a pass need: which cells they leave out, and lists of what is near.
+//! Preparation of the searches of a pass: the filter of cells, and neighbour lists.
 #![allow(unsafe_code)]
 
 use crate::group::{Group, population};
@@ -9,16 +9,16 @@ use crate::upkeep::keep_lists;
 use xca_core::kernel::CellFilter;
 use xca_core::{Faces, Model, Precision, Process, ProcessKind};
 
-/// What the searches of a pass go by.
+/// The data for the searches of a pass.
 pub(super) struct Searches {
     /// The populations that are searched.
     pub(super) populations: Vec<usize>,
     pub(super) filter: Option<CellFilter>,
-    /// For each group within which radius, in metres, searches can use lists.
+    /// The largest radius in metres for which searches can use lists, by group.
     pub(super) listed: Vec<Option<f64>>,
 }
 
-/// The populations in which processes search.
+/// The populations that processes search.
 fn searched(model: &Model, processes: &[usize]) -> Vec<usize> {
     let searches = |process: &Process| {
         let position = process.subject().schema.position;
@@ -35,7 +35,7 @@ fn searched(model: &Model, processes: &[usize]) -> Vec<usize> {
     numbers
 }
 
-/// Measures what has to be known, and keeps the lists.
+/// Measures populations as needed, and keeps their lists up to date.
 pub(super) fn prepare(
     model: &Model,
     layout: &Layout,
@@ -45,8 +45,7 @@ pub(super) fn prepare(
 ) -> Searches {
     let populations = searched(model, processes);
     let mut searches = Searches { populations, filter: None, listed: vec![None; groups.len()] };
-    // In a part the places of items that are seen across its borders are of a stage alone: lists do not know
-    // them.
+    // In a part of a space, the places of ghosts hold only for a stage. Lists cannot refer to them.
     if searches.populations.is_empty() || layout.borders() != Faces::all(false) {
         return searches;
     }
@@ -75,14 +74,14 @@ pub(super) fn prepare(
     searches
 }
 
-/// What a pass measures of a population while its rows are in the cache.
+/// A population that a pass measures while its rows are in the cache.
 #[derive(Clone, Copy)]
 pub(super) struct Measured {
     pub(super) population: usize,
-    /// The positions of its items, and the bytes of one.
+    /// The address of its positions, and the size of each in bytes.
     positions: *const u8,
     size: usize,
-    /// Whether the pass migrates it.
+    /// Whether the pass migrates the population.
     migrates: bool,
 }
 
@@ -92,8 +91,8 @@ unsafe impl Send for Measured {}
 unsafe impl Sync for Measured {}
 
 impl Measured {
-    /// The populations that are searched and whose positions or cells a pass changes; not those whose
-    /// positions go to a second buffer.
+    /// The populations that are searched and whose positions or cells a pass changes. Excludes those whose
+    /// positions are written to a second buffer.
     pub(super) fn all(
         model: &Model,
         groups: &mut [Group],

@@ -1,44 +1,44 @@
-//! What a thread keeps from row to row, and what it hands to a kernel.
+//! The buffers that a thread keeps from row to row, and the input of a kernel.
 
 use super::now::Now;
 use xca_core::kernel::{Entry, Scratch};
 
-/// What a kernel has done in some cells.
+/// The outcome of a kernel in some cells.
 #[derive(Default)]
 pub(super) struct Outcome {
     /// The largest radius of a search.
     pub(super) widest: f64,
-    /// Whether the result may be another one in another step.
+    /// Whether the result may depend on the step.
     pub(super) asked_for_step: bool,
 }
 
-/// Lists that are kept from row to row.
+/// Buffers kept from row to row.
 pub(super) struct Work<'a> {
     pub(super) entries: Vec<Entry>,
-    /// A migration's answers for the items of a row.
+    /// The results of a migration for the items of a row.
     pub(super) answers: Vec<u32>,
     pub(super) scratch: Scratch,
     pub(super) pieces: Pieces,
     pub(super) now: &'a Now,
 }
 
-/// The cells that a kernel is given.
+/// The cells for a kernel.
 pub(super) struct Cells {
-    /// The padded number of the first.
+    /// The padded index of the first cell.
     pub(super) first: usize,
     pub(super) origin: [u32; 3],
     pub(super) length: usize,
-    /// Their items.
+    /// The places of their items.
     pub(super) own: (usize, usize),
 }
 
-/// Marks and copies of a row, for processes that run in pieces of it.
+/// Marks and copies of a row, for processes that run in its due pieces.
 #[derive(Default)]
 pub(super) struct Pieces {
-    /// The tiles of a row that are due.
+    /// The due tiles of a row.
     pub(super) due: Vec<u64>,
-    /// What a piece held before a process wrote to it in place.
+    /// The values of a piece before a process overwrote them in place.
     pub(super) before: Vec<u8>,
-    /// For each substate of the process the tiles that have changed, and those from which that is seen.
+    /// For each substate of the process, the tiles that have changed and the tiles that see the change.
     pub(super) changes: Vec<[Vec<u64>; 2]>,
 }

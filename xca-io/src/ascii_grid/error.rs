@@ -1,41 +1,41 @@
-//! What can go wrong with grids.
+//! Errors of ASCII grids.
 
 use std::io;
 use std::num::ParseFloatError;
 use std::path::PathBuf;
 
-/// A grid that cannot be read, or says what cannot be.
+/// A grid that cannot be read, or that holds impossible values.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadGridError {
-    /// The file is not there or not readable.
+    /// The file does not exist or is not readable.
     #[error("cannot open the grid {}", path.display())]
     Open {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
-    /// Reading broke off, or the file is no text.
+    /// Reading stopped early, or the file is not text.
     #[error("{}:{line}: cannot read the grid on", path.display())]
     Read {
         /// The file.
         path: PathBuf,
         /// The line.
         line: u64,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
-    /// A key of the header that makes no sense.
+    /// A key of the header has an invalid value.
     #[error("{}:{line}: `{key}` {problem}", path.display())]
     Key {
         /// The file.
         path: PathBuf,
         /// The line.
         line: u64,
-        /// The key as it stands there.
+        /// The key as the file spells it.
         key: String,
-        /// What is wrong with it.
+        /// The problem.
         problem: String,
     },
     /// The header lacks a key.
@@ -49,7 +49,7 @@ pub enum ReadGridError {
         /// The key.
         key: &'static str,
     },
-    /// `dx` and `dy` that differ.
+    /// `dx` and `dy` differ.
     #[error("{}: the cells are not square: dx is {dx} and dy {dy}; resample the grid to square cells", path.display())]
     NotSquare {
         /// The file.
@@ -59,13 +59,13 @@ pub enum ReadGridError {
         /// The side along y.
         dy: f64,
     },
-    /// The side of a cell is given twice.
+    /// The header gives the side of a cell twice.
     #[error("{}: the header gives cellsize, and dx or dy; keep one of them", path.display())]
     TwoSides {
         /// The file.
         path: PathBuf,
     },
-    /// The file begins with numbers.
+    /// The file begins with numbers instead of a header.
     #[error(
         "{}: the grid has no header; put the lines ncols, nrows, xllcorner, yllcorner and cellsize before its \
          numbers (docs/maps.md, \"Grids without a header\")",
@@ -75,7 +75,7 @@ pub enum ReadGridError {
         /// The file.
         path: PathBuf,
     },
-    /// A grid without a header that has other rows or columns than the model.
+    /// A grid without a header has other rows or columns than the model.
     #[error(
         "{}{}: the grid has no header, and {found}, not {wanted} as the model",
         path.display(), line.map(|line| format!(":{line}")).unwrap_or_default()
@@ -83,14 +83,14 @@ pub enum ReadGridError {
     Matrix {
         /// The file.
         path: PathBuf,
-        /// The line, where one is to blame.
+        /// The line with the error, if there is one.
         line: Option<u64>,
-        /// What it has, in words.
+        /// The number found, with its unit.
         found: String,
-        /// How many there should be.
+        /// The number expected.
         wanted: usize,
     },
-    /// A number that is infinite, or beyond what a floating number can be.
+    /// A number is infinite or beyond the range of `f64`.
     #[error("{}:{line}: `{text}` is not a finite number", path.display())]
     Infinite {
         /// The file.
@@ -100,7 +100,7 @@ pub enum ReadGridError {
         /// The text.
         text: String,
     },
-    /// A text that is no number.
+    /// A text is not a number.
     #[error("{}:{line}: `{text}` is not a number", path.display())]
     Number {
         /// The file.
@@ -109,10 +109,10 @@ pub enum ReadGridError {
         line: u64,
         /// The text.
         text: String,
-        /// Why it is none.
+        /// The error of the parser.
         source: ParseFloatError,
     },
-    /// More or fewer values than cells.
+    /// The number of values differs from the number of cells.
     #[error(
         "{}{}: {found} values, but {} columns and {} rows have {cells} cells",
         path.display(), line.map(|line| format!(":{line}")).unwrap_or_default(), extents[0], extents[1]
@@ -120,13 +120,13 @@ pub enum ReadGridError {
     Count {
         /// The file.
         path: PathBuf,
-        /// The line with the first value that is too much.
+        /// The line of the first surplus value.
         line: Option<u64>,
         /// Columns and rows.
         extents: [usize; 2],
-        /// How many cells that is.
+        /// The number of cells.
         cells: usize,
-        /// How many values there are, in words.
+        /// The number of values, as text.
         found: String,
     },
 }

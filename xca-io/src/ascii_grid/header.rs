@@ -4,12 +4,12 @@ use super::ReadGridError;
 use crate::placement::Placement;
 use std::path::Path;
 
-/// Where the corner that a header gives lies.
+/// A coordinate of the first cell, as the header gives it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Origin {
-    /// It is the corner of the first cell.
+    /// The corner of the first cell.
     Corner(f64),
-    /// It is the centre of the first cell.
+    /// The centre of the first cell.
     Centre(f64),
 }
 
@@ -23,7 +23,7 @@ impl Origin {
     }
 }
 
-/// What was found so far.
+/// The keys found so far.
 #[derive(Debug, Default)]
 pub(super) struct Header {
     pub(super) columns: Option<usize>,
@@ -31,13 +31,13 @@ pub(super) struct Header {
     pub(super) x: Option<Origin>,
     pub(super) y: Option<Origin>,
     pub(super) side: Option<f64>,
-    /// The sides along x and y, which serve in place of `side` where they are equal.
+    /// The sides along x and y. They replace `side` if they are equal.
     pub(super) sides: [Option<f64>; 2],
-    /// The number that stands for none.
+    /// The NODATA value.
     pub(super) nothing: Option<f64>,
 }
 
-/// A line of a file.
+/// A line of a file, for error messages.
 #[derive(Clone, Copy)]
 pub(super) struct Place<'a> {
     pub(super) path: &'a Path,
@@ -45,7 +45,7 @@ pub(super) struct Place<'a> {
 }
 
 impl Place<'_> {
-    /// A text as a number.
+    /// Parses a number.
     pub(super) fn number(self, text: &str) -> Result<f64, ReadGridError> {
         text.parse().map_err(|source| ReadGridError::Number {
             path: self.path.to_owned(),
@@ -55,7 +55,7 @@ impl Place<'_> {
         })
     }
 
-    /// A number of a cell: infinite ones have no meaning.
+    /// Parses the number of a cell. Rejects infinities.
     pub(super) fn value(self, text: &str) -> Result<f64, ReadGridError> {
         let number = self.number(text)?;
         if number.is_infinite() {
@@ -72,7 +72,7 @@ impl Place<'_> {
 }
 
 impl Header {
-    /// Takes in a line of keys, each with the word after it.
+    /// Parses a line of keys, each with the word after it.
     pub(super) fn take_all<'a>(
         &mut self,
         place: Place<'_>,
@@ -88,7 +88,7 @@ impl Header {
         Ok(())
     }
 
-    /// Takes in a key with the word after it.
+    /// Parses a key with the word after it.
     pub(super) fn take(
         &mut self,
         place: Place<'_>,
@@ -131,7 +131,7 @@ impl Header {
         if is_new { Ok(()) } else { Err(place.key(key, "stands twice in the header")) }
     }
 
-    /// Where the grid lies.
+    /// The place of the grid on the map.
     pub(super) fn placement(&self, path: &Path) -> Result<Placement, ReadGridError> {
         let missing = |key| ReadGridError::MissingKey { path: path.to_owned(), key };
         let columns = self.columns.ok_or_else(|| missing("ncols"))?;
@@ -152,7 +152,7 @@ impl Header {
             && numbers.iter().all(Option::is_none)
     }
 
-    /// The side of a cell, by whichever keys it is given.
+    /// The side of a cell, from `cellsize` or from `dx` and `dy`.
     fn side(&self, path: &Path) -> Result<f64, ReadGridError> {
         let path = || path.to_owned();
         match (self.side, self.sides) {
@@ -167,7 +167,7 @@ impl Header {
     }
 }
 
-/// Keys begin with a letter; so do numbers that are infinite or NaN.
+/// Whether a word is a key. Keys begin with a letter, but so do infinity and NaN.
 pub(super) fn is_key(word: &str) -> bool {
     word.starts_with(|first: char| first.is_ascii_alphabetic()) && word.parse::<f64>().is_err()
 }

@@ -1,4 +1,4 @@
-//! Reading a grid.
+//! The reader of grids.
 
 use super::ReadGridError;
 use super::header::{Header, Place, is_key};
@@ -10,7 +10,7 @@ use std::fs::File;
 use std::io::{self, BufReader};
 use std::path::Path;
 
-/// What stands for no value unless the header says otherwise.
+/// The default NODATA value.
 const NOTHING: f64 = -9999.0;
 
 pub(super) fn read(path: &Path, on: Option<Placement>) -> Result<Raster, ReadGridError> {
@@ -57,7 +57,7 @@ pub(super) fn read(path: &Path, on: Option<Placement>) -> Result<Raster, ReadGri
     Ok(Raster { placement, values: from_the_south(values, extents[0]), coordinate_system: None })
 }
 
-/// The rest of a file that has no header: a line for each row.
+/// Reads the rest of a file without a header: one line per row.
 fn matrix(mut lines: Lines<'_>, placement: Placement) -> Result<Raster, ReadGridError> {
     let [columns, rows] = placement.extents;
     let other = |line, found: String, wanted| ReadGridError::Matrix {
@@ -92,15 +92,15 @@ fn matrix(mut lines: Lines<'_>, placement: Placement) -> Result<Raster, ReadGrid
 }
 
 fn value(place: Place<'_>, word: &str, nothing: f64) -> Result<f64, ReadGridError> {
-    // A number that stands for none may be infinite.
+    // NODATA may be infinite.
     let number = place.number(word)?;
     if stands_for_none(number, nothing) { Ok(f64::NAN) } else { place.value(word) }
 }
 
-/// The lines of a file, one at a time.
+/// The lines of a file, read one at a time.
 struct Lines<'a> {
     file: BufReader<File>,
-    /// The bytes of the file.
+    /// The length of the file in bytes.
     length: u64,
     place: Place<'a>,
     text: String,
@@ -115,12 +115,12 @@ impl<'a> Lines<'a> {
         Ok(Self { file, length, place: Place { path, line: 0 }, text: String::new() })
     }
 
-    /// How many values the file can have: each takes a digit, and a blank before the next.
+    /// An upper limit of the number of values: each takes a digit and a blank.
     fn most_values(&self) -> usize {
         usize::try_from(self.length / 2 + 1).unwrap_or(usize::MAX)
     }
 
-    /// Goes to the next line; there is none after the last.
+    /// Goes to the next line. Returns `false` at the end of the file.
     fn advance(&mut self) -> Result<bool, ReadGridError> {
         self.place.line += 1;
         let Place { path, line } = self.place;
@@ -133,7 +133,7 @@ impl<'a> Lines<'a> {
     }
 
     fn words(&self) -> impl Iterator<Item = &str> {
-        // Some programs begin a text with a mark of its byte order.
+        // Some programs begin a text with a byte order mark.
         self.text.trim_start_matches('\u{feff}').split_ascii_whitespace()
     }
 }

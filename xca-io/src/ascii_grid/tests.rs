@@ -39,7 +39,7 @@ fn every_number_comes_back_with_its_bits() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("dem.asc");
     let mut values = vec![0.1 + 0.2, -0.0, 5e-324, f64::MAX, -9999.0, -99999.0, 1e16, 1e-5];
-    // Bits from a simple generator: all exponents, all mantissas.
+    // Random bits: all exponents, all mantissas.
     let mut bits = 1_u64;
     while values.len() < 2000 {
         bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -132,7 +132,7 @@ fn numbers_that_stand_for_no_value_are_told_by_what_they_mean() {
         (0..3).map(|x| grid.value([x, 1])).collect::<Vec<_>>()
     };
     let hole = [Some(1.0), None, Some(3.0)];
-    // The format's own, where no line names one.
+    // The default of the format.
     assert_eq!(values("", "1 -9999 3"), hole);
     assert_eq!(values("NODATA_value -1", "1 -9999 3")[1], Some(-9999.0));
     // Few digits in the header, or in the cells.
@@ -152,7 +152,7 @@ fn numbers_that_stand_for_no_value_are_told_by_what_they_mean() {
             "{header} {cell}"
         );
     }
-    // What is near is a value.
+    // A number close to NODATA is a value.
     assert_eq!(values("NODATA_value 0", "1 1e-60 3")[1], Some(1e-60));
     assert_eq!(values("NODATA_value -9999", "1 -9998.99 3")[1], Some(-9998.99));
     assert_eq!(values("NODATA_value -3.4e38", "1 3.4e38 3")[1], Some(3.4e38));
@@ -231,7 +231,7 @@ fn a_matrix_is_read_where_the_cells_are_known() {
     };
     let grid = read("1 2.5 3\n\n4 -9999 6\n").unwrap();
     assert_eq!((grid.placement(), grid.value([1, 1]), grid.value([1, 0])), (placement, Some(2.5), None));
-    // A header wins.
+    // The header takes precedence.
     assert_eq!(read("ncols 1\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 5\n7\n").unwrap().side(), 5.0);
     assert!(
         read("1 2\n3 4\n5 6\n")

@@ -2,7 +2,7 @@
 
 use super::Space;
 
-/// `Lattice`, `Origin` and `pbc`, with a blank after them.
+/// `Lattice`, `Origin` and `pbc`, followed by a blank.
 pub(super) fn lattice(space: Option<&Space>) -> String {
     let Some(Space { origin: [x, y, z], sides: [a, b, c], periodic }) = space else {
         return "pbc=\"F F F\" ".to_owned();
@@ -17,7 +17,7 @@ pub(super) fn lattice(space: Option<&Space>) -> String {
 #[derive(Debug, PartialEq)]
 pub(super) struct Pair<'a> {
     pub(super) key: &'a str,
-    /// Without quotes; empty of a key that stands alone.
+    /// The value without quotes. Empty if the key has no value.
     pub(super) value: &'a str,
 }
 

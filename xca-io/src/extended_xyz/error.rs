@@ -1,4 +1,4 @@
-//! What can go wrong with extended XYZ.
+//! Errors of extended XYZ.
 
 use crate::atomic::WriteError;
 use std::io;
@@ -11,7 +11,7 @@ pub enum WriteXyzError {
     /// The file.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// A name that is more than one word.
+    /// A name is more than one word.
     #[error(
         "cannot write {}: the column name `{}` must be one word without `:`",
         path.display(), column.escape_debug()
@@ -22,7 +22,7 @@ pub enum WriteXyzError {
         /// The name.
         column: String,
     },
-    /// Two columns of one name.
+    /// Two columns have the same name.
     #[error("cannot write {}: two columns are named `{column}`", path.display())]
     Repeated {
         /// The file.
@@ -30,7 +30,7 @@ pub enum WriteXyzError {
         /// The name.
         column: String,
     },
-    /// A column that is too long or too short.
+    /// A column has the wrong length.
     #[error(
         "cannot write {}: column `{column}` has {found} values for {particles} particles of {components} \
          components",
@@ -41,14 +41,14 @@ pub enum WriteXyzError {
         path: PathBuf,
         /// The column.
         column: String,
-        /// Its values.
+        /// The number of its values.
         found: usize,
-        /// The particles.
+        /// The number of particles.
         particles: usize,
-        /// The components of the column.
+        /// The number of components of the column.
         components: usize,
     },
-    /// A text that is more than one word.
+    /// A text is more than one word.
     #[error(
         "cannot write {}: `{}` in column `{column}` must be one word",
         path.display(), text.escape_debug()
@@ -67,32 +67,32 @@ pub enum WriteXyzError {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadXyzError {
-    /// The file is not there or not readable.
+    /// The file does not exist or is not readable.
     #[error("cannot open the particles {}", path.display())]
     Open {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
-    /// Reading broke off, or the file is no text.
+    /// Reading stopped early, or the file is not text.
     #[error("{}:{line}: cannot read the particles on", path.display())]
     Read {
         /// The file.
         path: PathBuf,
         /// The line.
         line: u64,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
-    /// A line that makes no sense.
+    /// A line is invalid.
     #[error("{}:{line}: {problem}", path.display())]
     Line {
         /// The file.
         path: PathBuf,
         /// The line, from 1.
         line: u64,
-        /// What is wrong with it.
+        /// The problem.
         problem: String,
     },
 }

@@ -1,4 +1,4 @@
-//! Reading extended XYZ.
+//! The reader of extended XYZ.
 
 use super::comment::pairs;
 use super::{POSITIONS, ReadXyzError, Space};
@@ -12,9 +12,9 @@ use std::str::FromStr;
 /// A frame of a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReadFrame {
-    /// The simulated time, where the file tells it.
+    /// The simulated time, if the file gives it.
     pub time: Option<f64>,
-    /// The space, where the file tells it.
+    /// The space, if the file gives it.
     pub space: Option<Space>,
     /// The positions of the particles.
     pub positions: Vec<[f64; 3]>,
@@ -25,9 +25,9 @@ pub struct ReadFrame {
 /// A column of a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReadColumn {
-    /// What `Properties` calls it.
+    /// Its name in `Properties`.
     pub name: String,
-    /// The values of a particle.
+    /// The number of values per particle.
     pub components: usize,
     /// All values, one particle after the other.
     pub values: ReadValues,
@@ -45,8 +45,8 @@ pub enum ReadValues {
 
 /// Reads all frames of a file.
 ///
-/// The lattice must be a box along the axes. Columns other than `pos` may have any names, and keys other than
-/// `Lattice`, `Origin`, `Properties`, `pbc` and `Time` are passed over. Without `pbc` a lattice is periodic
+/// The lattice must be a box along the axes. Columns other than `pos` may have any names. Keys other than
+/// `Lattice`, `Origin`, `Properties`, `pbc` and `Time` are ignored. Without `pbc`, a lattice is periodic
 /// along all axes, as the format says.
 ///
 /// # Errors
@@ -81,14 +81,14 @@ pub fn read(path: &Path) -> Result<Vec<ReadFrame>, ReadXyzError> {
     Ok(frames)
 }
 
-/// A frame with the place of its positions among the columns.
+/// A frame in progress, with the place of `pos` among its columns.
 struct Partial {
     frame: ReadFrame,
-    /// The number of columns before them.
+    /// The number of other columns before `pos`.
     before: usize,
 }
 
-/// A frame with what the line of keys tells, and no particles.
+/// Reads the line of keys. Returns a frame without particles.
 fn keys(lines: &Lines<'_>) -> Result<Partial, ReadXyzError> {
     let pairs = pairs(&lines.text).map_err(|problem| lines.problem(problem))?;
     let value = |wanted: &str| pairs.iter().find(|pair| pair.key == wanted).map(|pair| pair.value);
@@ -145,7 +145,7 @@ fn keys(lines: &Lines<'_>) -> Result<Partial, ReadXyzError> {
     Ok(Partial { frame: ReadFrame { time, space, positions: Vec::new(), columns }, before })
 }
 
-/// Takes in the line of a particle.
+/// Reads the line of a particle.
 fn particle(lines: &Lines<'_>, partial: &mut Partial) -> Result<(), ReadXyzError> {
     let Partial { frame, before } = partial;
     let mut words = lines.text.split_whitespace();
@@ -175,7 +175,7 @@ fn particle(lines: &Lines<'_>, partial: &mut Partial) -> Result<(), ReadXyzError
     }
 }
 
-/// The lines of a file, one at a time.
+/// The lines of a file, read one at a time.
 struct Lines<'a> {
     path: &'a Path,
     file: BufReader<File>,
@@ -184,7 +184,7 @@ struct Lines<'a> {
 }
 
 impl Lines<'_> {
-    /// Goes to the next line; there is none after the last.
+    /// Goes to the next line. Returns `false` at the end of the file.
     fn advance(&mut self) -> Result<bool, ReadXyzError> {
         self.line += 1;
         let failed = |source| ReadXyzError::Read { path: self.path.to_owned(), line: self.line, source };
@@ -199,7 +199,7 @@ impl Lines<'_> {
         ReadXyzError::Line { path: self.path.to_owned(), line: self.line, problem }
     }
 
-    /// What is wrong with a word, which may hold anything.
+    /// The error for a word with any content.
     fn wrong(&self, word: &str, problem: &str) -> ReadXyzError {
         let word: String = word.escape_debug().take(60).collect();
         self.problem(format!("`{word}` {problem}"))

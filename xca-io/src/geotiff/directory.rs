@@ -1,9 +1,9 @@
-//! The first directory of a TIFF, before it is decoded: the decoder makes room for as many values as a tag
+//! Checks the first directory of a TIFF before decoding. The decoder allocates as many values as a tag
 //! claims.
 
 use std::io::{self, Read, Seek, SeekFrom};
 
-/// A tag takes so many bytes of the file; the offset of a directory and the number of its tags too.
+/// Sizes in bytes: a tag, the offset of a directory, and the number of its tags.
 struct Layout {
     tag: usize,
     offset: usize,
@@ -13,8 +13,8 @@ struct Layout {
 const CLASSIC: Layout = Layout { tag: 12, offset: 4, count: 2 };
 const BIG: Layout = Layout { tag: 20, offset: 8, count: 8 };
 
-/// Whether no tag claims more values than a file of so many bytes can hold. What is no TIFF at all is for the
-/// decoder to say.
+/// Whether a file of `bytes` bytes can hold all values that its tags claim. Returns `true` for a file that is
+/// not a TIFF, which the decoder reports.
 pub(super) fn fits(file: &mut (impl Read + Seek), bytes: u64) -> io::Result<bool> {
     let result = match find(file)? {
         Some(directory) => directory.fits(file, bytes)?,
@@ -66,7 +66,7 @@ impl Directory {
     }
 }
 
-/// A number without sign of up to 8 bytes.
+/// Reads an unsigned integer of up to 8 bytes.
 fn number(bytes: &[u8], is_little: bool) -> u64 {
     let add = |sum: u64, byte: &u8| sum << 8 | u64::from(*byte);
     if is_little { bytes.iter().rev().fold(0, add) } else { bytes.iter().fold(0, add) }
@@ -77,7 +77,7 @@ mod tests {
     use super::*;
     use std::io::Cursor;
 
-    /// A header and a directory of one tag with so many values.
+    /// A header and a directory with one tag that claims `values` values.
     fn file(is_little: bool, is_big: bool, values: u32) -> Vec<u8> {
         let number = |value: u64, bytes: usize| -> Vec<u8> {
             let all = value.to_be_bytes();

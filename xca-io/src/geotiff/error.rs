@@ -1,4 +1,4 @@
-//! What can go wrong with GeoTIFF files.
+//! Errors of GeoTIFF files.
 
 use std::io;
 use std::path::PathBuf;
@@ -8,23 +8,23 @@ use tiff::TiffError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadGeoTiffError {
-    /// The file is not there or not readable.
+    /// The file does not exist or is not readable.
     #[error("cannot open the GeoTIFF {}", path.display())]
     Open {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
-    /// The file is no TIFF, is damaged, or is of a kind that cannot be decoded.
+    /// The file is not a TIFF, is damaged, or has an unsupported encoding.
     #[error("cannot read the GeoTIFF {}", path.display())]
     Decode {
         /// The file.
         path: PathBuf,
-        /// What the decoder said.
+        /// The error of the decoder.
         source: TiffError,
     },
-    /// Its samples are none that a cell can have.
+    /// The samples have an unsupported type.
     #[error(
         "{}: the GeoTIFF has {found}; convert it with `gdal_translate -ot Float32`",
         path.display()
@@ -32,10 +32,10 @@ pub enum ReadGeoTiffError {
     Samples {
         /// The file.
         path: PathBuf,
-        /// What the samples are.
+        /// The type of the samples.
         found: String,
     },
-    /// It has more cells than can be held.
+    /// The image has too many cells.
     #[error(
         "{}: the GeoTIFF has {} x {} cells, which do not fit into memory",
         path.display(), extents[0], extents[1]
@@ -46,7 +46,7 @@ pub enum ReadGeoTiffError {
         /// Columns and rows.
         extents: [usize; 2],
     },
-    /// It has no georeference.
+    /// The file has no georeference.
     #[error(
         "{}: the GeoTIFF does not say where it lies; set its corners with `gdal_edit.py -a_ullr`",
         path.display()
@@ -55,7 +55,7 @@ pub enum ReadGeoTiffError {
         /// The file.
         path: PathBuf,
     },
-    /// It has no georeference, and other cells than the model.
+    /// The file has no georeference, and other extents than the model.
     #[error(
         "{}: the GeoTIFF does not say where it lies, and it has {} x {} cells, not {} x {} as the model",
         path.display(), found[0], found[1], wanted[0], wanted[1]
@@ -63,28 +63,28 @@ pub enum ReadGeoTiffError {
     Cells {
         /// The file.
         path: PathBuf,
-        /// Its columns and rows.
+        /// Columns and rows of the file.
         found: [usize; 2],
-        /// Those of the model.
+        /// Columns and rows of the model.
         wanted: [usize; 2],
     },
-    /// A georeference that makes no sense.
+    /// The georeference is invalid.
     #[error("{}: the tag {tag} of the GeoTIFF {problem}", path.display())]
     Tag {
         /// The file.
         path: PathBuf,
         /// The name of the tag.
         tag: &'static str,
-        /// What is wrong with it.
+        /// The problem.
         problem: String,
     },
-    /// Its rows do not run from west to east.
+    /// The rows do not run from west to east.
     #[error("{}: the GeoTIFF is rotated; warp it with `gdalwarp`", path.display())]
     Rotated {
         /// The file.
         path: PathBuf,
     },
-    /// Its cells are not square.
+    /// The cells are not square.
     #[error(
         "{}: the cells are not square: {dx} along x and {dy} along y; resample the GeoTIFF to square cells",
         path.display()
@@ -97,7 +97,7 @@ pub enum ReadGeoTiffError {
         /// The side along y.
         dy: f64,
     },
-    /// An infinite value.
+    /// A value is infinite.
     #[error(
         "{}: {value} in column {}, row {} from the north is not a finite number",
         path.display(), place[0], place[1]

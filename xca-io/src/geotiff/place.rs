@@ -1,17 +1,17 @@
-//! Where the pixels of a GeoTIFF lie.
+//! The place of the pixels of a GeoTIFF.
 
 use super::{GeoKeys, ReadGeoTiffError};
 use crate::placement::Placement;
 use std::path::Path;
 
-/// The tags of the georeference, empty where they are missing.
+/// The tags of the georeference. Missing tags are empty.
 #[derive(Debug, Default)]
 pub(super) struct Georeference {
     /// `ModelPixelScale`: the sides of a pixel along x and y.
     pub(super) scale: Vec<f64>,
     /// `ModelTiepoint`: column, row, depth; x, y, z.
     pub(super) tiepoint: Vec<f64>,
-    /// `ModelTransformation`: a matrix of 4 x 4.
+    /// `ModelTransformation`: a 4 x 4 matrix.
     pub(super) transformation: Vec<f64>,
 }
 
@@ -23,7 +23,7 @@ pub(super) struct Pixels {
     pub(super) from_the_south: bool,
 }
 
-/// x and y of the pixel corner `[0, 0]`, and the way along x and y to the next column and to the next row.
+/// The coordinates of the pixel corner `[0, 0]`, and the steps to the next column and to the next row.
 #[derive(Debug, Clone, Copy)]
 struct Axes {
     origin: [f64; 2],
@@ -32,7 +32,7 @@ struct Axes {
 }
 
 impl Georeference {
-    /// The place of an image with so many columns and rows; none without georeference.
+    /// The place of an image with these columns and rows. `None` without georeference.
     pub(super) fn pixels(
         &self,
         path: &Path,

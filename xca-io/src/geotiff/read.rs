@@ -1,4 +1,4 @@
-//! Reading a GeoTIFF, one strip or tile at a time.
+//! The reader of GeoTIFF, one strip or tile at a time.
 
 use super::place::{Georeference, Pixels};
 use super::{GeoKeys, ReadGeoTiffError, directory};
@@ -21,19 +21,19 @@ const LARGEST_CHUNK: usize = 1 << 30;
 /// The longest list of strips or tiles, in bytes.
 const LONGEST_LIST: usize = 1 << 26;
 
-/// The bytes that a tag or two may take in memory, also of a short file.
+/// The memory that one or two tags may take even in a short file, in bytes.
 const SHORT: usize = 1 << 20;
 
-/// The cells that any file may leave out.
+/// The number of cells that any file may leave out.
 const FEW: usize = 1 << 20;
 
 type Image = Decoder<BufReader<File>>;
 
-/// By what factor a strip or tile grows at most when it is expanded, by the number of its compression.
+/// The largest growth of a strip or tile when it is expanded, by the code of its compression.
 fn most_growth(compression: u16) -> u64 {
     match compression {
         NOT_COMPRESSED => 1,
-        // A code of 12 bits is a string of at most 4096 bytes.
+        // A code of 12 bits stands for at most 4096 bytes.
         LZW => 2731,
         // Two bytes become 128.
         PACK_BITS => 64,
@@ -58,8 +58,7 @@ pub(super) fn read(path: &Path, on: Option<Placement>) -> Result<Raster, ReadGeo
     }
     let undecoded = |source| ReadGeoTiffError::Decode { path: path.to_owned(), source };
     let most = usize::try_from(bytes).unwrap_or(usize::MAX);
-    // The header of a damaged file can tell any size: nothing is longer than the file, but for what is
-    // compressed.
+    // The header of a damaged file can claim any size. Uncompressed data is never longer than the file.
     let mut limits = Limits::default();
     limits.decoding_buffer_size = most.saturating_mul(size_of::<Value>()).saturating_add(SHORT);
     limits.intermediate_buffer_size = most.min(LARGEST_CHUNK);
@@ -82,7 +81,7 @@ pub(super) fn read(path: &Path, on: Option<Placement>) -> Result<Raster, ReadGeo
     let mut image = image.with_limits(limits);
     let mut values = band.values(path, &mut image, nothing)?;
     if let Some(cell) = values.iter().position(|value| value.is_infinite()) {
-        // Rows are still in the order of the file.
+        // Here the rows are still in the order of the file.
         let [column, row] = [cell % extents[0], cell / extents[0]];
         let north = if is_upside_down { extents[1] - row } else { row + 1 };
         let (path, place) = (path.to_owned(), [column + 1, north]);
@@ -133,7 +132,7 @@ fn keys(path: &Path, image: &mut Image) -> Result<Option<GeoKeys>, ReadGeoTiffEr
     GeoKeys::new(directory, doubles, &text).ok_or_else(broken).map(Some)
 }
 
-/// No text has more bytes.
+/// The longest text of a tag, in bytes.
 const LONGEST_TEXT: u64 = 1 << 16;
 
 /// The text of a tag.
@@ -144,7 +143,7 @@ fn text(
     name: &'static str,
 ) -> Result<Option<String>, ReadGeoTiffError> {
     let undecoded = |source| ReadGeoTiffError::Decode { path: path.to_owned(), source };
-    // The decoder would take the memory that a damaged file asks for, and complain on stderr.
+    // For a damaged file, the decoder would take too much memory and print to stderr.
     if image.image_ifd().find_entry(tag).is_some_and(|entry| entry.count() > LONGEST_TEXT) {
         let problem = format!("is longer than {LONGEST_TEXT} bytes");
         return Err(ReadGeoTiffError::Tag { path: path.to_owned(), tag: name, problem });
@@ -153,7 +152,7 @@ fn text(
     found.map(Value::into_string).transpose().map_err(undecoded)
 }
 
-/// The value that stands for NODATA.
+/// The NODATA value.
 fn nodata(path: &Path, image: &mut Image) -> Result<Option<f64>, ReadGeoTiffError> {
     let Some(text) = text(path, image, Tag::GdalNodata, "GDAL_NODATA")? else { return Ok(None) };
     let text = text.trim_matches(|letter: char| letter == '\0' || letter.is_whitespace());
@@ -165,20 +164,20 @@ fn nodata(path: &Path, image: &mut Image) -> Result<Option<f64>, ReadGeoTiffErro
     text.parse().map(Some).map_err(|_| wrong())
 }
 
-/// How the samples of the first band are stored.
+/// The storage of the first band.
 struct Band {
     extents: [usize; 2],
     /// Columns and rows of a strip or tile.
     chunk: [usize; 2],
-    /// From one sample of the band to the next one.
+    /// The distance from one sample of the band to the next.
     stride: usize,
-    /// The bytes of a pixel in a strip or tile.
+    /// The size of a pixel in a strip or tile, in bytes.
     pixel: u64,
-    /// The bytes of each strip or tile in the file: 0 for one that was never written.
+    /// The length of each strip or tile in the file, in bytes. 0 if it was never written.
     lengths: Vec<u64>,
-    /// The bytes of the file.
+    /// The length of the file in bytes.
     bytes: u64,
-    /// By what factor they grow at most.
+    /// The largest growth when it is expanded.
     growth: u64,
 }
 
@@ -215,18 +214,18 @@ impl Band {
         Ok(Self { extents, chunk, stride, pixel, lengths, bytes, growth })
     }
 
-    /// Whether a strip or tile with so many pixels can be what the file holds of it.
+    /// Whether the file can hold a strip or tile with this many pixels.
     fn can_hold(&self, index: u32, pixels: usize) -> bool {
         let stored = self.lengths.get(index as usize).map_or(0, |length| (*length).min(self.bytes));
         stored.saturating_mul(self.growth) >= (pixels as u64).saturating_mul(self.pixel)
     }
 
-    /// Whether so many cells may be left out: a short file is not worth a large raster.
+    /// Whether the file may leave out this many cells. A short file may not claim a large raster.
     fn may_leave_out(&self, cells: usize) -> bool {
         cells <= FEW || cells as u64 <= self.bytes.saturating_mul(deflate::MOST_GROWTH)
     }
 
-    /// All values in the order of the file; NaN where there is none.
+    /// Reads all values in the order of the file. NODATA is NaN.
     fn values(
         &self,
         path: &Path,
@@ -242,7 +241,7 @@ impl Band {
             tag: "StripByteCounts or TileByteCounts",
             problem: "tells fewer bytes than the samples take".to_owned(),
         };
-        // Memory grows with what is decoded: the header of a damaged file can tell any size.
+        // Allocate as decoding goes on: the header of a damaged file can claim any size.
         for first_row in (0..rows).step_by(self.chunk[1]) {
             let height = self.chunk[1].min(rows - first_row);
             let more = columns.checked_mul(height).ok_or_else(too_large)?;
@@ -288,7 +287,7 @@ impl Band {
     }
 }
 
-/// Sets the cells of a strip or tile that the file leaves out.
+/// Fills the cells of a strip or tile that the file leaves out.
 fn fill(target: &mut [f64], columns: usize, [width, height]: [usize; 2], value: f64) {
     for row in target.chunks_mut(columns).take(height) {
         row.iter_mut().take(width).for_each(|own| *own = value);
@@ -325,7 +324,7 @@ impl Samples {
         Self { values }
     }
 
-    /// Puts the first band into the rows of an image.
+    /// Copies the first band into the rows of an image.
     fn place(&self, target: &mut [f64], columns: usize, [width, height]: [usize; 2], stride: usize) {
         let rows = target.chunks_mut(columns).zip(self.values.chunks(width * stride));
         for (row, samples) in rows.take(height) {
@@ -334,7 +333,7 @@ impl Samples {
     }
 }
 
-/// The tag may have more digits than a sample, or fewer where it is huge.
+/// Whether a value is NODATA. The tag may have more digits than a sample, or fewer if it is huge.
 fn is_nodata(value: f64, nothing: f64, is_f32: bool) -> bool {
     value == nothing || (is_f32 && value as f32 == nothing as f32) || are_huge(value, nothing)
 }

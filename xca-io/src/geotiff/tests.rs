@@ -22,7 +22,7 @@ fn bits(raster: &Raster) -> Vec<u64> {
     raster.values().iter().map(|value| value.to_bits()).collect()
 }
 
-/// A file with these tags and six samples of 1 to 6, the first in the north-west.
+/// Writes a file with these tags and the samples 1 to 6, the first in the north-west.
 fn made(folder: &Path, tags: &[(Tag, &[f64])], nodata: Option<&str>) -> PathBuf {
     let path = folder.join("made.tif");
     let mut encoder = TiffEncoder::new(File::create(&path).unwrap()).unwrap();
@@ -66,7 +66,7 @@ fn every_bit_and_the_coordinate_system_come_back() {
     assert_eq!((back.values(), back.coordinate_system()), (&[f64::from(0.1_f32), -1.5][..], None));
 }
 
-/// Names of coordinate systems should be ASCII, and are not in every file; what is read can be written.
+/// Names of coordinate systems should be ASCII, but not every file obeys. Such a file can be written again.
 #[test]
 fn names_that_are_not_ascii_are_written_with_as_many_bytes() {
     let folder = tempfile::tempdir().unwrap();
@@ -86,7 +86,7 @@ fn the_place_follows_from_the_tags() {
         raster.corner()
     };
     assert_eq!(corner(&[SCALE, TIEPOINT]), [100.0, 200.0]);
-    // The same corner, by the south-east one.
+    // The same place, with a tie point in the south-east.
     let tiepoint: &[f64] = &[3.0, 2.0, 0.0, 130.0, 200.0, 0.0];
     assert_eq!(corner(&[SCALE, (Tag::ModelTiepointTag, tiepoint)]), [100.0, 200.0]);
     let matrix = |side: f64, row: f64, y: f64, shear: f64| {
@@ -139,8 +139,7 @@ fn nodata_is_what_the_tag_says() {
     );
 }
 
-/// The tag has decimals. Among samples of `f32` it means the nearest `f32`, among those of `f64` no other
-/// number.
+/// The tag is decimal text. In `f32` it means the nearest `f32`, in `f64` exactly that number.
 #[test]
 fn nodata_among_f32_is_the_nearest_of_them() {
     const NODATA: f64 = -9999.9;
@@ -175,7 +174,7 @@ fn layers_of_different_coordinate_systems_are_refused() {
     let layer = slope().with_coordinate_system(Some(Arc::new(GeoKeys::projected(32632))));
     let said = map.check(folder.path(), &layer, "dem.tif").unwrap_err().to_string();
     assert!(said.contains("does not lie on dem.tif: its coordinate system is EPSG:32632, not EPSG:32633"));
-    // What says nothing fits everywhere.
+    // A layer without a coordinate system fits every map.
     assert!(map.check(folder.path(), &slope(), "dem.tif").is_ok());
 }
 
@@ -186,7 +185,7 @@ fn what_is_no_geotiff_is_an_error() {
     assert!(Raster::read(&path).unwrap_err().to_string().starts_with("cannot open the GeoTIFF"));
     fs::write(&path, "ncols 3\n").unwrap();
     assert!(Raster::read(&path).unwrap_err().to_string().starts_with("cannot read the GeoTIFF"));
-    // The first bytes tell it, under any name.
+    // The first bytes identify the format under any name.
     write(&path, &slope(), SampleType::F64).unwrap();
     let moved = folder.path().join("dem.asc");
     fs::rename(&path, &moved).unwrap();
@@ -200,7 +199,7 @@ fn what_is_no_geotiff_is_an_error() {
     );
 }
 
-/// A header that claims 4 thousand million cells does not make the reader take the memory for them.
+/// A header that claims 4 thousand million cells does not make the reader allocate them.
 #[test]
 fn memory_follows_what_is_decoded() {
     let folder = tempfile::tempdir().unwrap();
@@ -217,7 +216,7 @@ fn memory_follows_what_is_decoded() {
 }
 
 proptest! {
-    /// Damaged files are errors or other rasters, and never end the program.
+    /// Damaged files give errors or other rasters, never a panic.
     #[test]
     fn damaged_files_are_read_or_refused(
         changes in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),

@@ -1,4 +1,4 @@
-//! Writing a GeoTIFF.
+//! The writer of GeoTIFF.
 
 use super::GeoKeys;
 use crate::atomic::{WriteError, write_atomically};
@@ -12,7 +12,7 @@ use tiff::encoder::{Compression, TiffEncoder, TiffKind, TiffValue};
 use tiff::tags::Tag;
 use tiff::{TiffError, TiffResult};
 
-/// The numbers of a GeoTIFF.
+/// The sample type of a GeoTIFF.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SampleType {
     /// 32 bits: values are rounded to `f32`.
@@ -30,7 +30,7 @@ impl SampleType {
     }
 }
 
-/// Beyond so many bytes of samples a file is a BigTIFF, whose offsets have 64 bits.
+/// The largest TIFF, in bytes of samples. A larger file is a BigTIFF, with offsets of 64 bits.
 const LARGEST_TIFF: usize = 4_000_000_000;
 
 pub(super) fn write(path: &Path, raster: &Raster, samples: SampleType) -> Result<(), WriteError> {

@@ -1,32 +1,32 @@
-//! What the texts of a column mean.
+//! The types of columns.
 
 use std::fmt;
 
-/// What the values of a column are. In memory each is a number; `bool` and states have texts of their own.
+/// The type of a column. In memory each value is a number. `bool` and states have their own text.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ColumnType<'a> {
     /// Finite numbers.
     Number,
-    /// Whole numbers from the least to the largest; both fit into `f64` exactly.
+    /// Integers in a range. `f64` holds both limits exactly.
     Whole {
-        /// The least.
+        /// The smallest value.
         least: i64,
-        /// The largest.
+        /// The largest value.
         largest: i64,
     },
-    /// `true` and `false`, in memory 1 and 0.
+    /// `true` and `false`, stored as 1 and 0.
     Bool,
-    /// Names of states, in memory by their places in the list.
+    /// Names of states, stored as indices into the list.
     State {
-        /// What such a state is called.
+        /// The name of the type of state.
         name: &'a str,
-        /// The names.
+        /// The names of the states.
         states: &'a [&'a str],
     },
 }
 
 impl ColumnType<'_> {
-    /// The number that a text means; nothing where the text is no value of this type.
+    /// Parses a value of this type. Returns `None` if the text is not one.
     pub fn parse(&self, text: &str) -> Option<f64> {
         match *self {
             Self::Number => text.parse().ok().filter(|number: &f64| number.is_finite()),
@@ -42,8 +42,8 @@ impl ColumnType<'_> {
         }
     }
 
-    /// The number as a text that [`Self::parse`] reads back. A number that stands for no state stays a
-    /// number.
+    /// The text of a value, which [`Self::parse`] reads back. A number that is not the index of a state stays
+    /// a number.
     pub fn text(&self, number: f64) -> String {
         match *self {
             Self::Number => format!("{number:.16e}"),
@@ -57,7 +57,7 @@ impl ColumnType<'_> {
     }
 }
 
-/// What a text must be to be a value of this type.
+/// Describes what a text must be.
 impl fmt::Display for ColumnType<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {

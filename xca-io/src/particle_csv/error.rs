@@ -1,4 +1,4 @@
-//! What can go wrong with particle files.
+//! Errors of particle files.
 
 use std::io;
 use std::num::{ParseFloatError, ParseIntError};
@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use super::super::atomic::WriteError;
 
-/// Particles that cannot be written as a file.
+/// Particles that cannot be written to a file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum WriteParticlesError {
@@ -22,7 +22,7 @@ pub enum WriteParticlesError {
         /// The number of labels.
         labels: usize,
     },
-    /// Two particles have one label, so that a reader could not tell them apart.
+    /// Two particles have the same label.
     #[error("cannot write {}: two particles have the label {label}", path.display())]
     DuplicateLabel {
         /// The file.
@@ -30,29 +30,29 @@ pub enum WriteParticlesError {
         /// The label.
         label: u32,
     },
-    /// The system refused.
+    /// The system returned an error.
     #[error(transparent)]
     Write(#[from] WriteError),
 }
 
-/// A particle file that cannot be read, or says what cannot be.
+/// A particle file that cannot be read, or that holds impossible values.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadError {
-    /// The file is not there or not readable.
+    /// The file does not exist or is not readable.
     #[error("cannot open the particle file {}", path.display())]
     Open {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
-    /// Reading broke off.
+    /// Reading stopped early.
     #[error("cannot read the particle file {} to its end", path.display())]
     Read {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
     /// The header lacks a column.
@@ -64,10 +64,10 @@ pub enum ReadError {
         line: u64,
         /// The column.
         column: String,
-        /// The columns that must be there.
+        /// The required columns.
         expected: String,
     },
-    /// The header has a column that no one asked for.
+    /// The header has an unknown column.
     #[error("{}:{line}: unknown column `{column}` in the header; it must be `{expected}`, in any order", path.display())]
     UnknownColumn {
         /// The file.
@@ -76,7 +76,7 @@ pub enum ReadError {
         line: u64,
         /// The column.
         column: String,
-        /// The columns that may be there.
+        /// The allowed columns.
         expected: String,
     },
     /// The header has a column twice.
@@ -96,9 +96,9 @@ pub enum ReadError {
         path: PathBuf,
         /// The line.
         line: u64,
-        /// The number of fields of the header.
+        /// The number of fields in the header.
         expected: usize,
-        /// The number of fields of the row.
+        /// The number of fields in the row.
         found: usize,
     },
     /// A label is not a whole number from 0 to 4294967295.
@@ -110,7 +110,7 @@ pub enum ReadError {
         line: u64,
         /// The text of the field.
         text: String,
-        /// What is wrong with it.
+        /// The error of the parser.
         source: ParseIntError,
     },
     /// A value is not a number.
@@ -124,7 +124,7 @@ pub enum ReadError {
         column: String,
         /// The text of the field.
         text: String,
-        /// What is wrong with it.
+        /// The error of the parser.
         source: ParseFloatError,
     },
     /// A value is infinite, not a number, or beyond the range of `f64`.
@@ -139,7 +139,7 @@ pub enum ReadError {
         /// The text of the field.
         text: String,
     },
-    /// A value is not one of its column's type.
+    /// A value is not of the type of its column.
     #[error("{}:{line}: `{text}` in column `{column}` {wanted}", path.display())]
     Value {
         /// The file.
@@ -150,10 +150,10 @@ pub enum ReadError {
         column: String,
         /// The text of the field.
         text: String,
-        /// What it must be.
+        /// The requirement of the type.
         wanted: String,
     },
-    /// Two rows have one label.
+    /// Two rows have the same label.
     #[error("{}:{line}: the label {label} stands on line {first} already", path.display())]
     DuplicateLabel {
         /// The file.

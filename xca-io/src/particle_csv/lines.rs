@@ -1,20 +1,20 @@
-//! The lines of a text file that say something, with their numbers.
+//! The lines of a text file without blank lines and comments, with their line numbers.
 
 use crate::lines::read_line;
 use std::io::{self, BufRead, Read};
 
-/// Passes on the lines of `source` that are neither blank nor comments (`#`), each ending in `\n` alone, and
-/// remembers which they were: a CSV reader on top counts only what it is given.
+/// Passes on the lines of `source` that are neither blank nor comments (`#`), each ending in `
+/// `. Remembers their line numbers, because a CSV reader counts only the lines that it receives.
 pub(super) struct MeaningfulLines<R> {
     source: R,
-    /// The line being passed on, and how much of it is gone.
+    /// The line being passed on, and how much of it has been read.
     line: Vec<u8>,
     passed: usize,
     /// Lines read and lines kept so far.
     read: u64,
     kept: u64,
-    /// Where lines were left out: `(k, skipped)` says that before the kept line `k` (from 1) and those after
-    /// it `skipped` lines in all were left out.
+    /// Where lines were skipped. `(k, skipped)`: from the kept line `k` (counted from 1) on, `skipped` lines
+    /// in all were left out.
     gaps: Vec<(u64, u64)>,
 }
 
@@ -23,13 +23,13 @@ impl<R: BufRead> MeaningfulLines<R> {
         Self { source, line: Vec::new(), passed: 0, read: 0, kept: 0, gaps: Vec::new() }
     }
 
-    /// The number in the source, from 1, of kept line `kept`, from 1.
+    /// The line number in the source of the kept line `kept`. Both count from 1.
     pub(super) fn number(&self, kept: u64) -> u64 {
         let after = self.gaps.partition_point(|&(first, _)| first <= kept);
         kept + after.checked_sub(1).map_or(0, |gap| self.gaps[gap].1)
     }
 
-    /// Fetches the next line worth passing on; at the end of the source the line stays empty.
+    /// Fetches the next kept line. At the end of the source the line stays empty.
     fn advance(&mut self) -> io::Result<()> {
         self.passed = 0;
         loop {

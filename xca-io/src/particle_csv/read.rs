@@ -1,4 +1,4 @@
-//! Reading particles from CSV.
+//! The reader of particles as CSV.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -12,25 +12,23 @@ use super::lines::MeaningfulLines;
 use crate::lines::LimitedRows;
 use crate::regular_file;
 
-/// Particles as they stand in a file, in its order.
+/// The particles of a file, in the order of the file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ParticleTable {
     /// The label of each particle.
     pub labels: Vec<u32>,
-    /// The values, `columns[c][i]` for column `c` (in the order asked for) and particle `i`; all are finite.
+    /// The values: `columns[c][i]` for column `c` (in the requested order) and particle `i`. All are finite.
     pub columns: Vec<Vec<f64>>,
-    /// The line of the file that each particle stands on, from 1, for the errors that only the model can
-    /// find.
+    /// The line of each particle in the file, from 1, for error messages of the model.
     pub lines: Vec<u64>,
 }
 
-/// Reads the particles of `path`, whose header must hold `label` and each of `columns` once, in any order.
+/// Reads particles from `path`. The header must hold `label` and each of `columns` once, in any order.
 ///
-/// Skips blanks around fields, blank lines and lines that begin with `#`. Every value must be one of its
-/// column's type: a finite float, a whole number in range, `true` or `false`, the name of a state (its number
-/// is returned). Every label must be unique. What else the model demands, it checks itself, with
-/// [`ParticleTable::lines`] for its messages. A file written in `f32` gives the same `f32` when its values
-/// are cast.
+/// Ignores blanks around fields, blank lines and lines that begin with `#`. Every value must have the type of
+/// its column: a finite float, an integer in range, `true` or `false`, the name of a state. A state is
+/// returned as its index. Every label must be unique. The model makes further checks itself, and takes line
+/// numbers from [`ParticleTable::lines`]. Values that were written as `f32` are exact when cast to `f32`.
 ///
 /// # Errors
 /// [`ReadError`], with the path, the line and the column.
@@ -74,7 +72,7 @@ pub fn read(path: &Path, columns: &[(&str, ColumnType<'_>)]) -> Result<ParticleT
     Ok(table)
 }
 
-/// For `label` and then for each of `columns`, the place of the field in a row.
+/// The index of the field in a row, for `label` and then for each of `columns`.
 fn header(
     path: &Path,
     line: u64,

@@ -1,4 +1,4 @@
-//! Rasters out of files of any of their formats.
+//! The reader of rasters of any format.
 
 use super::Raster;
 use crate::ascii_grid::{self, ReadGridError};
@@ -6,12 +6,12 @@ use crate::geotiff::{self, ReadGeoTiffError};
 use crate::placement::Placement;
 use std::path::{Path, PathBuf};
 
-/// The largest altitude, and depth, that the ground can have, in m.
+/// The largest valid altitude or depth in metres.
 pub const HIGHEST: f64 = 1e5;
 
 impl Raster {
-    /// Reads a GeoTIFF or an ESRI ASCII grid. The first bytes or the extension (`.tif`, `.tiff`) tell them
-    /// apart.
+    /// Reads a GeoTIFF or an ESRI ASCII grid. The first bytes or the extension (`.tif`, `.tiff`) decide
+    /// which.
     ///
     /// # Errors
     /// Returns [`ReadRasterError::GeoTiff`] or [`ReadRasterError::AsciiGrid`].
@@ -19,11 +19,11 @@ impl Raster {
         Self::read_either(path, None)
     }
 
-    /// As [`Raster::read`], for a file that may lack its place: a GeoTIFF without georeference, a grid
-    /// without a header. It must have the columns and rows of this place.
+    /// Like [`Raster::read`], but the file may lack its place. Examples are a GeoTIFF without georeference
+    /// and a grid without a header. The file must have the columns and rows of `placement`.
     ///
     /// # Errors
-    /// As [`Raster::read`].
+    /// Those of [`Raster::read`].
     pub fn read_on(path: &Path, placement: Placement) -> Result<Self, ReadRasterError> {
         Self::read_either(path, Some(placement))
     }
@@ -36,11 +36,11 @@ impl Raster {
         }
     }
 
-    /// As [`Raster::read`], for altitudes in m. Rejects altitudes beyond [`HIGHEST`] and rasters without
-    /// values.
+    /// Like [`Raster::read`], for altitudes in metres. Rejects altitudes beyond [`HIGHEST`] and rasters
+    /// without values.
     ///
     /// # Errors
-    /// As [`Raster::read`], or [`ReadRasterError::Height`] or [`ReadRasterError::Empty`].
+    /// Those of [`Raster::read`], [`ReadRasterError::Height`] and [`ReadRasterError::Empty`].
     pub fn read_heights(path: &Path) -> Result<Self, ReadRasterError> {
         let raster = Self::read(path)?;
         if let Some(cell) = raster.values.iter().position(|height| height.abs() > HIGHEST) {
@@ -64,7 +64,7 @@ pub enum ReadRasterError {
     /// A GeoTIFF that cannot be read.
     #[error(transparent)]
     GeoTiff(#[from] ReadGeoTiffError),
-    /// An altitude that no ground has.
+    /// An altitude is impossible.
     #[error(
         "{}: {height} in column {}, row {} from the north is no altitude in m; if it stands for no value, name \
          it in the line NODATA_value, or in the NODATA tag of a GeoTIFF",

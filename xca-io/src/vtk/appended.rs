@@ -1,4 +1,4 @@
-//! The layout that all VTK XML files share: a head of XML, then the blocks of values that it refers to.
+//! The layout of VTK XML files: a head of XML, then the blocks of values that it refers to.
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -6,31 +6,31 @@ use std::io::{self, Write};
 use super::blocks::{Blocks, COMPRESSOR};
 use super::values::DataArray;
 
-/// What stands before the values.
+/// The text before the values.
 pub(super) const DATA: &str = "<AppendedData encoding=\"raw\">\n_";
-/// What stands after them.
+/// The text after the values.
 pub(super) const END: &str = "\n</AppendedData>\n</VTKFile>\n";
 
-/// How the element begins that holds the names of the states of an array.
+/// The beginning of the element with the names of the states of an array.
 pub(super) const STATES_OF: &str = "<Array type=\"String\" Name=\"states of ";
-/// The attribute with the name of a component, before its number.
+/// The attribute with the name of a component, without its number.
 pub(super) const COMPONENT_NAME: &str = " ComponentName";
 
-/// The first lines of a file of this kind.
+/// The first lines of a file of type `kind`.
 pub(super) fn head(kind: &str) -> String {
     let attributes = r#"version="1.0" byte_order="LittleEndian" header_type="UInt64""#;
     format!("<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" {attributes} compressor=\"{COMPRESSOR}\">\n")
 }
 
-/// The values that stand at the end of a file.
+/// The values at the end of a file.
 #[derive(Default)]
 pub(super) struct Appended {
-    /// As they stand there.
+    /// The bytes as they appear in the file.
     blocks: Vec<u8>,
 }
 
 impl Appended {
-    /// The element of an array whose values are appended.
+    /// Appends the values of an array and returns its element.
     pub(super) fn array(&mut self, array: &DataArray<'_>) -> io::Result<String> {
         let mut attributes = format!(
             r#"type="{}" Name="{}" NumberOfComponents="{}""#,
@@ -45,13 +45,13 @@ impl Appended {
         self.append(&attributes, |out| array.values.write_to(out))
     }
 
-    /// The element of an array of numbers.
+    /// Appends integers and returns their element.
     pub(super) fn count(&mut self, name: &str, mut numbers: impl Iterator<Item = i32>) -> io::Result<String> {
         let numbers = |out: &mut Blocks| numbers.try_for_each(|number| out.write_all(&number.to_le_bytes()));
         self.append(&format!(r#"type="Int32" Name="{name}""#), numbers)
     }
 
-    /// The elements of point or cell data (`kind`): the first scalars are what ParaView colours by.
+    /// The elements of point or cell data (`kind`). ParaView colours by the first scalars.
     pub(super) fn data(&mut self, kind: &str, arrays: &[DataArray<'_>]) -> io::Result<String> {
         let scalars = arrays.iter().find(|array| array.values.components() == 1);
         let scalars =
@@ -99,7 +99,7 @@ impl Appended {
     }
 }
 
-/// An array of strings, which VTK spells as the numbers of their bytes, each string with a 0 behind it.
+/// An array of strings. VTK writes each string as the numbers of its bytes, followed by 0.
 fn names_of_states(array: &DataArray<'_>) -> String {
     let bytes = array.states.iter().flat_map(|name| name.bytes().chain([0]));
     let numbers: Vec<String> = bytes.map(|byte| byte.to_string()).collect();
@@ -111,7 +111,7 @@ fn names_of_states(array: &DataArray<'_>) -> String {
     )
 }
 
-/// The strings of an element that [`names_of_states`] wrote.
+/// Reads the strings of an element that [`names_of_states`] wrote.
 pub(super) fn read_names(element: &str) -> Option<Vec<String>> {
     let numbers = element.split_once('>')?.1.strip_suffix("</Array>")?;
     let bytes = numbers.split(' ').map(|number| number.parse().ok()).collect::<Option<Vec<u8>>>()?;
@@ -119,7 +119,7 @@ pub(super) fn read_names(element: &str) -> Option<Vec<String>> {
     names.map(|name| String::from_utf8(name.to_vec()).ok()).collect()
 }
 
-/// Text as it may stand in an attribute; control characters, which XML cannot hold, become blanks.
+/// Escapes text for an attribute. Control characters, which XML cannot hold, become blanks.
 pub(super) fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -135,15 +135,15 @@ pub(super) fn escaped(text: &str) -> String {
     out
 }
 
-/// Text that was [`escaped`].
+/// Reverses [`escaped`].
 pub(super) fn unescaped(text: &str) -> String {
     let plain = text.replace("&quot;", "\"").replace("&gt;", ">").replace("&lt;", "<");
     plain.replace("&amp;", "&")
 }
 
-/// How the element begins of an array of numbers that stand in the head itself.
+/// The beginning of the element of numbers that stand in the head itself.
 const NUMBERS: &str = "<DataArray type=\"Float64\" Name=\"";
-/// What follows the name of such an array and the number of its values.
+/// The text after the name of such an array and the number of its values.
 const AS_TEXT: &str = " format=\"ascii\">";
 
 /// The element of a field of few numbers, as text.
@@ -152,12 +152,12 @@ pub(super) fn numbers_as_text(name: &str, numbers: &[f64]) -> String {
     format!("{NUMBERS}{name}\" NumberOfTuples=\"{count}\"{AS_TEXT}{}</DataArray>\n", joined(numbers))
 }
 
-/// Whether the values of an array stand in its element.
+/// Whether the element holds its values as text.
 pub(super) fn is_as_text(element: &str) -> bool {
     element.contains(AS_TEXT)
 }
 
-/// The numbers of a field that [`numbers_as_text`] wrote.
+/// Reads the numbers of a field that [`numbers_as_text`] wrote.
 pub(super) fn read_numbers<const N: usize>(head: &str, name: &str) -> Option<[f64; N]> {
     let begin = format!("{NUMBERS}{name}\" NumberOfTuples=\"{N}\"{AS_TEXT}");
     let text = head.lines().find_map(|line| line.strip_prefix(&begin))?.strip_suffix("</DataArray>")?;
@@ -165,7 +165,7 @@ pub(super) fn read_numbers<const N: usize>(head: &str, name: &str) -> Option<[f6
     numbers.try_into().ok()
 }
 
-/// Numbers with blanks between them, each the shortest decimal that reads back exactly.
+/// Numbers separated by blanks, each the shortest decimal that reads back exactly.
 pub(super) fn joined(numbers: &[f64]) -> String {
     let mut out = String::new();
     for (i, number) in numbers.iter().enumerate() {

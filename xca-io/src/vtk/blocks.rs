@@ -1,7 +1,11 @@
-//! Values as VTK compresses them: in blocks, each a zlib stream of its own.
+//! Compression of values as in VTK: in blocks, each its own zlib stream.
 //!
-//! Before the streams stand, as `u64`: how many blocks there are, how long each is before compression, how
-//! long the last one is if it is shorter (0 if not), and how long each stream is.
+//! A header of `u64` numbers comes before the streams:
+//!
+//! 1. the number of blocks
+//! 2. the uncompressed length of a block
+//! 3. the uncompressed length of the last block if it is shorter, otherwise 0
+//! 4. the length of each stream
 
 use crate::deflate::can_hold;
 use flate2::Compression;
@@ -9,16 +13,16 @@ use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
 use std::io::{self, Read, Write};
 
-/// The name of this form in the head of a file.
+/// The name of this compression in the head of a file.
 pub(super) const COMPRESSOR: &str = "vtkZLibDataCompressor";
 
-/// How many bytes are compressed together.
+/// The uncompressed length of a block in bytes.
 const BLOCK: usize = 1 << 18;
 
-/// Takes values and compresses them.
+/// A compressor of values.
 #[derive(Default)]
 pub(super) struct Blocks {
-    /// What is not compressed yet: less than a block.
+    /// Bytes that are not compressed yet: less than a block.
     pending: Vec<u8>,
     lengths: Vec<u64>,
     streams: Vec<u8>,
@@ -34,7 +38,7 @@ impl Blocks {
         Ok(())
     }
 
-    /// All that was written, as it stands in a file.
+    /// Returns all bytes as they appear in a file.
     pub(super) fn finish(mut self) -> io::Result<Vec<u8>> {
         let rest = std::mem::take(&mut self.pending);
         if !rest.is_empty() {
@@ -64,24 +68,24 @@ impl Write for Blocks {
     }
 }
 
-/// No stream of a block is longer than this: what cannot be compressed grows by a few bytes.
+/// The longest stream of a block in bytes. Incompressible data grows by a few bytes.
 const LONGEST_STREAM: usize = BLOCK + BLOCK / 64 + 64;
 
 /// Compressed values that cannot be expanded.
 #[derive(Debug)]
 pub(super) enum Broken {
-    /// The bytes end within them.
+    /// The file ends within the values.
     Short,
-    /// They are not as many as they should be, or were changed.
+    /// The number of bytes is wrong, or the data was changed.
     Wrong,
-    /// The system refused to read on.
+    /// The system returned an error.
     Read(io::Error),
 }
 
-/// Bytes that follow each other in a file.
+/// Consecutive bytes of a file.
 pub(super) struct Source<R> {
     file: R,
-    /// How many are left.
+    /// The number of bytes left.
     left: u64,
 }
 
@@ -91,7 +95,7 @@ impl<R: Read> Source<R> {
         Self { file, left }
     }
 
-    /// How many are left.
+    /// The number of bytes left.
     pub(super) fn left(&self) -> u64 {
         self.left
     }
@@ -111,7 +115,7 @@ impl<R: Read> Source<R> {
         Ok(u64::from_le_bytes(bytes))
     }
 
-    /// The lengths of the streams of `length` bytes of values.
+    /// Reads the lengths of the streams for `length` bytes of values.
     fn lengths(&mut self, length: usize) -> Result<Vec<usize>, Broken> {
         let [count, block, last] = [self.number()?, self.number()?, self.number()?];
         let wanted = [length.div_ceil(BLOCK), BLOCK, length % BLOCK].map(|number| number as u64);
@@ -136,8 +140,7 @@ impl<R: Read> Source<R> {
         Ok(lengths)
     }
 
-    /// Expands the next values, which are `length` bytes. No more than these are ever in memory, and one
-    /// block.
+    /// Expands the next values, which are `length` bytes. Memory holds at most these bytes and one block.
     pub(super) fn expanded(&mut self, length: usize) -> Result<Vec<u8>, Broken> {
         let lengths = self.lengths(length)?;
         let mut values = Vec::with_capacity(length);
@@ -150,7 +153,8 @@ impl<R: Read> Source<R> {
             let mut decoder = ZlibDecoder::new(stream.as_slice());
             let read = decoder.by_ref().take(wanted as u64).read_to_end(&mut values);
             read.map_err(|_| Broken::Wrong)?;
-            // The end of the stream has its checksum. One more byte than is wanted would be one too many.
+            // Reading one more byte checks the checksum at the end of the stream. A byte more would be an
+            // error.
             let is_over = matches!(decoder.read(&mut [0]), Ok(0));
             if values.len() - before != wanted || !is_over {
                 return Err(Broken::Wrong);
@@ -174,7 +178,7 @@ mod tests {
         bytes.as_chunks().0[..count].iter().map(|number| u64::from_le_bytes(*number)).collect()
     }
 
-    /// What is expanded, and what follows it.
+    /// Returns the expanded values and the bytes after them.
     fn expanded(bytes: &[u8], length: usize) -> Result<(Vec<u8>, Vec<u8>), Broken> {
         let mut source = Source::new(bytes, bytes.len() as u64);
         let values = source.expanded(length)?;
@@ -183,7 +187,7 @@ mod tests {
         Ok((values, rest))
     }
 
-    /// Bytes that no compressor makes much of, and some that it does.
+    /// Bytes that compress badly, followed by bytes that compress well.
     fn values(length: usize) -> Vec<u8> {
         (0..length as u64)
             .map(|i| if i < 1000 { 0 } else { ((i * i).wrapping_mul(2_654_435_761_987) >> 23) as u8 })
@@ -231,7 +235,7 @@ mod tests {
         for place in 0..whole.len() {
             let mut changed = whole.clone();
             changed[place] ^= 4;
-            // Some bits of a stream mean nothing; then the values are the same.
+            // Some bits of a stream have no meaning. Then the values are the same.
             if let Ok((found, rest)) = expanded(&changed, 3000) {
                 assert!(found == values && rest.is_empty(), "{place}");
             }
@@ -243,7 +247,7 @@ mod tests {
         let short = compressed(&[7; 100]);
         for length in [1 << 20, 1 << 40, usize::MAX / 2] {
             assert!(matches!(expanded(&short, length), Err(Broken::Wrong)), "{length}");
-            // The same with a header that agrees, and streams of no length.
+            // The same, with a matching header and streams of length 0.
             let count = length.div_ceil(BLOCK) as u64;
             let header = [count, BLOCK as u64, (length % BLOCK) as u64].map(u64::to_le_bytes).concat();
             let streams = vec![0; 8 * count.min(1000) as usize];

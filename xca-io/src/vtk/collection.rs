@@ -1,4 +1,4 @@
-//! The files of a run with their times.
+//! Collections: the files of a run with their times.
 
 use std::fs::{self, OpenOptions};
 use std::io::{self, Seek, SeekFrom, Write};
@@ -8,14 +8,13 @@ use super::super::atomic::{WriteError, write_atomically};
 use super::VtkError;
 use super::appended::escaped;
 
-/// A ParaView collection (`.pvd`): which file shows which time.
+/// A ParaView collection (`.pvd`): a list of files with their times.
 ///
-/// The file is complete after each addition, so ParaView can open it while the run goes on, and after a run
-/// that was killed. An addition is one write over the closing tags: of the new entry and of the tags again. A
-/// machine that fails meanwhile can leave a file without its last entry or without its closing tags;
-/// [`Collection::of`] makes it anew.
+/// The file is complete after each addition. ParaView can therefore open it during a run, and after a run was
+/// killed. An addition is one write: it replaces the closing tags by the new entry and the closing tags. A
+/// failure of the machine can lose the last entry or the closing tags. [`Collection::of`] rebuilds the file.
 ///
-/// A run with particles and dense substates makes one collection of each.
+/// A run with particles and dense substates makes a collection of each.
 ///
 /// ```
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -36,11 +35,11 @@ use super::appended::escaped;
 #[derive(Debug)]
 pub struct Collection {
     path: PathBuf,
-    /// The file but for the closing tags: one line for each file.
+    /// The content without the closing tags: one line for each file.
     text: String,
 }
 
-/// What a collection begins with.
+/// The beginning of a collection.
 pub(super) const BEGIN: &str = "<?xml version=\"1.0\"?>\n\
                      <VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n\
                      <Collection>\n";
@@ -49,7 +48,7 @@ pub(super) const BEGIN: &str = "<?xml version=\"1.0\"?>\n\
 pub(super) const END: &str = "</Collection>\n</VTKFile>\n";
 
 impl Collection {
-    /// Makes an empty collection, in place of an earlier one.
+    /// Creates an empty collection. Overwrites an earlier one.
     ///
     /// # Errors
     /// [`VtkError::Write`] with the path.
@@ -57,10 +56,10 @@ impl Collection {
         Self::of(path, &[])
     }
 
-    /// Makes a collection of these times and files, in place of an earlier one.
+    /// Creates a collection of these times and files. Overwrites an earlier one.
     ///
     /// # Errors
-    /// As [`Collection::add`].
+    /// Those of [`Collection::add`].
     pub fn of(path: &Path, entries: &[(f64, PathBuf)]) -> Result<Self, VtkError> {
         let mut collection = Self { path: path.to_owned(), text: BEGIN.to_owned() };
         for (time, file) in entries {
@@ -71,8 +70,8 @@ impl Collection {
         Ok(collection)
     }
 
-    /// Adds `file`, which shows `time`. The file must lie in the collection's folder or
-    /// below, so that the folder can be moved; both paths must begin alike.
+    /// Adds `file` at the time `time`. The file must lie in the collection's folder or below, so that the
+    /// folder can be moved. Both paths must begin alike.
     ///
     /// # Errors
     /// [`VtkError::OutsideFolder`], [`VtkError::Geometry`] for a time that is not finite,
@@ -89,20 +88,20 @@ impl Collection {
         self.write()
     }
 
-    /// Whether the file is still there, with the length that it was left with.
+    /// Whether the file still exists with its last length.
     fn is_as_written(&self) -> bool {
         let length = (self.text.len() + END.len()) as u64;
         fs::symlink_metadata(&self.path).is_ok_and(|found| found.is_file() && found.len() == length)
     }
 
-    /// Writes an entry and the closing tags over the closing tags.
+    /// Overwrites the closing tags with an entry and the closing tags.
     fn append(&self, entry: &str) -> io::Result<()> {
         let end = self.text.len() as u64;
         let mut file = OpenOptions::new().write(true).open(&self.path)?;
         file.seek(SeekFrom::Start(end))?;
         let written = file.write_all(format!("{entry}{END}").as_bytes());
         if written.is_err() {
-            // A full disk still has room for what was there. The first error is the one to report.
+            // A full disk still has room for the old content. Report the first error.
             let _ = file.set_len(end).and_then(|()| file.seek(SeekFrom::Start(end)));
             let _ = file.write_all(END.as_bytes());
         }
@@ -160,13 +159,13 @@ mod tests {
                 r#"<DataSet timestep="1.118e-5" part="0" file="below/c.vtp"/>"#
             ]
         );
-        // A collection that is made at once has the same bytes.
+        // Writing a collection at once gives the same bytes.
         let files = [(0.0, folder.path().join("a&b.vtp")), (1.118e-5, folder.path().join("below/c.vtp"))];
         Collection::of(&path, &files).unwrap();
         assert_eq!(fs::read_to_string(&path).unwrap(), text);
     }
 
-    /// A file that someone has cut, removed or replaced is made anew, and a link is not written through.
+    /// A file that was cut, removed or replaced is written anew, and not through a link.
     #[test]
     fn what_others_did_to_the_file_is_mended() {
         let folder = tempfile::tempdir().unwrap();

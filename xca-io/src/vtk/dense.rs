@@ -7,12 +7,12 @@ use super::VtkError;
 use super::appended::{Appended, joined};
 use super::values::{DataArray, check_arrays};
 
-/// The cellular space as VTK's ImageData sees it: boxes of equal size, x running fastest.
+/// The grid of an ImageData file: boxes of equal size, x fastest.
 ///
-/// [`super::HexagonGrid`] is that of hexagons.
+/// For hexagons see [`super::HexagonGrid`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grid {
-    /// The number of cells along x, y and z; 1 along z for a model of one layer.
+    /// The number of cells along x, y and z. 1 along z for one layer.
     pub cells: [usize; 3],
     /// The lower corner of the space, as a length.
     pub origin: [f64; 3],
@@ -28,24 +28,24 @@ impl Grid {
     }
 }
 
-/// The name of the array that hides cells, which ParaView and VTK know: put [`ghost_types`] into it.
+/// The name of the array that hides cells in ParaView and VTK. Fill it with [`ghost_types`].
 pub const GHOST_TYPE: &str = "vtkGhostType";
 
-/// VTK's mark of a cell that is not drawn and has no part in statistics.
+/// VTK's mark of a cell that is neither drawn nor counted in statistics.
 const HIDDEN: u8 = 32;
 
-/// What the array [`GHOST_TYPE`] holds where these cells are hidden.
+/// The content of the array [`GHOST_TYPE`] that hides these cells.
 pub fn ghost_types(hidden: &[bool]) -> Vec<u8> {
     hidden.iter().map(|is_hidden| if *is_hidden { HIDDEN } else { 0 }).collect()
 }
 
-/// Which cells an array of ghost types hides.
+/// The cells that an array of ghost types hides.
 pub(super) fn hidden_cells(ghost_types: &[u8]) -> Vec<bool> {
     ghost_types.iter().map(|ghost| ghost & HIDDEN != 0).collect()
 }
 
-/// Writes dense substates to `path` (`.vti`) as cell data: every array has one entry a cell, x fastest, then
-/// y, then z. `time` is the simulated time.
+/// Writes dense substates to `path` (`.vti`) as cell data. Every array has one entry per cell, x fastest,
+/// then y, then z. `time` is the simulated time.
 ///
 /// # Errors
 /// [`VtkError::ArrayLength`], [`VtkError::RepeatedArray`], [`VtkError::TooMany`], [`VtkError::Geometry`] and
@@ -111,10 +111,10 @@ mod tests {
 </ImageData>
 <AppendedData encoding="raw">
 _"#;
-        // One block of 8 bytes and one of 6, each with the length of its stream; a zlib stream of little
+        // One block of 8 bytes and one of 6, each with the length of its stream. A zlib stream of few bytes
         // begins with 0x78.
         let bytes = fs::read(&path).unwrap();
-        // The offset has as many digits as these letters.
+        // This placeholder is as long as the offset.
         let of_time = 32 + bytes[expected.len() + 24] as usize;
         let place = expected.replace("AT", &of_time.to_string());
         assert_eq!(String::from_utf8_lossy(&bytes[..place.len()]), place);

@@ -11,32 +11,32 @@ use crate::lattice::Lattice;
 /// The corners of a hexagon.
 pub(super) const CORNERS: usize = 6;
 
-/// The fields of a file that tell its grid.
+/// The fields of a file that describe its grid.
 pub(super) const EXTENTS: &str = "extents";
 pub(super) const CORNER: &str = "corner";
 pub(super) const SIDE: &str = "side";
 pub(super) const STAGGER_AXIS: &str = "stagger axis";
 
-/// The cellular space as a grid of hexagons, x running fastest.
+/// A grid of hexagons, x fastest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HexagonGrid {
-    /// The number of cells along x, y and z; 1 along z for a model of one layer.
+    /// The number of cells along x, y and z. 1 along z for one layer.
     pub cells: [usize; 3],
-    /// Whether odd rows or odd columns are shifted by half a cell.
+    /// The lattice: odd rows or odd columns are shifted by half a cell.
     pub lattice: Lattice,
     /// The lower left corner of the box around all cells, as a length.
     pub corner: [f64; 2],
-    /// The distance between the centres of neighbours, as a length; that between layers too.
+    /// The distance between the centres of neighbours, and between layers, as a length.
     pub side: f64,
 }
 
 impl HexagonGrid {
-    /// The number of cells; none where no machine can count them.
+    /// The number of cells. `None` if it overflows.
     pub(super) fn count(&self) -> Option<usize> {
         self.cells.iter().try_fold(1_usize, |product, n| product.checked_mul(*n))
     }
 
-    /// The corners of all cells, those of a cell counterclockwise.
+    /// The corners of all cells, counterclockwise in each cell.
     fn points(&self) -> Vec<[f64; 3]> {
         let ([columns, rows, layers], [left, low]) = (self.cells, self.corner);
         let around = self.lattice.corners();
@@ -53,7 +53,7 @@ impl HexagonGrid {
     }
 }
 
-/// The axis along which the shift of cells changes; none of squares.
+/// The axis along which the shift of cells alternates. `None` for squares.
 fn stagger_axis(lattice: Lattice) -> Option<f64> {
     match lattice {
         Lattice::Squares => None,
@@ -62,7 +62,7 @@ fn stagger_axis(lattice: Lattice) -> Option<f64> {
     }
 }
 
-/// The grid that fields of a file tell.
+/// The grid described by the fields of a file.
 pub(super) fn grid(
     extents: [f64; 3],
     corner: [f64; 2],
@@ -75,14 +75,14 @@ pub(super) fn grid(
     is_whole.then(|| HexagonGrid { cells: extents.map(|n| n as usize), lattice, corner, side })
 }
 
-/// Writes dense substates on hexagons to `path` (`.vtp`) as cell data: every array has one entry a cell, x
+/// Writes dense substates on hexagons to `path` (`.vtp`) as cell data. Every array has one entry per cell, x
 /// fastest, then y, then z. `time` is the simulated time.
 ///
-/// Each cell is a polygon with six points of its own. The layers are planes, one side apart.
+/// Each cell is a polygon with six points of its own. Layers are planes at the distance `side`.
 ///
 /// # Errors
-/// [`VtkError::ArrayLength`], [`VtkError::RepeatedArray`], [`VtkError::TooMany`], [`VtkError::Geometry`] (of
-/// squares too) and [`VtkError::Write`], each with the path.
+/// [`VtkError::ArrayLength`], [`VtkError::RepeatedArray`], [`VtkError::TooMany`], [`VtkError::Geometry`]
+/// (also for squares) and [`VtkError::Write`], each with the path.
 pub fn write_hexagons(
     path: &Path,
     time: f64,

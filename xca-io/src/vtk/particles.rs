@@ -8,8 +8,8 @@ use super::{super::atomic::write_atomically, VtkError};
 
 /// Writes particles to `path` (`.vtp`): `n` vertices at `positions`, each with an entry of every array.
 ///
-/// `positions` are `n` 3-vectors of `f32` or `f64`, such as `&[[f64; 3]]`; every array has `n` entries;
-/// `time` is the simulated time. In ParaView choose *Point Gaussian*, or the glyph filter, to see spheres.
+/// `positions` are `n` 3-vectors of `f32` or `f64`, such as `&[[f64; 3]]`. Every array has `n` entries.
+/// `time` is the simulated time. In ParaView, choose *Point Gaussian* or the glyph filter to see spheres.
 ///
 /// # Errors
 /// [`VtkError::Positions`], [`VtkError::ArrayLength`], [`VtkError::RepeatedArray`], [`VtkError::TooMany`],
@@ -72,8 +72,8 @@ mod tests {
     use std::fs;
     use std::io::Read;
 
-    /// Reads a file written with appended raw data by the letter of the format: the attributes of every
-    /// `DataArray` and its bytes, and where the last of them end. Shares nothing with the writer.
+    /// Parses a file with appended raw data by the specification. Returns the attributes and bytes of every
+    /// `DataArray`, and where the last of them ends. Shares no code with the writer.
     fn parse(bytes: &[u8]) -> (Vec<(String, Vec<u8>)>, usize) {
         let marker = b"<AppendedData encoding=\"raw\">";
         let end_of_head = bytes.windows(marker.len()).position(|w| w == marker).unwrap();
@@ -137,7 +137,7 @@ mod tests {
         assert!(found[6].0.contains(r#"type="UInt8" Name="a &lt; &quot;b&quot;""#), "{}", found[6].0);
         assert_eq!(found[6].1, [7, 8]);
         assert_eq!(i32s(&found[7].1), [-1, 1]);
-        // No byte is left between the last block and the closing tag.
+        // No byte is between the last block and the closing tag.
         assert_eq!(&bytes[end..], b"\n</AppendedData>\n</VTKFile>\n");
     }
 

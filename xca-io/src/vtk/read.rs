@@ -1,4 +1,4 @@
-//! Reading back the files that this crate writes: these, and no other forms that VTK knows.
+//! Readers of the VTK files that this crate writes, and of no others.
 
 mod collection;
 mod element;
@@ -21,19 +21,19 @@ use element::{Element, TIME, attribute};
 pub use collection::{ListedFile, read_collection};
 pub use found::{DenseFile, HexagonFile, NumberType, ParticleFile, PolyDataFile, ReadArray};
 
-/// No file has longer lines of XML, in bytes.
+/// The longest head of XML, in bytes.
 const LONGEST_HEAD: u64 = 1 << 24;
 
 /// A VTK file that cannot be used.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadVtkError {
-    /// The file is not there or not readable.
+    /// The file does not exist or is not readable.
     #[error("cannot read {}", path.display())]
     Read {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
     /// The file ends too early.
@@ -41,7 +41,7 @@ pub enum ReadVtkError {
     Truncated {
         /// The file.
         path: PathBuf,
-        /// The bytes that it has.
+        /// The length of the file in bytes.
         found: usize,
     },
     /// The values do not fit into memory.
@@ -49,25 +49,25 @@ pub enum ReadVtkError {
     TooLarge {
         /// The file.
         path: PathBuf,
-        /// The bytes of its values.
+        /// The size of the values in bytes.
         needed: u64,
-        /// The most bytes that they may have.
+        /// The limit of that size in bytes.
         most: u64,
     },
-    /// The file is something else, or was changed.
+    /// The file has another format, or was changed.
     #[error("{} is not a VTK file as this program writes them: {what}", path.display())]
     Foreign {
         /// The file.
         path: PathBuf,
-        /// What is not as it should be.
+        /// The problem.
         what: &'static str,
     },
 }
 
-/// Reads dense substates from `path` (`.vti`), whose values may take at most `most` bytes of memory.
+/// Reads dense substates from `path` (`.vti`). `most` limits the memory for the values, in bytes.
 ///
 /// # Errors
-/// [`ReadVtkError`] where the file is not one that [`super::write_dense`] has written, or is too large.
+/// [`ReadVtkError`] if [`super::write_dense`] has not written the file, or if it is too large.
 pub fn read_dense(path: &Path, most: u64) -> Result<DenseFile, ReadVtkError> {
     let parts = Parts::read(path, "ImageData", most)?;
     let grid = parts.grid().ok_or_else(|| parts.foreign("its grid makes no sense"))?;
@@ -78,27 +78,26 @@ pub fn read_dense(path: &Path, most: u64) -> Result<DenseFile, ReadVtkError> {
     Ok(DenseFile { time, grid, hidden, arrays })
 }
 
-/// Reads particles from `path` (`.vtp`), whose values may take at most `most` bytes of memory.
+/// Reads particles from `path` (`.vtp`). `most` limits the memory for the values, in bytes.
 ///
 /// # Errors
-/// [`ReadVtkError`] where the file is not one that [`super::write_particles`] has written, or is too large.
+/// [`ReadVtkError`] if [`super::write_particles`] has not written the file, or if it is too large.
 pub fn read_particles(path: &Path, most: u64) -> Result<ParticleFile, ReadVtkError> {
     particles(Parts::read(path, "PolyData", most)?)
 }
 
-/// Reads dense substates on hexagons from `path` (`.vtp`), whose values may take at most `most` bytes of
-/// memory.
+/// Reads dense substates on hexagons from `path` (`.vtp`). `most` limits the memory for the values, in bytes.
 ///
 /// # Errors
-/// [`ReadVtkError`] where the file is not one that [`super::write_hexagons`] has written, or is too large.
+/// [`ReadVtkError`] if [`super::write_hexagons`] has not written the file, or if it is too large.
 pub fn read_hexagons(path: &Path, most: u64) -> Result<HexagonFile, ReadVtkError> {
     hexagons(Parts::read(path, "PolyData", most)?)
 }
 
-/// Reads particles or hexagons from `path` (`.vtp`), whose values may take at most `most` bytes of memory.
+/// Reads particles or hexagons from `path` (`.vtp`). `most` limits the memory for the values, in bytes.
 ///
 /// # Errors
-/// As [`read_particles`] and [`read_hexagons`].
+/// Those of [`read_particles`] and [`read_hexagons`].
 pub fn read_poly_data(path: &Path, most: u64) -> Result<PolyDataFile, ReadVtkError> {
     let parts = Parts::read(path, "PolyData", most)?;
     if parts.count("NumberOfPolys") == Some(0) {
@@ -134,7 +133,7 @@ fn hexagons(parts: Parts<'_>) -> Result<HexagonFile, ReadVtkError> {
     Ok(HexagonFile { time, grid, hidden, arrays })
 }
 
-/// Takes the array of points out. It comes before all others but those that say which points belong together.
+/// Removes the array of points. Only the arrays that group points come before it.
 fn points(path: &Path, arrays: &mut Vec<ReadArray>) -> Result<ReadArray, ReadVtkError> {
     let names: Vec<&str> = arrays.iter().take(3).map(|array| array.name.as_str()).collect();
     if names != ["Points", "connectivity", "offsets"] || arrays[0].components != 3 {
@@ -145,7 +144,7 @@ fn points(path: &Path, arrays: &mut Vec<ReadArray>) -> Result<ReadArray, ReadVtk
     Ok(points)
 }
 
-/// Takes the array out that hides cells.
+/// Removes the array that hides cells.
 fn hidden(path: &Path, arrays: &mut Vec<ReadArray>) -> Result<Option<Vec<bool>>, ReadVtkError> {
     let is_ghosts = |array: &ReadArray| array.name == GHOST_TYPE;
     let hidden = arrays.iter().position(is_ghosts).map(|at| arrays.remove(at));
@@ -160,16 +159,16 @@ fn foreign(path: &Path, what: &'static str) -> ReadVtkError {
     ReadVtkError::Foreign { path: path.to_owned(), what }
 }
 
-/// A file in its parts.
+/// A file, split into its head and its values.
 struct Parts<'a> {
     path: &'a Path,
-    /// The lines of XML.
+    /// The XML before the values.
     head: String,
-    /// What follows them.
+    /// The values and the closing tags.
     data: Source<BufReader<File>>,
-    /// The bytes of the file.
+    /// The length of the file in bytes.
     found: usize,
-    /// The most bytes that its values may have.
+    /// The limit of the memory for its values, in bytes.
     most: u64,
 }
 
@@ -189,7 +188,7 @@ impl<'a> Parts<'a> {
         }
         let mut limited = file.by_ref().take(LONGEST_HEAD);
         while !bytes.ends_with(DATA.as_bytes()) {
-            // The values begin behind a mark.
+            // The values begin after an underscore.
             if limited.read_until(b'_', &mut bytes).map_err(failed)? == 0 {
                 let is_long = bytes.len() as u64 > LONGEST_HEAD;
                 return Err(if is_long {
@@ -209,7 +208,7 @@ impl<'a> Parts<'a> {
         foreign(self.path, what)
     }
 
-    /// An attribute of the first element that begins so.
+    /// An attribute of the first element that begins with `element`.
     fn attribute(&self, element: &str, name: &str) -> Option<String> {
         attribute(self.head.lines().find(|line| line.starts_with(element))?, name)
     }
@@ -232,12 +231,12 @@ impl<'a> Parts<'a> {
         hexagons::grid(extents, corner, read_numbers(head, SIDE)?, read_numbers(head, STAGGER_AXIS)?)
     }
 
-    /// A number of the piece.
+    /// A count in the attributes of the piece.
     fn count(&self, name: &str) -> Option<usize> {
         self.attribute("<Piece ", name)?.parse().ok()
     }
 
-    /// What the head says of the arrays: the first have so many values as `first` says, the others `count`.
+    /// The descriptions of the arrays. The first have the lengths in `first`, the others the length `count`.
     fn elements(&self, first: &[usize], count: usize) -> Result<Vec<Element>, ReadVtkError> {
         let lines = self.head.lines().filter(|line| line.starts_with("<DataArray ") && !is_as_text(line));
         let counts = first.iter().copied().chain(std::iter::repeat(count));
@@ -245,7 +244,7 @@ impl<'a> Parts<'a> {
             lines.zip(counts).map(|(line, count)| Element::new(line, count)).collect::<Option<Vec<_>>>();
         let elements = elements.ok_or_else(|| self.foreign("one of its arrays makes no sense"))?;
         let needed = elements.iter().fold(0_u64, |sum, element| sum.saturating_add(element.length as u64));
-        // Before anything is expanded.
+        // Check before anything is expanded.
         if !can_hold(self.data.left(), needed) {
             return Err(self.truncated());
         }
@@ -255,7 +254,7 @@ impl<'a> Parts<'a> {
         Ok(elements)
     }
 
-    /// The time, and all arrays; the time is the first of them in the file. How many values they have: see
+    /// Reads the time and all arrays. The time is the first of them in the file. For their lengths see
     /// [`Self::elements`].
     fn arrays(mut self, first: &[usize], count: usize) -> Result<(f64, Vec<ReadArray>), ReadVtkError> {
         let elements = self.elements(first, count)?;
@@ -263,7 +262,7 @@ impl<'a> Parts<'a> {
         let begin = self.data.left();
         let mut arrays = Vec::new();
         for element in elements {
-            // The values of one array follow those of the one before.
+            // The values of the arrays follow each other.
             let states = states.get(&element.name).map_or(Some(Vec::new()), |line| read_names(line));
             let is_next = element.offset as u64 == begin - self.data.left();
             let (true, Some(states)) = (is_next, states.filter(|states| element.can_have(states))) else {
@@ -286,10 +285,10 @@ impl<'a> Parts<'a> {
         }
     }
 
-    /// Checks that nothing but the last lines is left.
+    /// Checks that only the last lines are left.
     fn check_end(&mut self) -> Result<(), ReadVtkError> {
         let mut end = vec![0; self.data.left().min(END.len() as u64 + 1) as usize];
-        // A file that has become shorter meanwhile does not end as it should either.
+        // This also finds a file that became shorter meanwhile.
         let is_read = self.data.fill(&mut end).is_ok();
         match end.as_slice() {
             end if is_read && end == END.as_bytes() => Ok(()),
@@ -298,7 +297,7 @@ impl<'a> Parts<'a> {
         }
     }
 
-    /// The elements with the names of states, by the arrays that they are of.
+    /// The elements with the names of states, by array.
     fn states(&self) -> HashMap<String, String> {
         let of_line = |line: &str| {
             let (array, _) = line.strip_prefix(STATES_OF)?.split_once('"')?;

@@ -1,4 +1,4 @@
-//! Arrays of values as VTK knows them.
+//! Arrays of values in VTK files.
 
 use std::collections::HashSet;
 use std::io::{self, Write};
@@ -8,7 +8,7 @@ use super::VtkError;
 
 /// The values of an array: scalars, or vectors stored one after the other.
 ///
-/// Made from a slice of scalars (`&[f64]`), a slice of vectors (`&[[f64; 3]]`), or with
+/// Make it from a slice of scalars (`&[f64]`), from a slice of vectors (`&[[f64; 3]]`), or with
 /// [`Values::interleaved`].
 #[derive(Debug, Clone, Copy)]
 pub struct Values<'a> {
@@ -43,13 +43,13 @@ macro_rules! from_slices {
 from_slices!(u8 U8, i32 I32, u32 U32, f32 F32, f64 F64);
 
 impl<'a> Values<'a> {
-    /// Vectors of `components` scalars each, stored one after the other in a flat slice.
+    /// Vectors of `components` scalars each, one after the other in a flat slice.
     #[must_use]
     pub fn interleaved(components: usize, values: impl Into<Self>) -> Self {
         Self { components, ..values.into() }
     }
 
-    /// The number of scalars or vectors. Vectors that are not complete count as one more.
+    /// The number of scalars or vectors. An incomplete vector counts as one.
     #[must_use]
     pub fn len(&self) -> usize {
         self.scalars().div_ceil(self.components.max(1))
@@ -61,7 +61,7 @@ impl<'a> Values<'a> {
         self.scalars() == 0
     }
 
-    /// The number of scalars in a vector, 1 for plain scalars.
+    /// The number of scalars in a vector. 1 for plain scalars.
     #[must_use]
     pub fn components(&self) -> usize {
         self.components
@@ -77,7 +77,7 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// VTK's name of the scalar type.
+    /// The name of the scalar type in VTK.
     pub(super) fn vtk_type(&self) -> &'static str {
         match self.data {
             Data::U8(_) => "UInt8",
@@ -125,31 +125,31 @@ fn write_little_endian<T: Copy, const N: usize>(
 /// A named array: one scalar or vector for each particle or cell.
 #[derive(Debug, Clone, Copy)]
 pub struct DataArray<'a> {
-    /// The name that ParaView shows, with the unit if there is one, such as `velocity (m/s)`.
+    /// The name that ParaView shows, with the unit if there is one: `velocity (m/s)`.
     pub name: &'a str,
     /// The values.
     pub values: Values<'a>,
-    /// What ParaView calls the components of a value. Without names it takes X, Y and Z, or numbers.
+    /// The names of the components in ParaView. Defaults: X, Y and Z, or numbers.
     pub components: &'a [String],
-    /// What the values of `u8` are called, by number, where they are states. The names become the field data
-    /// `states of NAME`.
+    /// The names of the states, by value, if the values (`u8`) are states. They become the field data `states
+    /// of NAME`.
     pub states: &'a [String],
 }
 
 impl<'a> DataArray<'a> {
-    /// An array of scalars (from `&[f64]` and the like) or of vectors (from `&[[f64; 3]]` and the like).
+    /// An array of scalars (such as `&[f64]`) or of vectors (such as `&[[f64; 3]]`).
     #[must_use]
     pub fn new(name: &'a str, values: impl Into<Values<'a>>) -> Self {
         Self { name, values: values.into(), components: &[], states: &[] }
     }
 
-    /// The same array with names for its components.
+    /// Adds names of the components.
     #[must_use]
     pub fn with_components(self, components: &'a [String]) -> Self {
         Self { components, ..self }
     }
 
-    /// The same array, whose values are states with these names.
+    /// Adds the names of the states that the values stand for.
     #[must_use]
     pub fn with_states(self, states: &'a [String]) -> Self {
         Self { states, ..self }

@@ -1,4 +1,4 @@
-//! GeoTIFF files of rasterio, and ours read by rasterio.
+//! GeoTIFF files of rasterio read here, and files of this crate read by rasterio.
 
 use super::{are_same, number, run};
 use serde_json::{Value, json};
@@ -7,7 +7,7 @@ use std::sync::Arc;
 use xca_io::geotiff::{self, GeoKeys, SampleType};
 use xca_io::raster::Raster;
 
-/// The values that rasterio finds, from the south.
+/// The values that rasterio reads, from the south.
 fn values(found: &Value) -> Vec<f64> {
     let columns = found["extents"][0].as_u64().unwrap() as usize;
     let values: Vec<f64> = found["values"].as_array().unwrap().iter().map(number).collect();
@@ -18,7 +18,7 @@ fn file_name(found: &Value) -> &str {
     found["name"].as_str().unwrap()
 }
 
-/// Whether a raster has the values, the place and the code of the coordinate system that rasterio finds.
+/// Checks a raster against the values, the place and the EPSG code that rasterio reads.
 fn assert_same(raster: &Raster, found: &Value) {
     let name = file_name(found);
     assert!(are_same(raster.values(), &values(found)), "{name}");
@@ -40,7 +40,7 @@ fn files_of_rasterio_are_read_and_ours_are_read_by_rasterio() {
     for found in &made {
         let raster = Raster::read(&folder.path().join(file_name(found))).unwrap();
         assert_same(&raster, found);
-        // The formula of the script, where the first cell of the last row of the file is.
+        // The formula of the script, for the first cell of the last row of the file.
         let wanted = if found["type"].as_str().unwrap().starts_with("float") { 154.1 } else { 154.0 };
         let value = raster.value([0, 0]).unwrap();
         assert!((value - if found["type"] == "int8" { -102.0 } else { wanted }).abs() < 1e-5, "{value}");

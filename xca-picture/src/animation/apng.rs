@@ -1,18 +1,17 @@
-//! Animated PNG files (APNG), which browsers play and every other program shows the first picture of.
+//! Animated PNG files (APNG). Browsers play them; every other program shows the first picture.
 
 use super::film::{Film, Part};
 use std::io;
 use std::path::{Path, PathBuf};
 use xca_io::atomic::{WriteError, write_atomically};
 
-/// Makes one animated PNG, which is played for ever, of pictures in PNG files; all must have the size of the
-/// first, in RGB with 8 bits.
+/// Writes an animated PNG of pictures in PNG files. It plays in an endless loop. All pictures must have the
+/// size of the first, in RGB with 8 bits.
 ///
-/// Only what changes from one picture to the next is stored.
+/// The file stores only the changes from one picture to the next.
 ///
 /// # Errors
-/// [`WriteError::File`] with the path of the animation, where it cannot be written or a picture cannot be
-/// read.
+/// [`WriteError::File`] with the path of the animation, if it cannot be written or a picture cannot be read.
 pub fn write_apng(path: &Path, pictures: &[PathBuf], pictures_a_second: u16) -> Result<(), WriteError> {
     write_atomically(path, |file| {
         let film = Film::new(pictures)?;

@@ -1,4 +1,4 @@
-//! Pictures that follow each other, and what changes between them.
+//! Sequences of pictures, and the changes between them.
 
 use crate::Picture;
 use std::io::{self, BufReader};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use xca_io::deflate::can_hold;
 use xca_io::regular_file;
 
-/// Pictures in PNG files, read one by one.
+/// Pictures in PNG files, read one at a time.
 pub(super) struct Film<'a> {
     first: Picture,
     rest: &'a [PathBuf],
@@ -31,7 +31,7 @@ impl<'a> Film<'a> {
         [self.first.width(), self.first.height()]
     }
 
-    /// Hands on the first picture, and of each other one what is not as in the one before.
+    /// Passes on the first picture, and of each later one the part that changed.
     pub(super) fn each_part(&self, mut see: impl FnMut(Part<'_>) -> io::Result<()>) -> io::Result<()> {
         see(Part { at: [0; 2], size: self.size(), rgb: self.first.rgb() })?;
         let mut before = None;
@@ -50,10 +50,10 @@ impl<'a> Film<'a> {
     }
 }
 
-/// No picture of an animation has more pixels.
+/// The largest number of pixels in a picture of an animation.
 const MOST_PIXELS: u64 = 1 << 28;
 
-/// A picture as [`Picture::write`] writes it.
+/// Reads a picture that [`Picture::write`] wrote.
 pub(super) fn read(path: &Path) -> io::Result<Picture> {
     let refused = |what: &str| io::Error::other(format!("{} {what}", path.display()));
     let file = regular_file::open(path)?;
@@ -65,7 +65,7 @@ pub(super) fn read(path: &Path) -> io::Result<Picture> {
     }
     let (width, height) = (info.width, info.height);
     let pixels = u64::from(width) * u64::from(height);
-    // Before the pixels have a place in memory: the header may ask for any number of them.
+    // Check before allocating: the header may claim any number of pixels.
     if pixels > MOST_PIXELS {
         return Err(refused(&format!("has {width} x {height} pixels, which are too many for an animation")));
     }
@@ -77,8 +77,8 @@ pub(super) fn read(path: &Path) -> io::Result<Picture> {
     Ok(Picture::new(width as usize, height as usize, rgb))
 }
 
-/// Corner and size of the least rectangle with all pixels that two pictures of the same size do not share;
-/// one pixel where there are none, as a picture of an animation cannot be empty.
+/// Corner and size of the smallest rectangle with all pixels that differ between two pictures of the same
+/// size. Equal pictures give one pixel, because a picture of an animation cannot be empty.
 fn changed(before: &Picture, now: &Picture) -> [[usize; 2]; 2] {
     let width = now.width();
     let (mut low, mut high) = ([usize::MAX; 2], [0; 2]);

@@ -8,16 +8,15 @@ use std::io;
 use std::path::{Path, PathBuf};
 use xca_io::atomic::{WriteError, write_atomically};
 
-/// Makes one animated GIF, which is played for ever, of pictures in PNG files; all must have the size of the
-/// first, in RGB with 8 bits.
+/// Writes an animated GIF of pictures in PNG files. It plays in an endless loop. All pictures must have the
+/// size of the first, in RGB with 8 bits.
 ///
-/// All pictures share one palette: their own colours, where these are not more than 256, else those that are
-/// there most often, and others that come near to the rest. A colour is shown alike in all pictures, and no
-/// pixels are mixed, so that nothing flickers that does not change.
+/// All pictures share one palette. Up to 256 colours stay exact. Otherwise the palette has the most frequent
+/// colours, and others close to the rest. A colour looks the same in all pictures, and there is no dithering.
+/// Areas that do not change therefore do not flicker.
 ///
 /// # Errors
-/// [`WriteError::File`] with the path of the animation, where it cannot be written or a picture cannot be
-/// read.
+/// [`WriteError::File`] with the path of the animation, if it cannot be written or a picture cannot be read.
 pub fn write_gif(path: &Path, pictures: &[PathBuf], pictures_a_second: u16) -> Result<(), WriteError> {
     write_atomically(path, |file| {
         let film = Film::new(pictures)?;
@@ -49,8 +48,7 @@ pub fn write_gif(path: &Path, pictures: &[PathBuf], pictures_a_second: u16) -> R
     })
 }
 
-/// How long a picture is shown, in hundredths of a second: whole ones, which are as near to the wanted times
-/// as can be.
+/// The time for which a picture is shown, in whole hundredths of a second. Rounding errors do not add up.
 fn delay(picture: u64, pictures_a_second: u16) -> u16 {
     let rate = u64::from(pictures_a_second.max(1));
     let end = |pictures: u64| (200 * pictures + rate) / (2 * rate);

@@ -1,4 +1,4 @@
-//! The colours of a GIF: 256 at most, the same in all its pictures.
+//! The palette of a GIF: at most 256 colours, the same in all its pictures.
 
 use color_quant::NeuQuant;
 use std::collections::HashMap;
@@ -7,14 +7,14 @@ use std::iter::repeat_n;
 /// A colour in sRGB.
 type Colour = [u8; 3];
 
-/// How many colours a GIF can have.
+/// The largest number of colours of a GIF.
 const MOST: usize = 256;
 
-/// How many of the most frequent colours stay as they are where there are more: paper, ink, and the large
-/// areas.
+/// The number of the most frequent colours that stay exact if there are too many colours: paper, ink and
+/// large areas.
 const KEPT: usize = 64;
 
-/// How often each colour is there.
+/// The number of pixels of each colour.
 #[derive(Default)]
 pub(super) struct Histogram {
     counts: HashMap<Colour, u64>,
@@ -23,17 +23,17 @@ pub(super) struct Histogram {
 impl Histogram {
     /// Counts pixels, three bytes each.
     pub(super) fn add(&mut self, rgb: &[u8]) {
-        // What is alike stands side by side.
+        // Equal pixels are often neighbours.
         for run in rgb.as_chunks::<3>().0.chunk_by(|one, next| one == next) {
             *self.counts.entry(run[0]).or_default() += run.len() as u64;
         }
     }
 
-    /// The colours of the palette, and which of them stands for each colour that was counted.
+    /// The palette, and for each counted colour its entry.
     pub(super) fn palette(self) -> Palette {
         let mut all: Vec<(Colour, u64)> = self.counts.into_iter().collect();
-        // The most frequent first; an order of those that are equally frequent makes the same file of the
-        // same pictures.
+        // The most frequent colours first. The order of equally frequent colours is fixed, so that equal
+        // pictures give equal files.
         all.sort_unstable_by_key(|(colour, count)| (std::cmp::Reverse(*count), *colour));
         let colours =
             if all.len() <= MOST { all.iter().map(|(colour, _)| *colour).collect() } else { few(&all) };
@@ -42,7 +42,7 @@ impl Histogram {
     }
 }
 
-/// The colours of a film.
+/// The colours of an animation.
 pub(super) struct Palette {
     colours: Vec<Colour>,
     indices: HashMap<Colour, u8>,
@@ -54,24 +54,24 @@ impl Palette {
         self.colours.as_flattened()
     }
 
-    /// The numbers of the colours of pixels, all of which must have been counted.
+    /// The palette indices of pixels. All colours must have been counted.
     pub(super) fn indices(&self, rgb: &[u8]) -> Vec<u8> {
         let pixels = rgb.as_chunks::<3>().0.iter();
         pixels.map(|colour| self.indices.get(colour).copied().unwrap_or(0)).collect()
     }
 }
 
-/// A few colours that stand for all of these, the most frequent of which come first.
+/// A few colours that represent `all`, which is sorted by frequency.
 fn few(all: &[(Colour, u64)]) -> Vec<Colour> {
     let (kept, others) = all.split_at(KEPT);
-    // A colour that is there often counts for more, but not for so much that the rare ones are lost.
+    // Frequent colours weigh more, but not so much that rare colours are lost.
     let weighed = others.iter().flat_map(|(colour, count)| repeat_n(colour, 1 + count.ilog2() as usize));
     let pixels: Vec<u8> = weighed.flat_map(|&[red, green, blue]| [red, green, blue, u8::MAX]).collect();
     let found = NeuQuant::new(1, MOST - KEPT, &pixels).color_map_rgb();
     kept.iter().map(|(colour, _)| *colour).chain(found.as_chunks().0.iter().copied()).collect()
 }
 
-/// The number of the colour that is nearest to this one.
+/// The index of the nearest colour.
 fn nearest(colours: &[Colour], wanted: Colour) -> u8 {
     let distance = |colour: &Colour| -> i32 {
         (0..3).map(|i| (i32::from(colour[i]) - i32::from(wanted[i])).pow(2)).sum()
@@ -84,8 +84,8 @@ fn nearest(colours: &[Colour], wanted: Colour) -> u8 {
 mod tests {
     use super::*;
 
-    /// The largest difference of a channel between colours and what stands for them, and the mean of the
-    /// differences.
+    /// The largest difference of a channel between colours and their representatives, and the mean
+    /// difference.
     fn error(colours: &[Colour]) -> (u8, f64) {
         let mut histogram = Histogram::default();
         histogram.add(colours.as_flattened());
@@ -113,7 +113,7 @@ mod tests {
 
     #[test]
     fn more_colours_are_met_nearly() {
-        // A map of colours under light of many strengths, on a lot of white.
+        // A colour map under light of many strengths, on much white.
         let mut colours = vec![[255; 3]; 20_000];
         for hue in 0..=255_u16 {
             for light in 20..100_u16 {
@@ -122,7 +122,7 @@ mod tests {
         }
         let (largest, mean) = error(&colours);
         assert!(largest <= 24 && mean < 2.5, "{largest} {mean}");
-        // All over the cube, which is the worst there can be.
+        // Colours all over the cube: the worst case.
         let cube: Vec<Colour> =
             (0..32_768_u32).map(|i| [i % 32, i / 32 % 32, i / 1024].map(|c| (8 * c) as u8)).collect();
         let (largest, mean) = error(&cube);

@@ -48,12 +48,12 @@ fn an_apng_shows_each_picture() {
         sizes.push([width, height]);
         assert_eq!(shown, read(picture).unwrap().rgb(), "{}", picture.display());
     }
-    // From (2, 1) to (6, 3), nothing, and from (2, 1) to (8, 5).
+    // From (2, 1) to (6, 3), no change, and from (2, 1) to (8, 5).
     assert_eq!(sizes, [[9, 6], [5, 3], [1, 1], [7, 5]]);
 }
 
-/// The size of a GIF, how often it is played, and of each frame its delay, its corner and size, and all that
-/// is shown then.
+/// The size of a GIF, its number of repetitions, and of each frame the delay, corner and size, and the pixels
+/// shown then.
 type Played = ([usize; 2], ::gif::Repeat, Vec<(u16, [u16; 4], Vec<u8>)>);
 
 fn played(path: &Path) -> Played {
@@ -91,10 +91,10 @@ fn a_gif_shows_each_picture() {
     for ((_, _, shown), picture) in frames.iter().zip(&pictures) {
         assert_eq!(shown, read(picture).unwrap().rgb(), "{}", picture.display());
     }
-    // From (2, 1) to (6, 3), nothing, and from (2, 1) to (8, 5).
+    // From (2, 1) to (6, 3), no change, and from (2, 1) to (8, 5).
     let parts: Vec<[u16; 4]> = frames.iter().map(|(_, part, _)| *part).collect();
     assert_eq!(parts, [[0, 0, 9, 6], [2, 1, 5, 3], [0, 0, 1, 1], [2, 1, 7, 5]]);
-    // Twelve a second are 8 1/3 hundredths each.
+    // At twelve a second, each takes 8 1/3 hundredths.
     let delays: Vec<u16> = frames.iter().map(|(delay, ..)| *delay).collect();
     assert_eq!(delays, [8, 9, 8, 8]);
     write_gif(&path, &pictures, 50).unwrap();
@@ -104,7 +104,7 @@ fn a_gif_shows_each_picture() {
 #[test]
 fn a_gif_of_many_colours_is_near_and_still_where_nothing_changes() {
     let folder = tempfile::tempdir().unwrap();
-    // A ramp of 4096 colours that stays, and a square of another colour that wanders over it.
+    // A constant ramp of 4096 colours, and a square of another colour that moves over it.
     let paths: Vec<PathBuf> = (0..5)
         .map(|number: usize| {
             let mut rgb: Vec<u8> = (0..64 * 64)
@@ -126,7 +126,7 @@ fn a_gif_of_many_colours_is_near_and_still_where_nothing_changes() {
         let largest = shown.iter().zip(wanted.rgb()).map(|(shown, wanted)| shown.abs_diff(*wanted)).max();
         assert!(largest.unwrap() <= 40, "{largest:?}");
     }
-    // Outside of the rows of the square, all frames are the same to the last bit.
+    // Outside the rows of the square, all frames are the same to the last bit.
     let outside = |shown: &[u8]| [&shown[..3 * 640], &shown[3 * 896..]].concat();
     assert!(frames.windows(2).all(|pair| outside(&pair[0].2) == outside(&pair[1].2)));
     assert!(frames[1..].iter().all(|(_, part, _)| *part != [0, 0, 64, 64]));

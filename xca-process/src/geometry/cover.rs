@@ -1,14 +1,14 @@
-//! How far a search can reach so that it misses nothing.
+//! The largest radius of a search that finds every item.
 
 use super::Geometry;
 use std::collections::HashSet;
 
-/// The distance from a cell to the nearest cell of the space that its neighbourhood does not hold, in sides
-/// of a cell; infinite where it holds all.
+/// The distance from a cell to the nearest cell of the space that is not in its neighbourhood, in sides of a
+/// cell. Infinite if the neighbourhood holds the whole space.
 ///
-/// Cells are closed boxes, so cells that touch have no distance. A displacement counts where some cell of the
-/// space has a cell there: not across the flat faces of a thin space, and round a torus by the shorter way.
-/// With hexagons the rows or columns that see less decide.
+/// Cells are closed boxes, so touching cells have distance 0. A displacement counts if it leads from some
+/// cell to a cell of the space. It does not cross the flat faces of a thin space, and takes the shorter way
+/// on a torus. With hexagons, the rows or columns that see less decide.
 pub(super) fn covered(geometry: &Geometry) -> f64 {
     let alternating = [[0; 3], [1, 1, 0]];
     alternating.map(|cell| covered_from(geometry, cell)).into_iter().fold(f64::INFINITY, f64::min)
@@ -18,8 +18,8 @@ fn covered_from(geometry: &Geometry, cell: [usize; 3]) -> f64 {
     let displacements = geometry.neighbourhood.displacements(cell);
     let held: HashSet<[i32; 3]> =
         displacements.iter().map(|at| [0, 1, 2].map(|axis| canonical(geometry, axis, at[axis]))).collect();
-    // The displacements that the space has along an axis, no further than one cell beyond the reach: what
-    // lies further is missing too, and no nearer.
+    // The displacements along an axis that lead to cells of the space, up to one cell beyond the reach. Cells
+    // farther away are also missing, but are not nearer.
     let steps = |axis: usize| {
         let extent = extent(geometry, axis);
         let (low, high) =
@@ -34,7 +34,7 @@ fn covered_from(geometry: &Geometry, cell: [usize; 3]) -> f64 {
         .max()
         .unwrap_or(0);
     let mut least = i64::MAX;
-    // From shell to shell: the cells of a shell are at least its number less one away.
+    // By shell: the cells of a shell are at least (its number - 1) away.
     for shell in 1..=furthest {
         if (shell - 1) * (shell - 1) >= least {
             break;
@@ -56,12 +56,12 @@ fn covered_from(geometry: &Geometry, cell: [usize; 3]) -> f64 {
     if least == i64::MAX { f64::INFINITY } else { (least as f64).sqrt() }
 }
 
-/// The number of cells along an axis, before it is known whether so many can be.
+/// The number of cells along an axis, before the model has checked it.
 fn extent(geometry: &Geometry, axis: usize) -> i64 {
     i64::try_from(geometry.extents[axis]).unwrap_or(i64::MAX)
 }
 
-/// The shorter one of the displacements that lead to the same cell.
+/// The shorter of the displacements that lead to the same cell.
 fn canonical(geometry: &Geometry, axis: usize, step: i32) -> i32 {
     let extent = extent(geometry, axis);
     if !geometry.toroidal()[axis] || extent == 0 {
@@ -87,14 +87,14 @@ mod tests {
             let cube = covered([9; 3], Boundary::Flat, Neighbourhood::moore(radius));
             assert_eq!(cube, 0.5 * f64::from(radius));
         }
-        // In one layer nothing is missing above and below; in a deep space it is.
+        // A single layer has no missing cells above and below, a deep space has.
         let layer = |extents, boundary| covered(extents, boundary, Neighbourhood::moore_2d(1));
         assert_eq!(layer([9, 9, 1], Boundary::Flat), 0.5);
         assert_eq!(layer([9, 9, 1], Boundary::Toroidal), 0.5);
         assert_eq!(layer([9, 9, 2], Boundary::Flat), 0.0);
     }
 
-    /// The corners decide: a cell whose corner touches has no distance.
+    /// Corners decide: a cell that touches at a corner has distance 0.
     #[test]
     fn crosses_cover_less() {
         let cross = |radius| covered([9; 3], Boundary::Flat, Neighbourhood::von_neumann(radius));
@@ -115,7 +115,7 @@ mod tests {
         assert_eq!(covered([4; 3], Boundary::Toroidal, Neighbourhood::moore(1)), 0.5);
     }
 
-    /// A list with a hole covers as far as the hole.
+    /// A list with a hole covers the distance to the hole.
     #[test]
     fn holes_count() {
         let mut displacements: Vec<[i32; 3]> = Neighbourhood::moore_2d(2).displacements([0; 3]).to_vec();

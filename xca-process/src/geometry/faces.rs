@@ -1,4 +1,4 @@
-//! The six faces of the space, and what each of them has.
+//! The six faces of the space, and values for them.
 
 use std::fmt;
 use std::ops::{Index, IndexMut};
@@ -30,7 +30,7 @@ pub enum Face {
 }
 
 impl Face {
-    /// All faces, along x, y, z: first the one at the first cell, then the one at the last.
+    /// All faces, along x, y, z: for each axis the face at the first cell, then the face at the last.
     pub const ALL: [Self; 6] = [Self::West, Self::East, Self::South, Self::North, Self::Bottom, Self::Top];
 
     /// The two faces across each of the axes x, y, z.

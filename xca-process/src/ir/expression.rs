@@ -19,20 +19,20 @@ pub enum Expression {
         /// Its value.
         value: Constant,
     },
-    /// A substate of the cell or item that the process runs for: what the process has written already, if it
-    /// has.
+    /// A substate of the cell or item that the process runs for, including what the process has already
+    /// written.
     Own(&'static str),
-    /// A substate that another struct of the cell has (`&Cell<S>`): of the cell that the process runs for, or
-    /// that its item stands in.
+    /// A substate of another struct of the cell (`&Cell<S>`). The cell is that of the process, or that of its
+    /// item.
     OfCell {
-        /// The number of the struct among those of substates that the process takes.
+        /// The index of the struct among the process's structs of substates.
         argument: usize,
         /// The substate.
         field: &'static str,
     },
     /// `cell.neighbour(index).field`
     Neighbour {
-        /// The number of the struct; 0 is that of the cell that the process runs for.
+        /// The index of the struct. 0 is that of the cell that the process runs for.
         argument: usize,
         /// The index of the neighbour, `u32`.
         index: Box<Expression>,
@@ -71,7 +71,7 @@ pub enum Expression {
     Parameters(&'static str),
     /// The space as a whole, passed on to a helper.
     Space,
-    /// Something that the engine provides.
+    /// A function or value that the engine provides.
     Builtin(Builtin, Vec<Expression>),
     /// `-a`, `!a`
     Unary(UnaryOperator, Box<Expression>),
@@ -81,18 +81,18 @@ pub enum Expression {
     Cast(Box<Expression>, Type),
     /// A call of a helper.
     Call {
-        /// Gives the helper.
+        /// Returns the helper.
         function: fn() -> Function,
         /// The arguments.
         arguments: Vec<Expression>,
     },
-    /// A method of a number, vector or array that is an operation; others are calls of helpers.
+    /// A method of a number, vector or array that is an operation. Other methods are calls of helpers.
     Method {
-        /// Which.
+        /// The operation.
         method: Operation,
         /// The receiver.
         receiver: Box<Expression>,
-        /// The further arguments.
+        /// The other arguments.
         arguments: Vec<Expression>,
     },
     /// `.x`, `.y`, `.z`, `.w`: 0 to 3.
@@ -107,7 +107,7 @@ pub enum Expression {
     Repeat(Box<Expression>, usize),
     /// `Vector3::new(a, b, c)`: as many components as lanes.
     Vector(Vec<Expression>),
-    /// `Vector3::splat(a)`; the second is the number of lanes.
+    /// `Vector3::splat(a)`, and the number of lanes.
     Splat(Box<Expression>, u8),
     /// `if condition { then } else { otherwise }`
     If {
@@ -120,7 +120,7 @@ pub enum Expression {
     },
     /// `match value { … }` over integers.
     Match {
-        /// What is compared.
+        /// The value to compare.
         value: Box<Expression>,
         /// The arms in order.
         arms: Vec<Arm>,
@@ -151,14 +151,14 @@ pub enum Pattern {
     Range(Expression, Expression),
 }
 
-/// A literal as it is written.
+/// A literal as written.
 #[derive(Debug, Clone)]
 pub enum Literal {
     /// `true`, `false`
     Bool(bool),
-    /// An integer, with its suffix where one is written.
+    /// An integer, with its suffix if there is one.
     Integer(u64, Option<ScalarType>),
-    /// A decimal fraction: the digits as written, without underscores and suffix, with the suffix apart.
+    /// A decimal fraction: the digits as written without underscores, and the suffix.
     Float(&'static str, Option<ScalarType>),
 }
 
@@ -175,7 +175,7 @@ pub enum Constant {
     U32(u32),
     /// `f32`
     F32(f32),
-    /// `f64`, which in a process is `Real`.
+    /// `f64`, which is `Real` in a process.
     Real(f64),
     /// A state by its number.
     State(u8, &'static StateNames),
@@ -185,10 +185,11 @@ pub enum Constant {
     Array(Vec<Constant>),
 }
 
-/// What an engine provides to a process.
+/// Functions and values that an engine provides to a process.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Builtin {
-    /// `cell.neighbour_count()`: the number of cells in the neighbourhood with the central one, `usize`.
+    /// `cell.neighbour_count()`: the number of cells in the neighbourhood, including the central one,
+    /// `usize`.
     NeighbourCount,
     /// `cell.opposite(n)`: the index of the neighbour in the opposite direction, `usize`.
     Opposite,
@@ -210,7 +211,7 @@ pub enum Builtin {
     Extents,
     /// `space.step()`: the number of the step, from 0, `u32` (its low 32 bits).
     Step,
-    /// `space.nearest_image(separation)`: a separation by the shorter way round, `Vector3<Real>`.
+    /// `space.nearest_image(separation)`: the separation to the nearest image, `Vector3<Real>`.
     NearestImage,
     /// `space.wrapped(position)`: a position inside the space, `Vector3<Real>`.
     Wrapped,

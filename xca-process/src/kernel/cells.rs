@@ -1,8 +1,7 @@
-//! How kernels reach the substates of a row's cells and of their neighbours.
+//! Access of kernels to the substates of a row's cells and of their neighbours.
 //!
-//! What a kernel reads is had from a [`super::Row`] only. It is asked for by the tokens [`Column`] and
-//! [`Offset`], which come from the row too: so a kernel needs no unsafe code, and cannot reach memory that is
-//! not its own.
+//! A kernel reads only through a [`super::Row`]. The tokens [`Column`] and [`Offset`] address the values, and
+//! come from the row too. A kernel therefore needs no unsafe code, and cannot reach memory of others.
 
 use super::values::{KernelElement, KernelValue};
 use super::written::BLOCK_BYTES;
@@ -11,7 +10,7 @@ use std::fmt;
 use std::marker::PhantomData;
 use std::ops::Range;
 
-/// The number of a cell in its row: below the row's length.
+/// The index of a cell in its row, below the row's length.
 #[derive(Debug, Clone, Copy)]
 pub struct Column<'r> {
     first: usize,
@@ -26,7 +25,7 @@ impl Column<'_> {
         self.first + self.lane
     }
 
-    /// The number within its block.
+    /// The index within its block.
     #[inline(always)]
     pub fn lane(self) -> usize {
         self.lane
@@ -34,14 +33,14 @@ impl Column<'_> {
 }
 
 impl Row<'_> {
-    /// The cell with this number, or the last one where there is none with it.
+    /// The cell with this index, or the last cell if there is none.
     #[inline(always)]
     pub(super) fn column(&self, number: usize) -> Column<'_> {
         Column { first: 0, lane: number.min(self.length.saturating_sub(1)), row: PhantomData }
     }
 }
 
-/// Cells of a row, one after the other.
+/// Consecutive cells of a row.
 #[derive(Debug, Clone)]
 pub struct Columns<'r> {
     pub(super) first: usize,
@@ -50,7 +49,7 @@ pub struct Columns<'r> {
 }
 
 impl Columns<'_> {
-    /// Their numbers in the row.
+    /// Their indices in the row.
     #[inline(always)]
     pub fn numbers(&self) -> Range<usize> {
         self.first + self.lanes.start..self.first + self.lanes.end
@@ -66,7 +65,7 @@ impl<'r> Iterator for Columns<'r> {
     }
 }
 
-/// A row, in blocks of so many cells at most.
+/// A row in blocks with a limited number of cells.
 #[derive(Debug, Clone)]
 pub struct Blocks<'r> {
     pub(super) rest: Range<usize>,
@@ -86,7 +85,7 @@ impl<'r> Iterator for Blocks<'r> {
     }
 }
 
-/// The distance from a cell to one of its neighbourhood.
+/// The distance from a cell to a cell of its neighbourhood.
 #[derive(Debug, Clone, Copy)]
 pub struct Offset<'r> {
     pub(super) distance: isize,
@@ -140,15 +139,14 @@ impl<'r, T: KernelElement, const N: usize> AroundRead<'r, [T; N]> {
         self.read(cell, offset, element)
     }
 
-    /// Asks for an element of the neighbours of the next cells, as many as these: they are read soon. Where
-    /// they do not exist, nothing is lost; nothing is read into the program.
+    /// Prefetches an element of the neighbours of the next block of cells. The address may be invalid,
+    /// because a prefetch reads nothing into the program.
     #[inline(always)]
     pub fn fetch(&self, columns: &Columns<'r>, offset: Offset<'r>, element: usize) {
         let next = columns.numbers().end as isize + offset.distance + (element * self.stride) as isize;
         let first = self.first.wrapping_offset(next).cast::<u8>();
         let bytes = columns.lanes.len() * size_of::<T::Memory>();
-        // A row that is one block has no next one, and is long enough for the processor to foresee what
-        // follows.
+        // A row of one block has no next block, and is long enough for the processor's own prefetcher.
         if bytes <= BLOCK_BYTES {
             announce_bytes(first, bytes);
         }
@@ -189,7 +187,7 @@ impl<'r, T: KernelElement, const N: usize> CentreRead<'r, [T; N]> {
     }
 }
 
-/// The message is that of arrays, as the element may belong to one or not.
+/// The message is that of arrays.
 #[inline(always)]
 fn check_element(element: usize, length: usize) {
     assert!(element < length, "index out of bounds: the len is {length} but the index is {element}");

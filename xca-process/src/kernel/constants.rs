@@ -1,15 +1,14 @@
-//! Constants as kernels have them.
+//! Constants of the user's code in kernels.
 
 use crate::float::Float;
 use crate::states::States;
 
-/// A constant of the user's code as a kernel of precision `R` sees it: `f64`, which is `Real` there, becomes
-/// `R`.
+/// A constant of the user's code in a kernel of precision `R`. `f64`, which stands for `Real`, becomes `R`.
 pub trait KernelConstant<R> {
     /// The type in the kernel.
     type Native;
 
-    /// Converts it.
+    /// Converts the constant.
     fn native(self) -> Self::Native;
 }
 
@@ -65,7 +64,7 @@ macro_rules! vector_constant {
 
 vector_constant!(Vector2 { x, y } Vector3 { x, y, z } Vector4 { x, y, z, w });
 
-/// Converts a constant of the user's code; called by what the macros write.
+/// Converts a constant of the user's code. The macros write calls of this function.
 #[inline(always)]
 pub fn constant<R, T: KernelConstant<R>>(value: T) -> T::Native {
     value.native()

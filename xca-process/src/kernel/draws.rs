@@ -1,13 +1,13 @@
-//! What depends on the step: random numbers, and its number.
+//! Values that depend on the step: random numbers, and the number of the step.
 
 use crate::float::Float;
 use crate::random::{Draw, Stream};
 use std::cell::Cell;
 
-/// The random numbers of a row, and whether one of them or the number of the step has been asked for.
+/// The random numbers of a row. Also records whether the kernel requested one, or the number of the step.
 ///
-/// A kernel has one of its own, a copy of all that numbers depend on: what only the kernel knows stays in
-/// registers, and the loop can be vectorised even where only some cells draw.
+/// Each kernel has its own copy of all inputs of the numbers. The copy stays in registers, and the loop can
+/// be vectorized even if only some cells draw.
 #[derive(Debug)]
 pub struct Draws {
     stream: Stream,
@@ -15,20 +15,20 @@ pub struct Draws {
     seed: u64,
     /// The linear index of the row's first cell.
     first_cell: u32,
-    /// A sum of bits, which a compiler recognises where it would not recognise a flag.
+    /// A sum of bits. Compilers recognize it as a reduction, unlike a flag.
     asked: Cell<u32>,
     /// Not 0, which the compiler must not know.
     mark: u32,
 }
 
 impl Draws {
-    /// The mark is any number but 0 that is not known when this is compiled.
+    /// Creates the source of numbers. The mark is any number except 0 that the compiler cannot know.
     #[inline(always)]
     pub(super) fn new((stream, step, seed): (Stream, u64, u64), first_cell: u32, mark: u32) -> Self {
         Self { stream, step, seed, first_cell, asked: Cell::new(0), mark }
     }
 
-    /// Whether something has been asked for.
+    /// Whether a number has been requested.
     #[inline(always)]
     pub(super) fn is_asked(&self) -> bool {
         self.asked.get() != 0

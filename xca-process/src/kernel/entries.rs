@@ -1,5 +1,4 @@
-//! Where the substates of a row lie, and how a kernel is handed them: each is compared with what the kernel
-//! takes it for, once a row.
+//! The memory of the substates of a row. Each entry is compared with the kernel's use of it, once a row.
 
 use super::Row;
 use super::cells::{AroundRead, CentreRead};
@@ -7,68 +6,68 @@ use super::values::{KernelElement, KernelValue};
 use super::written::{Planes, Written};
 use std::marker::PhantomData;
 
-/// One substate as a kernel reaches it.
+/// One substate in memory.
 #[derive(Debug, Clone, Copy)]
 pub struct Entry {
-    /// Of cells: the first element's value in the row's first cell. Of items: the value of the first item of
-    /// all. Null where the kernel reads through `write`: where the process writes the substate and reads it
-    /// at the centre only.
+    /// For cells: the first element's value in the row's first cell. For items: the value of the first item
+    /// of all. Null if the kernel reads through `write`: the process writes the substate, and reads it only
+    /// at the centre.
     pub read: *const u8,
-    /// Where results go: of cells, the row's first cell; of items, the row's first item. Null where the
-    /// process does not write.
+    /// The place for results: the row's first cell, or the row's first item. Null if the process does not
+    /// write.
     pub write: *mut u8,
-    /// What lies there.
+    /// The layout of the memory.
     pub memory: Memory,
 }
 
-/// How a substate lies in memory.
+/// The layout of a substate in memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Memory {
-    /// The bytes of an element.
+    /// The size of an element in bytes.
     pub element: usize,
-    /// The elements of a value: 1, or the length of an array.
+    /// The number of elements of a value: 1, or the length of an array.
     pub length: usize,
-    /// Whose values these are, and which of them can be read.
+    /// The owners of the values, and the readable ones.
     pub of: MemoryOf,
 }
 
-/// Whose values an entry holds, and which of them can be read.
+/// The owners of the values of an entry, and the readable ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MemoryOf {
-    /// Of cells, each element in a plane of its own; of the row's cells.
+    /// The row's cells, with a plane for each element.
     Cells {
-        /// The elements from one plane to the next, where values are read.
+        /// The distance between planes for reading, in elements.
         read_stride: usize,
-        /// The same where they are written.
+        /// The distance between planes for writing, in elements.
         write_stride: usize,
-        /// Whether neighbours can be read too.
+        /// Whether neighbours are readable too.
         around: bool,
     },
-    /// Of items, whole values one after the other.
+    /// Items, with whole values one after the other.
     Items {
-        /// Whether items can be read that are not the row's own.
+        /// Whether items outside the row are readable.
         all: bool,
-        /// How many values there are: as many as labels, if these are the items of the row.
+        /// The number of values. It equals the number of labels if these are the items of the row.
         count: usize,
     },
 }
 
 impl Row<'_> {
-    /// The entry with this number, compared with what a kernel takes it for.
+    /// The entry with this index, after comparing it with the kernel's use.
     #[inline(always)]
     fn entry<T: KernelValue>(&self, number: usize) -> &Entry {
         let entry = &self.entries[number];
         let memory = entry.memory;
         let element = size_of::<<T::Element as KernelElement>::Memory>();
         assert!(memory.element == element && memory.length == T::LENGTH, "an entry of another type");
-        // Kernels may bring types of their own; buffers are aligned for scalars.
+        // Kernels may use their own types. Buffers are aligned for scalars.
         let alignment = align_of::<<T::Element as KernelElement>::Memory>();
         assert!(alignment <= align_of::<u64>(), "a type of another alignment");
         entry
     }
 
-    /// The entry of items with this number, which must be those of the row; whether others than its own can
-    /// be read, and how many there are.
+    /// The entry of items with this index, which must be the row's items. Also returns whether items outside
+    /// the row are readable, and the number of items.
     #[inline(always)]
     fn item_entry<T: KernelValue>(&self, number: usize) -> (&Entry, bool, usize) {
         let entry = self.entry::<T>(number);
@@ -77,7 +76,7 @@ impl Row<'_> {
         (entry, all, count)
     }
 
-    /// The planes of cells that an entry lets read.
+    /// The readable planes of cells of an entry.
     #[inline(always)]
     fn planes<T: KernelValue>(&self, number: usize) -> (AroundRead<'_, T>, bool) {
         let entry = self.entry::<T>(number);
@@ -88,13 +87,13 @@ impl Row<'_> {
         (AroundRead { first: entry.read.cast(), stride, row: PhantomData }, around)
     }
 
-    /// A substate of the row's cells, to be read.
+    /// A substate of the row's cells, for reading.
     #[inline(always)]
     pub fn read_cells<T: KernelValue>(&self, number: usize) -> CentreRead<'_, T> {
         CentreRead { around: self.planes(number).0 }
     }
 
-    /// A substate of the row's cells and of their neighbours, to be read.
+    /// A substate of the row's cells and of their neighbours, for reading.
     #[inline(always)]
     pub fn read_around<T: KernelValue>(&self, number: usize) -> AroundRead<'_, T> {
         let (planes, around) = self.planes(number);
@@ -102,7 +101,7 @@ impl Row<'_> {
         planes
     }
 
-    /// A substate of the row's cells, to be written. Each can be asked for once.
+    /// A substate of the row's cells, for writing. Each can be requested once.
     #[inline(always)]
     pub fn write_cells<T: KernelValue>(&self, number: usize) -> T::Written<'_> {
         let entry = self.entry::<T>(number);
@@ -117,7 +116,7 @@ impl Row<'_> {
         unsafe { T::Written::new(planes) }
     }
 
-    /// Checks that an entry can be written, and that no one else has asked for it.
+    /// Checks that an entry is writable, and has not been requested before.
     #[inline(always)]
     fn take(&self, number: usize) {
         assert!(!self.entries[number].write.is_null(), "an entry that cannot be written");
@@ -127,7 +126,7 @@ impl Row<'_> {
         self.taken.set(taken | mark);
     }
 
-    /// A substate of all items, to be read.
+    /// A substate of all items, for reading.
     #[inline(always)]
     pub fn read_items<T: KernelValue>(&self, number: usize) -> &[T::Memory] {
         let (entry, all, count) = self.item_entry::<T>(number);
@@ -137,7 +136,7 @@ impl Row<'_> {
         unsafe { std::slice::from_raw_parts(entry.read.cast(), count) }
     }
 
-    /// A substate of the row's own items, to be read; element 0 belongs to item [`Self::first_item`].
+    /// A substate of the row's own items, for reading. Element 0 belongs to item [`Self::first_item`].
     #[inline(always)]
     pub fn read_own_items<T: KernelValue>(&self, number: usize) -> &[T::Memory] {
         let (entry, ..) = self.item_entry::<T>(number);
@@ -150,8 +149,8 @@ impl Row<'_> {
         }
     }
 
-    /// A substate of the row's own items, to be written; element 0 belongs to item [`Self::first_item`]. Each
-    /// can be asked for once.
+    /// A substate of the row's own items, for writing. Element 0 belongs to item [`Self::first_item`]. Each
+    /// can be requested once.
     #[inline(always)]
     #[allow(clippy::mut_from_ref, reason = "each written entry is asked for once, see `take`")]
     pub fn write_items<T: KernelValue>(&self, number: usize) -> &mut [T::Memory] {

@@ -1,24 +1,24 @@
-//! Which instructions of the processor kernels use.
+//! Instruction sets of the processor for kernels.
 
 use std::sync::atomic::{AtomicU8, Ordering};
 
-/// Sets of instructions, from the narrowest to the widest.
+/// Instruction sets, from the narrowest to the widest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Instructions {
-    /// Those that the compiler's target has.
+    /// The instructions of the compiler's target.
     Plain = 1,
     /// AVX2, registers of 256 bits.
     Avx2 = 2,
-    /// AVX-512, registers of 512 bits. Only on processors that keep their clock with it: those since Ice Lake
-    /// and Zen 4.
+    /// AVX-512, registers of 512 bits. Only on processors that do not reduce their clock for it: since Ice
+    /// Lake and Zen 4.
     Avx512 = 3,
 }
 
-/// The number of the set in use; 0 before the processor was asked.
+/// The number of the set in use. 0 before detection.
 static PRESENT: AtomicU8 = AtomicU8::new(0);
 
 impl Instructions {
-    /// The widest set of this processor, below the limit if there is one.
+    /// The widest set of this processor, within the limit if there is one.
     #[inline(always)]
     pub fn present() -> Self {
         match PRESENT.load(Ordering::Relaxed) {
@@ -29,8 +29,8 @@ impl Instructions {
         }
     }
 
-    /// From now on kernels use this set at most, in the whole process. The set that they use then is the
-    /// result. Results do not change: this is for tests, which have to see that.
+    /// Limits the kernels of the whole process to this set from now on. Returns the set in use. Results do
+    /// not change, which tests verify with this function.
     pub fn limit(self) -> Self {
         let set = Self::widest().min(self);
         PRESENT.store(set as u8, Ordering::Relaxed);

@@ -1,52 +1,52 @@
-//! Searches in lists that an engine keeps over many passes.
+//! Searches in neighbour lists that an engine keeps over many passes.
 //!
-//! A list holds for each item those that were nearer than some radius when it was made. As long as no two
-//! items can have come closer by more than what that radius is larger, a search in the list finds what a
-//! search in the cells finds. Items are known to the lists by a number that they keep when they change their
-//! place.
+//! A list holds for each item all items within some radius when it was made. The radius is larger than that
+//! of searches. As long as no two items can have approached by more than the difference, searches in lists
+//! and in cells give the same result. Lists refer to items by numbers, which do not change when items move in
+//! memory.
 
 use super::search::{CellFilter, reach};
 use super::{Column, Row, RowItems, announce};
 use crate::float::Float;
 use xca_values::Vector3;
 
-/// The place, in [`NearLists::places`], of an item that has left the space.
+/// The place in [`NearLists::places`] of an item that has left the space.
 pub const NO_PLACE: u32 = u32::MAX;
 
-/// For each item those that were near when the lists were made.
+/// The neighbour list of each item.
 #[derive(Debug, Clone, Copy)]
 pub struct NearLists<'a> {
-    /// For each place the number of its item.
+    /// The number of the item at each place.
     pub numbers: &'a [u32],
-    /// For each number the place of its item, or [`NO_PLACE`].
+    /// The place of the item with each number, or [`NO_PLACE`].
     pub places: &'a [u32],
-    /// For each number where its list starts in `candidates`, and at the end their count.
+    /// The start of the list in `candidates` for each number, then the length of `candidates`.
     pub starts: &'a [u32],
-    /// The numbers in the lists.
+    /// The numbers in all lists.
     pub candidates: &'a [u32],
-    /// For each of the candidates the number in whose list it is.
+    /// The owner of the list of each candidate, as a number.
     pub owners: &'a [u32],
-    /// For each place the linear index of its item's cell.
+    /// The linear index of the cell of the item at each place.
     pub cells: &'a [u32],
-    /// A search within this radius, in metres, finds in the lists what it finds in the cells.
+    /// A search within this radius, in metres, gives the same result in the lists as in the cells.
     pub radius: f64,
 }
 
-/// What all searches of a row have found, to be found again by other processes of the pass.
+/// The results of all searches of a row, for reuse by other processes of the pass.
 #[derive(Debug, Default)]
 pub(super) struct Walk {
     key: Option<Key>,
-    /// For each own item where in `near` its items start, and at the end their count.
+    /// The start in `near` for each own item, then the length of `near`.
     starts: Vec<u32>,
-    /// Places.
+    /// The places of near items.
     near: Vec<u32>,
-    /// The number among the row's own items of the one that is near.
+    /// The index of the searching item among the row's own items.
     owners: Vec<u32>,
-    /// Whether what is near an item is in the order of neighbour indices, and not of places.
+    /// Whether the near items are sorted by neighbour index, not by place.
     ordered: bool,
 }
 
-/// Which searches have the same result.
+/// The properties that determine the result of a search.
 #[derive(Debug, PartialEq)]
 struct Key {
     positions: usize,
@@ -54,30 +54,29 @@ struct Key {
     radius: u64,
 }
 
-/// What a search by lists needs.
+/// The inputs of a search by lists.
 struct Lists<'a> {
     items: &'a RowItems<'a>,
     near: &'a NearLists<'a>,
     filter: &'a CellFilter,
-    /// Whether what is near is surely in cells of the neighbourhood, in the order of places.
+    /// Whether all items within the radius are in cells of the neighbourhood, sorted by place.
     plain: bool,
 }
 
 impl Row<'_> {
-    /// Whether searches within this radius, whose number of bits is given, are looked up in what has been
-    /// found by the lists.
+    /// Whether the results of searches within this radius are stored. `bits` are the bits of the radius.
     #[inline(always)]
     pub(super) fn is_walked(&self, bits: u64) -> bool {
         self.walked.get() == Some(bits)
     }
 
-    /// Whether searches within some radius are looked up.
+    /// Whether the results of searches within some radius are stored.
     #[inline(always)]
     pub(super) fn has_walked(&self) -> bool {
         self.walked.get().is_some()
     }
 
-    /// The lists, if there are any for this radius, and whether what is within it is surely in cells of the
+    /// The lists for this radius, if there are any. Includes whether all items within it are in cells of the
     /// neighbourhood.
     #[inline(always)]
     fn lists_within<R: Float>(&self, radius: R) -> Option<Lists<'_>> {
@@ -88,7 +87,7 @@ impl Row<'_> {
         Some(Lists { items, near, filter, plain })
     }
 
-    /// Finds by the lists what is near one item; not where cells have to be compared.
+    /// Finds the near items of one item by the lists. Not if cells must be compared.
     pub(super) fn listed<R: Float, const REACH: u8>(
         &self,
         cell: Column<'_>,
@@ -114,7 +113,7 @@ impl Row<'_> {
         true
     }
 
-    /// Finds by the lists, if there are any for this radius, what is near all items of the row.
+    /// Finds the near items of all items of the row, if there are lists for this radius.
     #[inline(never)]
     pub(super) fn walk<R: Float>(&self, radius: R, positions: &[Vector3<R>]) -> bool {
         let Some(Lists { items, near, filter, plain }) = self.lists_within(radius) else { return false };
@@ -151,7 +150,7 @@ impl Row<'_> {
         true
     }
 
-    /// Adds what is near an item of a row that has been walked.
+    /// Adds the stored near items of one item.
     #[inline(always)]
     pub(super) fn walked<const REACH: u8>(&self, cell: Column<'_>, item: usize, found: &mut Vec<u32>) {
         let walk = self.scratch.walk.borrow();
@@ -162,7 +161,7 @@ impl Row<'_> {
         }
         let near = &walk.near[start..end];
         let own = self.items(cell);
-        // What is in the own cell lies together: among the rest by its place, or before it.
+        // The items of the own cell are contiguous: in the middle by place, or first.
         let count =
             |wanted: &dyn Fn(usize) -> bool| near.iter().filter(|place| wanted(**place as usize)).count();
         let before = if walk.ordered { 0 } else { count(&|place| place < own.start) };
@@ -177,8 +176,7 @@ impl Row<'_> {
         }
     }
 
-    /// Leaves out what is in no cell of the neighbourhood, and brings the rest into the order of neighbour
-    /// index, then label.
+    /// Removes items outside the cells of the neighbourhood. Sorts the others by neighbour index, then label.
     #[cold]
     fn order(&self, near: &NearLists<'_>, filter: &CellFilter, walk: &mut Walk) {
         let geometry = self.frame.geometry;
@@ -210,8 +208,8 @@ impl Row<'_> {
 }
 
 impl Walk {
-    /// Finds what is near each own item. Items that the lists know by successive numbers have their lists one
-    /// after the other: one loop goes through them, without a branch on whose they are or on what is near.
+    /// Finds the near items of each own item. Items with consecutive numbers have consecutive lists. One loop
+    /// goes through these, without a branch on the owner or on the result.
     #[inline(always)]
     fn fill<R: Float>(
         &mut self,
@@ -248,7 +246,7 @@ impl Walk {
         self.owners.truncate(length);
     }
 
-    /// Sorts what is near each item by places. It nearly is.
+    /// Sorts the near items of each item by place. They are nearly sorted.
     fn sort(&mut self) {
         let mut start = 0;
         while start < self.owners.len() {
@@ -262,7 +260,7 @@ impl Walk {
         }
     }
 
-    /// Notes where each item's start.
+    /// Stores the start of each item's results.
     fn count(&mut self, items: usize) {
         self.starts.clear();
         self.starts.resize(items + 1, 0);
@@ -277,20 +275,20 @@ impl Walk {
     }
 }
 
-/// The lists of some of a row's items that follow each other.
+/// The lists of consecutive items of a row.
 struct Pairs<'a, R> {
     candidates: &'a [u32],
     owners: &'a [u32],
     /// The number of the first item.
     base: u32,
-    /// The items' positions.
+    /// The positions of the items.
     own: &'a [Vector3<R>],
     places: &'a [u32],
     positions: &'a [Vector3<R>],
 }
 
-/// Keeps the pairs that are near, of which it gives the count. What is written is an argument of its own: it
-/// is apart from what is read.
+/// Keeps the near pairs and returns their number. The output is an argument of its own, so that it does not
+/// overlap the input.
 #[inline(never)]
 fn keep<R: Float>(
     Pairs { candidates, owners, base, own, places, positions }: Pairs<'_, R>,
@@ -299,7 +297,7 @@ fn keep<R: Float>(
     near_owners: &mut [u32],
     is_near: &impl Fn(Vector3<R>, Vector3<R>) -> bool,
 ) -> usize {
-    // Where all of them are comes first: so many places are waited for together.
+    // Look up all places first, so that the processor waits for many of them together.
     for (place, candidate) in near.iter_mut().zip(candidates) {
         *place = places[*candidate as usize];
         announce(positions.as_ptr().wrapping_add(*place as usize).cast());
@@ -308,7 +306,7 @@ fn keep<R: Float>(
     for (number, owner) in owners.iter().enumerate() {
         let place = near[number];
         let owner = owner - base;
-        // One that has left the space has no place.
+        // An item that has left the space has no place.
         let Some(other) = positions.get(place as usize) else { continue };
         near[count] = place;
         near_owners[count] = first + owner;

@@ -1,7 +1,7 @@
-//! Where the neighbours of a row's cells lie.
+//! The positions of the neighbours of a row's cells.
 //!
-//! Kernels are generic in the [shape](crate::neighbourhood::shapes) of the neighbourhood. Of a known one,
-//! numbers, opposites and displacements are constants of the kernel.
+//! Kernels are generic in the [shape](crate::neighbourhood::shapes) of the neighbourhood. For a known shape,
+//! indices, opposites and displacements are constants of the kernel.
 
 use super::Row;
 use super::cells::Offset;
@@ -10,11 +10,11 @@ use crate::neighbourhood::shapes::{self, ANY, HEXAGONAL, Shape, ShapeNumber};
 use std::marker::PhantomData;
 use xca_values::Vector3;
 
-/// The neighbourhood of a row's cells as distances in memory. An index beyond it is a fault, and means the
-/// cell itself.
+/// The neighbourhood of a row's cells as distances in memory. An index beyond it is a fault, and refers to
+/// the cell itself.
 #[derive(Debug, Clone, Copy)]
 pub struct Offsets<'a, const SHAPE: ShapeNumber> {
-    /// Those of a known shape.
+    /// The distances of a known shape.
     fixed: [isize; shapes::MOST],
     any: &'a [isize],
 }
@@ -40,7 +40,7 @@ impl<const SHAPE: ShapeNumber> Offsets<'_, SHAPE> {
         Offset { distance, row: PhantomData }
     }
 
-    /// The offset of the neighbour that will be asked for, if there is one with this index.
+    /// The offset of a neighbour that will be requested. An invalid index is no fault here.
     #[inline(always)]
     pub fn foreseen<'r>(&self, index: usize) -> Offset<'r> {
         let distance = if index >= self.count() {
@@ -54,20 +54,20 @@ impl<const SHAPE: ShapeNumber> Offsets<'_, SHAPE> {
     }
 }
 
-/// The neighbourhood of a row's cells as directions. An index beyond it is the same fault as for a
-/// neighbour's substate, and means the cell itself.
+/// The neighbourhood of a row's cells as directions. An index beyond it is the same fault as in a read of a
+/// neighbour, and refers to the cell itself.
 #[derive(Debug, Clone, Copy)]
 pub struct Directions<'a, const SHAPE: ShapeNumber> {
     displacements: &'a [[i32; 3]],
     opposites: &'a [Option<usize>],
-    /// The faces beyond which neighbours may lie outside.
+    /// The faces beyond which neighbours can be outside.
     flat: Faces<bool>,
 }
 
 impl<const SHAPE: ShapeNumber> Directions<'_, SHAPE> {
     const KNOWN: Shape = shapes::shape(SHAPE);
 
-    /// Whether there is a neighbour with this index; it is a fault where there is none.
+    /// Whether there is a neighbour with this index. If not, it is a fault.
     #[inline(always)]
     fn check(&self, index: usize, row: &Row<'_>, x: usize) -> bool {
         let count = if SHAPE == ANY { self.displacements.len() } else { Self::KNOWN.size };
@@ -83,14 +83,14 @@ impl<const SHAPE: ShapeNumber> Directions<'_, SHAPE> {
         if !self.check(index, row, x) {
             0
         } else if SHAPE == ANY {
-            // Building the model has excluded that an opposite is missing.
+            // Building the model ensures that no opposite is missing.
             self.opposites[index].unwrap_or(0)
         } else {
             Self::KNOWN.opposite(index)
         }
     }
 
-    /// The index of the neighbour that will be asked for, if there is one in the opposite direction.
+    /// The opposite index of a neighbour that will be requested. An invalid index is no fault here.
     #[inline(always)]
     pub fn opposite_foreseen(&self, index: usize) -> usize {
         let known = if SHAPE == ANY { self.opposites.len() } else { Self::KNOWN.size };
@@ -138,20 +138,20 @@ impl<'a> Row<'a> {
         self.frame.geometry.neighbourhood().shape()
     }
 
-    /// How far in memory the neighbours lie.
+    /// The distances of the neighbours in memory.
     #[inline(always)]
     pub fn offsets<const SHAPE: ShapeNumber>(&self) -> Offsets<'a, SHAPE> {
         let any = self.frame.offsets;
         let mut fixed = [0; shapes::MOST];
         let size = Offsets::<SHAPE>::KNOWN.size;
-        // A number of bytes that the compiler knows, so that the offsets stay in registers.
+        // The compiler knows this number of bytes, so that the offsets stay in registers.
         if let Some(any) = any.get(..size) {
             fixed[..size].copy_from_slice(any);
         }
         Offsets { fixed, any }
     }
 
-    /// Where the neighbours lie. All cells of the row have the same neighbourhood.
+    /// The neighbours. All cells of the row have the same neighbourhood.
     #[inline(always)]
     pub fn directions<const SHAPE: ShapeNumber>(&self) -> Directions<'a, SHAPE> {
         let geometry = self.frame.geometry;

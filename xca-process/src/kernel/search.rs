@@ -1,7 +1,7 @@
 //! The search for other items.
 //!
-//! The result is defined by the present positions alone: the items of the reached cells that are nearer than
-//! the radius, in the order neighbour index, then label. An engine may therefore leave out cells that are too
+//! The result depends only on the current positions. It is the items of the searched cells at a distance
+//! below the radius, sorted by neighbour index, then label. An engine may therefore skip cells that are too
 //! far away ([`CellFilter`]).
 
 use super::near::Walk;
@@ -15,7 +15,7 @@ use std::ops::Range;
 use xca_values::Precision;
 use xca_values::Vector3;
 
-/// Where a search looks; the constants are those of the macros.
+/// The cells to search, as constants for the macros.
 pub mod reach {
     /// The own cell.
     pub const CELL: u8 = 0;
@@ -25,17 +25,17 @@ pub mod reach {
     pub const ALL: u8 = 2;
 }
 
-/// Lists that searches fill, kept from row to row.
+/// Buffers for the results of searches, kept from row to row.
 #[derive(Debug, Default)]
 pub struct Scratch {
     free: RefCell<Vec<Vec<u32>>>,
     pub(super) walk: RefCell<Walk>,
 }
 
-/// A list borrowed from a [`Scratch`].
+/// A buffer borrowed from a [`Scratch`].
 #[derive(Debug)]
 pub struct Found<'a> {
-    /// The numbers of the items.
+    /// The places of the items.
     pub items: Vec<u32>,
     scratch: &'a Scratch,
 }
@@ -46,27 +46,27 @@ impl Drop for Found<'_> {
     }
 }
 
-/// Says which cells of a neighbourhood can hold items within a radius of a position, and where their items
-/// lie together.
+/// Finds the cells of a neighbourhood that can hold items within a radius of a position, and contiguous
+/// ranges of their items.
 ///
-/// Where every item is at most `slack` metres outside its cell, a cell whose box is further from the position
-/// than radius and slack holds none. For a radius of half a cell side that leaves 8 of 27 cells, whose items
-/// lie in 4 strips of a row each.
+/// Every item is at most `slack` metres outside its cell. If the box of a cell is farther from the position
+/// than radius plus slack, the cell holds no near item. With a radius of half a cell side this leaves 8 of 27
+/// cells. Their items are in 4 contiguous ranges, one for each row.
 #[derive(Debug, Clone)]
 pub struct CellFilter {
     displacements: Vec<[i32; 3]>,
     reach: [i32; 3],
-    /// For a neighbourhood that is a whole box: the offsets of a step along y and along z.
+    /// The offsets of a step along y and along z, if the neighbourhood is a complete box.
     steps: Option<[isize; 2]>,
     /// Whether an axis is toroidal.
     torus: bool,
-    /// What is added to every radius, in metres: the slack, and the margin for rounding.
+    /// The addition to every radius, in metres: the slack, and the margin for rounding.
     beyond: f64,
-    /// The processor's way to look at several items at a time, where it has one.
+    /// The comparison of several items at a time, if the processor supports it.
     wide: Option<Wide>,
 }
 
-/// The displacements, from the lowest to the highest along each axis, of the cells that a sphere can touch.
+/// The lowest and highest displacements along each axis of the cells that a sphere can touch.
 #[derive(Clone, Copy)]
 struct Touched {
     low: [i32; 3],
@@ -74,15 +74,15 @@ struct Touched {
 }
 
 impl CellFilter {
-    /// For a neighbourhood that is the same for all cells, and items at most so far outside their cells, in
-    /// metres; nothing where that is no number, or too much round a torus.
+    /// A filter for items at most `slack` metres outside their cells. `None` if cells differ in their
+    /// neighbourhood, or if `slack` is not finite or too large for a torus.
     ///
-    /// `steps` are the offsets from a cell to the next one along y and along z. An engine that gives this
-    /// filter stores the items of each row of the space together, in the order of its cells.
+    /// `steps` are the offsets from a cell to the next one along y and along z. An engine with this filter
+    /// must store the items of each row of the space contiguously, in the order of its cells.
     pub fn new(geometry: &Geometry, precision: Precision, steps: [isize; 2], slack: f64) -> Option<Self> {
         let neighbourhood = geometry.neighbourhood();
-        // Round a torus, an item far outside its cell may be near to others on the far side, where a sphere
-        // around it does not reach.
+        // On a torus, an item far outside its cell may be near to items on the far side. A sphere around the
+        // item does not reach these.
         let far_side = geometry.toroidal().contains(&true) && slack > SLACK_ROUND_TORUS * geometry.side();
         if !slack.is_finite() || far_side || neighbourhood.parity() != Parity::None {
             return None;
@@ -90,7 +90,7 @@ impl CellFilter {
         let reach = neighbourhood.reach();
         let size = reach.iter().map(|reach| 2 * reach + 1).product::<usize>();
         let displacements = neighbourhood.displacements([0; 3]).to_vec();
-        // The centre comes first; the others as in a box, if all of it is there.
+        // The centre comes first, then the others as in a complete box.
         let ordered = displacements[1..].is_sorted_by_key(|[x, y, z]| [*z, *y, *x]);
         let steps = (displacements.len() == size && ordered).then_some(steps);
         Some(Self {
@@ -103,15 +103,14 @@ impl CellFilter {
         })
     }
 
-    /// How far items that lie as near to each other as a search can find may be apart, in metres, so that
-    /// each is in a cell of the other's neighbourhood, whatever the cells; nothing where the cells have to be
-    /// looked at.
+    /// The largest distance in metres between items such that each is in a cell of the other's neighbourhood.
+    /// `covered` is the largest radius of a search. `None` if the cells must be compared.
     pub fn room(&self, covered: f64) -> Option<f64> {
         self.steps.map(|_| covered - 2.0 * self.beyond)
     }
 
-    /// Whether items within this radius are surely in cells of the neighbourhood, and the order of their
-    /// places that of a search.
+    /// Whether all items within this radius are in cells of the neighbourhood, and sorting by place gives the
+    /// order of a search.
     #[inline(always)]
     pub(super) fn holds(&self, covered: f64, radius: f64) -> bool {
         !self.torus && radius <= covered - 2.0 * self.beyond
@@ -122,7 +121,7 @@ impl CellFilter {
         self.displacements.iter().position(|one| *one == displacement)
     }
 
-    /// What a sphere around a position in the cell with these indices can touch.
+    /// The cells that a sphere can touch. Its centre is a position in the cell with these indices.
     #[inline(always)]
     fn touched(&self, cell: [u32; 3], side: f64, position: [f64; 3], radius: f64) -> Touched {
         let radius = radius.abs() + self.beyond;
@@ -141,27 +140,27 @@ impl CellFilter {
     }
 }
 
-/// The slack with which cells can still be left out round a torus, in sides of a cell.
+/// The largest slack with which a torus still allows skipping cells, in sides of a cell.
 const SLACK_ROUND_TORUS: f64 = 1e-4;
 
-/// How much further than radius and slack a cell has to be, in metres, so that rounding cannot bring its
-/// items near.
+/// The distance in metres that a cell needs beyond radius and slack, so that rounding cannot bring its items
+/// near.
 ///
-/// Let a cell not be touched along an axis: between the position and every item of the cell there are at
-/// least radius and margin. The item is near where `fl(d^2) < fl(r^2)`, `d` being the computed vector.
-/// Products and sums of what is not negative are rounded monotonically, so it is not near if the component of
-/// `d` along the axis is not below `r`. That component is
-/// - without a torus the rounded difference of two positions: not below `r`, which is a number of the
-///   precision, if the true one is not. It remains that `f64` rounds the faces of cells here and where the
-///   slack is measured, by some units in the last place of the axis' length: below 1e-5 of a cell for any
-///   number of cells that an index can count.
-/// - round a torus of length L perhaps that difference and a period, `n * side`, each of the three rounded,
-///   as is `side`, and their sum. Each error is at most half an epsilon of L, and a slack more: in all below
-///   3 epsilon L. The item may also be compared the other way round. With 2 reach + 1 cells along the axis
-///   that is no shorter way than radius and margin, less two slacks.
+/// Consider a cell that is not touched along an axis. Between the position and every item of the cell lie at
+/// least radius and margin. The item counts as near if `fl(d^2) < fl(r^2)`, where `d` is the computed vector.
+/// Products and sums of non-negative numbers are rounded monotonically. The item is therefore not near if the
+/// component of `d` along the axis is at least `r`. That component is:
+/// - Without a torus, the rounded difference of two positions. It is at least `r` if the true one is, because
+///   `r` is a number of the precision. `f64` also rounds the faces of cells, here and where the slack is
+///   measured. This error is some units in the last place of the axis' length. It is below 1e-5 of a cell for
+///   any number of cells that an index can count.
+/// - On a torus of length L, possibly that difference and a period `n * side`. Each of the three is rounded,
+///   and so are `side` and their sum. Each error is at most half an epsilon of L, and a slack more: in all
+///   below 3 epsilon L. The item may also be compared the other way round. With 2 reach + 1 cells along the
+///   axis, that way is no shorter than radius and margin, minus two slacks.
 ///
-/// So a thousandth of a cell is enough for the faces and for two slacks of [`SLACK_ROUND_TORUS`], and 4
-/// epsilon L for the torus.
+/// A thousandth of a cell is therefore enough for the faces and for two slacks of [`SLACK_ROUND_TORUS`]. For
+/// the torus, 4 epsilon L are enough.
 fn margin(geometry: &Geometry, precision: Precision) -> f64 {
     let epsilon = match precision {
         Precision::F32 => f64::from(f32::EPSILON),
@@ -179,13 +178,13 @@ impl Touched {
 }
 
 impl<'a> Row<'a> {
-    /// A list for the results of searches.
+    /// A buffer for the results of searches.
     pub fn found(&self) -> Found<'a> {
         let items = self.scratch.free.borrow_mut().pop().unwrap_or_default();
         Found { items, scratch: self.scratch }
     }
 
-    /// Fills the list with the items of the reached cells of the neighbourhood, without the item itself.
+    /// Fills the buffer with the items of the searched cells, without the item itself.
     #[inline]
     pub fn others<const REACH: u8>(&self, cell: Column<'_>, item: usize, found: &mut Vec<u32>) {
         found.clear();
@@ -194,8 +193,8 @@ impl<'a> Row<'a> {
         });
     }
 
-    /// Fills the list with those items of the reached cells whose position is nearer to `position` than
-    /// `radius`, without the item itself.
+    /// Fills the buffer with those items of the searched cells that are nearer to `position` than `radius`,
+    /// without the item itself.
     #[inline]
     pub fn others_within<R: Float, const REACH: u8>(
         &self,
@@ -216,7 +215,7 @@ impl<'a> Row<'a> {
         }
         self.widest.set(self.widest.get().max(radius.to_f64()));
         if self.has_walked() {
-            // Another radius than that of the row: items may each have their own.
+            // Not the radius of the row: items may each have their own.
             if self.listed::<R, REACH>(cell, item, radius, positions, found) {
                 return;
             }
@@ -226,12 +225,12 @@ impl<'a> Row<'a> {
         self.unlisted_within::<R, REACH>(cell, item, position, radius, positions, found);
     }
 
-    /// The largest radius that was searched.
+    /// The largest radius of a search so far.
     pub fn widest_search(&self) -> f64 {
         self.widest.get()
     }
 
-    /// The same by the cells.
+    /// The same search in the cells.
     #[inline(always)]
     fn unlisted_within<R: Float, const REACH: u8>(
         &self,
@@ -272,8 +271,8 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// Whether a search can have this radius: not where it is negative or NaN, or reaches further than the
-    /// neighbourhood covers, which is a fault. It does not depend on where items are.
+    /// Checks the radius of a search. A radius that is negative, NaN, or larger than the neighbourhood covers
+    /// is a fault. The result does not depend on the positions of items.
     #[inline(always)]
     fn allows<R: Float, const REACH: u8>(&self, x: usize, item: usize, radius: R) -> bool {
         let covered = R::from_f64(self.frame.geometry.covered_radius(R::PRECISION));
@@ -284,8 +283,8 @@ impl<'a> Row<'a> {
         allowed
     }
 
-    /// Hands over the ranges of items in the reached cells (of those touched, where that is known) in order
-    /// of the neighbour index, joined where one continues the other.
+    /// Passes on the ranges of items in the searched cells, sorted by neighbour index. Skips cells that the
+    /// sphere does not touch, if that is known. Joins contiguous ranges.
     #[inline(always)]
     fn ranges<const REACH: u8>(
         &self,
@@ -312,7 +311,8 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// The neighbours of a whole box, away from the halo along x: the touched cells of a row lie together.
+    /// The neighbours in a complete box, away from the halo along x. The touched cells of a row are
+    /// contiguous.
     #[inline(always)]
     fn strips(
         &self,
@@ -330,7 +330,7 @@ impl<'a> Row<'a> {
                 if row != 0 {
                     each(items_at(row + low).start..items_at(row + high).end);
                 } else {
-                    // Around the own cell, which is not a neighbour of itself.
+                    // Split at the own cell, which is not its own neighbour.
                     let own = self.items(cell);
                     each(items_at(low).start..own.start);
                     each(own.end..items_at(high).end);
@@ -339,20 +339,20 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// Tells the processor what the next row's searches are the first to read: the positions after those of
-    /// the last row of the neighbourhood. Searches jump, so the processor does not see it coming.
+    /// Prefetches the positions that the next row's searches read first: those after the last row of the
+    /// neighbourhood. The processor's own prefetcher cannot predict the jumps of searches.
     pub(super) fn fetch<R: Float>(&self, positions: &[Vector3<R>]) {
         let Some(&last) = self.frame.offsets.last() else { return };
         let end = self.length.saturating_sub(1 + self.frame.geometry.neighbourhood().reach()[0]);
         // SAFETY: an offset of the neighbourhood.
         let [first, end] = [0, end].map(|number| unsafe { self.items_at(self.column(number), last) });
-        // A row earlier than they are read, so that there is time to bring them.
+        // One row ahead, so that there is time to load them.
         let next = end.end..(2 * end.end).saturating_sub(first.start);
         let Some(row) = positions.get(next) else { return };
         announce_bytes(row.as_ptr().cast(), size_of_val(row));
     }
 
-    /// Tells the processor that what the process reads of these items is wanted soon: they are far apart.
+    /// Prefetches what the process reads from these items, which are far apart in memory.
     pub(super) fn announce(&self, places: &[u32]) {
         for entry in self.entries {
             let Memory { element, length, of: MemoryOf::Items { all: true, count } } = entry.memory else {
@@ -364,7 +364,7 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// The neighbours one by one, those that are wanted.
+    /// The wanted neighbours, one by one.
     #[inline]
     fn joined(&self, cell: Column<'_>, wanted: impl Fn(usize) -> bool, mut each: impl FnMut(Range<usize>)) {
         let mut joined = 0..0;
@@ -392,8 +392,8 @@ pub(super) fn length_squared<R: Float>(vector: Vector3<R>) -> R {
 
 /// Adds the items of a range whose positions are near, without the item itself.
 ///
-/// Whether an item is near is a toss of a coin for the processor, so there is no branch on it: each number is
-/// written, and the list grows only where it is kept.
+/// The processor cannot predict whether an item is near, so the loop has no branch on it. Each number is
+/// written, and the list grows only if it is kept.
 #[inline(always)]
 pub(super) fn keep<R: Float>(
     range: Range<usize>,

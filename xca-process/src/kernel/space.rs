@@ -43,14 +43,14 @@ impl<'a, R: Float> NativeSpace<'a, R> {
         R::from_f64(f64::from(self.frame.extents[axis])) * self.side()
     }
 
-    /// What `along` makes of the lanes of toroidal axes.
+    /// Applies `along` to the lanes of toroidal axes.
     #[inline(always)]
     fn along_toroidal(&self, vector: Vector3<R>, along: impl Fn(R, usize) -> R) -> Vector3<R> {
         let lane = |value, axis| if self.frame.toroidal[axis] { along(value, axis) } else { value };
         Vector3::new(lane(vector.x, 0), lane(vector.y, 1), lane(vector.z, 2))
     }
 
-    /// The separation by the shorter way round each toroidal axis.
+    /// The separation to the nearest image, on each toroidal axis.
     #[inline(always)]
     pub fn nearest_image(&self, separation: Vector3<R>) -> Vector3<R> {
         self.along_toroidal(separation, |value, axis| {
@@ -66,10 +66,10 @@ impl<'a, R: Float> NativeSpace<'a, R> {
         })
     }
 
-    /// The position inside the space, as far as the axes are toroidal.
+    /// Wraps a position into the space on each toroidal axis.
     ///
-    /// What counts is the number of the cell: a position so little outside that it would be rounded to the
-    /// opposite face itself, which belongs to no cell, becomes 0.
+    /// The cell index decides. A position may be so close to a face that wrapping rounds it to the opposite
+    /// face, which is in no cell. It becomes 0.
     #[inline(always)]
     pub fn wrapped(&self, position: Vector3<R>) -> Vector3<R> {
         self.along_toroidal(position, |value, axis| {
@@ -90,7 +90,7 @@ impl<'a, R: Float> NativeSpace<'a, R> {
         })
     }
 
-    /// The answer of a migration that sends an item to where its position is.
+    /// The result of a migration that sends an item to the cell of its position.
     #[inline(always)]
     pub fn cell_containing(&self, position: Vector3<R>) -> u32 {
         let side = self.side();

@@ -1,7 +1,7 @@
-//! Values as kernels compute with them, and how they stand in memory.
+//! Values in kernels, and their form in memory.
 //!
-//! An engine keeps each substate of cells as planes: one for a single value, one for each element of an
-//! array, a fixed stride apart. Of items it keeps whole values one after the other.
+//! An engine stores each substate of cells in planes at a fixed stride: one for a single value, one for each
+//! element of an array. Values of items are stored whole, one after the other.
 
 use super::written::{Lanes, Stage, Written, WrittenArrays, staged};
 use crate::states::States;
@@ -10,13 +10,13 @@ use xca_values::{Vector2, Vector3, Vector4};
 
 /// A single value: a number, a bool, a state or a small vector.
 pub trait KernelElement: Copy + 'static {
-    /// What stands in memory.
+    /// The form in memory.
     type Memory: Pod;
 
-    /// The value, whatever stands there.
+    /// The value of any memory content.
     fn from_memory(memory: Self::Memory) -> Self;
 
-    /// What to put there.
+    /// The memory content of the value.
     fn to_memory(self) -> Self::Memory;
 }
 
@@ -90,34 +90,34 @@ impl<T: States> KernelElement for T {
 
 /// A value of a substate: a single one, or an array.
 pub trait KernelValue: Copy + 'static {
-    /// Its elements: of a single value, itself.
+    /// The type of its elements. For a single value, the type itself.
     type Element: KernelElement;
 
-    /// How many.
+    /// The number of elements.
     const LENGTH: usize;
 
-    /// What stands in memory where the elements stand one after the other.
+    /// The form in memory of a whole value, with its elements one after the other.
     type Memory: Pod;
 
-    /// The values of a row's cells, to be written.
+    /// The values of a row's cells, for writing.
     type Written<'r>: Written<'r, Self>;
 
-    /// Where a block is written before it is copied to its place.
+    /// The buffer in which a block is written before it is copied to the planes.
     type Stage;
 
-    /// The values of a block of cells, to be written.
+    /// The values of a block of cells, for writing.
     type Lanes<'b>: Lanes<Self>;
 
-    /// The most cells of a block.
+    /// The largest number of cells in a block.
     const BLOCK: usize;
 
     /// The value with these elements.
     fn from_elements(element: impl FnMut(usize) -> Self::Element) -> Self;
 
-    /// The value, whatever stands there.
+    /// The value of any memory content.
     fn from_memory(memory: Self::Memory) -> Self;
 
-    /// What to put there.
+    /// The memory content of the value.
     fn to_memory(self) -> Self::Memory;
 }
 
@@ -171,27 +171,27 @@ impl<T: KernelElement, const N: usize> KernelValue for [T; N] {
     }
 }
 
-/// The value that stands in memory.
+/// The value of a memory content.
 #[inline(always)]
 pub fn load<T: KernelValue>(memory: T::Memory) -> T {
     T::from_memory(memory)
 }
 
-/// What to put in memory for a value.
+/// The memory content of a value.
 #[inline(always)]
 pub fn store<T: KernelValue>(value: T) -> T::Memory {
     value.to_memory()
 }
 
-/// An element of the array that stands in memory.
+/// An element of an array in memory.
 #[inline(always)]
 pub fn load_element<T: ArrayValue>(memory: &T::Memory, element: usize) -> T::Element {
     T::element_of(memory, element)
 }
 
-/// An array as a value.
+/// An array.
 pub trait ArrayValue: KernelValue {
-    /// An element of the array that stands in memory.
+    /// An element of an array in memory.
     fn element_of(memory: &Self::Memory, element: usize) -> Self::Element;
 }
 

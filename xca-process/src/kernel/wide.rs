@@ -1,7 +1,7 @@
-//! The comparison of distances, four items at a time, on processors that can.
+//! Comparison of distances, four items at a time, on processors with AVX2.
 //!
-//! Each lane does the operations of the plain loop in the same order, with the same rounding and no fused
-//! operation, so the result is the same to the last item.
+//! Each lane performs the operations of the plain loop, in the same order, with the same rounding and without
+//! fused operations. The results are therefore equal.
 
 use super::instructions::Instructions;
 use std::ops::Range;
@@ -11,7 +11,7 @@ use xca_values::Vector3;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Wide(());
 
-/// Where near items are: closer to `centre` than the root of `square`.
+/// The sphere of near items: closer to `centre` than the root of `square`.
 #[derive(Clone, Copy)]
 pub(super) struct Sphere {
     pub(super) centre: Vector3<f64>,
@@ -23,7 +23,7 @@ impl Wide {
         (Instructions::present() >= Instructions::Avx2).then_some(Self(()))
     }
 
-    /// Adds the items of a range that are near, without the item itself.
+    /// Adds the near items of a range, without the item itself.
     #[inline(always)]
     pub(super) fn keep(
         self,
@@ -65,7 +65,7 @@ mod avx2 {
         let (x, y, z) = (_mm256_set1_pd(centre.x), _mm256_set1_pd(centre.y), _mm256_set1_pd(centre.z));
         let reach = _mm256_set1_pd(square);
         let mut first = range.start;
-        // Four positions are read at once, also beyond the range, but not beyond the last item of all.
+        // Each load reads four positions. It may pass the end of the range, but not the last item of all.
         while first < range.end && first + 4 <= positions.len() {
             let numbers = positions[first..first + 4].as_ptr().cast::<f64>();
             // SAFETY: four vectors of three numbers lie there.
@@ -106,8 +106,8 @@ mod avx2 {
         use crate::random::philox;
         use xca_values::Vector3;
 
-        /// The plain loop is the oracle, for ranges of every length at every place, distances on the edge
-        /// among them.
+        /// The plain loop is the reference, for ranges of every length at every place, including distances on
+        /// the edge.
         #[test]
         fn as_the_plain_loop() {
             let Some(wide) = Wide::detect() else { return };

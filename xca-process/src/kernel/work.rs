@@ -1,13 +1,13 @@
-//! The work of a kernel, with the widest instructions of the processor, and hints for it.
+//! The work of a kernel with the widest instructions of the processor, and prefetch hints.
 //!
-//! They change the time that a kernel takes and nothing else: each lane does the operations of the plain code
-//! in the same order, with the same rounding and no fused operation.
+//! These change only the speed of a kernel. Each lane performs the operations of the plain code, in the same
+//! order, with the same rounding and without fused operations.
 
 use super::instructions::Instructions;
 
 /// The work of a kernel on a row.
 pub trait Work {
-    /// Does it. To be inlined, so that it is compiled for the processor of its caller.
+    /// Does the work. Inline it, so that it is compiled for the instruction set of its caller.
     fn run(self);
 }
 
@@ -45,7 +45,7 @@ fn run_plain(work: impl Work) {
     work.run();
 }
 
-/// Tells the processor that what lies there is wanted soon. It is no access: any address will do.
+/// Prefetches the memory at an address. This is not an access, so any address is valid.
 #[inline(always)]
 pub(super) fn announce(place: *const u8) {
     #[cfg(target_arch = "x86_64")]
@@ -61,11 +61,11 @@ pub(super) fn announce(place: *const u8) {
     let _ = place;
 }
 
-/// The same of so many bytes from there on.
+/// Prefetches `bytes` bytes from an address on.
 #[inline(always)]
 pub(super) fn announce_bytes(first: *const u8, bytes: usize) {
     (0..bytes).step_by(CACHE_LINE).for_each(|line| announce(first.wrapping_add(line)));
 }
 
-/// The bytes that processors fetch at once.
+/// The size of a cache line in bytes.
 const CACHE_LINE: usize = 64;

@@ -1,8 +1,8 @@
-//! How kernels write the substates of a row's cells.
+//! Writing of the substates of a row's cells by kernels.
 //!
-//! A kernel works through a row in blocks. Single values it writes where they belong. Arrays it writes to a
-//! stage on the stack, lane by lane, and each block is then copied to the planes: the compiler would not
-//! vectorise a loop whose writes go to many planes, as it cannot know that these are apart from what is read.
+//! A kernel works through a row in blocks. It writes single values directly to their plane. It writes arrays
+//! lane by lane to a stage on the stack, and each block is then copied to the planes. The compiler would not
+//! vectorize a loop that writes to many planes, which may overlap the input.
 
 use super::values::{KernelElement, KernelValue};
 use bytemuck::{Pod, Zeroable};
@@ -10,24 +10,24 @@ use std::fmt;
 use std::marker::PhantomData;
 use std::ops::Range;
 
-/// The most cells of a block where arrays are staged.
+/// The largest number of cells in a block of staged arrays.
 const STAGED: usize = 32;
 
-/// The most bytes of each plane in a block: two cache lines. With more of them the planes of an array crowd
-/// each other out of the cache.
+/// The largest size of a block in each plane, in bytes: two cache lines. More would make the planes of an
+/// array evict each other from the cache.
 pub(super) const BLOCK_BYTES: usize = 128;
 
-/// The bytes that the widest instructions move.
+/// The size of the widest move in bytes.
 const WIDEST: usize = 32;
 
-/// The most cells of a block of arrays whose elements are so in memory.
+/// The largest number of cells in a block of arrays with elements of type `M`.
 pub(super) const fn staged<M>() -> usize {
     let size = if size_of::<M>() == 0 { 1 } else { size_of::<M>() };
     let fitting = BLOCK_BYTES / size;
     if fitting > STAGED { STAGED } else { fitting }
 }
 
-/// The planes of a row's cells, as their engine describes them.
+/// The planes of a row's cells, as the engine describes them.
 #[derive(Debug, Clone, Copy)]
 pub struct Planes<M> {
     pub(super) first: *mut M,
@@ -35,30 +35,30 @@ pub struct Planes<M> {
     pub(super) cells: usize,
 }
 
-/// The values of a row's cells, to be written.
+/// The values of a row's cells, for writing.
 pub trait Written<'r, T: KernelValue>: Sized {
     /// Takes the planes of a row.
     ///
     /// # Safety
-    /// For `'r` each of the planes, `stride` elements apart, is aligned, has so many cells from the first on,
-    /// and no one else reads or writes them.
+    /// For `'r`, each plane is aligned and has `cells` cells from the first on. The planes are `stride`
+    /// elements apart. No one else reads or writes them.
     #[allow(unsafe_code)]
     unsafe fn new(planes: Planes<<T::Element as KernelElement>::Memory>) -> Self;
 
-    /// A stage.
+    /// Creates a stage.
     fn stage() -> T::Stage;
 
-    /// Fills the stage with the present values of a block.
+    /// Fills the stage with the current values of a block.
     fn load(&self, stage: &mut T::Stage, block: &Range<usize>);
 
     /// The values of a block.
     fn lanes<'b>(&'b mut self, stage: &'b mut T::Stage, block: &Range<usize>) -> T::Lanes<'b>;
 
-    /// Copies a block from the stage to its place.
+    /// Copies a block from the stage to the planes.
     fn store(&mut self, stage: &T::Stage, block: &Range<usize>);
 }
 
-/// The most cells of a block that suits all values that a kernel writes.
+/// The largest number of cells in a block that suits all values that a kernel writes.
 pub const fn block(most: &[usize]) -> usize {
     let (mut least, mut number) = (usize::MAX, 0);
     while number < most.len() {
@@ -70,10 +70,9 @@ pub const fn block(most: &[usize]) -> usize {
     least
 }
 
-/// The values of a block of cells, to be written.
+/// The values of a block of cells, for writing.
 pub trait Lanes<T: KernelValue> {
-    /// The same of the first lanes. That their number is known where they are used lets the compiler leave
-    /// out checks.
+    /// The first lanes only. If the compiler knows their number, it can remove checks.
     fn first(self, lanes: usize) -> Self;
 
     /// The value of a cell.
@@ -123,7 +122,7 @@ impl<T: KernelElement> Lanes<T> for &mut [T::Memory] {
     }
 }
 
-/// The values of a row's cells, arrays of `N` elements in a plane each, to be written.
+/// The values of a row's cells, for writing. Arrays of `N` elements have a plane for each element.
 #[derive(Debug)]
 pub struct WrittenArrays<'r, M, const N: usize> {
     planes: Planes<M>,
@@ -131,7 +130,7 @@ pub struct WrittenArrays<'r, M, const N: usize> {
 }
 
 impl<M: Pod, const N: usize> WrittenArrays<'_, M, N> {
-    /// Where an element of a block's first cell stands.
+    /// The place of an element of a block's first cell.
     #[inline(always)]
     fn place(&self, block: &Range<usize>, element: usize) -> *mut M {
         let inside = block.start <= block.end && block.end <= self.planes.cells;
@@ -140,7 +139,7 @@ impl<M: Pod, const N: usize> WrittenArrays<'_, M, N> {
     }
 }
 
-/// Arrays of a block of cells, by element and lane, without room between the elements.
+/// Arrays of a block of cells, by element and lane, contiguous.
 pub struct Stage<M, const N: usize>([[M; STAGED]; N]);
 
 impl<M, const N: usize> Stage<M, N> {
@@ -221,7 +220,7 @@ unsafe fn copy<M: Copy>(from: *const M, to: *mut M, count: usize) {
         unsafe { std::ptr::copy_nonoverlapping(from, to, count) }
         return;
     }
-    // Most blocks are whole. In parts this small the compiler copies them by itself, without a call.
+    // Most blocks are complete. The compiler copies such small parts inline, without a call.
     let (from, to) = (from.cast::<[u8; WIDEST]>(), to.cast::<[u8; WIDEST]>());
     for part in 0..bytes / WIDEST {
         // SAFETY: as the function; the parts make up a block, and bytes have no alignment.

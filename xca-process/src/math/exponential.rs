@@ -1,4 +1,4 @@
-//! The exponential, the logarithm, and what is made of them.
+//! The exponential, the logarithm, and functions made from them.
 
 use super::exact::{
     INFINITE, TINY, by_precision, is_nan, is_negative, not_a_number, ordered_sum, power_of_two, two_product,
@@ -9,28 +9,27 @@ use crate::{Real, Vector2, helper};
 
 const LOG2_E: Real = core::f64::consts::LOG2_E;
 
-// log(2) in three parts. The first two have 15 digits each, so that their products with an exponent are exact
-// in `f32` as well.
+// log(2) in three parts. The first two have 15 digits each. Their products with an exponent are then exact in
+// `f32` as well.
 const LOG_2_FIRST: Real = 0.693145751953125;
 const LOG_2_SECOND: Real = 1.4285906217992306e-6;
 const LOG_2_THIRD: Real = 1.619851018665656e-11;
 
 const SQUARE_ROOT_OF_2: Real = core::f64::consts::SQRT_2;
 
-/// What the rounded 1/3 lacks in `f32` and in `f64`.
+/// The rounding error of 1/3 in `f32` and in `f64`.
 const THIRD_REST_SINGLE: Real = -9.934107462565104e-9;
 const THIRD_REST_DOUBLE: Real = 1.850371707708594e-17;
 
 /// 2^66. Any power with a larger exponent is 0, 1 or infinite.
 const LARGE_EXPONENT: Real = 73_786_976_294_838_206_464.0;
 
-/// `tanh` is 1/2 here.
+/// The argument at which `tanh` is 1/2.
 pub(super) const HALF_WAY: Real = 0.549_306_144_334_054_8;
 
 /// e^x.
 ///
-/// The error is below 0.80 units of the last digit. What is too large for the type is infinite, what is too
-/// small 0.
+/// The error is below 0.80 ulp. Overflow gives infinity, underflow gives 0.
 #[helper]
 pub fn exp(x: Real) -> Real {
     exp_of_sum(x, 0.0)
@@ -38,7 +37,7 @@ pub fn exp(x: Real) -> Real {
 
 /// The natural logarithm.
 ///
-/// The error is below 0.51 units of the last digit. Zero gives minus infinity, a negative number NaN.
+/// The error is below 0.51 ulp. Zero gives minus infinity, a negative number NaN.
 #[helper]
 pub fn log(x: Real) -> Real {
     if x > 0.0 && x < INFINITE {
@@ -55,9 +54,8 @@ pub fn log(x: Real) -> Real {
 
 /// x^y.
 ///
-/// The error is below 0.80 units of the last digit in `f32`, 0.85 in `f64`. Of a negative x there are powers
-/// with whole y only; others are NaN. `pow(x, 0.0)` and `pow(1.0, y)` are 1, also of NaN; zeros and
-/// infinities give what they give in C.
+/// The error is below 0.80 ulp in `f32`, 0.85 ulp in `f64`. A negative x requires an integer y; otherwise the
+/// result is NaN. `pow(x, 0.0)` and `pow(1.0, y)` are 1, even with NaN. Zeros and infinities behave as in C.
 #[helper]
 pub fn pow(x: Real, y: Real) -> Real {
     if y == 0.0 || x == 1.0 {
@@ -88,7 +86,7 @@ pub fn pow(x: Real, y: Real) -> Real {
 
 /// The hyperbolic tangent.
 ///
-/// The error is below 1.50 units of the last digit. Infinities give 1 and -1, -0.0 gives -0.0.
+/// The error is below 1.50 ulp. Infinities give 1 and -1, -0.0 gives -0.0.
 #[helper]
 pub fn tanh(x: Real) -> Real {
     let size = x.abs();
@@ -106,10 +104,10 @@ pub fn tanh(x: Real) -> Real {
     if x < 0.0 { -result } else { result }
 }
 
-/// e^(x + rest), the rest being small beside x.
+/// e^(x + rest), where the rest is small relative to x.
 #[helper]
 pub(super) fn exp_of_sum(x: Real, rest: Real) -> Real {
-    // Beyond this all is 0 or infinite in `f64`. In `f32` the power of two below becomes so earlier.
+    // Beyond this the result is 0 or infinite in `f64`. In `f32` the power of two below reaches that earlier.
     if x > 710.0 {
         return INFINITE;
     }
@@ -130,18 +128,18 @@ pub(super) fn exp_of_sum(x: Real, rest: Real) -> Real {
     let curved = 0.5 * z + (z * z * even_factorials(z) + r * z * odd_factorials(z));
     let linear = ordered_sum(1.0, r);
     let value = linear.x + (linear.y + (curved + low * linear.x));
-    // In three factors, of which only the last can leave the range of the type, or lose digits there.
+    // In three factors. Only the last one can overflow, or lose digits by underflow.
     let part = (exponent + 1152) / 3 - 384;
     let factor = power_of_two(part);
     value * (1_u32 << (exponent - 3 * part)) as Real * factor * factor * factor
 }
 
-/// The logarithm of a positive finite number, as the rounded value and what it lacks, with some ten digits
-/// more than the type has.
+/// The logarithm of a positive finite number, as the rounded value and its error. It has about ten digits
+/// more than the type.
 #[helper]
 pub(super) fn log_in_parts(x: Real) -> Vector2<Real> {
-    // First x = m * 2^n with m from 1 to 2^32. The loop is bounded, should a processor take tiny numbers for
-    // zero.
+    // First x = m * 2^n with m from 1 to 2^32. The loop is bounded, in case a processor takes tiny numbers
+    // for zero.
     let mut m = x;
     let mut n: Real = 0.0;
     for _ in 0..35 {
@@ -155,8 +153,8 @@ pub(super) fn log_in_parts(x: Real) -> Vector2<Real> {
             break;
         }
     }
-    // Then from the root of 1/2 to that of 2: the first binary digit of m says by which power of two to
-    // divide.
+    // Then m between the root of 1/2 and that of 2: the leading binary digit of m gives the power of two to
+    // divide by.
     let mut digits = m as u32;
     digits |= digits >> 1;
     digits |= digits >> 2;

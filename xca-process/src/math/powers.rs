@@ -1,4 +1,4 @@
-//! Powers, roots and logarithms to other bases.
+//! Powers, roots, and logarithms to other bases.
 
 use super::exact::{INFINITE, TINY, by_precision, is_nan, not_a_number, two_product, two_quotient, two_sum};
 use super::exponential::{HALF_WAY, exp, exp_of_sum, log, log_in_parts};
@@ -8,7 +8,7 @@ use crate::{Real, Vector2, helper};
 pub(super) const LN_2: Real = core::f64::consts::LN_2;
 const LN_10: Real = core::f64::consts::LN_10;
 
-// What the rounded logarithms lack in `f32` and in `f64`.
+// The rounding errors of the logarithms in `f32` and in `f64`.
 const LN_2_REST_SINGLE: Real = -1.904654299957768e-09;
 const LN_2_REST_DOUBLE: Real = 2.3190468138462996e-17;
 const LN_10_REST_SINGLE: Real = -3.197543673785701e-08;
@@ -16,8 +16,7 @@ const LN_10_REST_DOUBLE: Real = -2.1707562233822494e-16;
 
 /// 2^x.
 ///
-/// The error is below 0.80 units of the last digit. What is too large for the type is infinite, what is too
-/// small 0.
+/// The error is below 0.80 ulp. Overflow gives infinity, underflow gives 0.
 #[helper]
 pub fn exp2(x: Real) -> Real {
     let exponent = x.clamp(-1100.0, 1100.0);
@@ -25,9 +24,9 @@ pub fn exp2(x: Real) -> Real {
     exp_of_sum(product.x, product.y + exponent * rest_of_ln_2())
 }
 
-/// e^x - 1, exact also near zero.
+/// e^x - 1, accurate also near zero.
 ///
-/// The error is below 1.40 units of the last digit. -0.0 gives -0.0.
+/// The error is below 1.40 ulp. -0.0 gives -0.0.
 #[helper]
 pub fn exp_m1(x: Real) -> Real {
     if x == 0.0 {
@@ -43,7 +42,7 @@ pub fn exp_m1(x: Real) -> Real {
 
 /// The logarithm to the base 2.
 ///
-/// The error is below 0.55 units of the last digit. Zero gives minus infinity, a negative number NaN.
+/// The error is below 0.55 ulp. Zero gives minus infinity, a negative number NaN.
 #[helper]
 pub fn log2(x: Real) -> Real {
     log_to_base(x, Vector2::new(LN_2, rest_of_ln_2()))
@@ -51,16 +50,15 @@ pub fn log2(x: Real) -> Real {
 
 /// The logarithm to the base 10.
 ///
-/// The error is below 0.55 units of the last digit. Zero gives minus infinity, a negative number NaN.
+/// The error is below 0.55 ulp. Zero gives minus infinity, a negative number NaN.
 #[helper]
 pub fn log10(x: Real) -> Real {
     log_to_base(x, Vector2::new(LN_10, by_precision(LN_10_REST_SINGLE, LN_10_REST_DOUBLE)))
 }
 
-/// The natural logarithm of 1 + x, exact also near zero.
+/// The natural logarithm of 1 + x, accurate also near zero.
 ///
-/// The error is below 0.80 units of the last digit. -1 gives minus infinity, what is below NaN, -0.0 gives
-/// -0.0.
+/// The error is below 0.80 ulp. -1 gives minus infinity, a smaller number NaN, and -0.0 gives -0.0.
 #[helper]
 pub fn log_1p(x: Real) -> Real {
     if x == 0.0 {
@@ -75,9 +73,9 @@ pub fn log_1p(x: Real) -> Real {
     log(1.0 + x)
 }
 
-/// x^n for a whole n, by products in a fixed order: x^13 is x (x^4 (x^8)).
+/// x^n for an integer n, by products in a fixed order: x^13 is x (x^4 (x^8)).
 ///
-/// The error grows with n, as that of n products. A negative n gives the reciprocal of the power of -n.
+/// The error grows with n, like that of n products. A negative n gives the reciprocal of the power of -n.
 #[helper]
 pub fn powi(x: Real, n: i32) -> Real {
     let mut rest = if n < 0 { 0_u32.wrapping_sub(n as u32) } else { n as u32 };
@@ -95,7 +93,7 @@ pub fn powi(x: Real, n: i32) -> Real {
 
 /// The cube root, also of negative numbers.
 ///
-/// The error is below 0.80 units of the last digit. Zeros and infinities keep their signs.
+/// The error is below 0.80 ulp. Zeros and infinities keep their signs.
 #[helper]
 pub fn cbrt(x: Real) -> Real {
     let size = x.abs();
@@ -107,9 +105,9 @@ pub fn cbrt(x: Real) -> Real {
     x
 }
 
-/// The length of the hypotenuse, the square root of x^2 + y^2, without overflow in between.
+/// The length of the hypotenuse, the square root of x^2 + y^2, without intermediate overflow.
 ///
-/// The error is below 1.20 units of the last digit. Infinite where one of them is, even beside NaN.
+/// The error is below 1.20 ulp. Infinite if x or y is infinite, even if the other one is NaN.
 #[helper]
 pub fn hypot(x: Real, y: Real) -> Real {
     let a = x.abs();
@@ -120,7 +118,7 @@ pub fn hypot(x: Real, y: Real) -> Real {
     if is_nan(a) || is_nan(b) {
         return not_a_number();
     }
-    // Squares stay far from the limits of the type, by powers of two.
+    // Scaling by powers of two keeps squares far from the limits of the type.
     let longer = a.max(b);
     let mut there: Real = 1.0;
     let mut back: Real = 1.0;
@@ -138,7 +136,7 @@ pub fn hypot(x: Real, y: Real) -> Real {
 
 /// The hyperbolic sine.
 ///
-/// The error is below 2.00 units of the last digit. -0.0 gives -0.0.
+/// The error is below 2.00 ulp. -0.0 gives -0.0.
 #[helper]
 pub fn sinh(x: Real) -> Real {
     let size = x.abs();
@@ -159,7 +157,7 @@ pub fn sinh(x: Real) -> Real {
 
 /// The hyperbolic cosine.
 ///
-/// The error is below 1.30 units of the last digit.
+/// The error is below 1.30 ulp.
 #[helper]
 pub fn cosh(x: Real) -> Real {
     let size = x.abs();
@@ -170,7 +168,7 @@ pub fn cosh(x: Real) -> Real {
     half_exp(size)
 }
 
-/// e^x / 2, also where e^x is too large for the type.
+/// e^x / 2, even if e^x overflows.
 #[helper]
 fn half_exp(x: Real) -> Real {
     let difference = two_sum(x, -LN_2);
@@ -182,7 +180,7 @@ fn rest_of_ln_2() -> Real {
     by_precision(LN_2_REST_SINGLE, LN_2_REST_DOUBLE)
 }
 
-/// The base as its natural logarithm, in two parts.
+/// The natural logarithm of the base, in two parts.
 #[helper]
 fn log_to_base(x: Real, base: Vector2<Real>) -> Real {
     if x > 0.0 && x < INFINITE {

@@ -1,6 +1,5 @@
-//! Three series serve all functions: they are those of sine and cosine, and of the inverse tangent. With the
-//! sign of the argument changed they are those of the hyperbolic functions, and so of the exponential and the
-//! logarithm.
+//! Three series serve all functions: those of sine, cosine and the inverse tangent. With the opposite sign of
+//! the argument they give the hyperbolic functions, and from these the exponential and the logarithm.
 
 use super::exact::is_single;
 use crate::{Real, helper};

@@ -1,4 +1,4 @@
-//! Sine, cosine, tangent, and the inverse of the tangent.
+//! Sine, cosine, tangent, and their inverses.
 
 use super::exact::{
     INFINITE, TINY, by_precision, is_nan, is_negative, not_a_number, ordered_sum, two_quotient, two_sum,
@@ -11,7 +11,7 @@ const RADIANS_IN_A_DEGREE: Real = core::f64::consts::PI / 180.0;
 const DEGREES_IN_A_RADIAN: Real = 180.0 / core::f64::consts::PI;
 const QUARTER_OF_PI: Real = core::f64::consts::FRAC_PI_4;
 
-// pi/2, pi and the angle with tangent 1/2, each as a number of `f32` and the rest.
+// pi/2, pi and the angle with tangent 1/2, each as an `f32` number and the rest.
 const HALF_PI: Real = 1.5707963705062866;
 const HALF_PI_REST: Real = -4.3711390001862426e-8;
 const PI: Real = 3.1415927410125732;
@@ -21,8 +21,8 @@ const ANGLE_OF_HALF_REST: Real = 5.012158655276756e-9;
 
 /// The sine of an angle in radians.
 ///
-/// The error is below 0.95 units of the last digit for angles up to 4096 in `f32` and 2^20 in `f64`. Beyond
-/// that it is below one unit of the last digit of 1, and beyond 2^24 and 2^40 the result is NaN.
+/// The error is below 0.95 ulp for angles up to 4096 in `f32` and 2^20 in `f64`. Beyond that, it is below one
+/// unit in the last place of 1. Beyond 2^24 and 2^40 the result is NaN.
 #[helper]
 pub fn sin(x: Real) -> Real {
     if x.abs() < TINY {
@@ -39,8 +39,8 @@ pub fn sin(x: Real) -> Real {
 
 /// The cosine of an angle in radians.
 ///
-/// The error is below 0.90 units of the last digit for angles up to 4096 in `f32` and 2^20 in `f64`. Beyond
-/// that it is below one unit of the last digit of 1, and beyond 2^24 and 2^40 the result is NaN.
+/// The error is below 0.90 ulp for angles up to 4096 in `f32` and 2^20 in `f64`. Beyond that, it is below one
+/// unit in the last place of 1. Beyond 2^24 and 2^40 the result is NaN.
 #[helper]
 pub fn cos(x: Real) -> Real {
     let angle = reduced(x);
@@ -54,8 +54,8 @@ pub fn cos(x: Real) -> Real {
 
 /// The tangent of an angle in radians.
 ///
-/// The error is below 1.20 units of the last digit for angles up to 4096 in `f32` and 2^20 in `f64`. Beyond
-/// that it is that of a quotient of such a sine and cosine, and beyond 2^24 and 2^40 the result is NaN.
+/// The error is below 1.20 ulp for angles up to 4096 in `f32` and 2^20 in `f64`. Beyond that, it is that of
+/// the quotient of sine and cosine. Beyond 2^24 and 2^40 the result is NaN.
 #[helper]
 pub fn tan(x: Real) -> Real {
     if x.abs() < TINY {
@@ -70,9 +70,9 @@ pub fn tan(x: Real) -> Real {
     tangent.x + tangent.y
 }
 
-/// The angle in radians, between -pi/2 and pi/2, that has this tangent.
+/// The inverse tangent in radians, between -pi/2 and pi/2.
 ///
-/// The error is below 0.65 units of the last digit. Infinities give a right angle, -0.0 gives -0.0.
+/// The error is below 0.65 ulp. Infinities give -pi/2 and pi/2, -0.0 gives -0.0.
 #[helper]
 pub fn atan(x: Real) -> Real {
     let size = x.abs();
@@ -84,10 +84,10 @@ pub fn atan(x: Real) -> Real {
     if x < 0.0 { -angle } else { angle }
 }
 
-/// The angle in radians, between -pi and pi, of the direction (x, y).
+/// The angle of the direction (x, y) in radians, between -pi and pi.
 ///
-/// The error is below 0.60 units of the last digit. Zeros count with their signs, and two infinities make a
-/// diagonal, as in C: `atan2(0.0, -1.0)` is pi, `atan2(-0.0, -1.0)` is -pi.
+/// The error is below 0.60 ulp. Signed zeros and infinities behave as in C: `atan2(0.0, -1.0)` is pi,
+/// `atan2(-0.0, -1.0)` is -pi, and two infinities give a diagonal.
 #[helper]
 pub fn atan2(y: Real, x: Real) -> Real {
     if is_nan(x) || is_nan(y) {
@@ -113,50 +113,50 @@ pub fn atan2(y: Real, x: Real) -> Real {
     if is_negative(y) { -angle } else { angle }
 }
 
-/// The angle in radians, between -pi/2 and pi/2, that has this sine.
+/// The inverse sine in radians, between -pi/2 and pi/2.
 ///
-/// The error is below 1.60 units of the last digit. Beyond 1 and -1 it is NaN; -0.0 gives -0.0.
+/// The error is below 1.60 ulp. Beyond -1 and 1 the result is NaN. -0.0 gives -0.0.
 #[helper]
 pub fn asin(x: Real) -> Real {
     atan2(x, ((1.0 - x) * (1.0 + x)).sqrt())
 }
 
-/// The angle in radians, between 0 and pi, that has this cosine.
+/// The inverse cosine in radians, between 0 and pi.
 ///
-/// The error is below 1.60 units of the last digit. Beyond 1 and -1 it is NaN.
+/// The error is below 1.60 ulp. Beyond -1 and 1 the result is NaN.
 #[helper]
 pub fn acos(x: Real) -> Real {
     atan2(((1.0 - x) * (1.0 + x)).sqrt(), x)
 }
 
-/// An angle in degrees, in radians: a product with the rounded pi/180.
+/// Converts degrees to radians: a product with the rounded pi/180.
 #[helper]
 pub fn to_radians(x: Real) -> Real {
     x * RADIANS_IN_A_DEGREE
 }
 
-/// An angle in radians, in degrees: a product with the rounded 180/pi.
+/// Converts radians to degrees: a product with the rounded 180/pi.
 #[helper]
 pub fn to_degrees(x: Real) -> Real {
     x * DEGREES_IN_A_RADIAN
 }
 
-/// `first + rest - angle`, the angle being in two parts.
+/// `first + rest - angle`, where the angle is in two parts.
 #[helper]
 fn difference(first: Real, rest: Real, angle: Vector2<Real>) -> Real {
     let sum = two_sum(first, -angle.x);
     sum.x + (sum.y + (rest - angle.y))
 }
 
-/// The angle of the direction (x, y) where 0 <= y <= x and x > 0, as the rounded value and what it lacks.
+/// The angle of the direction (x, y) for 0 <= y <= x and x > 0, as the rounded value and its error.
 #[helper]
 fn angle_below_diagonal(y: Real, x: Real) -> Vector2<Real> {
     let slope = y / x;
     if slope < TINY {
         return Vector2::new(slope, 0.0);
     }
-    // Far from the limits of the type, by powers of two; bounded, should a processor take tiny numbers for
-    // zero.
+    // Scaling by powers of two keeps the numbers far from the limits of the type. The loop is bounded, in
+    // case a processor takes tiny numbers for zero.
     let mut size = Vector2::new(x, y);
     for _ in 0..18 {
         if size.x >= 18_446_744_073_709_551_616.0 {
@@ -167,7 +167,7 @@ fn angle_below_diagonal(y: Real, x: Real) -> Vector2<Real> {
             break;
         }
     }
-    // Turned back by an angle that is known: of tangent 0, 1/2 or 1. What remains has the tangent (y - t x) /
+    // Rotate back by a known angle, with tangent 0, 1/2 or 1. The remaining angle has the tangent (y - t x) /
     // (x + t y).
     let mut turn: Real = 0.0;
     let mut known = Vector2::splat(0.0);
@@ -187,7 +187,7 @@ fn angle_below_diagonal(y: Real, x: Real) -> Vector2<Real> {
     ordered_sum(sum.x, sum.y + (known.y + (t.y + curved)))
 }
 
-/// x - n * pi/2 where |x| is at most pi/4, in two parts, and n modulo 4. NaN where x is too large.
+/// x - n * pi/2 with |x| at most pi/4, in two parts, and n modulo 4. NaN if x is too large.
 #[helper]
 fn reduced(x: Real) -> Vector3<Real> {
     let size = x.abs();
@@ -197,7 +197,7 @@ fn reduced(x: Real) -> Vector3<Real> {
     if is_nan(x) || size > by_precision(16_777_216.0, 1_099_511_627_776.0) {
         return Vector3::splat(not_a_number());
     }
-    // The products below are exact for as many turns as this.
+    // The products below are exact up to this number of turns.
     let exact = by_precision(4_096.0, 1_048_576.0);
     let mut rest = Vector2::new(x, 0.0);
     if size > exact {
@@ -214,8 +214,8 @@ fn nearest(x: Real) -> i32 {
     (x + if x < 0.0 { -0.5 } else { 0.5 }) as i32
 }
 
-/// An angle less a number of right angles. The parts of pi/2 have so few digits that the products are exact,
-/// but for the last.
+/// An angle minus a number of right angles. The parts of pi/2 have so few digits that all products except the
+/// last are exact.
 #[helper]
 fn turned_back(angle: Vector2<Real>, turns: Real) -> Vector2<Real> {
     let a = two_sum(angle.x, -turns * by_precision(1.5703125, 1.5707963267341256));
@@ -233,7 +233,7 @@ fn sine(angle: Vector3<Real>) -> Vector2<Real> {
     ordered_sum(angle.x, angle.y + angle.x * (z * odd_factorials(z)))
 }
 
-/// The cosine likewise.
+/// The cosine of an angle of at most pi/4, in two parts.
 #[helper]
 fn cosine(angle: Vector3<Real>) -> Vector2<Real> {
     let z = -(angle.x * angle.x);

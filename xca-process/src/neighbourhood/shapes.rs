@@ -1,19 +1,18 @@
-//! Neighbourhoods that kernels know when they are compiled, so that their loops over neighbours need no
-//! table.
+//! Neighbourhoods that kernels know at compile time. Their loops over neighbours need no table.
 
-/// The number of a shape, as a constant that kernels are generic in.
+/// The number of a shape, for constant generics of kernels.
 pub type ShapeNumber = u8;
 
-/// Any neighbourhood, known at run time only.
+/// Any neighbourhood, known only at run time.
 pub const ANY: ShapeNumber = 0;
 
 /// The six cells around a hexagon. Their displacements differ between rows or columns.
 pub(crate) const HEXAGONAL: ShapeNumber = 6;
 
-/// The most cells of a shape.
+/// The largest number of cells of a shape.
 pub(crate) const MOST: usize = 27;
 
-/// Cells at most one away along each axis, in the order of the ready-made neighbourhoods.
+/// Cells at most one step away along each axis, in the order of the ready-made neighbourhoods.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Shape {
     pub(crate) size: usize,
@@ -21,7 +20,7 @@ pub(crate) struct Shape {
 }
 
 impl Shape {
-    /// Those of one layer or of three whose steps along the axes add up to a number at most.
+    /// The cells of one layer or of three that differ along at most `steps` axes.
     const fn ball(layers: i32, steps: i32) -> Self {
         let mut shape = Self { size: 1, displacements: [[0; 3]; MOST] };
         let mut z = -layers;
@@ -44,13 +43,13 @@ impl Shape {
         shape
     }
 
-    /// The index of the neighbour in the opposite direction: the list is symmetric.
+    /// The index of the neighbour in the opposite direction. The list is symmetric.
     pub(crate) const fn opposite(&self, index: usize) -> usize {
         if index == 0 { 0 } else { self.size - index }
     }
 }
 
-/// The shape with a number; of size 0 where the neighbourhood is known at run time only.
+/// The shape with this number. Its size is 0 if the neighbourhood is known only at run time.
 pub(crate) const fn shape(number: ShapeNumber) -> Shape {
     match number {
         1 => Shape::ball(0, 1),

@@ -1,4 +1,4 @@
-//! Neighbourhoods against their geometry.
+//! Tests of neighbourhoods against their geometry.
 
 use super::{Hexagons, Neighbourhood, NeighbourhoodError, shapes};
 
@@ -22,7 +22,7 @@ fn order_is_centre_then_x_fastest() {
     assert_eq!(seven.displacements([4, 4, 4]), expected);
 }
 
-/// Centres of touching hexagons are one apart, whatever the parity of the cell.
+/// The centres of touching hexagons have distance 1, for cells of every parity.
 #[test]
 fn hexagons_touch() {
     let height = 3_f64.sqrt() / 2.0;
@@ -48,7 +48,7 @@ fn hexagons_touch() {
     }
 }
 
-/// Names, displacements and opposites belong together: north is +y, east +x, up +z.
+/// Names, displacements and opposites agree: north is +y, east +x, up +z.
 #[test]
 fn directions_are_what_they_are_called() {
     use crate::directions::{hexagonal, moore, moore_2d, von_neumann, von_neumann_2d};
@@ -127,7 +127,7 @@ fn directions_are_what_they_are_called() {
         (moore::UP_NORTH_EAST, along(up, north_east)),
     ];
     check(Neighbourhood::moore(1), [3, 3, 3], &named);
-    // Odd rows stand half a cell further east, odd columns half a cell further north.
+    // Odd rows are half a cell farther east, odd columns half a cell farther north.
     for odd in [0, 1] {
         use hexagonal::corner_up::{CENTRE, EAST, NORTH_EAST, NORTH_WEST, SOUTH_EAST, SOUTH_WEST, WEST};
         let step = odd as i32;
@@ -158,7 +158,7 @@ fn directions_are_what_they_are_called() {
     }
 }
 
-/// There and, by the opposite index, back again, from cells of every parity.
+/// The opposite index leads back to the cell, for cells of every parity.
 #[test]
 fn opposites_lead_back() {
     let all = [
@@ -188,7 +188,7 @@ fn opposites_lead_back() {
     assert_eq!(custom.without_opposite(), Some([2, 1, 0]));
 }
 
-/// What kernels know of a shape is what the neighbourhood says.
+/// The shapes that kernels know agree with the neighbourhoods.
 #[test]
 fn shapes_are_those_of_their_neighbourhoods() {
     let near = |[x, y, z]: &[i32; 3]| x * x + y * y + z * z <= 2;

@@ -23,37 +23,35 @@ use xca_report::comparison::{self, Files};
 
 pub(super) const NAME: &str = "compare";
 
-const ABOUT: &str =
-    "Run the model on several engines: what each takes, and whether they agree to the last bit";
+const ABOUT: &str = "Run the model on several engines; compare their results bit by bit, and their times";
 
 /// Which engines are compared, and how.
 #[derive(Args, Debug, Clone)]
 pub(super) struct CompareArguments {
-    /// The engines; the others are compared with the first. Each as --engine of `run` takes it, with a
-    /// precision after an @: reference, cpu:2, gpu:llvmpipe, parts:3:cpu, cpu@f32
+    /// Engines to compare; the first is the reference for the others. Each is written as for --engine of
+    /// `run`. A precision can follow: reference, cpu:2, gpu:llvmpipe, parts:3:cpu, cpu@f32
     #[arg(long, value_name = "ENGINE,…", value_delimiter = ',', default_value = "reference,cpu")]
     engines: Vec<String>,
 
-    /// How many steps are done; the model says how many unless it is given
+    /// Number of steps [default: the model's]
     #[arg(long, value_name = "N", value_parser = steps)]
     steps: Option<u64>,
 
-    /// How often each engine is timed
+    /// Times that each engine is timed
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = repeats)]
     repeats: usize,
 
-    /// Compare the states every so many steps; the exact step of a difference is searched for in between. 50
-    /// times in the run, and after every step of a short one, unless it is given
+    /// Compare the states every N steps, then find the first step that differs [default: 50 times in the
+    /// run]
     #[arg(long, value_name = "N", value_parser = interval)]
     check_every: Option<u64>,
 
-    /// How far floating numbers may be apart to count as rounding, in relation to the largest value of their
-    /// substate; 1e-9 unless it is given, 1e-4 where f32 takes part
+    /// Largest difference that counts as rounding, relative to the largest value of the substate [default:
+    /// 1e-9, or 1e-4 with f32]
     #[arg(long, value_name = "X", value_parser = number_in(0.0..))]
     tolerance: Option<f64>,
 
-    /// The folder of the files; out/NAME-compare unless it is given. Files of an earlier comparison there are
-    /// replaced
+    /// Output directory [default: out/NAME-compare]. Overwrites an earlier comparison
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 

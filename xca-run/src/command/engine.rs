@@ -12,13 +12,13 @@ const ENGINE: &str = "engine";
 /// Adds the options that choose the engine of a run.
 pub(super) fn with_engine(command: Command, engines: &Engines) -> Command {
     let first = engines.kinds().next().map(EngineKind::name);
-    let command = command.arg(engine(engines, "What runs the model").default_value(first));
+    let command = command.arg(engine(engines, "Engine").default_value(first));
     command.args(options(engines).into_iter().map(argument))
 }
 
 /// Adds the options that choose another engine for a run that goes on.
 pub(super) fn with_other_engine(command: Command, engines: &Engines) -> Command {
-    let other = engine(engines, "What runs the model; the run's own engine unless it is given");
+    let other = engine(engines, "Engine [default: that of the run]");
     let options = options(engines).into_iter().map(argument);
     command.arg(other).args(options)
 }

@@ -1,20 +1,18 @@
-//! What is the same in the help of all commands.
+//! The parts that the help of all commands shares.
 
 use super::arguments::ModelArguments;
 use super::definition::Definition;
 use clap::{Args, Command};
 
-/// What every program's `--help` says of its exit codes.
+/// The exit codes, as every program's `--help` lists them.
 pub(super) const EXIT_CODES: &str = "\
 Exit codes:
-  0    what was asked for is done: of a run, all steps, or the model stopped it
-  1    the run failed: a fault of the model, or files or results that could not be
-       written
-  2    the command line, a file, a checkpoint or the model makes no sense, or does
-       not fit; nothing was run
-  3    of a comparison: an engine differs from the first one by more than rounding
-  130  interrupted: the first Ctrl-C (or SIGTERM) ends the run after its current
-       step with all files complete, a second one ends it at once";
+  0    success; a run did all its steps, or its model stopped it
+  1    the run failed: a fault of the model, or output that could not be written
+  2    invalid command line, input file, checkpoint or model; nothing was run
+  3    compare: an engine differs from the first by more than rounding
+  130  interrupted. Ctrl-C or SIGTERM stops after the current step, with complete
+       files; a second one stops at once";
 
 /// Adds the options of the model, its own and those of every model.
 pub(super) fn with_model(command: Command, definition: &Definition<'_>) -> Command {
@@ -22,7 +20,7 @@ pub(super) fn with_model(command: Command, definition: &Definition<'_>) -> Comma
     ModelArguments::augment_args(command.next_help_heading("Options of every model"))
 }
 
-/// What is the same in the help of all subcommands.
+/// Adds the shared parts of the help of a subcommand.
 pub(super) fn with_help(command: Command, about: &'static str, examples: &[String]) -> Command {
     let examples: String = examples.iter().map(|example| format!("\n  {example}")).collect();
     command

@@ -21,25 +21,25 @@ use xca_record::report::{self, Earlier};
 
 pub(super) const NAME: &str = "inspect";
 
-const ABOUT: &str = "Tell what the folder of a run or a checkpoint holds";
+const ABOUT: &str = "Show what a run or a checkpoint holds";
 
 /// What is looked at, and how it is told.
 #[derive(Args, Debug, Clone)]
 pub(super) struct InspectArguments {
-    /// The folder of a run, or a checkpoint. The state that is told of is that of the latest checkpoint, and
-    /// where there is none, what the last frames hold
+    /// Output directory of a run, or a checkpoint. Shows the state of the latest checkpoint, or else of the
+    /// last frames
     #[arg(value_name = "DIR|CHECKPOINT")]
     path: PathBuf,
 
-    /// Tell the values in this cell and of the items in it
+    /// Show the values of this cell and of its items
     #[arg(long, value_name = "X,Y,Z", value_parser = cell)]
     cell: Option<[usize; 3]>,
 
-    /// Tell the values of the items with this label
+    /// Show the values of the items with this label
     #[arg(long, value_name = "N")]
     label: Option<u32>,
 
-    /// As JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
 }
@@ -55,7 +55,7 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
 }
 
 fn cell(text: &str) -> Result<[usize; 3], &'static str> {
-    const WANTED: &str = "it must be three whole numbers, such as 3,4,0";
+    const WANTED: &str = "a cell is three whole numbers, such as 3,4,0";
     let indices: Result<Vec<usize>, _> = text.split(',').map(|index| index.trim().parse()).collect();
     indices.map_err(|_| WANTED)?.try_into().map_err(|_| WANTED)
 }

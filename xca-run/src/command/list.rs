@@ -24,12 +24,12 @@ use xca_record::report;
 
 pub(super) const NAME: &str = "list";
 
-const ABOUT: &str = "Tell what there is: engines, and the model's substates, parameters and processes";
+const ABOUT: &str = "List engines and formats, and the model's substates, parameters and processes";
 
 /// How it is told.
 #[derive(Args, Debug, Clone)]
 pub(super) struct ListArguments {
-    /// As JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
 }

@@ -8,20 +8,20 @@ use xca_record::record::Look;
 /// What is looked at.
 #[derive(Args, Debug, Clone)]
 pub(super) struct LookArguments {
-    /// Substate to draw, or a component of it: outflow, outflow.3, velocity.x. Of a whole vector the length
-    /// is drawn, of an array the sum of its elements
+    /// Substate to draw, or one component: outflow, outflow.3, velocity.x. A whole vector is drawn as its
+    /// length, a whole array as its sum
     #[arg(long, value_name = "NAME")]
     substate: Option<String>,
 
-    /// Of a slice: the axis that layers are counted along
+    /// Slice views: the axis normal to the slice
     #[arg(long, value_name = "x|y|z", value_parser = axis)]
     axis: Option<usize>,
 
-    /// Of a slice: the layer, from 0; the middle one unless it is given
+    /// Slice views: the layer, from 0 [default: the middle one]
     #[arg(long, value_name = "N")]
     layer: Option<usize>,
 
-    /// The ends of the scale of colours; the least and the largest value of what is drawn unless it is given
+    /// Ends of the colour scale [default: smallest and largest value drawn]
     #[arg(long, value_name = "LOW,HIGH", value_parser = range)]
     range: Option<[f64; 2]>,
 }

@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 
 pub(super) const NAME: &str = "new";
 
-const ABOUT: &str = "Write a starter crate: a model, its program, and a test on all engines";
+const ABOUT: &str = "Generate a starter crate: a model, its program, and a test on all engines";
 
 /// The files of the crate, and what is in them. The crate `tests/new` of this workspace is built of the same
 /// ones, and tests them.
@@ -33,16 +33,16 @@ const FILES: [(&str, &str); 6] = [
 /// What is made.
 #[derive(Args, Debug, Clone)]
 pub(super) struct NewArguments {
-    /// Name of the crate, and of its new folder here
+    /// Name of the crate and of its new directory
     #[arg(value_name = "NAME", value_parser = crate_name)]
     name: String,
 
-    /// Folder of xca that the crate depends on. Without --xca-path and --xca-git the crate depends on the
-    /// same xca as the package around the current folder, else as the package around this program
+    /// Use the xca in this directory. Without --xca-path and --xca-git, the crate uses the same xca as the
+    /// package around the current directory, or else as the package around this program
     #[arg(long, value_name = "PATH")]
     xca_path: Option<PathBuf>,
 
-    /// Git repository of xca that the crate depends on
+    /// Use the xca of this Git repository
     #[arg(long, value_name = "URL", conflicts_with = "xca_path")]
     xca_git: Option<String>,
 

@@ -41,16 +41,20 @@ pub(super) enum Invocation<'a> {
 /// The whole command.
 pub(super) fn command(definition: &Definition<'_>) -> Command {
     let Definition { name, about, version, .. } = definition;
-    let examples = format!(
-        "Examples:\n  {name} run\n  {name} resume out/{name}\n  {name} compare\n  {name} sweep --seeds 10\n  {name} render\n  {name} watch\n  {name} list\n  {name} inspect out/{name}\n  {name} new waves"
-    );
+    let steps = [
+        (format!("{name} run"), format!("runs the model; output in out/{name}")),
+        (format!("{name} render out/{name}"), "draws pictures of that run".to_owned()),
+        (format!("{name} list"), "lists parameters, substates and engines".to_owned()),
+    ];
+    let width = steps.iter().map(|(words, _)| words.len()).max().unwrap_or(0);
+    let steps = steps.map(|(words, about)| format!("\n  {words:width$}  {about}")).concat();
     Command::new(*name)
         .about(*about)
         .version(*version)
         .subcommand_required(true)
         .arg_required_else_help(true)
         .after_help(format!(
-            "`{name} run --help` lists the options of a run, and so for each command.\n\n{examples}\n\n{EXIT_CODES}"
+            "First steps:{steps}\n\n`{name} run --help` lists the options of a run. Each command has its own --help.\n\n{EXIT_CODES}"
         ))
         .subcommands([
             run::command(definition),

@@ -31,19 +31,18 @@ use xca_record::{InputFile, Outputs};
 
 pub(super) const NAME: &str = "render";
 
-const ABOUT: &str = "Draw a run: pictures of its states, and an animation of them";
+const ABOUT: &str = "Draw pictures of a run, and an animation";
 
 const STATES: &str = "\
-Of the folder of a run, the states that it has saved are drawn (its frames), and of
-a checkpoint its state; nothing is run, and the model is that of the run. Frames
-are exact, but hold no more than what the model's views save; a checkpoint holds
-everything.
+DIR draws the saved frames of a run, CHECKPOINT draws the state of a checkpoint.
+Nothing runs. Frames hold the substates that the model's views save; a checkpoint
+holds everything.
 
-Without either, the model is run for its pictures, and twice: all pictures have one
-scale of colours, whose ends only the whole run tells. With --range it is run once.
+Without DIR or CHECKPOINT, render runs the model twice. The first run finds the ends
+of the colour scale, which all pictures share. With --range it runs once.
 
---substate, --view, --axis, --layer and --range can be given several times, for
-panels side by side, each with its own scale; what is given once holds for all.";
+Repeat --substate, --view, --axis, --layer or --range for panels side by side, each
+with its own scale. A value given once holds for all panels.";
 
 /// How many pictures there are, unless the command line says how often.
 const PICTURES: u64 = 60;
@@ -62,7 +61,7 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
         format!("{name} render out/{name}"),
         format!("{name} render out/{name}/checkpoints/step_00000500.checkpoint"),
         format!("{name} render --steps 200 --every 2 --fps 20 --pixels 640x560 --animation gif"),
-        format!("{name} render --view slice,isometric --out out/block   (cells in three dimensions)"),
+        format!("{name} render --view slice,isometric --out out/block   (a model in three dimensions)"),
     ];
     with_help(command, ABOUT, &examples).long_about(format!("{ABOUT}\n\n{STATES}"))
 }
@@ -78,11 +77,11 @@ pub(super) fn check_saved(command: &Command, matches: &ArgMatches, saved: &Path)
         let is_own = own.get_arguments().any(|option| option.get_id() == id);
         let reason = match id.as_str() {
             "every" | "animation" | "fps" if saved.is_file() => {
-                "for several pictures; of a checkpoint there is one"
+                "for several pictures; a checkpoint gives one"
             }
             "config" => continue,
             id if is_own && id != "steps" => continue,
-            _ => "for a run that is done now; one that is drawn from its files has its own options",
+            _ => "for a new run; this one is drawn from its files, with its own options",
         };
         let name = option.get_long().unwrap_or(id.as_str());
         return Err(Unable::refused(format!("--{name} is {reason}")));

@@ -25,16 +25,16 @@ use xca_record::{BeginError, ReadReportError, Resumed, Run};
 
 pub(super) const NAME: &str = "resume";
 
-const ABOUT: &str = "Go on with a run that was interrupted or killed, from its latest checkpoint";
+const ABOUT: &str = "Resume an interrupted run from its latest checkpoint";
 
 const FILES: &str = "\
-The files of the run become those that it would have had without the interruption,
-byte by byte. What the results depend on (the model with its options, seed,
-precision) is what the run was told; engine and threads are free.
+The output becomes, byte for byte, that of a run without the interruption. The model
+with its options, seed and precision stay those of the run. Engine and threads are
+free.
 
---steps goes on beyond the end of the run. --slots goes on where it ended with a full
-cell. Files that the model has read must be as they were. Relative paths go from the
-folder that the run was begun in, as long as it is there.";
+--steps continues past the end of the run. --slots continues a run that ended with a
+full cell. The input files must be unchanged. Relative paths start at the directory
+in which the run was started, if it still exists.";
 
 pub(super) fn command(definition: &Definition<'_>) -> Command {
     let name = definition.name;

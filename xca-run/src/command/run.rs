@@ -14,7 +14,7 @@ use std::path::PathBuf;
 
 pub(super) const NAME: &str = "run";
 
-pub(super) const ABOUT: &str = "Run the model, and write what comes of it to a folder";
+pub(super) const ABOUT: &str = "Run the model and write its output";
 
 pub(super) fn command(definition: &Definition<'_>) -> Command {
     let Definition { name, examples, .. } = definition;

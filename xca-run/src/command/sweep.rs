@@ -32,16 +32,16 @@ use xca_report::ensemble::{self, PAGE};
 
 pub(super) const NAME: &str = "sweep";
 
-const ABOUT: &str = "Run the model with many parameters and seeds, side by side, and write one table";
+const ABOUT: &str = "Run the model for many parameters and seeds, and write one table";
 
 const FILES: &str = "\
---set gives a parameter many values: LOW..HIGH:COUNT are equal steps from LOW to
-HIGH, A|B|C are these. All combinations are run, each with so many seeds.
+--set takes several values: LOW..HIGH:COUNT for COUNT values at equal steps, or
+A|B|C. The sweep runs all combinations, each with --seeds seeds.
 
-members.csv has a row for each run: its parameters, its seed, how it ended, and
-what is observed at its end. summary.csv has mean, deviation, least and largest
-over the seeds; summary.html draws them. The same command goes on with a sweep that was interrupted or
-killed; runs that have failed are tried again.";
+members.csv has a row per run: parameters, seed, how it ended, final observables.
+summary.csv has mean, standard deviation, minimum and maximum over the seeds;
+summary.html plots them. Repeat the command to continue an interrupted sweep. It
+also repeats failed runs.";
 
 /// How many failed runs are told on the terminal.
 const TOLD: usize = 5;
@@ -49,23 +49,23 @@ const TOLD: usize = 5;
 /// Which runs are done, and how.
 #[derive(Args, Debug, Clone)]
 pub(super) struct SweepArguments {
-    /// How many seeds each combination of parameters is run with, from --seed on
+    /// Seeds per combination of parameters, counted from --seed
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
     seeds: u64,
 
-    /// How many runs are done side by side; the number of cores divided by --threads unless it is given
+    /// Runs side by side [default: cores divided by --threads]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
 
-    /// How many steps each run does; the model says how many unless it is given
+    /// Number of steps of each run [default: the model's]
     #[arg(long, value_name = "N", value_parser = steps)]
     steps: Option<u64>,
 
-    /// Tell which runs have the largest value of an observable at their end
+    /// Report the runs with the largest final value of an observable
     #[arg(long, value_name = "OBSERVABLE")]
     maximise: Option<String>,
 
-    /// The folder of the tables; out/NAME-sweep unless it is given
+    /// Output directory of the tables [default: out/NAME-sweep]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 

@@ -1,4 +1,4 @@
-//! How a command tells what it has done: as text, as JSON, or not at all.
+//! How a command reports: as text, as JSON, or not at all.
 
 use super::outcome::Unable;
 use crate::progress::Progress;
@@ -6,27 +6,27 @@ use crate::terminal;
 use clap::Args;
 use serde::Serialize;
 
-/// What the command line says of that. Errors are always told, and always as text.
+/// The options for it. Errors are always printed, and always as text.
 #[derive(Args, Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) struct Voice {
-    /// Say nothing but errors
+    /// Print errors only
     #[arg(long, short)]
     quiet: bool,
 
-    /// Tell the result as JSON, and nothing else
+    /// Print the result as JSON, and nothing else
     #[arg(long, conflicts_with = "quiet")]
     json: bool,
 }
 
 impl Voice {
-    /// Says something on the way. That it is lost does not end a run, whose results are in its files.
+    /// Prints a remark during the work. A run goes on if the remark is lost: its results are in its files.
     pub(super) fn say(self, text: &str) {
         if !self.quiet && !self.json {
             let _ = terminal::say(text);
         }
     }
 
-    /// Tells the result.
+    /// Prints the result.
     pub(super) fn tell(self, result: &impl Serialize, text: impl FnOnce() -> String) -> Result<(), Unable> {
         if self.json {
             let json = serde_json::to_string_pretty(result).map_err(Unable::failed)?;
@@ -38,12 +38,12 @@ impl Voice {
         }
     }
 
-    /// The line that shows how many of so many things are done.
+    /// The progress line of a number of things.
     pub(super) fn count(self, all: u64, things: &str) -> Progress {
         if self.quiet { Progress::hidden() } else { Progress::counting(all, things) }
     }
 
-    /// The line that shows how far so many steps have come.
+    /// The progress line of a run.
     pub(super) fn line(self, steps: Option<u64>) -> Progress {
         if self.quiet { Progress::hidden() } else { Progress::new(steps) }
     }

@@ -16,12 +16,12 @@ use clap::{Args, Command};
 
 pub(super) const NAME: &str = "watch";
 
-const ABOUT: &str = "Run the model, and watch it in the terminal";
+const ABOUT: &str = "Run the model and show it in the terminal";
 
 const KEYS: &str = "\
-Cells are seen layer by layer, items from the front (--axis looks from elsewhere).
-The scale of colours grows with what is seen, unless --range says its ends.
-Colours follow COLORTERM and NO_COLOR.
+Shows cells layer by layer, and items from the front (--axis changes the direction).
+The colour scale grows with the values, unless --range fixes its ends. Colours follow
+COLORTERM and NO_COLOR.
 
 Keys:
   space      pause, go on
@@ -39,16 +39,15 @@ Keys:
 /// What is watched.
 #[derive(Args, Debug, Clone)]
 pub(super) struct WatchArguments {
-    /// End after so many steps; there is no end unless it is given, or the model stops
+    /// Stop after N steps [default: when the model stops]
     #[arg(long, value_name = "N", value_parser = steps)]
     steps: Option<u64>,
 
-    /// Draw a picture every so many steps, sooner where they take longer than half a second; a thousandth of
-    /// the steps of the model unless it is given
+    /// Draw every N steps, and at least every half second [default: 1/1000 of the model's steps]
     #[arg(long, value_name = "N", value_parser = interval)]
     every: Option<u64>,
 
-    /// How many pictures are drawn a second, at most
+    /// Maximum number of pictures per second
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u16).range(1..=60))]
     fps: u16,
 

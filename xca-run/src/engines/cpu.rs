@@ -13,7 +13,7 @@ pub(super) struct CpuKind;
 pub(super) const THREADS: EngineOption = EngineOption {
     name: "threads",
     value_name: "N",
-    about: "How many threads the cpu engine uses; one for each core unless it is given",
+    about: "Threads of the cpu engine [default: one per core]",
     check: |text| threads(text).map(drop),
 };
 

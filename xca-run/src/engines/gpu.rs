@@ -13,18 +13,18 @@ pub(super) struct GpuKind;
 const ADAPTER: EngineOption = EngineOption {
     name: "adapter",
     value_name: "N|NAME",
-    about: "The adapter of the gpu engine: its number, or a part of its name, as `list` tells them; the best unless it is given",
+    about: "Adapter of the gpu engine: its number or part of its name; `list` shows both [default: the best]",
     check: |_| Ok(()),
 };
 
 const ARITHMETIC: EngineOption = EngineOption {
     name: "arithmetic",
     value_name: "strict|relaxed|best",
-    about: "Float arithmetic of the gpu engine: strict gives the bits of the other engines, relaxed is the driver's own; best is strict \
-            where the adapter proves it",
+    about: "Float arithmetic of the gpu engine: strict (the bits of the other engines), relaxed (the driver's \
+            own), or best (strict where the adapter passes the test) [default: best]",
     check: |text| match text {
         "best" | "strict" | "relaxed" => Ok(()),
-        other => Err(format!("`{other}` is no arithmetic; use best, strict or relaxed")),
+        other => Err(format!("unknown arithmetic `{other}`; use best, strict or relaxed")),
     },
 };
 
@@ -34,7 +34,7 @@ impl EngineKind for GpuKind {
     }
 
     fn about(&self) -> &'static str {
-        "A graphics adapter, or software Vulkan where there is none"
+        "A graphics card, or a software driver for Vulkan"
     }
 
     fn options(&self) -> &'static [EngineOption] {

@@ -16,7 +16,7 @@ pub(super) struct MpiKind {
 const PART: EngineOption = EngineOption {
     name: "mpi",
     value_name: "cpu[:THREADS]",
-    about: "The engine of each process, and its threads",
+    about: "Engine of each process, and its threads",
     check: |text| cpu::threads_of_part(text).map(drop),
 };
 
@@ -26,7 +26,7 @@ impl EngineKind for MpiKind {
     }
 
     fn about(&self) -> &'static str {
-        "A part of the space in each process that `mpirun` starts"
+        "One part of the space per process of `mpirun`"
     }
 
     fn detail(&self) -> Option<EngineDetail> {

@@ -16,7 +16,7 @@ pub(super) struct PartsKind;
 const PARTS: EngineOption = EngineOption {
     name: "parts",
     value_name: "N:cpu[:THREADS]",
-    about: "The number of parts, and the engine and threads of each",
+    about: "Number of parts, and the engine and threads of each",
     check: |text| Share::new(text).map(drop),
 };
 
@@ -26,7 +26,7 @@ impl EngineKind for PartsKind {
     }
 
     fn about(&self) -> &'static str {
-        "N parts of the space, each on a cpu engine of its own"
+        "N parts of the space in this process, each on its own cpu engine"
     }
 
     fn detail(&self) -> Option<EngineDetail> {

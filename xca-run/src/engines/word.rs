@@ -74,12 +74,12 @@ impl EngineWords {
         let wrong = |reason: String| EngineError::Word { word: word.to_owned(), reason };
         let options = EngineOptions::default();
         let options = match (kind.detail, rest) {
-            (None, Some(_)) => return Err(wrong(format!("nothing can be chosen of the {name} engine"))),
+            (None, Some(_)) => return Err(wrong(format!("the {name} engine takes nothing after a colon"))),
             (Some(detail), None) if detail.is_required => {
-                return Err(wrong(format!("it must be of the form {}", kind.form())));
+                return Err(wrong(format!("write {}", kind.form())));
             }
             (Some(_), Some("")) => {
-                return Err(wrong(format!("nothing stands after the colon; the form is {}", kind.form())));
+                return Err(wrong(format!("the value after the colon is missing; write {}", kind.form())));
             }
             (Some(EngineDetail { option, .. }), Some(value)) => {
                 (option.check)(value).map_err(wrong)?;

@@ -1,6 +1,6 @@
-//! Of floats.
+//! Operations of floats.
 
-/// Floats.
+/// Floating-point numbers.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no such method in a process: floats have",
     label = "this is no float"
@@ -9,25 +9,26 @@ pub trait Floating: Copy {
     /// The square root.
     fn sqrt(self) -> Self;
 
-    /// The largest whole number that is not above.
+    /// The largest integer that is not larger.
     fn floor(self) -> Self;
 
-    /// The smallest whole number that is not below.
+    /// The smallest integer that is not smaller.
     fn ceil(self) -> Self;
 
-    /// Without the fraction.
+    /// The integer part, rounded toward zero.
     fn trunc(self) -> Self;
 
-    /// The nearest whole number; of two the one that is further from zero.
+    /// The nearest integer. Halfway cases round away from zero.
     fn round(self) -> Self;
 
-    /// The fraction.
+    /// The fractional part.
     fn fract(self) -> Self;
 
-    /// One divided by it.
+    /// The reciprocal.
     fn recip(self) -> Self;
 
-    /// With another sign. NaN, whose sign engines do not agree about, gives a positive one.
+    /// The magnitude with the sign of `sign`. A NaN counts as positive, because engines disagree about its
+    /// sign.
     fn copysign(self, sign: Self) -> Self;
 
     /// Whether it is NaN.
@@ -39,7 +40,7 @@ pub trait Floating: Copy {
     /// Whether it is infinite.
     fn is_infinite(self) -> bool;
 
-    /// Whether it has a negative sign, as -0.0 has, and NaN has not.
+    /// Whether the sign is negative. True for -0.0, false for NaN.
     fn is_sign_negative(self) -> bool;
 }
 
@@ -52,8 +53,7 @@ macro_rules! floating {
 
             #[inline(always)]
             fn round(self) -> Self {
-                // As a shader has it, and without a call of the mathematical library; the difference is
-                // exact.
+                // As in a shader, and without a call of the mathematical library. The difference is exact.
                 let whole = self.trunc();
                 if (self - whole).abs() >= 0.5 { whole + $type::signum(self) } else { whole }
             }

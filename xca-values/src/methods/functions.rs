@@ -1,4 +1,4 @@
-//! The methods as functions, each written out, as error messages show them.
+//! The methods as functions. Each is written out, because error messages show its signature.
 
 use super::{Comparable, Euclidean, FloatVector, Floating, Integer, Lanes, Magnitude, Sign};
 

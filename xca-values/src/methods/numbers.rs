@@ -1,15 +1,15 @@
-//! Of all numbers.
+//! Operations of all numbers.
 
 use crate::vector::{Vector2, Vector3, Vector4};
 
-/// Numbers that can be compared, and vectors of them, lane by lane.
+/// Numbers with an order, and vectors of them, lane by lane.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no such method in a process: numbers and vectors have",
     label = "this is neither a number nor a vector"
 )]
 pub trait Comparable: Copy {
-    /// `if other < self { other } else { self }`, whatever a processor's own minimum does with NaN and signed
-    /// zeros.
+    /// `if other < self { other } else { self }`, so that NaN and signed zeros give the same on every
+    /// processor.
     fn min(self, other: Self) -> Self;
 
     /// `if self < other { other } else { self }`
@@ -22,36 +22,36 @@ pub trait Comparable: Copy {
     }
 }
 
-/// Numbers that can be negative, and vectors of them, lane by lane.
+/// Signed numbers, and vectors of them, lane by lane.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no such method in a process: floats and `i32` have, and vectors of these",
     label = "this is never negative, or no number"
 )]
 pub trait Magnitude: Copy {
-    /// Without the sign.
+    /// The absolute value.
     fn abs(self) -> Self;
 }
 
-/// Numbers with a sign.
+/// Signed numbers.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no such method in a process: floats and `i32` have",
     label = "this is no float and no `i32`"
 )]
 pub trait Sign: Copy {
-    /// Of a float 1 with its sign, and NaN of NaN; of an integer -1, 0 or 1.
+    /// For a float, 1 with its sign, and NaN for NaN. For an integer, -1, 0 or 1.
     fn signum(self) -> Self;
 }
 
-/// Numbers that can be divided without a negative remainder.
+/// Numbers with Euclidean division.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no such method in a process: numbers have",
     label = "this is no number"
 )]
 pub trait Euclidean: Copy {
-    /// The remainder, which is not negative.
+    /// The remainder, which is never negative.
     fn rem_euclid(self, divisor: Self) -> Self;
 
-    /// The whole quotient to this remainder.
+    /// The quotient that belongs to [`Self::rem_euclid`].
     fn div_euclid(self, divisor: Self) -> Self;
 }
 
@@ -61,16 +61,16 @@ pub trait Euclidean: Copy {
     label = "this is no integer of a process"
 )]
 pub trait Integer: Copy {
-    /// The sum, which wraps.
+    /// The sum, with wrapping on overflow.
     fn wrapping_add(self, other: Self) -> Self;
 
-    /// The difference, which wraps.
+    /// The difference, with wrapping on overflow.
     fn wrapping_sub(self, other: Self) -> Self;
 
-    /// The product, which wraps.
+    /// The product, with wrapping on overflow.
     fn wrapping_mul(self, other: Self) -> Self;
 
-    /// The number of ones among the bits.
+    /// The number of ones in the binary representation.
     fn count_ones(self) -> u32;
 }
 

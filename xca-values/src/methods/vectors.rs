@@ -1,4 +1,4 @@
-//! Of vectors.
+//! Operations of vectors.
 
 use crate::vector::{Vector2, Vector3, Vector4};
 use std::ops::{Add, Mul};
@@ -12,7 +12,7 @@ pub trait Lanes: Copy {
     /// The type of a lane.
     type Lane;
 
-    /// The scalar product, added from the first lane to the last.
+    /// The scalar product, summed from the first lane to the last.
     fn dot(self, other: Self) -> Self::Lane;
 
     /// The scalar product with itself.
@@ -31,7 +31,7 @@ pub trait FloatVector: Lanes {
     /// The length of the difference.
     fn distance(self, other: Self) -> Self::Lane;
 
-    /// Divided by its length.
+    /// The vector divided by its length.
     fn normalize(self) -> Self;
 }
 

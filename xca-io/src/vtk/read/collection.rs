@@ -1,4 +1,4 @@
-//! Reading collections back.
+//! The reader of collections.
 
 use super::super::collection::{BEGIN, END};
 use super::element::attribute;
@@ -11,17 +11,17 @@ use std::path::{Component, Path, PathBuf};
 /// A file that a collection lists.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ListedFile {
-    /// The simulated time that it shows.
+    /// The simulated time of the file.
     pub time: f64,
-    /// Where it is: the folder of the collection, and its path from there.
+    /// The path of the file, including the folder of the collection.
     pub path: PathBuf,
 }
 
-/// Reads which files a collection (`.pvd`) lists, in its order.
+/// Reads the list of files of a collection (`.pvd`), in its order.
 ///
 /// # Errors
-/// [`ReadVtkError`] where the file is not one that [`super::super::Collection`] has written, or names a file
-/// that is neither in its folder nor below.
+/// [`ReadVtkError`] if [`super::super::Collection`] has not written the file, or if it lists a file outside
+/// its folder.
 pub fn read_collection(path: &Path) -> Result<Vec<ListedFile>, ReadVtkError> {
     let failed = |source| ReadVtkError::Read { path: path.to_owned(), source };
     let mut source = BufReader::new(regular_file::open(path).map_err(failed)?);
@@ -60,7 +60,7 @@ pub fn read_collection(path: &Path) -> Result<Vec<ListedFile>, ReadVtkError> {
 /// The first closing tag.
 const END_OF_LIST: &str = "</Collection>\n";
 
-/// The file of an entry; none of a line that is no entry.
+/// The file of an entry. `None` if the line is not an entry.
 fn listed(folder: &Path, line: &str) -> Option<ListedFile> {
     let entry = line.strip_suffix("/>\n").filter(|entry| entry.starts_with("<DataSet "))?;
     let time: f64 = attribute(entry, "timestep")?.parse().ok().filter(|time: &f64| time.is_finite())?;

@@ -1,33 +1,33 @@
-//! What the head of a file says of an array.
+//! The description of an array in the head of a file.
 
 use super::super::appended::{COMPONENT_NAME, unescaped};
 use super::found::{NumberType, ReadArray};
 
-/// The array that tells the time.
+/// The name of the array with the time.
 pub(super) const TIME: &str = "TimeValue";
 
-/// No value has more components.
+/// The largest number of components.
 const MOST_COMPONENTS: usize = 1 << 20;
 
-/// An attribute of an element.
+/// The value of an attribute of an element.
 pub(super) fn attribute(element: &str, name: &str) -> Option<String> {
     let value = element.split_once(&format!(" {name}=\""))?.1.split_once('"')?.0;
     Some(unescaped(value))
 }
 
-/// What the head says of an array.
+/// The description of an array in the head of a file.
 pub(super) struct Element {
     pub(super) name: String,
     numbers: NumberType,
     components: usize,
     component_names: Vec<String>,
-    /// Where its values stand, and how many bytes they are when they are expanded.
+    /// The offset of its values, and their expanded length in bytes.
     pub(super) offset: usize,
     pub(super) length: usize,
 }
 
 impl Element {
-    /// From a line of the head; `count` is the number of its values.
+    /// Parses a line of the head. `count` is the number of values.
     pub(super) fn new(element: &str, count: usize) -> Option<Self> {
         let (numbers, size) = match attribute(element, "type")?.as_str() {
             "UInt8" => (NumberType::U8, 1),
@@ -42,7 +42,7 @@ impl Element {
         if !(1..=MOST_COMPONENTS).contains(&components) {
             return None;
         }
-        // The time alone is one number in a file of many values.
+        // Only the time has one number in a file of many values.
         let given = number("NumberOfTuples").transpose().ok()?;
         let name = attribute(element, "Name")?;
         let is_time = name == TIME && given == Some(1);
@@ -76,10 +76,10 @@ impl Element {
     }
 }
 
-/// What an element calls its components, by number; none where it names them otherwise.
+/// The names of the components, by index. `None` if their numbers are out of order.
 fn component_names(element: &str, components: usize) -> Option<Vec<String>> {
     let mut names = Vec::new();
-    // Only an attribute has a quotation mark of its own; what is before it is the name of the array.
+    // Only an attribute contains a plain quotation mark. The text before it is the name of the array.
     let attributes = element.split_once(" NumberOfComponents=\"").map_or("", |(_, attributes)| attributes);
     for part in attributes.split(COMPONENT_NAME).skip(1) {
         let (number, rest) = part.split_once("=\"")?;

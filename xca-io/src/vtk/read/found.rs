@@ -1,8 +1,8 @@
-//! What files hold.
+//! The content of VTK files.
 
 use super::{Grid, HexagonGrid};
 
-/// What the numbers of an array are.
+/// The type of the numbers of an array.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum NumberType {
@@ -18,29 +18,28 @@ pub enum NumberType {
 pub struct ReadArray {
     /// Its name.
     pub name: String,
-    /// What its numbers are.
+    /// The type of its numbers.
     pub numbers: NumberType,
-    /// How many of them a value has.
+    /// The number of components of a value.
     pub components: usize,
-    /// What follows the name of the array in the names of its components, where the file tells it.
-    /// [`Self::component_name`] knows it of all.
+    /// The suffixes of the names of the components, if the file gives them. [`Self::component_name`] also
+    /// gives defaults.
     pub component_names: Vec<String>,
-    /// What its values are called, by number, if they are states.
+    /// The names of the states, by value, if the values are states.
     pub states: Vec<String>,
     /// The numbers, in the byte order of this machine.
     pub bytes: Vec<u8>,
 }
 
 impl ReadArray {
-    /// What follows the name of the array in the name of a component: nothing for a scalar, else `.x`, `[3]`,
-    /// `[3].x`.
+    /// The suffix of the name of a component: empty for a scalar, otherwise `.x`, `[3]` or `[3].x`.
     pub fn component_name(&self, component: usize) -> String {
         let given = self.component_names.get(component).cloned();
         given.unwrap_or_else(|| default_name(component, self.components))
     }
 }
 
-/// What [`super::super::write_dense`] has written.
+/// A file that [`super::super::write_dense`] has written.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DenseFile {
     /// The simulated time.
@@ -53,7 +52,7 @@ pub struct DenseFile {
     pub arrays: Vec<ReadArray>,
 }
 
-/// What [`super::super::write_hexagons`] has written.
+/// A file that [`super::super::write_hexagons`] has written.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HexagonFile {
     /// The simulated time.
@@ -66,7 +65,7 @@ pub struct HexagonFile {
     pub arrays: Vec<ReadArray>,
 }
 
-/// What a `.vtp` file can hold.
+/// The content of a `.vtp` file.
 #[derive(Debug, Clone, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum PolyDataFile {
@@ -74,19 +73,19 @@ pub enum PolyDataFile {
     Hexagons(HexagonFile),
 }
 
-/// What [`super::super::write_particles`] has written.
+/// A file that [`super::super::write_particles`] has written.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ParticleFile {
     /// The simulated time.
     pub time: f64,
-    /// Where the particles are.
+    /// The positions of the particles.
     pub positions: ReadArray,
     /// One value for each particle.
     pub arrays: Vec<ReadArray>,
 }
 
 impl NumberType {
-    /// Numbers of a file, which are little-endian, as this machine has them.
+    /// Converts the little-endian numbers of a file to the byte order of this machine.
     pub(super) fn of_this_machine(self, mut bytes: Vec<u8>) -> Vec<u8> {
         let size = match self {
             Self::U8 => 1,
@@ -100,7 +99,7 @@ impl NumberType {
     }
 }
 
-/// What follows the name of an array for a component that the file does not name.
+/// The suffix of the name of a component that the file does not name.
 pub(super) fn default_name(number: usize, components: usize) -> String {
     match (components, [".x", ".y", ".z", ".w"].get(number)) {
         (1, _) => String::new(),

@@ -27,9 +27,9 @@ fn particles(count: usize) -> (TempDir, PathBuf) {
     let path = folder.path().join("p.vtp");
     let positions: Vec<[f64; 3]> = (0..count).map(|i| [i as f64, 0.1, f64::NEG_INFINITY]).collect();
     let labels: Vec<u32> = (0..count).map(|i| u32::MAX - i as u32).collect();
-    // Bytes that look like the end of the file, and like the beginning of its data.
+    // Bytes that look like the end of the file and the beginning of its data.
     let labelled = DataArray::new("label", &labels[..]);
-    // Bytes that look like the end of the file, and like the beginning of its data.
+    // Bytes that look like the end of the file and the beginning of its data.
     let text = b"\n</AppendedData>\n<AppendedData encoding=\"raw\">\n_";
     let components = text.len() / count.max(1);
     let text = Values::interleaved(components, &text[..count * components]);
@@ -74,7 +74,7 @@ fn names_of_components_and_states_are_read_back() {
     assert_eq!(found(0).component_name(3), "[1].y");
     assert_eq!((found(1).component_name(0).as_str(), found(2).component_name(2).as_str()), ("", ".z"));
     assert_eq!(found(3).component_name(4), "[4]");
-    // Names that are no text.
+    // Names that are not valid text.
     let text = String::from_utf8_lossy(&fs::read(&path).unwrap()).into_owned();
     assert!(text.contains(">82 111 99 107 0 195 150 108 "), "{text}");
     let mut bytes = fs::read(&path).unwrap();
@@ -108,7 +108,7 @@ fn a_truncated_file_is_refused_wherever_it_ends() {
         (particles(4), |path| read_particles(path, u64::MAX).map(drop)),
     ] {
         let ((_folder, path), whole) = (&path, fs::read(&path.1).unwrap());
-        // Everywhere near the end, and here and there before it.
+        // Every length near the end, and some before it.
         let near_end = |length: &usize| length.is_multiple_of(7) || length + 60 > whole.len();
         for length in (0..whole.len()).filter(near_end) {
             fs::write(path, &whole[..length]).unwrap();
@@ -130,7 +130,7 @@ fn a_file_of_something_else_is_refused() {
     let error = read_particles(&path, u64::MAX).unwrap_err().to_string();
     assert!(error.contains("d.vti is not a VTK file as this program writes them"), "{error}");
     let text = String::from_utf8_lossy(&whole).into_owned();
-    // Only the lines of XML are text, but these are the ones to be changed.
+    // Only the XML lines are text, and only they are to be changed.
     let changed = |from: &str, to: &str| {
         assert_eq!(text.matches(from).count(), 1, "{from}");
         let at = text.find(from).unwrap();
@@ -245,7 +245,7 @@ fn hexagons(lattice: Lattice) -> (TempDir, PathBuf, HexagonGrid) {
     let path = folder.path().join("h.vtp");
     let grid = HexagonGrid { cells: [3, 1, 2], lattice, corner: [-0.1, 1e300], side: 1e-7 };
     let ghosts = ghost_types(&[false, true, false, false, false, false]);
-    // A substate may be called as what says which points belong together.
+    // A substate may have the name of the array that groups points.
     let arrays = [
         DataArray::new("Points", &[[1_i32, -2]; 6][..]),
         DataArray::new("connectivity", &[0.5_f32, 1.0, 2.0, 3.0, 4.0, f32::NAN][..]),
@@ -303,7 +303,7 @@ fn hexagons_that_make_no_sense_are_refused() {
         let error = read_poly_data(&path, u64::MAX).unwrap_err();
         assert!(matches!(error, ReadVtkError::Truncated { .. }), "{length}: {error}");
     }
-    // What cannot be written.
+    // Values that cannot be written.
     let values = [0.0; 6];
     let arrays = [DataArray::new("t", &values[..])];
     let error = |grid: HexagonGrid| write_hexagons(&path, 0.0, &grid, &arrays).unwrap_err().to_string();
