@@ -158,15 +158,13 @@ impl Configuration {
         let is_short = steps < STEPS_OF_A_CONTACT;
         let warning = || {
             format!(
-                "{contact} takes {steps:.1} steps, and fewer than {STEPS_OF_A_CONTACT} give it a wrong energy; \
-                 a time step of {:.3e} s would do",
+                "{contact} takes {steps:.1} steps; fewer than {STEPS_OF_A_CONTACT} give a wrong energy; a time step of {:.3e} s is small enough",
                 duration / STEPS_OF_A_CONTACT
             )
         };
         let stands_still = || {
             format!(
-                "in f32 a particle stands still along an axis along which it is slower than up to {:.1e} m/s: a step moves it \
-                 by less than half of the last digit of its place; f64 moves it",
+                "in f32 a particle slower than about {:.1e} m/s along an axis does not move along it: its way in a step is less than half of the last digit of its position; use f64",
                 self.lost_speed()
             )
         };

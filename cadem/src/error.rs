@@ -10,7 +10,7 @@ use xca_core::{ModelError, ParameterError};
 #[expect(missing_docs, reason = "the messages explain the fields")]
 #[non_exhaustive]
 pub enum CademError {
-    #[error("there is no case `{name}`; use illustration, table1 or published")]
+    #[error("unknown case `{name}`; use illustration, table1 or published")]
     UnknownCase { name: String },
     #[error(
         "the cell side is {cell_side} m; it must be finite, and at least two radii of {radius} m, so that no contact \
@@ -20,7 +20,7 @@ pub enum CademError {
     #[error("the space has {cells:?} cells; each of the three numbers must be at least 1")]
     NoCells { cells: [usize; 3] },
     #[error(
-        "the opening of the face {face} from cell {first:?} to {last:?} is none: that face has {extents:?} cells, numbered from 0, and the first \
+        "the opening of the face {face} from cell {first:?} to {last:?} is invalid: that face has {extents:?} cells, numbered from 0, and the first \
          cell comes before the last"
     )]
     Opening { face: Face, first: [usize; 2], last: [usize; 2], extents: [usize; 2] },

@@ -63,7 +63,7 @@ pub fn particles(path: &Path, configuration: &Configuration) -> Result<Vec<Parti
 pub fn opening(text: &str) -> Result<Opening, String> {
     let (name, cells) = text.split_once(':').map_or((text, None), |(name, cells)| (name, Some(cells)));
     let face = Face::ALL.into_iter().find(|face| face.name() == name).ok_or_else(|| {
-        format!("there is no face `{name}`; the faces are {}", Face::ALL.map(Face::name).join(", "))
+        format!("unknown face `{name}`; the faces are {}", Face::ALL.map(Face::name).join(", "))
     })?;
     let pair = |text: &str| -> Option<[usize; 2]> {
         let (along, across) = text.split_once(',')?;

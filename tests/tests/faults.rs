@@ -245,7 +245,7 @@ fn nowhere() -> Result<(), Box<dyn Error>> {
     let (step, fault, message) = fault(base(1, [0.0, f64::INFINITY, 0.0]).process(vanish).process(land))?;
     let wanted = Fault::Nowhere { process: "land", label: 4, cell: [0, 0, 0] };
     assert_eq!((step, fault), (2, wanted));
-    assert_eq!(message, "step 2: `land` finds item 4 of cell [0, 0, 0] at a position that is no number");
+    assert_eq!(message, "step 2: `land` finds item 4 of cell [0, 0, 0] at a NaN position");
     Ok(())
 }
 

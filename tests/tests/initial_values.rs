@@ -74,14 +74,14 @@ fn what_a_substate_cannot_have_is_refused_when_it_is_given() -> Result<(), Box<d
     let with = |value: f64| vec![0.0, 0.0, 0.0, 0.0, value, 0.0];
     assert_eq!(
         refusal("height", vec![0.0; 6]),
-        "no substate of cells is called `height`; there are Ground.altitude, Ground.kind, Ground.debris, Ground.wind, \
+        "unknown substate of cells `height`; there are Ground.altitude, Ground.kind, Ground.debris, Ground.wind, \
          Water.altitude, Water.drops"
     );
     assert_eq!(
         refusal("altitude", vec![0.0; 6]),
         "several substates are called `altitude`; say which one: Ground.altitude, Water.altitude"
     );
-    assert!(refusal("length", vec![0.0; 6]).starts_with("no substate of cells is called `length`"));
+    assert!(refusal("length", vec![0.0; 6]).starts_with("unknown substate of cells `length`"));
     assert_eq!(
         refusal("wind", vec![0.0; 6]),
         "`wind` is a Vector2<Real>; give one of its components, such as `wind.x`"

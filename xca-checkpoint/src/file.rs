@@ -27,7 +27,7 @@ const CHECKSUM: u64 = 4;
 pub enum CheckpointError {
     #[error("cannot read the checkpoint {}", path.display())]
     Read { path: PathBuf, source: io::Error },
-    #[error("{} is no checkpoint of an xca program", path.display())]
+    #[error("{} is not a checkpoint of an xca program", path.display())]
     NoCheckpoint { path: PathBuf },
     #[error("{} has format {format}; this program reads format {FORMAT}", path.display())]
     OtherFormat { path: PathBuf, format: u32 },
@@ -113,7 +113,7 @@ pub(super) fn read_from(
     let failed = |source| CheckpointError::Read { path: path.to_owned(), source };
     let lengths = first_line(path, &mut file, found)?;
     let altered = |what: String| CheckpointError::Altered { path: path.to_owned(), what };
-    let wanted = lengths.whole().ok_or_else(|| altered("its first line makes no sense".to_owned()))?;
+    let wanted = lengths.whole().ok_or_else(|| altered("its first line is invalid".to_owned()))?;
     if found < wanted {
         return Err(CheckpointError::Truncated { path: path.to_owned(), found, wanted });
     }
@@ -126,16 +126,16 @@ pub(super) fn read_from(
     let mut stored = [0; CHECKSUM as usize];
     file.read_exact(&mut stored).map_err(failed)?;
     if sum.sum.finalize().to_le_bytes() != stored {
-        return Err(altered("its checksum is not that of its content".to_owned()));
+        return Err(altered("its checksum does not match its content".to_owned()));
     }
     file.seek(io::SeekFrom::Start(lengths.line)).map_err(failed)?;
     let mut description = Vec::with_capacity(usize::try_from(lengths.description).unwrap_or(0));
     file.by_ref().take(lengths.description).read_to_end(&mut description).map_err(failed)?;
     let description: Description = serde_json::from_slice(&description)
-        .map_err(|error| altered(format!("its description makes no sense: {error}")))?;
+        .map_err(|error| altered(format!("its description is invalid: {error}")))?;
     let snapshot = planes::read(&description, &mut file, lengths.data);
     let snapshot = snapshot.map_err(|error| match error.kind() {
-        io::ErrorKind::InvalidData => altered("its data are not those of its description".to_owned()),
+        io::ErrorKind::InvalidData => altered("its data do not match its description".to_owned()),
         _ => failed(error),
     })?;
     Ok((description, snapshot))
@@ -167,7 +167,7 @@ fn first_line(path: &Path, file: &mut impl Read, found: u64) -> Result<Lengths, 
     });
     lengths.ok_or_else(|| CheckpointError::Altered {
         path: path.to_owned(),
-        what: "its first line makes no sense".to_owned(),
+        what: "its first line is invalid".to_owned(),
     })
 }
 

@@ -29,7 +29,7 @@ impl TryFrom<Spelt> for Exact {
             Spelt::Number(value) => Ok(Self(value)),
             Spelt::Bits(text) => {
                 let bits = text.strip_prefix("0x").and_then(|digits| u64::from_str_radix(digits, 16).ok());
-                bits.map(|bits| Self(f64::from_bits(bits))).ok_or_else(|| format!("`{text}` is no number"))
+                bits.map(|bits| Self(f64::from_bits(bits))).ok_or_else(|| format!("`{text}` is not a number"))
             }
         }
     }

@@ -37,7 +37,7 @@ impl TryFrom<Spelt> for Outputs {
 
     fn try_from(spelt: Spelt) -> Result<Self, String> {
         match spelt {
-            Spelt::Number(0) => Err("every 0 steps never comes".to_owned()),
+            Spelt::Number(0) => Err("the interval must be at least 1 step".to_owned()),
             Spelt::Number(steps) => Ok(Self::Every(steps)),
             Spelt::Word(word) if word == GROWING => Ok(Self::Growing),
             Spelt::Word(word) => Err(format!("`{word}` is neither a number of steps nor `{GROWING}`")),

@@ -77,7 +77,7 @@ pub enum RunError {
     },
     /// A step was asked for after a fault.
     #[error(
-        "the run ended with a fault in step {step} and cannot go on; restore a snapshot of an earlier step"
+        "the run ended with a fault in step {step} and cannot continue; restore a snapshot of an earlier step"
     )]
     Broken {
         /// The number of that step.

@@ -18,7 +18,7 @@ pub enum TableError {
     Write(#[from] WriteError),
     #[error("cannot read the table {}", path.display())]
     Read { path: PathBuf, source: csv::Error },
-    #[error("{}:{line}: this is no row of this ensemble", path.display())]
+    #[error("{}:{line}: this row does not belong to this ensemble", path.display())]
     Row { path: PathBuf, line: u64 },
 }
 

@@ -35,7 +35,7 @@ pub enum SeriesError {
         found: usize,
     },
     /// The file does not begin with the rows that were written.
-    #[error("cannot go on with the time series {}: its first {bytes} bytes are not those that were written", path.display())]
+    #[error("cannot continue the time series {}: its first {bytes} bytes have changed", path.display())]
     Changed {
         /// The file.
         path: PathBuf,

@@ -34,7 +34,7 @@ impl FromStr for Interval {
             text.split_at(text.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(text.len()));
         if unit.is_empty() {
             return match number.trim().parse() {
-                Ok(0) => Err("every 0 steps never comes; give at least 1"),
+                Ok(0) => Err("the interval must be at least 1 step"),
                 Ok(steps) => Ok(Self::Steps(steps)),
                 Err(_) => Err(WANTED),
             };
@@ -42,7 +42,7 @@ impl FromStr for Interval {
         let (_, seconds) = UNITS.iter().find(|(name, _)| *name == unit).ok_or(WANTED)?;
         let number: f64 = number.trim().parse().map_err(|_| WANTED)?;
         let time = Duration::try_from_secs_f64(number * seconds).map_err(|_| WANTED)?;
-        if time.is_zero() { Err("a time must be longer than nothing") } else { Ok(Self::Time(time)) }
+        if time.is_zero() { Err("a time must be longer than 0 s") } else { Ok(Self::Time(time)) }
     }
 }
 

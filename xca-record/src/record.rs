@@ -49,7 +49,7 @@ use xca_picture::PictureError;
 pub enum RecordError {
     #[error(transparent)]
     Format(Failure),
-    #[error("the checkpoint does not tell how to go on with the files of the format {format}")]
+    #[error("the checkpoint does not say how to continue the files of the format {format}")]
     OtherFormats { format: &'static str, source: Failure },
     #[error(transparent)]
     Picture(#[from] PictureError),
@@ -63,7 +63,7 @@ pub enum RecordError {
     Folder(#[from] FolderError),
     #[error("the observables cannot be measured after step {step}")]
     Observe { step: u64, source: Failure },
-    #[error("the observables after step {step} are not those of the start: {now} instead of {before}")]
+    #[error("the observables after step {step} differ from those of the start: {now} instead of {before}")]
     OtherObservables { step: u64, now: String, before: String },
 }
 

@@ -84,10 +84,10 @@ pub enum BeginError {
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
     #[error(
-        "the run was begun with rounding that is {found}, and would go on with rounding that is {wanted}, to other files"
+        "the run started with rounding that is {found}; rounding that is {wanted} would give other results"
     )]
     Rounding { found: String, wanted: String },
-    #[error("{done} steps are done; a run of {steps} steps cannot go on from there")]
+    #[error("{done} steps are done; a run of {steps} steps cannot resume from there")]
     Past { done: u64, steps: u64 },
     #[error(transparent)]
     Slots(#[from] ModelError),

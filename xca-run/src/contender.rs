@@ -94,7 +94,7 @@ mod tests {
     fn what_is_no_engine_is_told() {
         let engines = Engines::default();
         for (text, wanted) in [
-            ("cup", "there is no engine `cup`; there are cpu[:N], gpu[:N|NAME], "),
+            ("cup", "unknown engine `cup`; there are cpu[:N], gpu[:N|NAME], "),
             ("cpu@f16", "`f16` is not a precision"),
             ("cpu:0@f32", "engine `cpu:0`: 0 threads do nothing"),
         ] {

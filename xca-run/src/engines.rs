@@ -50,7 +50,7 @@ impl Default for Engines {
 #[non_exhaustive]
 pub enum EngineError {
     /// A name that no engine has.
-    #[error("there is no engine `{name}`; there are {known}")]
+    #[error("unknown engine `{name}`; there are {known}")]
     Unknown {
         /// The name.
         name: String,
@@ -58,7 +58,7 @@ pub enum EngineError {
         known: String,
     },
     /// A choice that is none of the engine's.
-    #[error("--{option} is {of}, not for the {engine} engine; leave it away, or choose another engine")]
+    #[error("--{option} is {of}, not for the {engine} engine; remove it, or choose another engine")]
     NoOption {
         /// What was chosen.
         option: String,
@@ -76,7 +76,7 @@ pub enum EngineError {
         reason: String,
     },
     /// A choice that is made twice.
-    #[error("--{option} is given twice, also after the colon of the {engine} engine; leave one away")]
+    #[error("--{option} is given twice, also after the colon of the {engine} engine; remove one")]
     Twice {
         /// The engine.
         engine: String,
@@ -95,8 +95,7 @@ pub enum EngineError {
     },
     /// Many processes that would all do the same.
     #[error(
-        "a launcher has started {processes} processes, and each would do the whole of it; share it with \
-         --engine mpi:cpu, or start one process"
+        "a launcher started {processes} processes, and each would run the whole model; share it with --engine mpi:cpu, or start one process"
     )]
     Launched {
         /// How many there are.
@@ -207,10 +206,10 @@ mod tests {
         let said = |name: &str, options: &EngineOptions| of(name, options).unwrap_err().to_string();
         let wanted = "--threads is for --engine cpu, not for the reference engine";
         assert!(said("reference", &threads("2")).starts_with(wanted));
-        assert_eq!(said("cpu", &threads("0")), "--threads 0: 0 threads do nothing; give at least 1");
+        assert_eq!(said("cpu", &threads("0")), "--threads 0: the number of threads must be at least 1");
         assert_eq!(
             said("cup", &threads("1")),
-            "there is no engine `cup`; there are cpu, gpu, mpi, parts, reference"
+            "unknown engine `cup`; there are cpu, gpu, mpi, parts, reference"
         );
         let hands = EngineOptions::default().with("hands", "2");
         assert!(said("cpu", &hands).starts_with("--hands is no option, not for the cpu engine"));

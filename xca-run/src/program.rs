@@ -113,7 +113,7 @@ pub struct Assignment {
 
 /// A text that is not of the form `name=value`.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("it must be of the form NAME=VALUE, such as alpha=0.1")]
+#[error("write NAME=VALUE, such as alpha=0.1")]
 pub struct NoAssignment;
 
 impl FromStr for Assignment {

@@ -16,7 +16,7 @@ use std::io::{self, Write};
 
 /// Stdout cannot be written to.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot write to the standard output; what was to be told there is lost")]
+#[error("cannot write to standard output; its text is lost")]
 pub(crate) struct Unsaid(#[source] io::Error);
 
 /// A line of the results.

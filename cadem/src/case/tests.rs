@@ -37,5 +37,5 @@ fn cases_have_names() {
         assert_eq!(case.configuration().check(), Ok(()));
     }
     let error = "table2".parse::<Case>().expect_err("no such case");
-    assert_eq!(error.to_string(), "there is no case `table2`; use illustration, table1 or published");
+    assert_eq!(error.to_string(), "unknown case `table2`; use illustration, table1 or published");
 }

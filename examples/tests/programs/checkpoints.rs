@@ -12,7 +12,7 @@ struct Killed {
     latest: PathBuf,
 }
 
-const OFFER: &str = "another checkpoint is whole; go on from it with\n  heat resume here --checkpoint here/checkpoints/step_00000020.checkpoint\n";
+const OFFER: &str = "another checkpoint is intact; resume from it with\n  heat resume here --checkpoint here/checkpoints/step_00000020.checkpoint\n";
 
 impl Killed {
     fn new() -> Self {
@@ -62,7 +62,7 @@ fn truncated_or_altered_ones() {
         fs::write(&run.latest, altered).unwrap();
         let said = run.refuse(HEAT, "resume here");
         assert!(
-            said.contains("has been altered: its checksum is not that of its content\n")
+            said.contains("has been altered: its checksum does not match its content\n")
                 && said.ends_with(OFFER),
             "{said}"
         );
@@ -70,7 +70,7 @@ fn truncated_or_altered_ones() {
     fs::write(&run.latest, [&whole[..], b"\n"].concat()).unwrap();
     assert!(run.refuse(HEAT, "resume here").contains("has been altered: it has "));
     fs::write(&run.latest, "label,x,y,z\n").unwrap();
-    assert!(run.refuse(HEAT, "resume here").contains("is no checkpoint of an xca program\n"));
+    assert!(run.refuse(HEAT, "resume here").contains("is not a checkpoint of an xca program\n"));
     let newer = [b"xca-checkpoint 2 ", &whole[17..]].concat();
     fs::write(&run.latest, newer).unwrap();
     assert!(run.refuse(HEAT, "resume here").contains("has format 2; this program reads format 1\n"));
@@ -140,7 +140,7 @@ fn none_at_all() {
     for (words, wanted) in [
         ("resume", "the following required arguments were not provided:\n  <DIR>"),
         ("resume away", "error: there is no folder away\n"),
-        ("resume here --steps 5", "error: 22 steps of the run are done; --steps must be more"),
+        ("resume here --steps 5", "error: 22 steps of the run are done; --steps must be larger"),
         ("resume here --slots 0", "it must be a whole number of slots, at least 1"),
         ("resume here --seed 5", "unexpected argument '--seed'"),
         ("resume here --threads 0", "0 threads do nothing"),
@@ -150,7 +150,7 @@ fn none_at_all() {
         ),
         ("resume here --checkpoint away", "error: cannot read the checkpoint away\ncaused by: "),
         ("run --checkpoint-every soon", "it must be a number of steps, such as 500, or a time"),
-        ("run --checkpoint-every 0", "every 0 steps never comes"),
+        ("run --checkpoint-every 0", "the interval must be at least 1 step"),
     ] {
         let said = run.refuse(HEAT, words);
         assert!(said.contains(wanted), "{words}: {said}");

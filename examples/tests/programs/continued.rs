@@ -100,12 +100,12 @@ fn no_run_becomes_shorter_or_goes_on_against_its_model() {
     let place = Workplace::new();
     place.succeed(LIFE, "--steps 40 --checkpoint-every 15 --out here");
     let said = refuse(&place, LIFE, "here --steps 39");
-    assert!(said.contains("40 steps of the run are done; --steps must be more"), "{said}");
+    assert!(said.contains("40 steps of the run are done; --steps must be larger"), "{said}");
     place.succeed(LANDSLIDE, "--until 1e9 --steps 100 --checkpoint-every 15 --out slide");
     let said = refuse(&place, LANDSLIDE, "slide --steps 200");
     assert!(said.contains("the model has stopped the run after 20 steps: no cell sends more than"), "{said}");
     let said = succeed(&place, LANDSLIDE, "slide");
-    assert_eq!(said, "the run in slide has ended after 20 steps already\n");
+    assert_eq!(said, "the run in slide has ended after 20 steps\n");
 }
 
 /// A third particle falls into a cell on the floor, where the floor takes one of three slots. With more slots

@@ -33,7 +33,7 @@ fn no_command_takes_the_folder_of_another_kind() {
     let before = folders.map(|folder| results(&place.path(folder)));
     let compared = place.read("compared/observables.csv");
     for (words, wanted) in [
-        (format!("{compare} --out run"), "run is the folder of a run, whose files would be replaced"),
+        (format!("{compare} --out run"), "run holds a run, which this would overwrite"),
         (format!("{compare} --out pictures"), "pictures is the folder of a rendering, whose files"),
         ("render run --out compared".to_owned(), "compared is the folder of a comparison, whose files"),
         (format!("run {RUN} --out pictures"), "pictures is the folder of a rendering, whose files"),

@@ -35,7 +35,7 @@ fn what_parts_cannot_do_is_refused() {
     let place = Workplace::new();
     for (words, wanted) in [
         ("watch --engine parts:2:cpu", "`watch` does not run on the parts engine"),
-        ("run --engine parts", "engine `parts`: it must be of the form parts:N:cpu[:THREADS]"),
+        ("run --engine parts", "engine `parts`: write parts:N:cpu[:THREADS]"),
         ("run --engine parts:2", "say what runs each part: parts:2:cpu"),
         ("run --engine parts:2:gpu", "a part runs on the cpu engine, not on `gpu`"),
         ("run --engine parts:2:cpu --threads 3", "--threads is for --engine cpu, not for the parts engine"),

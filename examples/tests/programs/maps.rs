@@ -47,7 +47,10 @@ fn life_begins_from_a_grid_and_leaves_one() {
     assert!(!place.path("out/life/final_alive.asc").exists());
     place.succeed(LIFE, "--formats +asc --steps 1");
     let said = place.fail(2, LIFE, "--initial alive=out/life/final_alive.asc --steps 1");
-    assert!(said.contains("the run starts from out/life/final_alive.asc, which it would replace"), "{said}");
+    assert!(
+        said.contains("the run starts from out/life/final_alive.asc, which it would overwrite"),
+        "{said}"
+    );
 }
 
 /// In either precision the grids hold every bit: a run that begins from them goes on as if there had been no
@@ -144,7 +147,7 @@ fn grids_that_do_not_fit_are_refused() {
             "--initial alive=short.asc",
             "short.asc: 65535 values, but 256 columns and 256 rows have 65536 cells",
         ),
-        (LIFE, "--initial heat=half.asc", "no substate of cells is called `heat`; there are Life.alive"),
+        (LIFE, "--initial heat=half.asc", "unknown substate of cells `heat`; there are Life.alive"),
         (LIFE, "--initial alive=nowhere.asc", "cannot open the grid nowhere.asc"),
         (LIFE, "--initial alive", "of the form NAME=FILE, such as altitude=ground.asc"),
         (HEAT, "--initial temperature=small.asc", "--initial is for models of one layer, and `heat` has 64"),
@@ -166,7 +169,7 @@ fn grids_that_do_not_fit_are_refused() {
         assert!(said.contains(wanted), "{options}: {said}");
     }
     let said = place.fail(2, LIFE, "--initial alive=empty.asc");
-    assert!(said.contains("empty.asc has no value in column 2, row 1 from the north"), "{said}");
+    assert!(said.contains("empty.asc has NODATA in column 2, row 1 from the north"), "{said}");
 }
 
 /// The common height to which `mobile` levels out over cells of these heights, found by filling up from the

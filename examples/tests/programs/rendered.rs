@@ -110,7 +110,7 @@ fn each_view_draws_something_of_its_own() {
 fn what_cannot_be_drawn_is_said_before_anything_is_run() {
     let place = Workplace::new();
     for (program, options, wanted) in [
-        (LIFE, "--substate colour", "no substate is called `colour`; there are alive"),
+        (LIFE, "--substate colour", "unknown substate `colour`; there are alive"),
         (LIFE, "--view spheres", "this model has no items to draw"),
         (LIFE, "--substate alive --view spheres", "cannot be drawn as spheres"),
         (CADEM, "--view slice", "this model has no cells to draw"),
@@ -338,8 +338,11 @@ fn what_was_run_by_another_program_is_not_drawn() {
     said(&place, LIFE, "run --steps 2 --quiet");
     for (words, wanted) in [
         ("render out/life", "error: cannot draw out/life: its program is life, not heat\n"),
-        ("render out", "error: out is no folder of a run: there is no run.json of one in it\n"),
-        ("render out/life/initial.png", "error: out/life/initial.png is no checkpoint of an xca program\n"),
+        ("render out", "error: out is not the output of a run: there is no run.json of one in it\n"),
+        (
+            "render out/life/initial.png",
+            "error: out/life/initial.png is not a checkpoint of an xca program\n",
+        ),
         (
             "render out/life --size 3",
             "error: --size is for a run that is done now; one that is drawn from its files has its own options\n",

@@ -185,7 +185,7 @@ fn a_run_that_has_ended_stays_as_it_is() {
     place.succeed(MOD2, "--size 8 --steps 9 --checkpoint-every 4");
     let before = fs::read(place.path("out/mod2/run.json")).unwrap();
     let said = resume(&place, MOD2, "out/mod2");
-    assert_eq!(said, "the run in out/mod2 has ended after 9 steps already; --steps goes on to a later one\n");
+    assert_eq!(said, "the run in out/mod2 has ended after 9 steps; --steps continues past its end\n");
     assert_eq!(fs::read(place.path("out/mod2/run.json")).unwrap(), before);
 }
 
@@ -216,8 +216,8 @@ fn a_run_does_not_change_its_rounding_unawares() {
     for engine in ["--engine cpu", "--engine gpu --arithmetic strict"] {
         let (code, said) = said(&format!("{older} {engine}"));
         assert_eq!(code, Some(2), "{said}");
-        assert!(said.contains("begun with rounding that is relaxed on "), "{said}");
-        assert!(said.contains("would go on with rounding that is exact, to other files"), "{said}");
+        assert!(said.contains("started with rounding that is relaxed on "), "{said}");
+        assert!(said.contains("rounding that is exact would give other results"), "{said}");
     }
     assert_eq!(said(older), (Some(0), String::new()));
     assert_eq!(said(&format!("{older} --engine cpu --allow-rounding")), (Some(0), String::new()));

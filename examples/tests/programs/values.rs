@@ -181,7 +181,7 @@ fn tables_keep_types_and_grids_keep_numbers() {
             "outflow=out/final_depth.asc",
             "`outflow` is a [Real; 4]; give one of its components, such as `outflow.0`",
         ),
-        ("outflow.4=out/final_depth.asc", "no substate of cells is called `outflow.4`"),
+        ("outflow.4=out/final_depth.asc", "unknown substate of cells `outflow.4`"),
     ] {
         let said = place.fail(2, POND, &format!("--initial {initial}"));
         assert!(said.contains(message), "{said}");
@@ -219,9 +219,7 @@ fn every_substate_and_component_is_drawn() {
     }
     let said = fail(&place, 2, "render out --substate outflow.4 --out pictures/none");
     assert!(
-        said.contains(
-            "no substate is called `outflow.4`; there are ground, wet, depth, outflow ([0] to [3])"
-        ),
+        said.contains("unknown substate `outflow.4`; there are ground, wet, depth, outflow ([0] to [3])"),
         "{said}"
     );
     // Rock has the colour that the model gives it.

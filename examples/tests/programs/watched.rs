@@ -265,7 +265,7 @@ fn without_a_terminal_nothing_is_watched() {
 fn what_cannot_be_watched_is_said_before_the_screen_is_taken() {
     let place = Workplace::new();
     for (program, options, wanted) in [
-        (LIFE, "--substate colour", "no substate is called `colour`; there are alive"),
+        (LIFE, "--substate colour", "unknown substate `colour`; there are alive"),
         (LIFE, "--layer 1", "there is no layer 1"),
         (CADEM, "--layer 1", "--axis and --layer are for slices of cells"),
         (LIFE, "--fps 0", "0 is not in 1..=60"),

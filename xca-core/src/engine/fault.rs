@@ -199,7 +199,7 @@ impl fmt::Display for Fault {
                 )
             }
             Self::Nowhere { process, label, cell } => {
-                write!(f, "`{process}` finds item {label} of cell {cell:?} at a position that is no number")
+                write!(f, "`{process}` finds item {label} of cell {cell:?} at a NaN position")
             }
             Self::Left { process, label, cell } => {
                 write!(

@@ -104,7 +104,7 @@ pub enum ModelError {
         "`{substates}` is a population, and items have no outside values; leave out `.outside(…, {substates} {{ … }})`"
     )]
     OutsideOfItems { substates: &'static str },
-    #[error("`{substates}` is not among the substates of the model; add it before")]
+    #[error("`{substates}` is not in the model; add it first")]
     NotAdded { substates: &'static str },
     #[error("`{substates}` is a population; make its items by `.populate(|site| …)`, not by `.fill`")]
     FillOfPopulation { substates: &'static str },
@@ -122,7 +122,7 @@ pub enum ModelError {
     )]
     SameColumn { substates: &'static str, first: &'static str, second: &'static str, column: String },
     #[error(
-        "the field `label` of the population `{substates}` is called like the label that every item has; rename it"
+        "the field `label` of the population `{substates}` has the name of the label that every item has; rename it"
     )]
     FieldNamedLabel { substates: &'static str },
     #[error("the interval must be at least 1 step")]

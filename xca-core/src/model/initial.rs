@@ -11,7 +11,7 @@ use xca_values::{Field, Schema};
 #[non_exhaustive]
 pub enum InitialError {
     /// No substate has this name.
-    #[error("no substate of cells is called `{name}`; there are {known}")]
+    #[error("unknown substate of cells `{name}`; there are {known}")]
     Unknown {
         /// The name.
         name: String,

@@ -128,7 +128,7 @@ impl Header {
                 ));
             }
         };
-        if is_new { Ok(()) } else { Err(place.key(key, "stands twice in the header")) }
+        if is_new { Ok(()) } else { Err(place.key(key, "appears twice in the header")) }
     }
 
     /// The place of the grid on the map.

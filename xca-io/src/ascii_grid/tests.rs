@@ -91,8 +91,8 @@ fn what_makes_no_sense_is_named_by_its_line() {
     assert_eq!(message(&format!("{HEADER}1 2,5 3\n4 5 6\n")), "dem.asc:6: `2,5` is not a number");
     assert_eq!(message("ncols 3\nNROWS -2\n"), "dem.asc:2: `NROWS` must be a whole number, at least 1");
     assert_eq!(message("ncols\n"), "dem.asc:1: `ncols` has no value");
-    assert_eq!(message("ncols 3\n\nncols 3\n"), "dem.asc:3: `ncols` stands twice in the header");
-    assert_eq!(message("xllcorner 3\nxllcenter 3\n"), "dem.asc:2: `xllcenter` stands twice in the header");
+    assert_eq!(message("ncols 3\n\nncols 3\n"), "dem.asc:3: `ncols` appears twice in the header");
+    assert_eq!(message("xllcorner 3\nxllcenter 3\n"), "dem.asc:2: `xllcenter` appears twice in the header");
     assert_eq!(message("cellsize 0\n"), "dem.asc:1: `cellsize` must be more than 0");
     assert_eq!(message("yllcorner inf\n"), "dem.asc:1: `yllcorner` must be a finite number");
     assert!(

@@ -48,7 +48,7 @@ pub enum ReadGeoTiffError {
     },
     /// The file has no georeference.
     #[error(
-        "{}: the GeoTIFF does not say where it lies; set its corners with `gdal_edit.py -a_ullr`",
+        "{}: the GeoTIFF has no position; set its corners with `gdal_edit.py -a_ullr`",
         path.display()
     )]
     NoPlace {
@@ -57,7 +57,7 @@ pub enum ReadGeoTiffError {
     },
     /// The file has no georeference, and other extents than the model.
     #[error(
-        "{}: the GeoTIFF does not say where it lies, and it has {} x {} cells, not {} x {} as the model",
+        "{}: the GeoTIFF has no position, and it has {} x {} cells, not {} x {} as the model",
         path.display(), found[0], found[1], wanted[0], wanted[1]
     )]
     Cells {

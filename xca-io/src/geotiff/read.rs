@@ -53,7 +53,7 @@ pub(super) fn read(path: &Path, on: Option<Placement>) -> Result<Raster, ReadGeo
         return Err(ReadGeoTiffError::Tag {
             path: path.to_owned(),
             tag: "of a list",
-            problem: "tells more values than the file has bytes".to_owned(),
+            problem: "claims more values than the file has bytes".to_owned(),
         });
     }
     let undecoded = |source| ReadGeoTiffError::Decode { path: path.to_owned(), source };
@@ -239,7 +239,7 @@ impl Band {
         let too_short = || ReadGeoTiffError::Tag {
             path: path.to_owned(),
             tag: "StripByteCounts or TileByteCounts",
-            problem: "tells fewer bytes than the samples take".to_owned(),
+            problem: "claims fewer bytes than the samples take".to_owned(),
         };
         // Allocate as decoding goes on: the header of a damaged file can claim any size.
         for first_row in (0..rows).step_by(self.chunk[1]) {

@@ -80,7 +80,7 @@ pub enum ReadError {
         expected: String,
     },
     /// The header has a column twice.
-    #[error("{}:{line}: the column `{column}` stands twice in the header", path.display())]
+    #[error("{}:{line}: the column `{column}` appears twice in the header", path.display())]
     RepeatedColumn {
         /// The file.
         path: PathBuf,

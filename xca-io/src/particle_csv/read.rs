@@ -259,7 +259,7 @@ mod tests {
             message("label,x,y,z\n"),
             "p.csv:1: unknown column `z` in the header; it must be `label,x,y`, in any order"
         );
-        assert_eq!(message("label,x,x,y\n"), "p.csv:1: the column `x` stands twice in the header");
+        assert_eq!(message("label,x,x,y\n"), "p.csv:1: the column `x` appears twice in the header");
     }
 
     #[test]

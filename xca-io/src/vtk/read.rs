@@ -70,9 +70,9 @@ pub enum ReadVtkError {
 /// [`ReadVtkError`] if [`super::write_dense`] has not written the file, or if it is too large.
 pub fn read_dense(path: &Path, most: u64) -> Result<DenseFile, ReadVtkError> {
     let parts = Parts::read(path, "ImageData", most)?;
-    let grid = parts.grid().ok_or_else(|| parts.foreign("its grid makes no sense"))?;
+    let grid = parts.grid().ok_or_else(|| parts.foreign("its grid is invalid"))?;
     let cells = grid.cells.iter().try_fold(1_usize, |product, n| product.checked_mul(*n));
-    let cells = cells.ok_or_else(|| parts.foreign("its grid makes no sense"))?;
+    let cells = cells.ok_or_else(|| parts.foreign("its grid is invalid"))?;
     let (time, mut arrays) = parts.arrays(&[], cells)?;
     let hidden = hidden(path, &mut arrays)?;
     Ok(DenseFile { time, grid, hidden, arrays })
@@ -110,7 +110,7 @@ pub fn read_poly_data(path: &Path, most: u64) -> Result<PolyDataFile, ReadVtkErr
 fn particles(parts: Parts<'_>) -> Result<ParticleFile, ReadVtkError> {
     let path = parts.path;
     let count = parts.count("NumberOfPoints");
-    let count = count.ok_or_else(|| parts.foreign("it does not say how many points it has"))?;
+    let count = count.ok_or_else(|| parts.foreign("the number of its points is missing"))?;
     let (time, mut arrays) = parts.arrays(&[], count)?;
     let positions = points(path, &mut arrays)?;
     Ok(ParticleFile { time, positions, arrays })
@@ -118,14 +118,14 @@ fn particles(parts: Parts<'_>) -> Result<ParticleFile, ReadVtkError> {
 
 fn hexagons(parts: Parts<'_>) -> Result<HexagonFile, ReadVtkError> {
     let path = parts.path;
-    let grid = parts.hexagon_grid().ok_or_else(|| parts.foreign("its grid makes no sense"))?;
+    let grid = parts.hexagon_grid().ok_or_else(|| parts.foreign("its grid is invalid"))?;
     let cells = grid.count();
     let corners = cells.and_then(|cells| cells.checked_mul(CORNERS));
     let (Some(cells), Some(corners)) = (cells, corners) else {
-        return Err(parts.foreign("its grid makes no sense"));
+        return Err(parts.foreign("its grid is invalid"));
     };
     if [parts.count("NumberOfPolys"), parts.count("NumberOfPoints")] != [Some(cells), Some(corners)] {
-        return Err(parts.foreign("its cells are not those of its grid"));
+        return Err(parts.foreign("its cells do not match its grid"));
     }
     let (time, mut arrays) = parts.arrays(&[1, corners, corners], cells)?;
     points(path, &mut arrays)?;
@@ -150,7 +150,7 @@ fn hidden(path: &Path, arrays: &mut Vec<ReadArray>) -> Result<Option<Vec<bool>>,
     let hidden = arrays.iter().position(is_ghosts).map(|at| arrays.remove(at));
     let is_whole = |ghosts: &ReadArray| ghosts.numbers == NumberType::U8 && ghosts.components == 1;
     if !hidden.as_ref().is_none_or(is_whole) {
-        return Err(foreign(path, "its ghost types make no sense"));
+        return Err(foreign(path, "its ghost types are invalid"));
     }
     Ok(hidden.map(|ghosts| hidden_cells(&ghosts.bytes)))
 }
@@ -184,7 +184,7 @@ impl<'a> Parts<'a> {
         file.by_ref().take(first.len() as u64).read_to_end(&mut bytes).map_err(failed)?;
         if bytes != first.as_bytes() {
             let is_beginning = first.as_bytes().starts_with(&bytes);
-            return Err(if is_beginning { truncated() } else { foreign(path, "its first lines are others") });
+            return Err(if is_beginning { truncated() } else { foreign(path, "its first lines differ") });
         }
         let mut limited = file.by_ref().take(LONGEST_HEAD);
         while !bytes.ends_with(DATA.as_bytes()) {
@@ -200,7 +200,7 @@ impl<'a> Parts<'a> {
         }
         let left = found.saturating_sub(bytes.len() as u64);
         bytes.truncate(bytes.len() - DATA.len());
-        let head = String::from_utf8(bytes).map_err(|_| foreign(path, "its first lines are no text"))?;
+        let head = String::from_utf8(bytes).map_err(|_| foreign(path, "its first lines are not text"))?;
         Ok(Self { path, head, data: Source::new(file, left), found: found as usize, most })
     }
 
@@ -242,7 +242,7 @@ impl<'a> Parts<'a> {
         let counts = first.iter().copied().chain(std::iter::repeat(count));
         let elements =
             lines.zip(counts).map(|(line, count)| Element::new(line, count)).collect::<Option<Vec<_>>>();
-        let elements = elements.ok_or_else(|| self.foreign("one of its arrays makes no sense"))?;
+        let elements = elements.ok_or_else(|| self.foreign("one of its arrays is invalid"))?;
         let needed = elements.iter().fold(0_u64, |sum, element| sum.saturating_add(element.length as u64));
         // Check before anything is expanded.
         if !can_hold(self.data.left(), needed) {
@@ -266,11 +266,11 @@ impl<'a> Parts<'a> {
             let states = states.get(&element.name).map_or(Some(Vec::new()), |line| read_names(line));
             let is_next = element.offset as u64 == begin - self.data.left();
             let (true, Some(states)) = (is_next, states.filter(|states| element.can_have(states))) else {
-                return Err(self.foreign("one of its arrays makes no sense"));
+                return Err(self.foreign("one of its arrays is invalid"));
             };
             let bytes = self.data.expanded(element.length).map_err(|broken| match broken {
                 Broken::Short => self.truncated(),
-                Broken::Wrong => self.foreign("its data are not those of its arrays"),
+                Broken::Wrong => self.foreign("its data do not match its arrays"),
                 Broken::Read(source) => ReadVtkError::Read { path: self.path.to_owned(), source },
             })?;
             arrays.push(element.array(bytes, states));
@@ -281,7 +281,7 @@ impl<'a> Parts<'a> {
                 let time = arrays.remove(0).bytes.as_chunks().0[0];
                 Ok((f64::from_ne_bytes(time), arrays))
             }
-            _ => Err(self.foreign("it does not say its time")),
+            _ => Err(self.foreign("its time is missing")),
         }
     }
 
@@ -293,7 +293,7 @@ impl<'a> Parts<'a> {
         match end.as_slice() {
             end if is_read && end == END.as_bytes() => Ok(()),
             end if END.as_bytes().starts_with(end) => Err(self.truncated()),
-            _ => Err(self.foreign("it goes on where it should end")),
+            _ => Err(self.foreign("it continues where it should end")),
         }
     }
 

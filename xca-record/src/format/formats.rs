@@ -25,7 +25,7 @@ struct Known {
 
 /// A format that there is not.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("there is no format `{name}`; there are {known}")]
+#[error("unknown format `{name}`; there are {known}")]
 pub struct FormatError {
     name: String,
     known: String,
@@ -118,7 +118,7 @@ mod tests {
         formats.choose(&["png"]).unwrap();
         assert_eq!(formats.names(), ["png"]);
         let error = formats.choose_too(&["png", "gif"]).unwrap_err().to_string();
-        assert_eq!(error, "there is no format `gif`; there are vtk, csv, png, asc, tif, xyz, spacetime");
+        assert_eq!(error, "unknown format `gif`; there are vtk, csv, png, asc, tif, xyz, spacetime");
         formats.add(Pictures::default());
         assert_eq!(formats.all().filter(|writer| writer.name() == "png").count(), 1);
     }

@@ -34,7 +34,7 @@ pub struct Look {
 /// A look that does not fit the model.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
 pub enum LookError {
-    #[error("no substate is called `{name}`; there are {known}")]
+    #[error("unknown substate `{name}`; there are {known}")]
     NoSubstate { name: String, known: String },
     #[error("`{of}` are substates of {kind}, which cannot be drawn as {view}")]
     View { of: String, kind: &'static str, view: &'static str },

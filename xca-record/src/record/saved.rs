@@ -31,11 +31,10 @@ pub struct SavedRun {
 pub enum SavedError {
     #[error(transparent)]
     Read(Failure),
-    #[error("{} is not there, in none of the formats that can be read back", path.display())]
+    #[error("{} is missing in all formats that can be read back", path.display())]
     Missing { path: PathBuf },
     #[error(
-        "{} does not hold the substate `{substate}`, but {saved}: the model's view of `{view}` saves no more; \
-         a checkpoint holds everything",
+        "{} does not hold the substate `{substate}`, but {saved}: the view of `{view}` saves only these; a checkpoint holds everything",
         path.display()
     )]
     NotSaved { path: PathBuf, substate: &'static str, saved: String, view: String },

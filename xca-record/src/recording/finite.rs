@@ -5,7 +5,9 @@ use xca_core::{Fault, RunError, Simulation};
 
 /// A state that should not be written.
 #[derive(Debug, thiserror::Error)]
-#[error("{0}; add --allow-non-finite to run on, or `.allow_non_finite(…)` to a model that means such values")]
+#[error(
+    "{0}; add --allow-non-finite to continue, or `.allow_non_finite(…)` to a model that allows such values"
+)]
 struct NonFinite(RunError);
 
 pub fn check(simulation: &Simulation) -> Result<(), Failure> {

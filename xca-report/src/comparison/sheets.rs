@@ -197,7 +197,7 @@ fn observables(comparison: &ComparisonReport) -> Sheet {
         [values].into_iter().chain(drift)
     });
     Sheet {
-        title: "Quantities of the whole, at the start and at the end",
+        title: "Observables at the start and at the end",
         header: words(["observable", "start"]).into_iter().chain(names).collect(),
         right: (1..2 + comparison.engines.len()).collect(),
         rows: rows.collect(),

@@ -10,11 +10,11 @@ use std::collections::BTreeSet;
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
 pub(super) enum ClashError {
     #[error(
-        "the model's own options must not have names that its program has already: {0}; give them other names"
+        "the program already has options with the names of the model's options: {0}; rename those of the model"
     )]
     Taken(String),
     #[error(
-        "the {engine} engine's own option `--{option}` has a name that the program has already (of {taken}); give it another name"
+        "the {engine} engine's own option `--{option}` has a name that the program has already (of {taken}); rename it"
     )]
     Engine { engine: &'static str, option: &'static str, taken: String },
     #[error("the model's own option `{0}` has no `--` before its name: write #[arg(long)] at its field")]

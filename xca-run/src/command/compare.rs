@@ -167,7 +167,7 @@ fn choices<'a>(
     let choices = choices.map_err(Unable::refused)?;
     engines.check(choices.iter().map(Choice::engine), NAME).map_err(Unable::refused)?;
     if let Some((option, _)) = options.iter().find(|(option, _)| !choices.iter().any(|it| it.knows(option))) {
-        return Err(Unable::refused(format!("no engine that takes part has --{option}; leave it away")));
+        return Err(Unable::refused(format!("none of the compared engines has --{option}; remove it")));
     }
     Ok(choices)
 }

@@ -18,7 +18,7 @@ pub(super) enum GridError {
     #[error(transparent)]
     Overlay(#[from] OverlayError),
     #[error(
-        "{} has no value in column {}, row {} from the north, and `{substate}` needs one; for 0 there, write \
+        "{} has NODATA in column {}, row {} from the north, but `{substate}` needs a value; for 0 there, write \
          {substate}:0={}",
         path.display(), place[0], place[1], path.display()
     )]
@@ -41,14 +41,14 @@ impl FromStr for Initial {
     type Err = &'static str;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let form = |_| "it must be of the form NAME=FILE, such as altitude=ground.asc";
+        let form = |_| "write NAME=FILE, such as altitude=ground.asc";
         let Assignment { name, value } = text.parse().map_err(form)?;
         let (substate, otherwise) = match name.split_once(':') {
             None => (name, None),
             Some((name, number)) => {
                 let number: f64 = number.trim().parse().unwrap_or(f64::NAN);
                 if !number.is_finite() || name.trim().is_empty() {
-                    return Err("before `=` it must be NAME, or NAME:NUMBER, such as thickness:0=lava.asc");
+                    return Err("write NAME or NAME:NUMBER before `=`, such as thickness:0=lava.asc");
                 }
                 (name.trim().to_owned(), Some(number))
             }

@@ -139,7 +139,7 @@ fn in_folder(definition: &Definition<'_>, arguments: &InspectArguments) -> Resul
     if run.is_none() && checkpoints.is_empty() {
         let folder = arguments.path.display();
         return Err(Unable::refused(format!(
-            "{folder} is no folder of a run: it has neither {REPORT} nor checkpoints"
+            "{folder} is not the output of a run: it has neither {REPORT} nor checkpoints"
         )));
     }
     if let (None, Some(run)) = (&state, &run) {
@@ -147,9 +147,7 @@ fn in_folder(definition: &Definition<'_>, arguments: &InspectArguments) -> Resul
     }
     if state.is_none() && (arguments.cell.is_some() || arguments.label.is_some()) {
         let folder = arguments.path.display();
-        return Err(Unable::refused(format!(
-            "there is neither a checkpoint nor a frame in {folder} to look into"
-        )));
+        return Err(Unable::refused(format!("{folder} holds neither a checkpoint nor a frame")));
     }
     Ok(Findings { run, checkpoints, state })
 }

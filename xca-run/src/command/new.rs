@@ -59,7 +59,7 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
 /// A folder that a crate cannot be written to, or depend on.
 #[derive(Debug, thiserror::Error)]
 enum NewError {
-    #[error("{} is there already; give another name, or move it away", .0.display())]
+    #[error("{} exists already; give another name, or move it", .0.display())]
     Exists(PathBuf),
     #[error("{} is not a folder of xca: it has no crate `xca`", .0.display())]
     NotXca(PathBuf),

@@ -113,7 +113,7 @@ pub(super) fn recorded<'a>(
         Err(Unable::CommandLine(error)) => {
             let text = error.to_string();
             let first = text.split("\n\n").next().unwrap_or_default().trim_start_matches("error: ");
-            Err(Unable::refused(format!("the command line of the {of} is not one of this program: {first}")))
+            Err(Unable::refused(format!("the command line of the {of} does not fit this program: {first}")))
         }
         Err(other) => Err(other),
     }

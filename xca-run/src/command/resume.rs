@@ -64,10 +64,8 @@ pub(super) fn resume(
     let earlier: Earlier = report::parts(&report_file, &report).map_err(unread)?;
     if arguments.checkpoint.is_none() && arguments.steps.is_none() && earlier.has_ended() {
         let (folder, steps) = (folder.display(), counted(earlier.taken().steps, "step"));
-        let how = if earlier.stop_reason().is_some() { "" } else { "; --steps goes on to a later one" };
-        arguments
-            .voice
-            .tell(&report, || format!("the run in {folder} has ended after {steps} already{how}"))?;
+        let how = if earlier.stop_reason().is_some() { "" } else { "; --steps continues past its end" };
+        arguments.voice.tell(&report, || format!("the run in {folder} has ended after {steps}{how}"))?;
         return Ok(Ended::Done);
     }
     let path = chosen(arguments)?;
@@ -167,13 +165,13 @@ impl Found<'_> {
         let done = if earlier.has_ended() { taken.steps } else { description.step };
         if let Some(reason) = earlier.stop_reason() {
             return Err(Unable::refused(format!(
-                "the model has stopped the run after {}: {reason}; it does not go on, also with --steps",
+                "the model has stopped the run after {}: {reason}; it cannot continue, even with --steps",
                 counted(done, "step")
             )));
         }
         if steps < done {
             let done = counted(done, "step");
-            return Err(Unable::refused(format!("{done} of the run are done; --steps must be more")));
+            return Err(Unable::refused(format!("{done} of the run are done; --steps must be larger")));
         }
         Ok(steps)
     }
@@ -182,7 +180,7 @@ impl Found<'_> {
     fn not_resumed(&self, error: BeginError, description: &Description) -> Unable {
         match error {
             BeginError::Rounding { .. } => Unable::refused(format!(
-                "{error}; choose the engine with --engine and what belongs to it, or add --allow-rounding"
+                "{error}; choose that engine with --engine and its options, or add --allow-rounding"
             )),
             BeginError::Folder(_) | BeginError::Write(_) => Unable::refused(error),
             other => self.refused(other.into(), Some(description)),
@@ -212,7 +210,7 @@ impl Found<'_> {
         Unable::RefusedOffering(
             error,
             format!(
-                "another checkpoint is whole; go on from it with\n  {name} resume {folder} --checkpoint {}",
+                "another checkpoint is intact; resume from it with\n  {name} resume {folder} --checkpoint {}",
                 older.display()
             ),
         )

@@ -48,9 +48,7 @@ fn source(invocation: &RunInvocation<'_>) -> Result<String, Unable> {
     let kind = invocation.model.definition.engines.kind(name).map_err(Unable::refused)?;
     let model = invocation.model.set_up(&given)?.model;
     let source = kind.source(&model, given.precision).ok_or_else(|| {
-        Unable::refused(format!(
-            "the {name} engine makes no text of the processes; --engine gpu makes shaders"
-        ))
+        Unable::refused(format!("the {name} engine generates no code; --engine gpu generates shaders"))
     })?;
     source.map_err(Unable::Refused)
 }

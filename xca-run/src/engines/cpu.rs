@@ -63,9 +63,9 @@ fn threads(text: &str) -> Result<usize, String> {
     // Many more than cores only cost memory.
     const MOST: usize = Cpu::MOST_THREADS;
     match text.parse() {
-        Ok(0) => Err("0 threads do nothing; give at least 1".to_owned()),
+        Ok(0) => Err("the number of threads must be at least 1".to_owned()),
         Ok(number) if number <= MOST => Ok(number),
-        Ok(number) => Err(format!("{number} threads are too many; give at most {MOST}")),
+        Ok(number) => Err(format!("{number} threads are too many; the maximum is {MOST}")),
         Err(_) => Err(format!("it must be a whole number from 1 to {MOST}")),
     }
 }

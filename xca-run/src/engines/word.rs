@@ -127,12 +127,12 @@ mod tests {
     fn what_is_no_word_is_told_with_its_form() {
         let words = EngineWords::new(&Engines::default());
         for (word, wanted) in [
-            ("cup", "there is no engine `cup`; there are cpu[:N], gpu[:N|NAME], "),
+            ("cup", "unknown engine `cup`; there are cpu[:N], gpu[:N|NAME], "),
             ("cpu:0", "engine `cpu:0`: 0 threads do nothing"),
             ("cpu:two", "it must be a whole number"),
             ("cpu:", "nothing stands after the colon; the form is cpu[:N]"),
             ("reference:2", "nothing can be chosen of the reference engine"),
-            ("parts", "engine `parts`: it must be of the form parts:N:cpu[:THREADS]"),
+            ("parts", "engine `parts`: write parts:N:cpu[:THREADS]"),
             ("parts:3", "say what runs each part: parts:3:cpu"),
             ("parts:0:cpu", "whole number from 1"),
             ("parts:3:gpu", "a part runs on the cpu engine, not on `gpu`"),
@@ -148,6 +148,6 @@ mod tests {
         let threads = EngineOptions::default().with("threads", "3");
         assert_eq!(words.parse("cpu").unwrap().with(&threads).unwrap().options, threads);
         let said = words.parse("cpu:2").unwrap().with(&threads).unwrap_err().to_string();
-        assert_eq!(said, "--threads is given twice, also after the colon of the cpu engine; leave one away");
+        assert_eq!(said, "--threads is given twice, also after the colon of the cpu engine; remove one");
     }
 }

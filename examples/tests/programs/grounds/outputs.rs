@@ -141,8 +141,8 @@ fn numbers_that_are_no_altitudes_are_never_ground() {
     for (text, wanted) in [
         ("inf", "g.asc:9: `inf` is not a finite number"),
         ("1e309", "g.asc:9: `1e309` is not a finite number"),
-        ("-32768e3", "g.asc: -32768000 in column 2, row 3 from the north is no altitude in m"),
-        ("1e6", "g.asc: 1000000 in column 2, row 3 from the north is no altitude in m"),
+        ("-32768e3", "g.asc: -32768000 in column 2, row 3 from the north is not an altitude in m"),
+        ("1e6", "g.asc: 1000000 in column 2, row 3 from the north is not an altitude in m"),
     ] {
         ground(&header, text);
         let said = place.fail(2, LANDSLIDE, "--dem g.asc --debris d.asc");

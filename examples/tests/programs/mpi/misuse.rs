@@ -7,9 +7,9 @@ use crate::running::{LIFE, Workplace};
 fn what_makes_no_sense_is_refused_once() {
     let place = Workplace::new();
     for (words, wanted) in [
-        ("run --engine cpu", "a launcher has started 3 processes, and each would do the whole of it"),
+        ("run --engine cpu", "a launcher started 3 processes, and each would run the whole model"),
         ("run --engine parts:2:cpu", "share it with --engine mpi:cpu, or start one process"),
-        ("run --engine mpi", "engine `mpi`: it must be of the form mpi:cpu[:THREADS]"),
+        ("run --engine mpi", "engine `mpi`: write mpi:cpu[:THREADS]"),
         ("run --engine mpi:gpu", "a part runs on the cpu engine, not on `gpu`"),
         ("run --engine mpi:cpu --threads 2", "--threads is for --engine cpu, not for the mpi engine"),
         ("watch --engine mpi:cpu", "`watch` does not run on the mpi engine"),
@@ -33,7 +33,7 @@ fn engines_of_one_process_are_not_compared_by_many() {
     let output = run(&place, 2, LIFE, "compare --engines reference,cpu");
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(2), "{said}");
-    assert!(said.contains("a launcher has started 2 processes"), "{said}");
+    assert!(said.contains("a launcher started 2 processes"), "{said}");
 }
 
 /// A space that is too thin for so many parts.

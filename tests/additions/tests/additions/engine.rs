@@ -39,8 +39,8 @@ fn help_and_list_tell_of_it() -> TestResult {
         ("run --copies 2", "--copies is for --engine twins, not for the cpu engine"),
         ("run --engine twins --copies 10", "it must be a whole number from 1 to 9"),
         ("run --engine twins --threads 2", "--threads is for --engine cpu, not for the twins engine"),
-        ("run --engine twin", "there is no engine `twin`; there are cpu[:N], gpu[:N|NAME], "),
-        ("run --engine twins --print-source", "the twins engine makes no text of the processes"),
+        ("run --engine twin", "unknown engine `twin`; there are cpu[:N], gpu[:N|NAME], "),
+        ("run --engine twins --print-source", "the twins engine generates no code"),
     ] {
         let output = plate(folder.path(), words)?;
         let said = String::from_utf8(output.stderr)?;

@@ -60,7 +60,7 @@ fn its_states_are_drawn_like_those_of_any_other() -> TestResult {
     let output = plate(folder, "run --formats jsn --quiet")?;
     let said = String::from_utf8(output.stderr)?;
     assert!(
-        said.contains("there is no format `jsn`; there are vtk, csv, png, asc, tif, xyz, spacetime, json"),
+        said.contains("unknown format `jsn`; there are vtk, csv, png, asc, tif, xyz, spacetime, json"),
         "{said}"
     );
     Ok(())

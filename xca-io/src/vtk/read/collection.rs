@@ -32,12 +32,12 @@ pub fn read_collection(path: &Path) -> Result<Vec<ListedFile>, ReadVtkError> {
         if line.is_empty() {
             return Err(ReadVtkError::Truncated { path: path.to_owned(), found });
         }
-        String::from_utf8(line.clone()).map_err(|_| foreign(path, "it is no text"))
+        String::from_utf8(line.clone()).map_err(|_| foreign(path, "it is not text"))
     };
     for wanted in BEGIN.split_inclusive('\n') {
         let line = next()?;
         if line != wanted {
-            return Err(foreign(path, "its first lines are others"));
+            return Err(foreign(path, "its first lines differ"));
         }
     }
     let folder = path.parent().unwrap_or(Path::new(""));
@@ -50,11 +50,11 @@ pub fn read_collection(path: &Path) -> Result<Vec<ListedFile>, ReadVtkError> {
             wanted = end.next();
         } else {
             let listed = listed(folder, &line).filter(|_| tag == END_OF_LIST);
-            files.push(listed.ok_or_else(|| foreign(path, "one of its entries makes no sense"))?);
+            files.push(listed.ok_or_else(|| foreign(path, "one of its entries is invalid"))?);
         }
     }
     read_line(&mut source, &mut line).map_err(failed)?;
-    if line.is_empty() { Ok(files) } else { Err(foreign(path, "it goes on where it should end")) }
+    if line.is_empty() { Ok(files) } else { Err(foreign(path, "it continues where it should end")) }
 }
 
 /// The first closing tag.

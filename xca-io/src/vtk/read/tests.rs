@@ -82,7 +82,7 @@ fn names_of_components_and_states_are_read_back() {
     bytes[place..place + 3].copy_from_slice(b"300");
     fs::write(&path, bytes).unwrap();
     let error = read_dense(&path, u64::MAX).unwrap_err().to_string();
-    assert!(error.contains("one of its arrays makes no sense"), "{error}");
+    assert!(error.contains("one of its arrays is invalid"), "{error}");
 }
 
 #[test]
@@ -119,7 +119,7 @@ fn a_truncated_file_is_refused_wherever_it_ends() {
         fs::write(path, &whole).unwrap();
         read(path).unwrap();
         fs::write(path, [&whole[..], b"x"].concat()).unwrap();
-        assert!(read(path).unwrap_err().to_string().contains("it goes on where it should end"));
+        assert!(read(path).unwrap_err().to_string().contains("it continues where it should end"));
     }
 }
 
@@ -176,7 +176,7 @@ fn a_file_of_something_else_is_refused() {
     bytes[data + 16] ^= 1;
     fs::write(&path, bytes).unwrap();
     assert!(
-        read_dense(&path, u64::MAX).unwrap_err().to_string().contains("its data are not those of its arrays")
+        read_dense(&path, u64::MAX).unwrap_err().to_string().contains("its data do not match its arrays")
     );
     assert!(
         read_dense(Path::new("/nowhere/d.vti"), u64::MAX)
@@ -202,7 +202,7 @@ fn hidden_cells_come_back_apart_from_the_substates() {
     assert_eq!(read_dense(&path, u64::MAX).unwrap().hidden, None);
     let wide = [[0_u8; 2]; 6];
     write_dense(&path, 0.0, &GRID, &[DataArray::new(GHOST_TYPE, &wide[..])]).unwrap();
-    assert!(read_dense(&path, u64::MAX).unwrap_err().to_string().contains("its ghost types make no sense"));
+    assert!(read_dense(&path, u64::MAX).unwrap_err().to_string().contains("its ghost types are invalid"));
 }
 
 #[test]

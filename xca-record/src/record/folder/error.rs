@@ -13,27 +13,27 @@ use xca_io::atomic::WriteError;
 pub enum FolderError {
     #[error(transparent)]
     Write(#[from] WriteError),
-    #[error("{}; move it away or give another folder with --out", .0)]
+    #[error("{}; move it or give another directory with --out", .0)]
     Report(#[source] ReadReportError),
     #[error(
-        "{} holds `{file}`, which is not of an earlier {}; move it away or give another folder with --out",
+        "{} holds `{file}`, which is not from an earlier {}; move it or give another directory with --out",
         folder.display(),
         kind.noun()
     )]
     Foreign { folder: PathBuf, file: String, kind: Kind },
     #[error(
-        "{} is the folder of a {}, whose files would be replaced; give another one with --out",
+        "{} holds a {}, which this would overwrite; give another directory with --out",
         folder.display(),
         kind.noun()
     )]
     Taken { folder: PathBuf, kind: Kind },
     #[error(
-        "the run starts from {}, which it would replace; move it away or give another folder with --out",
+        "the run starts from {}, which it would overwrite; move it or give another directory with --out",
         file.display()
     )]
     Input { file: PathBuf },
     #[error("another run is writing to {}", folder.display())]
     InUse { folder: PathBuf },
-    #[error("cannot remove {}, which an earlier run left", path.display())]
+    #[error("cannot remove {}, left by an earlier run", path.display())]
     Remove { path: PathBuf, source: io::Error },
 }

@@ -161,7 +161,7 @@ fn a_run_does_not_replace_its_own_input() {
     let input = folder.path().join("frames/../final.csv");
     fs::create_dir(folder.path().join(FRAMES)).unwrap();
     let error = prepare(folder.path(), &files(), &[InputFile::new(input)]).unwrap_err().to_string();
-    assert!(error.contains("final.csv, which it would replace"), "{error}");
+    assert!(error.contains("final.csv, which it would overwrite"), "{error}");
     assert!(folder.path().join("final.csv").is_file());
 }
 

@@ -100,12 +100,12 @@ fn engines_that_do_not_agree_have_an_exit_code() {
 #[test]
 fn what_makes_no_sense_is_refused() {
     for (words, wanted) in [
-        (&["--engines", "cpu,cup"][..], "there is no engine `cup`"),
+        (&["--engines", "cpu,cup"][..], "unknown engine `cup`"),
         (&["--engines", "reference:2"], "nothing can be chosen of the reference engine"),
-        (&["--arithmetic", "strict"], "no engine that takes part has --arithmetic"),
+        (&["--arithmetic", "strict"], "none of the compared engines has --arithmetic"),
         (&["--repeats", "0"], "it must be a whole number from 1 to 1000"),
         (&["--tolerance", "-1"], "it must be a finite number at least 0"),
-        (&["--check-every", "0"], "every 0 steps never comes"),
+        (&["--check-every", "0"], "the interval must be at least 1 step"),
         (&["--set", "speed=1"], "has no parameters"),
     ] {
         let (ended, json) = compared(words);

@@ -43,7 +43,7 @@ fn of_run(report: &Value) -> String {
         times => format!(", resumed {times} times"),
     };
     format!(
-        "{} {}: {outcome}{resumed}, {} of {} steps, {} frames\n  {}\n  {} engine, threads {}, {}, seed {}, begun {}",
+        "{} {}: {outcome}{resumed}, {} of {} steps, {} frames\n  {}\n  {} engine, threads {}, {}, seed {}, started {}",
         text("/program"),
         text("/version"),
         text("/progress/steps"),

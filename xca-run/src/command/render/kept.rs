@@ -70,7 +70,7 @@ impl<'a> Kept<'a> {
         let report = path.join(REPORT);
         let whole = report::read(&report).map_err(Unable::refused)?;
         let whole = whole.filter(|whole| whole.get("xca").is_some()).ok_or_else(|| {
-            Unable::refused(format!("{folder} is no folder of a run: there is no {REPORT} of one in it"))
+            Unable::refused(format!("{folder} is not the output of a run: it has no {REPORT}"))
         })?;
         let told: Told = report::parts(&report, &whole).map_err(Unable::refused)?;
         if told.command_line.get(1).map(String::as_str) == Some(super::NAME) {

@@ -30,7 +30,7 @@ pub(in crate::command) fn draw(
         checkpoint(definition, path, arguments)
     } else {
         Err(Unable::refused(format!(
-            "there is no {}, neither the folder of a run nor a checkpoint",
+            "{} does not exist; give the output directory of a run, or a checkpoint",
             path.display()
         )))
     }
@@ -180,7 +180,7 @@ fn checkpoint(
     let recorder = Kept::of_checkpoint(path, &description).recorder(definition)?;
     let precision = description.run.precision;
     if !recorder.fits(precision, &snapshot) {
-        return Err(Unable::refused(format!("the state in {} is not one of this model", path.display())));
+        return Err(Unable::refused(format!("the state in {} does not fit this model", path.display())));
     }
     let drawing = arguments.drawing(&recorder)?;
     let seen = drawing.seen(precision, &snapshot);

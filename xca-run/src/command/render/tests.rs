@@ -137,8 +137,8 @@ fn what_is_not_saved_is_said_and_a_checkpoint_has_it() {
     let said = place.refused("render @run --substate velocity --out @saved");
     assert!(
         said.ends_with(
-            "run/frames/fish_00000000.vtp does not hold the substate `velocity`, but label, age: the model's view of \
-             `fish` saves no more; a checkpoint holds everything"
+            "run/frames/fish_00000000.vtp does not hold the substate `velocity`, but label, age: the view of \
+             `fish` saves only these; a checkpoint holds everything"
         ),
         "{said}"
     );
@@ -206,10 +206,10 @@ fn files_that_are_none_of_a_run_are_refused() {
         place.refused("render @nothing").ends_with("nothing, neither the folder of a run nor a checkpoint")
     );
     write("notes.txt", b"a day at the pond");
-    assert!(place.refused("render @notes.txt").contains("is no checkpoint of an xca program"));
+    assert!(place.refused("render @notes.txt").contains("is not a checkpoint of an xca program"));
     fs::create_dir(place.folder.path().join("empty")).unwrap();
     let said = place.refused("render @empty");
-    assert!(said.contains("empty is no folder of a run: there is no run.json of one in it"), "{said}");
+    assert!(said.contains("empty is not the output of a run: there is no run.json of one in it"), "{said}");
     place.succeed("run --width 4 --steps 6 --every 3 --checkpoint-every 3 --out @run");
     place.succeed(&format!("render @run {SMALL}"));
     assert!(place.refused("render @run_pictures").contains("holds pictures of a run, not the run"));
@@ -235,10 +235,7 @@ fn the_folder_of_a_run_is_not_taken_for_pictures() {
     place.succeed("run --width 4 --checkpoint-every 3 --out @run");
     let before = (place.files("run"), place.files("run/frames"), place.files("run/checkpoints"));
     for words in ["render @run --out @run", "render --width 4 --out @run"] {
-        assert!(
-            place.refused(words).contains("is the folder of a run, whose files would be replaced"),
-            "{words}"
-        );
+        assert!(place.refused(words).contains("holds a run, which this would overwrite"), "{words}");
     }
     let after = (place.files("run"), place.files("run/frames"), place.files("run/checkpoints"));
     assert!(before == after);

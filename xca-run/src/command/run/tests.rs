@@ -308,7 +308,7 @@ fn observables_must_stay_the_same() {
     let (ended, _) = run_model(&make, &["--every", "1"], folder.path());
     assert_eq!(
         message(&ended),
-        "the observables after step 2 are not those of the start: late instead of early"
+        "the observables after step 2 differ from those of the start: late instead of early"
     );
 }
 

@@ -33,7 +33,7 @@ impl UnderWay {
             1 => "1 step is done".to_owned(),
             steps => format!("{steps} steps are done"),
         };
-        format!("{done}; what was written until then is in {folder}")
+        format!("{done}; the output so far is in {folder}")
     }
 
     fn how_to_go_on(&self) -> String {
