@@ -9,7 +9,7 @@ use crate::dense::Dense;
 use crate::ghosts::{self, faces, mismatch};
 use crate::group::Group;
 use crate::layout::Layout;
-use crate::rows::FirstFault;
+use crate::rows::{FirstFault, searched};
 use crate::threads::Threads;
 use xca_core::engine::{Border, EngineFailure, Fault, Part, SubstateId};
 use xca_core::{Face, Faces, Model};
@@ -43,9 +43,15 @@ impl Edges {
         groups: &mut [Group],
         activity: Option<&Activity>,
     ) -> Result<(), EngineFailure> {
+        let searched = searched(model, processes);
         for group in seen(model, processes) {
             if let Group::Population(population) = &mut groups[group] {
-                ghosts::exchange(population, layout, threads, &mut *self.border)?;
+                let slack = if searched.contains(&group) {
+                    threads.run(|| population.slack(layout, model.geometry()))
+                } else {
+                    0.0
+                };
+                ghosts::exchange(population, layout, threads, &mut *self.border, slack)?;
             }
         }
         let stale = stale(model, groups, processes);

@@ -2,30 +2,34 @@
 //! all places of a population.
 
 use crate::layout::Layout;
+use crate::motion::largest;
 use crate::population::Population;
 use crate::threads::Threads;
 use xca_core::engine::{Border, EngineFailure};
 use xca_core::{Face, Faces};
 
-/// Receives the items that are visible across the borders of the part.
+/// Receives the items that are visible across the borders of the part, and how far they are outside their
+/// cells. `slack` is the largest distance in metres of an own item from its cell.
 pub(crate) fn exchange(
     population: &mut Population,
     layout: &Layout,
     threads: &Threads,
     border: &mut dyn Border,
+    slack: f64,
 ) -> Result<(), EngineFailure> {
     let none = Faces::all(vec![0]);
     threads.run(|| {
         layout.fill_rows(&mut population.starts, 1, Some(&none), false);
         layout.fill_rows(&mut population.ends, 1, Some(&none), false);
     });
-    exchange_along(1, population, layout, border)?;
+    population.slack_of_ghosts = 0.0;
+    exchange_along(1, population, layout, border, slack)?;
     // Layers include the ghosts along y, so corners need no messages of their own.
     threads.run(|| {
         layout.fill_layers(&mut population.starts, 1, Some(&none));
         layout.fill_layers(&mut population.ends, 1, Some(&none));
     });
-    exchange_along(2, population, layout, border)
+    exchange_along(2, population, layout, border, slack)
 }
 
 fn exchange_along(
@@ -33,10 +37,13 @@ fn exchange_along(
     population: &mut Population,
     layout: &Layout,
     border: &mut dyn Border,
+    slack: f64,
 ) -> Result<(), EngineFailure> {
     let faces = faces(layout, axis);
+    // What is sent along z includes the ghosts along y.
+    let slack = largest(slack, population.slack_of_ghosts);
     for &face in &faces {
-        border.send(face, pack(population, layout, face))?;
+        border.send(face, pack(population, layout, face, slack))?;
     }
     for &face in &faces {
         let bytes = border.receive(face)?;
@@ -52,10 +59,10 @@ pub(crate) fn faces(layout: &Layout, axis: usize) -> Vec<Face> {
     Face::ALONG[axis].into_iter().filter(seen).collect()
 }
 
-/// The message for another part: for each visible cell the number of items, then for each item the label and
-/// the fields.
-fn pack(population: &Population, layout: &Layout, face: Face) -> Vec<u8> {
-    let mut bytes = Vec::new();
+/// The message for another part: the slack, then for each visible cell the number of items, and for each item
+/// the label and the fields.
+fn pack(population: &Population, layout: &Layout, face: Face, slack: f64) -> Vec<u8> {
+    let mut bytes = slack.to_ne_bytes().to_vec();
     for cell in layout.lines_at(face, false).flat_map(|line| layout.cells_of_line(line)) {
         let places = population.starts[cell]..population.ends[cell];
         bytes.extend_from_slice(&(places.len() as u32).to_ne_bytes());
@@ -72,6 +79,8 @@ fn unpack(
 ) -> Result<(), EngineFailure> {
     let none = Faces::all(vec![0]);
     let mut rest = bytes;
+    let slack = bytemuck::pod_read_unaligned(take(&mut rest, size_of::<f64>())?);
+    population.slack_of_ghosts = largest(population.slack_of_ghosts, slack);
     for line in layout.lines_at(face, true) {
         for cell in layout.cells_of_line(line) {
             let first = population.items.labels.len() as u32;

@@ -127,6 +127,7 @@ impl<'a> Frame<'a> {
         answers: Option<&'a [u32]>,
     ) -> Self {
         let (first, end) = population.row(row);
+        let [_, south, bottom] = layout.origin(row);
         let side = geometry.side();
         let (toroidal, extents) = (geometry.toroidal(), geometry.extents());
         let listed = population.lists.is_some();
@@ -134,9 +135,9 @@ impl<'a> Frame<'a> {
             cells: &population.items.cells[first..end],
             answers,
             references: if listed { &population.items.references[first..end] } else { &[] },
-            first_cell: (row * layout.width()) as u32,
+            first_cell: layout.linear(row) as u32,
             side,
-            low: layout.row(row).map(|index| index as f64 * side),
+            low: [south, bottom].map(|index| index as f64 * side),
             drift: population.lists.as_ref().map_or([0.0; 3], |lists| lists.drift),
             periods: std::array::from_fn(|axis| {
                 if toroidal[axis] { extents[axis] as f64 * side } else { f64::INFINITY }

@@ -6,14 +6,14 @@
 
 use crate::layout::Layout;
 use crate::lists::Lists;
-use crate::motion::Motion;
+use crate::motion::{Motion, measure};
 use crate::upkeep::Upkeep;
 use rayon::prelude::*;
 use std::ops::Range;
 use xca_core::engine::Population as Items;
 use xca_core::model::{Group as Definition, GroupKind};
 use xca_core::storage::Buffer;
-use xca_core::{Precision, StoredScalar, StoredType};
+use xca_core::{Geometry, Precision, StoredScalar, StoredType};
 
 /// The least room of a row for more items. Few items come and go at once, but among many rows some exceed the
 /// average.
@@ -45,6 +45,8 @@ pub(crate) struct Population {
     pub(crate) position: Option<usize>,
     /// The measures of the current positions and cells, if there are any.
     pub(crate) motion: Option<Motion>,
+    /// The largest distance in metres, along an axis, of a ghost from its cell.
+    pub(crate) slack_of_ghosts: f64,
     /// Whether a process has searched the population.
     pub(crate) searched: bool,
     /// The neighbour lists.
@@ -131,6 +133,7 @@ impl Population {
             row_ends: vec![0; layout.rows()],
             position: definition.schema().position,
             motion: None,
+            slack_of_ghosts: 0.0,
             searched: false,
             lists: None,
             upkeep: Upkeep::new(skin),
@@ -275,6 +278,15 @@ impl Population {
         if let Some(lists) = &mut self.lists {
             lists.moved(&self.items.numbers[first..end], first as u32);
         }
+    }
+
+    /// The largest distance in metres, along an axis, of an item from its cell. Measures the items if they
+    /// have changed. To be called before the population is searched.
+    pub(crate) fn slack(&mut self, layout: &Layout, geometry: &Geometry) -> f64 {
+        self.searched = true;
+        let motion = self.motion.unwrap_or_else(|| measure(self, layout, geometry));
+        self.motion = Some(motion);
+        motion.slack
     }
 
     /// The positions of all places, as references for lists.

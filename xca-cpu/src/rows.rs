@@ -26,6 +26,7 @@ pub(crate) use ground::{Ground, StageOfStep};
 use pass::{Followed, Pass};
 use prepare::Ready;
 use rayon::prelude::*;
+pub(crate) use search::searched;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;

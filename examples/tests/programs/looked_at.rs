@@ -68,7 +68,10 @@ fn a_folder_and_its_checkpoints_are_told_of() {
     place.succeed(HEAT, "--size 9 --steps 22 --until 0 --checkpoint-every 10");
     let text = told(&place, HEAT, "inspect out/heat");
     assert!(text.starts_with("heat 0.1.0: done, 22 of 22 steps, 12 frames\n"), "{text}");
-    assert!(text.contains("seed 1, started 20") && text.contains(" after 22 of 22 steps, time 2.47"), "{text}");
+    assert!(
+        text.contains("seed 1, started 20") && text.contains(" after 22 of 22 steps, time 2.47"),
+        "{text}"
+    );
     // The initial shape is an eigenvector of the scheme, and symmetric.
     let fade = 1.0 - 12.0 * 0.125 * (std::f64::consts::PI / 20.0).sin().powi(2);
     let json = json(&place, HEAT, "inspect out/heat --cell 4,4,4 --json");

@@ -56,6 +56,11 @@ fn walkers(
     slots: usize,
     count: u32,
 ) -> Result<Model, Box<dyn Error>> {
+    Ok(crowd(extents, boundary, slots, count).process((meet, walk, settle, wear)).build()?)
+}
+
+/// The same, before they have a process.
+fn crowd(extents: [usize; 3], boundary: Boundary, slots: usize, count: u32) -> ModelBuilder {
     let item = move |label: u32| {
         let cell = [0, 1, 2].map(|axis| number([axis, 3, 3], label, extents[axis] as u32));
         let [x, y, z] = cell.map(|index| f64::from(index) + 0.5);
@@ -69,16 +74,14 @@ fn walkers(
         Item { label, cell: cell.map(|index| index as usize), state }
     };
     let neighbourhood = if extents[2] == 1 { Neighbourhood::moore_2d(1) } else { Neighbourhood::moore(1) };
-    Ok(Model::builder("walkers")
+    Model::builder("walkers")
         .extents(extents)
         .neighbourhood(neighbourhood)
         .boundary(boundary)
         .substates::<Ground>()
         .population::<Walker>(slots)
         .items_may_leave::<Walker>()
-        .process((meet, walk, settle, wear))
         .initialise(move |state| Ok(state.set_items((0..count).map(item).collect::<Vec<_>>())?))
-        .build()?)
 }
 
 const STEPS: u64 = 12;
@@ -127,6 +130,22 @@ fn items_cross_all_borders() -> TestResult {
             let late = Behind { engine: cpu(2, 3)?, manner: Manner::Late };
             let parts = Parts::with_cut(late, Cut { y: 3, z: extents[2].min(2) });
             assert!(run(&model, &parts)? == wanted, "{extents:?} {boundary}, late");
+        }
+    }
+    Ok(())
+}
+
+/// Walkers that search while they are up to 0.8 sides outside their cells, some of which belong to other parts.
+#[test]
+fn walkers_are_found_outside_their_cells() -> TestResult {
+    for (extents, cuts) in [([5, 9, 1], vec![[2, 1], [9, 1]]), ([4, 5, 6], vec![[2, 2], [5, 6]])] {
+        for boundary in [Boundary::Flat, Boundary::Toroidal] {
+            let model = crowd(extents, boundary, 60, 80).process((walk, meet, settle, wear)).build()?;
+            let wanted = run(&model, &Reference)?;
+            for [y, z] in cuts.clone() {
+                let parts = Parts::with_cut(cpu(1, 0)?, Cut { y, z });
+                assert!(run(&model, &parts)? == wanted, "{extents:?} {boundary} {y} {z}");
+            }
         }
     }
     Ok(())

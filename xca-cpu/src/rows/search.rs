@@ -4,7 +4,7 @@
 use crate::group::{Group, population};
 use crate::layout::Layout;
 use crate::lists::Room;
-use crate::motion::{largest, measure};
+use crate::motion::largest;
 use crate::upkeep::keep_lists;
 use xca_core::kernel::CellFilter;
 use xca_core::{Faces, Model, Precision, Process, ProcessKind};
@@ -19,7 +19,7 @@ pub(super) struct Searches {
 }
 
 /// The populations that processes search.
-fn searched(model: &Model, processes: &[usize]) -> Vec<usize> {
+pub(crate) fn searched(model: &Model, processes: &[usize]) -> Vec<usize> {
     let searches = |process: &Process| {
         let position = process.subject().schema.position;
         let access = &process.access;
@@ -45,22 +45,23 @@ pub(super) fn prepare(
 ) -> Searches {
     let populations = searched(model, processes);
     let mut searches = Searches { populations, filter: None, listed: vec![None; groups.len()] };
-    // In a part of a space, the places of ghosts hold only for a stage. Lists cannot refer to them.
-    if searches.populations.is_empty() || layout.borders() != Faces::all(false) {
+    if searches.populations.is_empty() {
         return searches;
     }
     let geometry = model.geometry();
     let mut slack = 0.0;
     for &number in &searches.populations {
         if let Group::Population(population) = &mut groups[number] {
-            population.searched = true;
-            let motion = population.motion.unwrap_or_else(|| measure(population, layout, geometry));
-            population.motion = Some(motion);
-            slack = largest(slack, motion.slack);
+            let own = population.slack(layout, geometry);
+            slack = largest(slack, largest(own, population.slack_of_ghosts));
         }
     }
     searches.filter = CellFilter::new(geometry, precision, layout.steps(), slack);
     let Some(filter) = &searches.filter else { return searches };
+    // In a part of a space, the places of ghosts hold only for a stage. Lists cannot refer to them.
+    if layout.borders() != Faces::all(false) {
+        return searches;
+    }
     let Some(widest) = filter.room(geometry.covered_radius(precision)) else { return searches };
     for &number in &searches.populations {
         if let Group::Population(population) = &mut groups[number]
