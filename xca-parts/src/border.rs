@@ -1,6 +1,7 @@
 //! The connection of a part's engine to the other parts.
 
 use crate::cut::Cut;
+use crate::traffic::Traffic;
 use crate::transport::{Tag, Transport, TransportError};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use xca_core::engine::{Border, EngineFailure};
@@ -29,13 +30,15 @@ pub(crate) struct PartBorder {
     link: Link,
     /// The number of the part beyond each face. `None` if no part lies beyond it.
     beyond: Faces<Option<usize>>,
+    traffic: Traffic,
 }
 
 impl PartBorder {
-    pub(crate) fn new(link: Link, geometry: &Geometry, cut: Cut, number: usize) -> Self {
+    pub(crate) fn new(link: Link, geometry: &Geometry, cut: Cut, traffic: Traffic) -> Self {
+        let number = link.lock().number();
         let borders = cut.part(geometry, number).borders(geometry);
         let beyond = Faces::from_fn(|face| borders[face].then(|| cut.beyond(number, face)));
-        Self { link, beyond }
+        Self { link, beyond, traffic }
     }
 
     fn beyond(&self, face: Face) -> Result<usize, EngineFailure> {
@@ -61,16 +64,18 @@ impl PartBorder {
 impl Border for PartBorder {
     fn send(&mut self, face: Face, bytes: Vec<u8>) -> Result<(), EngineFailure> {
         let to = self.beyond(face)?;
+        self.traffic.sent(bytes.len());
         self.with(|transport| transport.send(to, Tag::Edge(face), bytes))
     }
 
     fn receive(&mut self, face: Face) -> Result<Vec<u8>, EngineFailure> {
         let from = self.beyond(face)?;
-        self.with(|transport| transport.receive(from, Tag::Edge(face.opposite())))
+        self.traffic.timed(|| self.with(|transport| transport.receive(from, Tag::Edge(face.opposite()))))
     }
 
     fn least(&mut self, number: u64) -> Result<u64, EngineFailure> {
-        self.with(|transport| transport.least(number))
+        self.traffic.agreed();
+        self.traffic.timed(|| self.with(|transport| transport.least(number)))
     }
 }
 

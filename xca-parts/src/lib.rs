@@ -16,6 +16,7 @@ mod host;
 mod message;
 mod rows;
 mod shared;
+mod traffic;
 mod transport;
 mod worker;
 

@@ -5,6 +5,7 @@ use crate::fault::FaultMessage;
 use crate::greeting::Greeting;
 use crate::message::{Census, Command, Moment, Reply, decode, encode};
 use crate::shared::Shared;
+use crate::traffic::Traffic;
 use crate::transport::{Tag, Transport, TransportError};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -17,6 +18,7 @@ pub(crate) struct Worker {
     precision: Precision,
     parameters: ParameterSet,
     execution: Box<dyn Execution>,
+    traffic: Traffic,
 }
 
 impl Worker {
@@ -24,13 +26,14 @@ impl Worker {
         let Shared { model, precision, cut } = shared.clone();
         let number = link.lock().number();
         let part = cut.part(model.geometry(), number);
-        let border = PartBorder::new(link, model.geometry(), cut, number);
+        let traffic = Traffic::default();
+        let border = PartBorder::new(link, model.geometry(), cut, traffic.clone());
         let start = || engine.start_part(&model, precision, &part, Box::new(border));
         let execution = catch_unwind(AssertUnwindSafe(start)).unwrap_or_else(|panic| {
             Err(StartError::Other { engine: engine.name().to_owned(), reason: text(&*panic) })
         })?;
         let parameters = model.parameters().clone();
-        Ok(Self { model, precision, parameters, execution })
+        Ok(Self { model, precision, parameters, execution, traffic })
     }
 
     /// Carries out a command. A panic becomes a failure.
@@ -90,7 +93,8 @@ impl Worker {
             Command::Memory => Reply::Memory { bytes: self.execution.memory() },
             Command::Figures => {
                 let figures = self.execution.figures().into_iter();
-                Reply::Figures { figures: figures.map(|figure| (figure.name, figure.value)).collect() }
+                let figures = figures.map(|figure| (figure.name, figure.value));
+                Reply::Figures { figures: figures.chain(self.traffic.figures()).collect() }
             }
         })
     }

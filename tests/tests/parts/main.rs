@@ -4,6 +4,7 @@ mod borders;
 mod greetings;
 mod items;
 mod models;
+mod traffic;
 
 use borders::{Behind, Manner};
 use models::{Site, life, wood};
