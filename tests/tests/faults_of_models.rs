@@ -176,7 +176,7 @@ fn faces() {
         "make the face flat"
     );
     let worm = Worm { position: Vector3::splat(0.0) };
-    refused!(soil().outside(Face::North, worm), NotAdded { substates: "Worm" }, "add it before");
+    refused!(soil().outside(Face::North, worm), NotAdded { substates: "Worm" }, "add it first");
     let worms = soil().population::<Worm>(2).outside(Face::North, worm);
     refused!(worms, OutsideOfItems { substates: "Worm" }, "`Worm` is a population");
     let hexagons = soil()
@@ -199,7 +199,7 @@ fn substates() {
     refused!(soil().substates::<Soil>(), SubstatesTwice { substates: "Soil" }, "`Soil`", "twice");
     refused!(soil().population::<Soil>(2), SubstatesTwice { .. }, "`Soil`");
     refused!(soil().population::<Worm>(0), NoSlots { substates: "Worm" }, "`Worm`", "at least 1");
-    refused!(soil().items_may_leave::<Worm>(), NotAdded { substates: "Worm" }, "`Worm`", "add it before");
+    refused!(soil().items_may_leave::<Worm>(), NotAdded { substates: "Worm" }, "`Worm`", "add it first");
     refused!(soil().items_may_leave::<Soil>(), NotAdded { substates: "Soil" }, "`Soil`");
     let mirror =
         soil().population::<Worm>(2).boundaries([Boundary::Flat, Boundary::Toroidal, Boundary::Reflecting]);

@@ -211,7 +211,7 @@ mod tests {
         for changed in [&whole[..text.len() - 1], b"step,time,energy\n0,0,7\n"] {
             fs::write(&path, changed).unwrap();
             let error = SeriesWriter::resume(&path, 1, written).unwrap_err().to_string();
-            assert!(error.contains("its first 23 bytes are not those that were written"), "{error}");
+            assert!(error.contains("its first 23 bytes have changed"), "{error}");
             assert_eq!(fs::read(&path).unwrap(), changed);
         }
     }

@@ -96,7 +96,7 @@ mod tests {
         for (text, wanted) in [
             ("cup", "unknown engine `cup`; there are cpu[:N], gpu[:N|NAME], "),
             ("cpu@f16", "`f16` is not a precision"),
-            ("cpu:0@f32", "engine `cpu:0`: 0 threads do nothing"),
+            ("cpu:0@f32", "engine `cpu:0`: the number of threads must be at least 1"),
         ] {
             let error = Choice::new(text, &engines).unwrap_err().to_string();
             assert!(error.contains(wanted), "{error}");

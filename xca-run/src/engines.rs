@@ -230,7 +230,7 @@ mod tests {
         assert!(error.contains(wanted), "{error}");
         let options = EngineOptions::default().with("arithmetic", "exact");
         let error = engines.engine("gpu", &options).unwrap_err().to_string();
-        assert!(error.contains("`exact` is no arithmetic; use best, strict or relaxed"), "{error}");
+        assert!(error.contains("unknown arithmetic `exact`; use best, strict or relaxed"), "{error}");
     }
 
     #[test]

@@ -217,7 +217,7 @@ fn f32_loses_slow_motion_where_it_says_so() {
     assert_eq!(place + (0.99 * lost * step) as f32, place);
     assert!(place + (1.01 * lost * step) as f32 > place);
     let [warning] = &configuration.warnings(Precision::F32)[..] else { panic!("one warning") };
-    assert!(warning.contains(&format!("slower than up to {lost:.1e} m/s")), "{warning}");
+    assert!(warning.contains(&format!("slower than about {lost:.1e} m/s")), "{warning}");
 }
 
 /// The largest error of the kinetic energy after an undamped contact of about so many steps.

@@ -33,7 +33,7 @@ fn nothing_is_written_where_something_is_or_no_crate_can_be() {
     let place = Workplace::new();
     fs::create_dir(place.path("waves")).unwrap();
     for (words, wanted) in [
-        ("waves", "waves is there already"),
+        ("waves", "waves exists already"),
         ("2d", "the name of a crate"),
         ("../waves", "the name of a crate"),
         ("fn", "is a keyword of Rust"),

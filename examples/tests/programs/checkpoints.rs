@@ -105,7 +105,7 @@ fn those_of_others() {
     let report = run.place.read("here/run.json").replace("\"done\"", "\"running\"");
     run.place.write("here/run.json", &report);
     let said = run.refuse(HEAT, &format!("resume here --checkpoint {theirs}"));
-    assert!(said.contains("bytes are not those that were written"), "{said}");
+    assert!(said.contains("bytes have changed"), "{said}");
 }
 
 /// The report only adds what the run took until then.
@@ -141,9 +141,9 @@ fn none_at_all() {
         ("resume", "the following required arguments were not provided:\n  <DIR>"),
         ("resume away", "error: there is no folder away\n"),
         ("resume here --steps 5", "error: 22 steps of the run are done; --steps must be larger"),
-        ("resume here --slots 0", "it must be a whole number of slots, at least 1"),
+        ("resume here --slots 0", "the number of slots must be a whole number, at least 1"),
         ("resume here --seed 5", "unexpected argument '--seed'"),
-        ("resume here --threads 0", "0 threads do nothing"),
+        ("resume here --threads 0", "the number of threads must be at least 1"),
         (
             "resume here --engine reference --threads 2",
             "--threads is for --engine cpu, not for the reference engine",

@@ -34,10 +34,10 @@ fn no_command_takes_the_folder_of_another_kind() {
     let compared = place.read("compared/observables.csv");
     for (words, wanted) in [
         (format!("{compare} --out run"), "run holds a run, which this would overwrite"),
-        (format!("{compare} --out pictures"), "pictures is the folder of a rendering, whose files"),
-        ("render run --out compared".to_owned(), "compared is the folder of a comparison, whose files"),
-        (format!("run {RUN} --out pictures"), "pictures is the folder of a rendering, whose files"),
-        (format!("run {RUN} --out compared"), "compared is the folder of a comparison, whose files"),
+        (format!("{compare} --out pictures"), "pictures holds a rendering, which this would overwrite"),
+        ("render run --out compared".to_owned(), "compared holds a comparison, which this would overwrite"),
+        (format!("run {RUN} --out pictures"), "pictures holds a rendering, which this would overwrite"),
+        (format!("run {RUN} --out compared"), "compared holds a comparison, which this would overwrite"),
         (
             "resume pictures --checkpoint run/checkpoints/step_00000005.checkpoint".to_owned(),
             "belongs to another run: its command line is",
@@ -60,7 +60,7 @@ fn a_comparison_does_not_replace_files_of_others() {
     fs::create_dir(place.path("data")).unwrap();
     place.write("data/engines.csv", "mine");
     let said = place.refuse(LIFE, "compare --steps 2 --repeats 1 --out data");
-    assert!(said.contains("data holds `engines.csv`, which is not of an earlier comparison"), "{said}");
+    assert!(said.contains("data holds `engines.csv`, which is not from an earlier comparison"), "{said}");
     assert_eq!(place.read("data/engines.csv"), "mine");
     assert_eq!(fs::read_dir(place.path("data")).unwrap().count(), 1);
 }
@@ -78,7 +78,7 @@ fn a_picture_of_a_checkpoint_may_stand_beside_the_run() {
     assert!(before == results(&place.path("run")));
     place.write("run/step_00000005.png", "a photograph");
     let said = place.refuse(HEAT, render);
-    assert!(said.contains("run holds `step_00000005.png`, which is not of an earlier rendering"), "{said}");
+    assert!(said.contains("run holds `step_00000005.png`, which is not from an earlier rendering"), "{said}");
     assert_eq!(place.read("run/step_00000005.png"), "a photograph");
 }
 

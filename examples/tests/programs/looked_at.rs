@@ -100,7 +100,7 @@ fn a_folder_and_its_checkpoints_are_told_of() {
         "inspect out/heat --cell 4,4,9",
         "the space of [9, 9, 9] cells has no cell [4, 4, 9]",
     );
-    refused(&place, HEAT, "inspect out/heat --cell 4,x,4,4", "it must be three whole numbers, such as 3,4,0");
+    refused(&place, HEAT, "inspect out/heat --cell 4,x,4,4", "a cell is three whole numbers, such as 3,4,0");
     refused(&place, HEAT, "inspect out/heat --label 3", "there is no item with the label 3");
     refused(&place, HEAT, "inspect out", "out is not the output of a run");
     refused(&place, HEAT, "inspect away", "cannot read the checkpoint away");

@@ -149,7 +149,7 @@ fn grids_that_do_not_fit_are_refused() {
         ),
         (LIFE, "--initial heat=half.asc", "unknown substate of cells `heat`; there are Life.alive"),
         (LIFE, "--initial alive=nowhere.asc", "cannot open the grid nowhere.asc"),
-        (LIFE, "--initial alive", "of the form NAME=FILE, such as altitude=ground.asc"),
+        (LIFE, "--initial alive", "write NAME=FILE, such as altitude=ground.asc"),
         (HEAT, "--initial temperature=small.asc", "--initial is for models of one layer, and `heat` has 64"),
         (HEAT, "--formats +asc", "the format asc is for models of one layer, and `heat` has 64"),
         (LANDSLIDE, "--dem small.asc", "add --debris FILE"),

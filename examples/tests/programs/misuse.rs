@@ -54,13 +54,13 @@ fn values_that_make_no_sense() {
         ),
         (CADEM, "--engine gpu --threads 2", "--threads is for --engine cpu, not for the gpu engine"),
         (CADEM, "--engine gpu --adapter abacus", "no adapter is `abacus`; this machine has 0: "),
-        (CADEM, "--engine gpu --arithmetic lax", "`lax` is no arithmetic; use best, strict or relaxed"),
+        (CADEM, "--engine gpu --arithmetic lax", "unknown arithmetic `lax`; use best, strict or relaxed"),
         (CADEM, "--adapter 0", "--adapter is for --engine gpu, not for the cpu engine"),
         (CADEM, "--precision f16", "`f16` is not a precision; use f32 or f64"),
         (CADEM, "--set stiffness=-1", "`stiffness` is -1, but must be above 0 and finite (N/m)"),
         (CADEM, "--set stiffness=nan", "`nan` is no value for the parameter `stiffness`"),
         (CADEM, "--set stiffness", "write NAME=VALUE"),
-        (CADEM, "--steps -5", "it must be a whole number of steps"),
+        (CADEM, "--steps -5", "the number of steps must be a whole number"),
         (CADEM, "--every 0", "the interval must be at least 1 step"),
         (CADEM, "--subdivisions 0", "it must be a finite number above 0"),
         (CADEM, "--seed 5000000000", "the seed of the particles is at most 4294967295"),
@@ -75,7 +75,7 @@ fn values_that_make_no_sense() {
         (LANDSLIDE, "--set rate=5", "`rate` is 5, but must be at least 0 and at most 1"),
         (LANDSLIDE, "--set adherence=-5", "`adherence` is -5, but must be at least 0 (m)"),
         (LANDSLIDE, "--until nan", "invalid value 'nan' for '--until <METRES>': it must be a finite number"),
-        (CADEM, "--seed -1", "a seed is a whole number from 0 to 18446744073709551615"),
+        (CADEM, "--seed -1", "a seed must be a whole number from 0 to 18446744073709551615"),
         (HEAT, "--side inf", "it must be a finite number above 0"),
         (HEAT, "--set alpha=1e300", "the parameter `alpha` is 1e300, but must be"),
         (MOD2, "--size 2", "too far for 2 cells with a toroidal boundary"),
@@ -165,7 +165,7 @@ fn folders_that_a_run_must_not_write_to() {
     std::fs::create_dir(place.path("data")).unwrap();
     place.write("data/final.csv", "mine");
     let said = place.fail(2, CADEM, "--steps 0 --out data");
-    assert!(said.contains("data holds `final.csv`, which is not of an earlier run"), "{said}");
+    assert!(said.contains("data holds `final.csv`, which is not from an earlier run"), "{said}");
     assert_eq!(place.read("data/final.csv"), "mine");
 }
 

@@ -36,7 +36,7 @@ fn results_on_a_full_disk_are_an_error() {
         let output = told(&mut place.invocation(HEAT, words), full.into());
         let said = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(1), "{words}: {said}");
-        assert!(said.contains("error: cannot write to the standard output"), "{words}: {said}");
+        assert!(said.contains("error: cannot write to standard output"), "{words}: {said}");
         assert!(said.contains("caused by: No space left on device"), "{words}: {said}");
     }
     assert!(place.path("run/final.png").is_file(), "the files of the run are whole");

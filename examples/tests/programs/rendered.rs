@@ -338,14 +338,14 @@ fn what_was_run_by_another_program_is_not_drawn() {
     said(&place, LIFE, "run --steps 2 --quiet");
     for (words, wanted) in [
         ("render out/life", "error: cannot draw out/life: its program is life, not heat\n"),
-        ("render out", "error: out is not the output of a run: there is no run.json of one in it\n"),
+        ("render out", "error: out is not the output of a run: it has no run.json\n"),
         (
             "render out/life/initial.png",
             "error: out/life/initial.png is not a checkpoint of an xca program\n",
         ),
         (
             "render out/life --size 3",
-            "error: --size is for a run that is done now; one that is drawn from its files has its own options\n",
+            "error: --size is for a new run; this one is drawn from its files, with its own options\n",
         ),
     ] {
         let output = place.invocation(HEAT, words).output().unwrap();

@@ -18,7 +18,7 @@ pub(crate) struct Twins;
 const COPIES: EngineOption = EngineOption {
     name: "copies",
     value_name: "N",
-    about: "How often the twins engine does everything; twice unless it is given",
+    about: "Number of times that the twins engine does everything [default: 2]",
     check: |text| copies(text).map(drop),
 };
 

@@ -184,7 +184,7 @@ fn infinite_numbers_and_impossible_heights_are_refused() {
     assert_eq!(heights("1 -9999 3\n-420 8849 100000"), Ok(6));
     let said = heights("1 2 3\n4 -32768e4 6").unwrap_err();
     assert!(
-        said.starts_with("dem.asc: -327680000 in column 2, row 2 from the north is no altitude"),
+        said.starts_with("dem.asc: -327680000 in column 2, row 2 from the north is not an altitude"),
         "{said}"
     );
     assert!(heights("1 2 100001\n4 5 6").unwrap_err().contains("column 3, row 1"));
@@ -202,7 +202,7 @@ fn headers_on_one_line_are_read_and_words_left_over_are_refused() {
     );
     assert!(message("ncols 3 columns of cells\n").starts_with("dem.asc:1: `columns` is no key"));
     assert!(message("ncols 3 nrows\n").starts_with("dem.asc:1: `nrows` has no value"));
-    assert!(message("ncols 3 nrows 2 ncols 3\n").starts_with("dem.asc:1: `ncols` stands twice"));
+    assert!(message("ncols 3 nrows 2 ncols 3\n").starts_with("dem.asc:1: `ncols` appears twice"));
     assert!(message("cellsize 10 # metres\n").contains("`cellsize` has more than one value: `#`"));
     assert!(message("ncols 3 2\n").contains("`ncols` has more than one value: `2`"));
 }

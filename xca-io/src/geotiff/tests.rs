@@ -112,7 +112,7 @@ fn the_place_follows_from_the_tags() {
 fn a_file_without_a_place_is_taken_where_the_cells_are_known() {
     let folder = tempfile::tempdir().unwrap();
     let path = made(folder.path(), &[], None);
-    assert!(message(read(&path).unwrap_err()).contains("does not say where it lies; set its corners"));
+    assert!(message(read(&path).unwrap_err()).contains("has no position; set its corners"));
     let placement = Placement { extents: [3, 2], corner: [7.0, 8.0], side: 2.0 };
     let raster = Raster::read_on(&path, placement).unwrap();
     assert_eq!((raster.placement(), raster.value([0, 0])), (placement, Some(4.0)));

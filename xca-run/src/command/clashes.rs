@@ -174,7 +174,7 @@ mod tests {
     #[test]
     fn names_that_are_taken_are_told_with_who_takes_them() {
         let text = said(Layered::augment_args);
-        assert!(text.contains("already: `--layer` (of render, watch); give"), "{text}");
+        assert!(text.contains("options: `--layer` (of render, watch); rename"), "{text}");
         let text = said(Short::augment_args);
         assert!(text.contains("`-q` (of run, render, compare, sweep)"), "{text}");
         assert!(text.contains("`--help` (of run, render, watch, list, compare, sweep)"), "{text}");

@@ -90,7 +90,7 @@ mod tests {
             ("1025:cpu", "whole number from 1 to 1024"),
             ("2", "say what runs each part: parts:2:cpu"),
             ("2:gpu", "not on `gpu`"),
-            ("2:cpu:0", "give at least 1"),
+            ("2:cpu:0", "must be at least 1"),
         ] {
             assert!(share(text).is_err_and(|error| error.contains(words)), "{text}");
         }

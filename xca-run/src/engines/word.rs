@@ -128,10 +128,10 @@ mod tests {
         let words = EngineWords::new(&Engines::default());
         for (word, wanted) in [
             ("cup", "unknown engine `cup`; there are cpu[:N], gpu[:N|NAME], "),
-            ("cpu:0", "engine `cpu:0`: 0 threads do nothing"),
+            ("cpu:0", "engine `cpu:0`: the number of threads must be at least 1"),
             ("cpu:two", "it must be a whole number"),
-            ("cpu:", "nothing stands after the colon; the form is cpu[:N]"),
-            ("reference:2", "nothing can be chosen of the reference engine"),
+            ("cpu:", "the value after the colon is missing; write cpu[:N]"),
+            ("reference:2", "the reference engine takes nothing after a colon"),
             ("parts", "engine `parts`: write parts:N:cpu[:THREADS]"),
             ("parts:3", "say what runs each part: parts:3:cpu"),
             ("parts:0:cpu", "whole number from 1"),

@@ -100,7 +100,7 @@ fn a_layer_can_take_no_value_as_a_number() {
     place.succeed(LANDSLIDE, "--dem g.asc --debris lava.asc --steps 0");
     assert_eq!(rows(&place, "out/landslide/final_thickness.asc")[2], "0 0 0 7 0");
     let said = place.fail(2, LANDSLIDE, &format!("{begin} thickness:x=lava.asc"));
-    assert!(said.contains("NAME:NUMBER, such as thickness:0=lava.asc"), "{said}");
+    assert!(said.contains("write NAME or NAME:NUMBER before `=`, such as thickness:0=lava.asc"), "{said}");
 }
 
 #[test]

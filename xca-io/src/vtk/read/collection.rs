@@ -113,7 +113,7 @@ mod tests {
                 "</Collection>\n<DataSet timestep=\"1\" file=\"b\"/>\n",
                 "one of its entries",
             ),
-            ("</VTKFile>\n", "</VTKFile>\n\n", "it goes on"),
+            ("</VTKFile>\n", "</VTKFile>\n\n", "it continues"),
         ] {
             assert_eq!(whole.matches(from).count(), 1, "{from}");
             let said = error(&whole.replace(from, to));
@@ -125,7 +125,7 @@ mod tests {
                 assert!(said.contains("is truncated"), "{said}");
             }
         }
-        assert!(error(&format!("{}{}", whole, "\n").repeat(2)).contains("it goes on"));
+        assert!(error(&format!("{}{}", whole, "\n").repeat(2)).contains("it continues"));
         let long = format!("{BEGIN}<DataSet timestep=\"0\" file=\"{}\"/>\n{END}", "a".repeat(1 << 25));
         fs::write(&path, long).unwrap();
         let error = read_collection(&path).unwrap_err();

@@ -73,7 +73,7 @@ fn nothing_is_removed_below_or_through_a_link() {
     assert!(fs::symlink_metadata(path.join("final.csv")).unwrap().is_symlink());
     for (wanted, names) in [("final.csv", &files()[..1]), ("frames/p_00000001.vtp", &files()[1..])] {
         let error = prepare(&path, names, &[]).unwrap_err().to_string();
-        assert!(error.contains(&format!("holds `{wanted}`, which is not of an earlier run")), "{error}");
+        assert!(error.contains(&format!("holds `{wanted}`, which is not from an earlier run")), "{error}");
     }
 }
 
@@ -82,7 +82,7 @@ fn files_of_someone_else_are_not_replaced() {
     let folder = tempfile::tempdir().unwrap();
     write(folder.path(), &["final.csv"]);
     let error = prepare(folder.path(), &files(), &[]).unwrap_err().to_string();
-    assert!(error.contains("holds `final.csv`, which is not of an earlier run"), "{error}");
+    assert!(error.contains("holds `final.csv`, which is not from an earlier run"), "{error}");
     assert!(folder.path().join("final.csv").is_file());
     // Nor such that no earlier run has listed.
     report(folder.path(), "run", r#""observables.csv""#);
@@ -111,7 +111,7 @@ fn each_kind_of_command_keeps_to_its_folders() {
             } else {
                 let said = refused(path, &claim);
                 assert!(
-                    said.contains(&format!("is the folder of a {}, whose files", owner.noun())),
+                    said.contains(&format!("holds a {}, which this would overwrite", owner.noun())),
                     "{said}"
                 );
             }
@@ -143,7 +143,7 @@ fn a_picture_beside_a_run_replaces_pictures_alone() {
     beside("step_00000001.png").unwrap();
     fs::write(&path, "a photograph").unwrap();
     let said = beside("step_00000001.png").unwrap_err().to_string();
-    assert!(said.contains("holds `step_00000001.png`, which is not of an earlier rendering"), "{said}");
+    assert!(said.contains("holds `step_00000001.png`, which is not from an earlier rendering"), "{said}");
     let domain = Domain { lower: [0.0; 3], upper: [1.0; 3] };
     let picture = ParticlePicture::new(&[[0.5; 3]], 0.1, domain).render().unwrap();
     picture.write(&path).unwrap();

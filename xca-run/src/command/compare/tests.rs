@@ -101,7 +101,7 @@ fn engines_that_do_not_agree_have_an_exit_code() {
 fn what_makes_no_sense_is_refused() {
     for (words, wanted) in [
         (&["--engines", "cpu,cup"][..], "unknown engine `cup`"),
-        (&["--engines", "reference:2"], "nothing can be chosen of the reference engine"),
+        (&["--engines", "reference:2"], "the reference engine takes nothing after a colon"),
         (&["--arithmetic", "strict"], "none of the compared engines has --arithmetic"),
         (&["--repeats", "0"], "it must be a whole number from 1 to 1000"),
         (&["--tolerance", "-1"], "it must be a finite number at least 0"),

@@ -126,7 +126,7 @@ fn a_checkpoint_looks_like_the_state_of_its_step() {
     place.succeed(&format!("render {checkpoint} {SMALL} --out @alone"));
     place.succeed(&format!("render {checkpoint} {SMALL} --out @saved --range 0,3"));
     let said = place.refused(&format!("render {checkpoint} --every 2"));
-    assert_eq!(said, "--every is for several pictures; of a checkpoint there is one");
+    assert_eq!(said, "--every is for several pictures; a checkpoint gives one");
     assert!(place.files("alone")[0].1 != place.files("saved")[0].1);
 }
 
@@ -203,13 +203,15 @@ fn files_that_are_none_of_a_run_are_refused() {
     let place = Place::new(pond);
     let write = |name: &str, bytes: &[u8]| fs::write(place.folder.path().join(name), bytes).unwrap();
     assert!(
-        place.refused("render @nothing").ends_with("nothing, neither the folder of a run nor a checkpoint")
+        place
+            .refused("render @nothing")
+            .ends_with("nothing does not exist; give the output directory of a run, or a checkpoint")
     );
     write("notes.txt", b"a day at the pond");
     assert!(place.refused("render @notes.txt").contains("is not a checkpoint of an xca program"));
     fs::create_dir(place.folder.path().join("empty")).unwrap();
     let said = place.refused("render @empty");
-    assert!(said.contains("empty is not the output of a run: there is no run.json of one in it"), "{said}");
+    assert!(said.contains("empty is not the output of a run: it has no run.json"), "{said}");
     place.succeed("run --width 4 --steps 6 --every 3 --checkpoint-every 3 --out @run");
     place.succeed(&format!("render @run {SMALL}"));
     assert!(place.refused("render @run_pictures").contains("holds pictures of a run, not the run"));
@@ -252,9 +254,7 @@ fn a_run_that_is_drawn_has_its_own_options() {
         let said = place.refused(&format!("render @run {option}"));
         assert_eq!(
             said,
-            format!(
-                "{name} is for a run that is done now; one that is drawn from its files has its own options"
-            )
+            format!("{name} is for a new run; this one is drawn from its files, with its own options")
         );
     }
     assert!(place.refused("render").contains("--width"), "an option that is required is so for a run");
