@@ -135,7 +135,7 @@ fn items_cross_all_borders() -> TestResult {
     Ok(())
 }
 
-/// Walkers that search while they are up to 0.8 sides outside their cells, some of which belong to other parts.
+/// Walkers that search while they are up to 0.8 sides outside their cells, which may be in other parts.
 #[test]
 fn walkers_are_found_outside_their_cells() -> TestResult {
     for (extents, cuts) in [([5, 9, 1], vec![[2, 1], [9, 1]]), ([4, 5, 6], vec![[2, 2], [5, 6]])] {
