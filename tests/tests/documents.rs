@@ -126,7 +126,7 @@ fn commands_can_be_run() -> TestResult {
                             // `xca-tests-book` lies in `tests/book`, `xca-tests` in `tests`.
                             let folder =
                                 name.strip_prefix("xca-").unwrap_or(name).replace("tests-", "tests/");
-                            [folder, name.to_owned()]
+                            [folder, (*name).to_owned()]
                                 .iter()
                                 .any(|one| members.contains(&format!("\"{one}\"")))
                         }
