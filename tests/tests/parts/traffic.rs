@@ -57,7 +57,10 @@ fn messages_are_those_of_the_edges() -> TestResult {
             // Each step sends the warmth of the line at each face.
             assert_eq!(figure("messages_sent"), (STEPS * faces) as f64, "{boundary} {parts}");
             assert_eq!(figure("bytes_sent"), (STEPS * faces * LINE) as f64, "{boundary} {parts}");
-            assert_eq!(figure("agreements"), STEPS as f64, "{boundary} {parts}");
+            // One part alone may do several steps together.
+            if parts > 1 {
+                assert_eq!(figure("agreements"), STEPS as f64, "{boundary} {parts}");
+            }
             assert!(figure("seconds_waited") >= 0.0);
         }
     }
