@@ -63,8 +63,13 @@ pub(super) fn resume(
     let report = report::read(&report_file).map_err(unread)?.unwrap_or_else(|| json!({}));
     let earlier: Earlier = report::parts(&report_file, &report).map_err(unread)?;
     if arguments.checkpoint.is_none() && arguments.steps.is_none() && earlier.has_ended() {
+        if let Some(program) = report["program"].as_str().filter(|program| *program != definition.name) {
+            let (folder, name) = (folder.display(), definition.name);
+            return Err(Unable::refused(format!("{folder} holds a run of `{program}`, not of `{name}`")));
+        }
         let (folder, steps) = (folder.display(), counted(earlier.taken().steps, "step"));
-        let how = if earlier.stop_reason().is_some() { "" } else { "; --steps continues past its end" };
+        let can_continue = earlier.stop_reason().is_none() && latest(arguments).is_some();
+        let how = if can_continue { "; --steps continues past its end" } else { "" };
         arguments.voice.tell(&report, || format!("the run in {folder} has ended after {steps}{how}"))?;
         return Ok(Ended::Done);
     }
@@ -85,9 +90,13 @@ fn unread(error: ReadReportError) -> Unable {
     Unable::RefusedOffering(error.into(), "move it away to resume without it".to_owned())
 }
 
+/// The latest checkpoint of the run.
+fn latest(arguments: &ResumeArguments) -> Option<PathBuf> {
+    CheckpointFolder::of_run(&arguments.folder).into_iter().next()
+}
+
 fn chosen(arguments: &ResumeArguments) -> Result<PathBuf, Unable> {
-    let latest = || CheckpointFolder::of_run(&arguments.folder).into_iter().next();
-    arguments.checkpoint.clone().or_else(latest).ok_or_else(|| {
+    arguments.checkpoint.clone().or_else(|| latest(arguments)).ok_or_else(|| {
         let folder = arguments.folder.display();
         Unable::refused(format!("there is no checkpoint in {folder}; `run --checkpoint-every` writes them"))
     })

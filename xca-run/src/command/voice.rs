@@ -9,7 +9,7 @@ use serde::Serialize;
 /// The options for it. Errors are always printed, and always as text.
 #[derive(Args, Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) struct Voice {
-    /// Print errors only
+    /// Print errors and warnings only
     #[arg(long, short)]
     quiet: bool,
 

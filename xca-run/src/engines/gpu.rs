@@ -34,7 +34,7 @@ impl EngineKind for GpuKind {
     }
 
     fn about(&self) -> &'static str {
-        "A graphics card, or a software driver for Vulkan"
+        "A graphics card, or software Vulkan"
     }
 
     fn options(&self) -> &'static [EngineOption] {

@@ -26,7 +26,7 @@ impl EngineKind for PartsKind {
     }
 
     fn about(&self) -> &'static str {
-        "N parts of the space in this process, each on its own cpu engine"
+        "N parts of the space, each on a cpu engine"
     }
 
     fn detail(&self) -> Option<EngineDetail> {

@@ -1,4 +1,4 @@
-//! What `render` is told.
+//! The options of `render`.
 
 use crate::command::arguments::{RunArguments, interval, steps};
 use crate::command::look::{axis, range};
@@ -11,7 +11,7 @@ use xca_io::atomic::WriteError;
 use xca_picture::animation::{write_apng, write_gif};
 use xca_record::record::{Drawing, Look, Recorder, ViewKind};
 
-/// What has been run already: a name that no field of a model has.
+/// The saved run: a name that no field of a model has.
 pub(super) const SAVED: &str = "DIR|CHECKPOINT";
 
 /// How a state is drawn.
@@ -19,7 +19,7 @@ pub(super) const SAVED: &str = "DIR|CHECKPOINT";
 enum ViewArgument {
     /// One layer of cells
     Slice,
-    /// All cells as cubes; those that are not 0 of a whole number, else with an octant cut out
+    /// All cells as cubes: the non-zero ones of integers; otherwise all, with an octant cut out
     Isometric,
     /// The items of a population
     Spheres,
@@ -35,67 +35,66 @@ impl From<ViewArgument> for ViewKind {
     }
 }
 
-/// How pictures are put in motion.
+/// The format of the animation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Animation {
-    /// An animated PNG: every colour as it is
+    /// Animated PNG, with all colours
     Apng,
-    /// An animated GIF of at most 256 colours, which more programs show
+    /// Animated GIF, with at most 256 colours; more programs show it
     Gif,
-    /// Not at all
+    /// No animation
     None,
 }
 
-/// What is drawn.
+/// Options of `render`.
 #[derive(Args, Debug, Clone)]
 pub(in crate::command) struct RenderArguments {
-    /// The folder of a run, or a checkpoint, that is drawn as it is; the model is run unless it is given
+    /// Draw this output directory of a run, or this checkpoint [default: run the model]
     #[arg(id = SAVED, value_name = "DIR|CHECKPOINT", help_heading = Resettable::Reset)]
     of: Option<PathBuf>,
 
-    /// How many steps are done; the model says how many unless it is given
+    /// Number of steps [default: the model's]
     #[arg(long, value_name = "N", value_parser = steps)]
     steps: Option<u64>,
 
-    /// Draw a picture every so many steps; 60 times unless it is given, and of a folder all states
+    /// Draw a picture every N steps [default: 60 pictures, or all saved states of DIR]
     #[arg(long, value_name = "N", value_parser = interval)]
     pub(super) every: Option<u64>,
 
-    /// Substate to draw, or a component of it: outflow, outflow.3, velocity.x. Of a whole vector the length
-    /// is drawn, of an array the sum of its elements
+    /// Substate to draw, or one component: outflow, outflow.3, velocity.x. A whole vector is drawn as its
+    /// length, a whole array as its sum
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     substate: Vec<String>,
 
-    /// How it is drawn; cells as a slice and items as spheres unless it is given
+    /// Kind of view [default: slice for cells, spheres for items]
     #[arg(long, value_enum, value_name = "VIEW", value_delimiter = ',')]
     view: Vec<ViewArgument>,
 
-    /// Of a slice: the axis that layers are counted along
+    /// Slice views: the axis normal to the slice
     #[arg(long, value_name = "x|y|z", value_parser = axis, value_delimiter = ',')]
     axis: Vec<usize>,
 
-    /// Of a slice: the layer, from 0; the middle one unless it is given
+    /// Slice views: the layer, from 0 [default: the middle one]
     #[arg(long, value_name = "N", value_delimiter = ',')]
     layer: Vec<usize>,
 
-    /// The ends of the scale of colours; the least and the largest value of all pictures unless it is given
+    /// Ends of the colour scale [default: smallest and largest value of all pictures]
     #[arg(long, value_name = "LOW,HIGH", value_parser = range)]
     range: Vec<[f64; 2]>,
 
-    /// The size of the pictures in pixels
+    /// Size of the pictures in pixels
     #[arg(long, value_name = "WxH", value_parser = pixels)]
     pixels: Option<[usize; 2]>,
 
-    /// What is made of the pictures beside the PNG files
+    /// Animation, in addition to the PNG files
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t = Animation::Apng)]
     pub(super) animation: Animation,
 
-    /// How many pictures the animation shows a second; of a GIF, 50 at most
+    /// Pictures per second of the animation; at most 50 for a GIF
     #[arg(long, value_name = "N", default_value_t = 12, value_parser = clap::value_parser!(u16).range(1..=100))]
     pub(super) fps: u16,
 
-    /// The folder of the pictures; out/NAME_pictures unless it is given, and DIR_pictures of the folder of a
-    /// run. Pictures that are there are replaced
+    /// Output directory [default: out/NAME_pictures, or DIR_pictures]. Overwrites earlier pictures
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
 

@@ -58,7 +58,7 @@ impl Film<'_> {
         let folder = folder.top.path().display();
         let frames = format!("they are in {folder}/{FRAMES}");
         match self.animation.file() {
-            Some(name) => format!("{frames}, and in motion in {folder}/{name}"),
+            Some(name) => format!("{frames}; animation: {folder}/{name}"),
             None => frames,
         }
     }

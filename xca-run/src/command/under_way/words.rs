@@ -38,7 +38,7 @@ impl UnderWay {
 
     fn how_to_go_on(&self) -> String {
         let folder = self.recording.folder().display();
-        format!("; `{} resume {folder}` goes on", self.recording.report().program)
+        format!("; continue with `{} resume {folder}`", self.recording.report().program)
     }
 
     /// The table of observables, how it ended, and where the files are.
@@ -55,12 +55,16 @@ impl UnderWay {
             })
             .collect();
         let progress = &self.recording.report().progress;
-        let again = if self.recording.has_checkpoints() { self.how_to_go_on() } else { String::new() };
+        let again = if self.recording.has_checkpoints() {
+            self.how_to_go_on()
+        } else {
+            "; to be able to resume, run with --checkpoint-every".to_owned()
+        };
         let end = match (progress.outcome, &progress.reason) {
             ("interrupted", _) => {
                 format!("interrupted after {} of {}", progress.steps, counted(progress.steps_wanted, "step"))
             }
-            (_, Some(reason)) => format!("stopped after {}: {reason}", counted(progress.steps, "step")),
+            (_, Some(reason)) => format!("{reason}: stopped after {}", counted(progress.steps, "step")),
             _ => counted(progress.steps, "step"),
         };
         let time = progress.time_step.map(|_| format!(", {} s simulated", significant(progress.time, 6)));
