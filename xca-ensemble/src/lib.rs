@@ -338,8 +338,8 @@ impl Ensemble {
             return if is_own { Ok(folder) } else { Err(other()) };
         }
         let files = [MEMBERS, SUMMARY, PAGE].map(str::to_owned);
-        let folder =
-            LockedFolder::prepare(path, &Claim { kind: Kind::Ensemble, files: &files, inputs: &[] })?;
+        let claim = Claim { kind: Kind::Ensemble, files: &files, inputs: &[], program: None };
+        let folder = LockedFolder::prepare(path, &claim)?;
         let Identity { program, version, .. } = self.identity.clone();
         let told = Told {
             xca: env!("CARGO_PKG_VERSION").to_owned(),

@@ -12,6 +12,7 @@ mod header;
 mod read;
 
 pub use error::ReadGridError;
+pub(crate) use read::NOTHING;
 
 use super::atomic::{WriteError, write_atomically};
 use super::placement::Placement;
@@ -67,7 +68,7 @@ pub fn write(path: &Path, raster: &Raster) -> Result<(), WriteError> {
 
 /// A number that no cell has: -9999, or one with more nines.
 fn unused_value(values: &[f64]) -> f64 {
-    let mut nothing = -9999.0;
+    let mut nothing = NOTHING;
     while values.iter().any(|value| stands_for_none(*value, nothing)) {
         nothing = 10.0 * nothing - 9.0;
     }

@@ -245,8 +245,8 @@ impl Run {
     /// Prepares the output directory and the initial state. Overwrites an earlier run there.
     ///
     /// # Errors
-    /// Returns an error if the directory holds files that no run has made, another run writes there, or the
-    /// engine cannot run the model.
+    /// Returns an error if the directory holds files that no run of this program has made, another run writes
+    /// there, or the engine cannot run the model.
     pub fn begin(self, folder: impl AsRef<Path>, engine: &dyn Engine) -> Result<Recording, BeginError> {
         let begin = Instant::now();
         let origin = self.origin().on(engine);
@@ -257,7 +257,8 @@ impl Run {
             check_finite(&simulation).map_err(BeginError::NotFinite)?;
         }
         let inputs = &self.recorder.set_up().inputs;
-        let claim = Claim { kind: Kind::Run, files: &report.files, inputs };
+        let program = Some(report.program.as_str());
+        let claim = Claim { kind: Kind::Run, files: &report.files, inputs, program };
         let folder = RunFolder::prepare(folder.as_ref(), &claim)?;
         let checkpoints = self.checkpoint_every.map(|interval| Checkpoints::new(interval, &folder, None));
         Ok(Recording {

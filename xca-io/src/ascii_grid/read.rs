@@ -11,7 +11,7 @@ use std::io::{self, BufReader};
 use std::path::Path;
 
 /// The default NODATA value.
-const NOTHING: f64 = -9999.0;
+pub(crate) const NOTHING: f64 = -9999.0;
 
 pub(super) fn read(path: &Path, on: Option<Placement>) -> Result<Raster, ReadGridError> {
     let mut lines = Lines::open(path)?;

@@ -187,6 +187,12 @@ fn infinite_numbers_and_impossible_heights_are_refused() {
         said.starts_with("dem.asc: -327680000 in column 2, row 2 from the north is not an altitude"),
         "{said}"
     );
+    // The usual NODATA, where the header declares another one.
+    let said = heights("NODATA_value -99999\n1 -99999 3\n-9999 5 6").unwrap_err();
+    assert!(
+        said.starts_with("dem.asc: -9999 in column 1, row 2 from the north is not an altitude"),
+        "{said}"
+    );
     assert!(heights("1 2 100001\n4 5 6").unwrap_err().contains("column 3, row 1"));
     assert_eq!(heights("-9999 -9999 -9999\n-9999 -9999 -9999").unwrap_err(), "dem.asc: no cell has a value");
 }

@@ -36,14 +36,16 @@ impl Raster {
         }
     }
 
-    /// Like [`Raster::read`], for altitudes in metres. Rejects altitudes beyond [`HIGHEST`] and rasters
-    /// without values.
+    /// Like [`Raster::read`], for altitudes in metres. Rejects altitudes beyond [`HIGHEST`], those of -9999,
+    /// and rasters without values.
     ///
     /// # Errors
     /// Those of [`Raster::read`], [`ReadRasterError::Height`] and [`ReadRasterError::Empty`].
     pub fn read_heights(path: &Path) -> Result<Self, ReadRasterError> {
         let raster = Self::read(path)?;
-        if let Some(cell) = raster.values.iter().position(|height| height.abs() > HIGHEST) {
+        // The usual number for NODATA is no altitude where the file declares another one, or none.
+        let is_impossible = |height: &f64| height.abs() > HIGHEST || *height == ascii_grid::NOTHING;
+        if let Some(cell) = raster.values.iter().position(is_impossible) {
             let (place, height) = (raster.placement.place(cell), raster.values[cell]);
             return Err(ReadRasterError::Height { path: path.to_owned(), place, height });
         }

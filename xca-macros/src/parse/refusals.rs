@@ -133,7 +133,7 @@ pub(super) fn no_method(name: &str) -> Option<String> {
         "asinh" => "(x + (x * x + 1.0).sqrt()).ln()",
         "acosh" => "(x + (x * x - 1.0).sqrt()).ln()",
         "atanh" => "0.5 * ((1.0 + x) / (1.0 - x)).ln()",
-        "pow" => "x * x * x",
+        "pow" => "x.powi(3)` or, for integers, `x * x * x",
         "round_ties_even" => "x.round()",
         "is_sign_positive" => "!x.is_sign_negative()",
         "is_positive" => "x > 0",
@@ -160,8 +160,20 @@ pub(super) fn method(method: &Ident) -> Error {
         "into" | "try_into" => {
             format!("`{name}` is not part of a process; cast: `value as Real`, `value as u32`")
         }
-        "iter" | "into_iter" | "iter_mut" | "map" | "sum" | "fold" => {
-            "go through the array itself: `for value in values { … }`".to_owned()
+        "iter" | "into_iter" | "iter_mut" | "map" | "filter" | "sum" | "fold" => {
+            format!(
+                "there are no iterators in a process, so no `{name}`; write `for value in values {{ … }}`"
+            )
+        }
+        "push" | "pop" | "insert" | "remove" | "extend" | "collect" => {
+            format!(
+                "there are no lists in a process, so no `{name}`; use an array, such as `[0.0; 8]`, and a counter"
+            )
+        }
+        "unwrap" | "expect" | "unwrap_or" | "unwrap_or_default" | "is_some" | "is_none" | "ok" => {
+            format!(
+                "there is no `Option` and no `Result` in a process, so no `{name}`; use a value and a `bool`"
+            )
         }
         "contains" => "compare with `<=` and `<`, or with `match`".to_owned(),
         "rev" | "step_by" => format!("`{name}` stands only in `for i in (a..b).{name}(…)`"),

@@ -114,6 +114,8 @@ pub struct Claim<'a> {
     pub files: &'a [String],
     /// What it has read.
     pub inputs: &'a [InputFile],
+    /// The program whose output alone may be replaced. `None` if it may be that of any program.
+    pub program: Option<&'a str>,
 }
 
 impl Claim<'_> {
@@ -123,6 +125,10 @@ impl Claim<'_> {
         for owner in Owner::all(path)? {
             if owner.kind != self.kind {
                 return Err(FolderError::Taken { folder: path.to_owned(), kind: owner.kind });
+            }
+            let is_other = |found: &&String| self.program.is_some_and(|program| program != **found);
+            if let Some(program) = owner.program.as_ref().filter(is_other) {
+                return Err(FolderError::OtherProgram { folder: path.to_owned(), program: program.clone() });
             }
             old.extend(owner.files(path, self.files));
         }

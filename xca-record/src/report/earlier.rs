@@ -58,6 +58,8 @@ pub fn parts<T: DeserializeOwned>(path: &Path, report: &Value) -> Result<T, Read
 pub struct Earlier {
     /// The version of the framework; its presence says whose report this is.
     pub xca: Option<String>,
+    /// The name of the program.
+    pub program: Option<String>,
     command_line: Option<Vec<String>>,
     pub(super) started: Option<String>,
     pub(super) resumed: Vec<Value>,

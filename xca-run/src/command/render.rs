@@ -103,7 +103,8 @@ fn distance(outputs: Outputs) -> String {
 
 /// Makes the folder for these files.
 fn pictures_folder(path: &Path, files: &[String], inputs: &[InputFile]) -> Result<RunFolder, Unable> {
-    RunFolder::prepare(path, &Claim { kind: Kind::Pictures, files, inputs }).map_err(Unable::refused)
+    RunFolder::prepare(path, &Claim { kind: Kind::Pictures, files, inputs, program: None })
+        .map_err(Unable::refused)
 }
 
 /// Runs a model, and draws it.

@@ -28,6 +28,11 @@ pub enum FolderError {
     )]
     Taken { folder: PathBuf, kind: Kind },
     #[error(
+        "{} holds a run of `{program}`, which this would overwrite; give another directory with --out",
+        folder.display()
+    )]
+    OtherProgram { folder: PathBuf, program: String },
+    #[error(
         "the run starts from {}, which it would overwrite; move it or give another directory with --out",
         file.display()
     )]

@@ -12,6 +12,8 @@ use xca_io::numbered;
 /// The command that has written to a folder before, as its report tells.
 pub(super) struct Owner {
     pub(super) kind: Kind,
+    /// The program that was run, if the report says so.
+    pub(super) program: Option<String>,
     /// What the report lists, `*` standing for digits.
     files: Vec<String>,
 }
@@ -25,7 +27,7 @@ impl Owner {
             if let Some(earlier) = earlier.filter(|earlier| earlier.xca.is_some()) {
                 let is_pictures = kind == Kind::Run && earlier.is_of("render");
                 let kind = if is_pictures { Kind::Pictures } else { kind };
-                owners.push(Self { kind, files: earlier.files });
+                owners.push(Self { kind, program: earlier.program, files: earlier.files });
             }
         }
         Ok(owners)

@@ -21,7 +21,7 @@ fn report(folder: &Path, command: &str, files: &str) {
 }
 
 fn prepare(folder: &Path, files: &[String], inputs: &[InputFile]) -> Result<RunFolder, FolderError> {
-    RunFolder::prepare(folder, &Claim { kind: Kind::Run, files, inputs })
+    RunFolder::prepare(folder, &Claim { kind: Kind::Run, files, inputs, program: None })
 }
 
 fn refused(folder: &Path, claim: &Claim<'_>) -> String {
@@ -105,7 +105,7 @@ fn each_kind_of_command_keeps_to_its_folders() {
             fs::rename(path.join(REPORT), path.join(owner.report())).unwrap();
         }
         for kind in kinds {
-            let claim = Claim { kind, files: &[], inputs: &[] };
+            let claim = Claim { kind, files: &[], inputs: &[], program: None };
             if kind == owner {
                 LockedFolder::prepare(path, &claim).unwrap();
             } else {
@@ -122,11 +122,26 @@ fn each_kind_of_command_keeps_to_its_folders() {
 }
 
 #[test]
+fn a_run_of_another_program_is_not_replaced() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let text =
+        r#"{"xca": "0.1.0", "program": "slide", "command_line": ["slide", "run"], "files": ["final.csv"]}"#;
+    fs::write(path.join(REPORT), text).unwrap();
+    write(path, &["final.csv"]);
+    let claim = |program| Claim { kind: Kind::Run, files: &[], inputs: &[], program: Some(program) };
+    assert!(refused(path, &claim("life")).contains("holds a run of `slide`, which this would overwrite"));
+    assert!(path.join("final.csv").exists());
+    RunFolder::prepare(path, &claim("slide")).unwrap();
+    assert!(!path.join("final.csv").exists());
+}
+
+#[test]
 fn a_folder_is_one_command_s_at_a_time() {
     let folder = tempfile::tempdir().unwrap();
     let held = prepare(folder.path(), &files(), &[]).unwrap();
     for kind in [Kind::Run, Kind::Pictures, Kind::Comparison] {
-        let said = refused(folder.path(), &Claim { kind, files: &[], inputs: &[] });
+        let said = refused(folder.path(), &Claim { kind, files: &[], inputs: &[], program: None });
         assert!(said.contains("another run is writing to"), "{said}");
     }
     assert!(matches!(LockedFolder::beside(folder.path(), "a.png"), Err(FolderError::InUse { .. })));
