@@ -101,10 +101,10 @@ fn a_new_run_replaces_the_files_of_the_old_one() {
     fs::remove_file(place.path("out/life/notes.txt")).unwrap();
     check_files(&place.path("out/life"));
     assert_eq!(fs::read_dir(place.path("out/life/frames")).unwrap().count(), 3);
-    // Another model in the same folder leaves no file of the first.
-    place.succeed(MOD2, "--size 8 --steps 2 --out out/life");
+    // Another program leaves the run as it is.
+    let said = place.fail(2, MOD2, "--size 8 --steps 2 --out out/life");
+    assert!(said.contains("out/life holds a run of `life`, which this would overwrite"), "{said}");
     check_files(&place.path("out/life"));
-    assert_eq!(fs::read_dir(place.path("out/life/frames")).unwrap().count(), 3);
 }
 
 #[test]

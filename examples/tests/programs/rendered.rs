@@ -208,6 +208,10 @@ fn grids_are_drawn_as_the_state_that_they_are_of() {
         for (format, extension) in [("tif", "tif"), ("asc", "asc")] {
             for (program, options) in [(LANDSLIDE, slide), (POND, "--steps 8")] {
                 let options = format!("{options} --precision {precision} --checkpoint-every 4");
+                // That of another program would be in the way.
+                if place.path("run").exists() {
+                    fs::remove_dir_all(place.path("run")).unwrap();
+                }
                 said(&place, program, &format!("run {options} --formats {format},png --quiet --out run"));
                 assert!(all(&place.path("run")).iter().any(|(name, _)| name.ends_with(extension)));
                 for (_, _, look) in cases.iter().chain(&pond).filter(|(other, ..)| *other == program) {
