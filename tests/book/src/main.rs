@@ -1,13 +1,7 @@
 //! Builds the book: `cargo run -p xca-tests-book`, then open `target/book/index.html`.
 
-use std::process::ExitCode;
+use std::error::Error;
 
-fn main() -> ExitCode {
-    match xca_tests_book::build(&xca_tests_book::folder()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
-    }
+fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
+    xca_tests_book::build(&xca_tests_book::folder())
 }
