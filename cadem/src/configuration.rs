@@ -158,13 +158,15 @@ impl Configuration {
         let is_short = steps < STEPS_OF_A_CONTACT;
         let warning = || {
             format!(
-                "{contact} takes {steps:.1} steps; fewer than {STEPS_OF_A_CONTACT} give a wrong energy; a time step of {:.3e} s is small enough",
+                "{contact} takes {steps:.1} steps; fewer than {STEPS_OF_A_CONTACT} give a wrong energy; \
+                 a time step of {:.3e} s is small enough",
                 duration / STEPS_OF_A_CONTACT
             )
         };
         let stands_still = || {
             format!(
-                "in f32 a particle slower than about {:.1e} m/s along an axis does not move along it: its way in a step is less than half of the last digit of its position; use f64",
+                "in f32 a particle slower than about {:.1e} m/s along an axis does not move along it: a step \
+                 changes its position by less than half of the last digit; use f64",
                 self.lost_speed()
             )
         };

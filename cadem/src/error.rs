@@ -20,7 +20,8 @@ pub enum CademError {
     #[error("the space has {cells:?} cells; each of the three numbers must be at least 1")]
     NoCells { cells: [usize; 3] },
     #[error(
-        "the opening of the face {face} from cell {first:?} to {last:?} is invalid: that face has {extents:?} cells, numbered from 0, and the first \
+        "the opening of the face {face} from cell {first:?} to {last:?} is invalid: that face has \
+         {extents:?} cells, numbered from 0, and the first \
          cell comes before the last"
     )]
     Opening { face: Face, first: [usize; 2], last: [usize; 2], extents: [usize; 2] },

@@ -32,7 +32,10 @@ pub fn model(configuration: &Configuration, particles: Vec<Particle>) -> Result<
         .population::<Dem>(configuration.slots())
         .parameters(material)
         .fault_text(TOO_FAST, "a particle moves further than its radius in one step (the value is its speed in m/s; a smaller time step helps)")
-        .fault_text(NOT_A_NUMBER, "the velocity of a particle is NaN (two centres at one place, or an unstable time step)")
+        .fault_text(
+            NOT_A_NUMBER,
+            "the velocity of a particle is NaN (two centres at one place, or an unstable time step)",
+        )
         .fault_text(THROUGH_WALL, "a particle passes a wall where it has no opening (the value is its speed in m/s; a smaller time step or stiffer walls help)")
         .process(reset_forces)
         .process(inner_contacts)

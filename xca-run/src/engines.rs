@@ -95,7 +95,8 @@ pub enum EngineError {
     },
     /// Many processes that would all do the same.
     #[error(
-        "a launcher started {processes} processes, and each would run the whole model; share it with --engine mpi:cpu, or start one process"
+        "a launcher started {processes} processes, and each would run the whole model; \
+         share it with --engine mpi:cpu, or start one process"
     )]
     Launched {
         /// How many there are.

@@ -12,7 +12,8 @@ struct Killed {
     latest: PathBuf,
 }
 
-const OFFER: &str = "another checkpoint is intact; resume from it with\n  heat resume here --checkpoint here/checkpoints/step_00000020.checkpoint\n";
+const OFFER: &str = "another checkpoint is intact; resume from it with\n  \
+     heat resume here --checkpoint here/checkpoints/step_00000020.checkpoint\n";
 
 impl Killed {
     fn new() -> Self {

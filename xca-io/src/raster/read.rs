@@ -68,7 +68,8 @@ pub enum ReadRasterError {
     GeoTiff(#[from] ReadGeoTiffError),
     /// An altitude is impossible.
     #[error(
-        "{}: {height} in column {}, row {} from the north is not an altitude in m; if it means NODATA, declare it in the line NODATA_value, or in the NODATA tag of a GeoTIFF",
+        "{}: {height} in column {}, row {} from the north is not an altitude in m; \
+         if it means NODATA, declare it in the line NODATA_value, or in the NODATA tag of a GeoTIFF",
         path.display(), place[0], place[1]
     )]
     Height {

@@ -34,7 +34,8 @@ pub enum SavedError {
     #[error("{} is missing in all formats that can be read back", path.display())]
     Missing { path: PathBuf },
     #[error(
-        "{} does not hold the substate `{substate}`, but {saved}: the view of `{view}` saves only these; a checkpoint holds everything",
+        "{} does not hold the substate `{substate}`, but {saved}: \
+         the view of `{view}` saves only these; a checkpoint holds everything",
         path.display()
     )]
     NotSaved { path: PathBuf, substate: &'static str, saved: String, view: String },

@@ -54,7 +54,8 @@ pub(super) fn command(definition: &Definition<'_>) -> Command {
         .subcommand_required(true)
         .arg_required_else_help(true)
         .after_help(format!(
-            "First steps:{steps}\n\n`{name} run --help` lists the options of a run. Each command has its own --help.\n\n{EXIT_CODES}"
+            "First steps:{steps}\n\n`{name} run --help` lists the options of a run. Each command has its own \
+             --help.\n\n{EXIT_CODES}"
         ))
         .subcommands([
             run::command(definition),

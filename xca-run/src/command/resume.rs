@@ -63,7 +63,7 @@ pub(super) fn resume(
     let report = report::read(&report_file).map_err(unread)?.unwrap_or_else(|| json!({}));
     let earlier: Earlier = report::parts(&report_file, &report).map_err(unread)?;
     if arguments.checkpoint.is_none() && arguments.steps.is_none() && earlier.has_ended() {
-        if let Some(program) = report["program"].as_str().filter(|program| *program != definition.name) {
+        if let Some(program) = earlier.program.as_ref().filter(|program| **program != definition.name) {
             let (folder, name) = (folder.display(), definition.name);
             return Err(Unable::refused(format!("{folder} holds a run of `{program}`, not of `{name}`")));
         }
