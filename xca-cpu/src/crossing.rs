@@ -49,6 +49,9 @@ pub(crate) fn migrate(
     let full = check_slots(population, layout, geometry, process, movers, &own);
     edges.agree(full.map_err(first))?;
     population.left += left;
+    if let Some(lists) = &mut population.lists {
+        leaving.iter().for_each(|arrival| lists.left(population.items.numbers[arrival.item as usize]));
+    }
     if !movers.is_empty() || !own.is_empty() {
         threads.run(|| settle(population, layout, geometry, movers, &own));
     }

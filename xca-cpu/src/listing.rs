@@ -20,8 +20,8 @@ pub(crate) struct Listed {
 }
 
 /// Lists for each item the places of all items nearer than `within` metres, and possibly of some that are
-/// slightly farther. Returns the lists of blocks of rows, in order. The box of the neighbourhood must hold
-/// all of these items: none may be too far outside its cell.
+/// slightly farther. Leaves out ghosts. Returns the lists of blocks of rows, in order. The box of the
+/// neighbourhood must hold all of these items: none may be too far outside its cell.
 pub(crate) fn make(
     population: &Population,
     layout: &Layout,
@@ -123,6 +123,7 @@ impl Maker<'_> {
     #[inline(always)]
     fn strips(&self, padded: usize, x: usize, strips: &mut Vec<Range<u32>>) {
         let Population { starts, ends, .. } = self.population;
+        let own_places = self.population.own_places();
         let [reach, ..] = self.layout.reach();
         let width = self.layout.width();
         let (low, high) = (x.saturating_sub(reach), (x + reach).min(width - 1));
@@ -130,7 +131,8 @@ impl Maker<'_> {
         for offset in self.layout.rows_in_reach() {
             let row = padded.wrapping_add_signed(offset);
             let mut add = |range: Range<u32>| {
-                if !range.is_empty() {
+                // Ghosts come after all own places.
+                if !range.is_empty() && (range.start as usize) < own_places {
                     strips.push(range);
                 }
             };

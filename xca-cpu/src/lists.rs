@@ -3,12 +3,20 @@
 //! A list holds all items within a search radius plus a skin at the time of its construction. As long as no
 //! two items have approached by more than the skin, searches in lists and in cells give the same result
 //! ([`Lists::radius`]). Lists change the time of a search, but no result.
+//!
+//! In a part of a space, lists hold the part's own items alone. Ghosts, and items that have arrived from other
+//! parts since, are strangers. A row that sees a ghost or a stranger is searched in cells, all others in lists.
 
+use crate::ghosts::faces;
+use crate::layout::Layout;
 use crate::listing::Listed;
 use crate::motion::Motion;
 use crate::population::Population;
 use xca_core::Geometry;
 use xca_core::kernel::{NO_PLACE, NearLists};
+
+/// The number of an item that is in no list.
+pub(crate) const STRANGER: u32 = u32::MAX;
 
 /// The items that were near each item when the lists were made.
 pub(crate) struct Lists {
@@ -19,6 +27,8 @@ pub(crate) struct Lists {
     pub(crate) starts: Vec<u32>,
     pub(crate) candidates: Vec<u32>,
     pub(crate) owners: Vec<u32>,
+    /// Whether each row is searched in cells.
+    in_cells: Vec<bool>,
     /// The approximate common motion of all items since then.
     pub(crate) drift: [f64; 3],
 }
@@ -61,22 +71,49 @@ impl Lists {
         }
     }
 
+    /// Whether the lists have all items that a row sees.
+    pub(crate) fn are_whole(&self, row: usize) -> bool {
+        !self.in_cells[row]
+    }
+
     /// The size in bytes.
     pub(crate) fn memory(&self) -> usize {
-        (self.places.capacity() + self.starts.capacity() + 2 * self.candidates.capacity()) * size_of::<u32>()
+        let numbers = self.places.capacity() + self.starts.capacity() + 2 * self.candidates.capacity();
+        numbers * size_of::<u32>() + self.in_cells.capacity()
     }
 
     /// Updates the places of the items of a row.
     pub(crate) fn moved(&mut self, numbers: &[u32], first: u32) {
         for (place, number) in (first..).zip(numbers) {
-            self.places[*number as usize] = place;
+            self.put(*number, place);
         }
     }
 
-    /// Records that an item has left the space.
+    /// Records that an item has left the space, or the part of it.
     pub(crate) fn left(&mut self, number: u32) {
-        self.places[number as usize] = NO_PLACE;
+        self.put(number, NO_PLACE);
     }
+
+    fn put(&mut self, number: u32, place: u32) {
+        // A stranger has no entry.
+        if let Some(entry) = self.places.get_mut(number as usize) {
+            *entry = place;
+        }
+    }
+
+    /// Records a stranger in a row.
+    pub(crate) fn met_stranger(&mut self, layout: &Layout, row: usize) {
+        layout.rows_around(row).for_each(|row| self.in_cells[row] = true);
+    }
+}
+
+/// Whether each row sees another part of the space.
+fn rows_at_borders(layout: &Layout) -> Vec<bool> {
+    let mut at_border = vec![false; layout.rows()];
+    let lines =
+        [1, 2].into_iter().flat_map(|axis| faces(layout, axis)).flat_map(|face| layout.lines_at(face, true));
+    lines.flat_map(|line| layout.rows_that_see(line)).for_each(|row| at_border[row] = true);
+    at_border
 }
 
 impl Population {
@@ -88,8 +125,8 @@ impl Population {
     }
 
     /// Stores lists of all rows in order. Returns `false` if there are too many entries.
-    pub(crate) fn keep_lists(&mut self, listed: &[Listed], made_within: f64) -> bool {
-        let places = self.items.labels.len();
+    pub(crate) fn keep_lists(&mut self, layout: &Layout, listed: &[Listed], made_within: f64) -> bool {
+        let places = self.own_places();
         let total: usize = listed.iter().map(|listed| listed.list.len()).sum();
         if u32::try_from(total).is_err() {
             self.forget_lists();
@@ -114,6 +151,7 @@ impl Population {
         drop(occupied);
         starts.resize(places + 1, end);
         self.items.numbers = (0..places as u32).collect();
+        self.items.numbers.resize(self.items.labels.len(), STRANGER);
         self.items.references = self.references();
         self.lists = Some(Lists {
             made_within,
@@ -121,6 +159,7 @@ impl Population {
             starts,
             candidates,
             owners,
+            in_cells: rows_at_borders(layout),
             drift: [0.0; 3],
         });
         true

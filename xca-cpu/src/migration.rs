@@ -5,6 +5,7 @@
 //! that the rows are independent.
 
 use crate::layout::Layout;
+use crate::lists::STRANGER;
 use crate::motion::{largest, outside};
 use crate::population::{Arrays, Population, Values};
 use crate::rows::Mover;
@@ -55,6 +56,7 @@ pub(crate) fn settle(
 ) {
     let slack = slack(population, geometry, arrivals);
     let carried = carried(population, arrivals);
+    let strangers = strangers(population, arrivals);
     population.truncate();
     if let Some(counts) = counts_without_room(population, layout, movers, arrivals) {
         let shifts = population.make_room(layout, &counts);
@@ -65,6 +67,7 @@ pub(crate) fn settle(
     if let Some(lists) = &mut population.lists {
         let left = movers.iter().filter(|mover| mover.answer == OUTSIDE);
         left.for_each(|mover| lists.left(population.items.numbers[mover.item as usize]));
+        strangers.into_iter().for_each(|cell| lists.met_stranger(layout, layout.row_of(cell as usize)));
     }
     // The items that stay have been measured in place.
     if let Some(motion) = &mut population.motion {
@@ -135,6 +138,13 @@ fn slack(population: &Population, geometry: &Geometry, arrivals: &[Arrival]) -> 
         let position = population.position_of(arrival.item as usize);
         position.map_or(slack, |position| largest(slack, outside(position, cell, geometry.side())))
     })
+}
+
+/// The cells that items in no list enter.
+fn strangers(population: &Population, arrivals: &[Arrival]) -> Vec<u32> {
+    let numbers = &population.items.numbers;
+    let is_stranger = |arrival: &&Arrival| numbers.get(arrival.item as usize) == Some(&STRANGER);
+    arrivals.iter().filter(is_stranger).map(|arrival| arrival.cell).collect()
 }
 
 /// The number of items of each row, now or after the migration, whichever is larger. `None` if all rows have

@@ -5,7 +5,7 @@
 //! ([`Population::make_room`]).
 
 use crate::layout::Layout;
-use crate::lists::Lists;
+use crate::lists::{Lists, STRANGER};
 use crate::motion::{Motion, measure};
 use crate::upkeep::Upkeep;
 use rayon::prelude::*;
@@ -312,7 +312,12 @@ impl Population {
         })
     }
 
-    /// Adds an item after all places. Returns its place.
+    /// The number of places of all rows. Items of other parts come after them.
+    pub(crate) fn own_places(&self) -> usize {
+        self.rows.last().map_or(0, |places| *places as usize)
+    }
+
+    /// Adds an item of another part after all places. Returns its place.
     pub(crate) fn push(&mut self, label: u32, fields: &[&[u8]]) -> u32 {
         let place = self.items.labels.len();
         self.items.labels.push(label);
@@ -321,14 +326,22 @@ impl Population {
             field.resize((place + 1) * bytes.len());
             field.bytes_mut()[place * bytes.len()..].copy_from_slice(bytes);
         }
+        if let Some(Lists { drift, .. }) = &self.lists {
+            // As if it had moved like the others so far.
+            let position = self.position_of(place).unwrap_or_default();
+            self.items.references.push(std::array::from_fn(|axis| (position[axis] - drift[axis]) as f32));
+            self.items.numbers.push(STRANGER);
+        }
         place as u32
     }
 
     /// Removes the items after all places.
     pub(crate) fn truncate(&mut self) {
-        let places = self.rows.last().map_or(0, |places| *places as usize);
+        let places = self.own_places();
         self.items.labels.truncate(places);
         self.items.cells.truncate(places);
+        self.items.numbers.truncate(places);
+        self.items.references.truncate(places);
         for (field, stored) in self.items.fields.iter_mut().zip(&self.types) {
             field.resize(places * stored.size());
         }

@@ -179,7 +179,7 @@ pub(crate) fn keep_lists(
     let start = Instant::now();
     population.lists = None;
     let listed = make(population, layout, geometry, within + room.rounding);
-    let kept = population.keep_lists(&listed, within);
+    let kept = population.keep_lists(layout, &listed, within);
     *motion = Motion { square: 0.0, ..*motion };
     let items = population.count() as u64;
     let candidates = population.lists.as_ref().map_or(0, |lists| lists.candidates.len());

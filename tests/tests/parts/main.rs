@@ -3,6 +3,7 @@
 mod borders;
 mod greetings;
 mod items;
+mod lists;
 mod models;
 mod traffic;
 

@@ -148,7 +148,7 @@ impl<'a> Pass<'a> {
                     work.answers.clear();
                     work.answers.resize(own.1 - own.0, STAY);
                 }
-                let cells = Cells { first, origin, length: self.layout.width(), own };
+                let cells = Cells { row, first, origin, length: self.layout.width(), own };
                 let widest = match self.followed {
                     Some(Followed { activity, .. }) if prepared.process.kind == ProcessKind::Cells => {
                         let done = self.run_pieces(activity, prepared, (row, &cells), *population, &mut work);
@@ -203,7 +203,8 @@ impl<'a> Pass<'a> {
             let own = population.map_or((0, 0), |population| {
                 (population.starts[first] as usize, population.ends[first] as usize)
             });
-            let cell = Cells { first, origin: [x as u32, cells.origin[1], cells.origin[2]], length: 1, own };
+            let [_, y, z] = cells.origin;
+            let cell = Cells { row: cells.row, first, origin: [x as u32, y, z], length: 1, own };
             // In a row without items, the ranges of cells are empty and may start anywhere.
             let first_answer = own.0.saturating_sub(cells.own.0);
             let one = self.run_cells(prepared, &frames[x % 2], &cell, population, first_answer, work);
@@ -226,7 +227,8 @@ impl<'a> Pass<'a> {
         work.entries.extend(prepared.substates.iter().map(|shared| shared.entry(cells.first, cells.own.0)));
         let near = population.and_then(|population| {
             let radius = self.searches.listed[prepared.population?]?;
-            Some(population.lists.as_ref()?.view(population, radius))
+            let lists = population.lists.as_ref().filter(|lists| lists.are_whole(cells.row))?;
+            Some(lists.view(population, radius))
         });
         let items = population.map(|population| RowItems {
             // Not a slice of the array, because neighbours also lie before the row.

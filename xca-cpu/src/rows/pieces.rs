@@ -46,6 +46,7 @@ impl Pass<'_> {
             let Range { start, end } = tiles.cells(&run);
             let [_, y, z] = cells.origin;
             let piece = Cells {
+                row,
                 first: cells.first + start,
                 origin: [start as u32, y, z],
                 length: end - start,

@@ -7,7 +7,7 @@ use crate::lists::Room;
 use crate::motion::largest;
 use crate::upkeep::keep_lists;
 use xca_core::kernel::CellFilter;
-use xca_core::{Faces, Model, Precision, Process, ProcessKind};
+use xca_core::{Model, Precision, Process, ProcessKind};
 
 /// The data for the searches of a pass.
 pub(super) struct Searches {
@@ -58,10 +58,6 @@ pub(super) fn prepare(
     }
     searches.filter = CellFilter::new(geometry, precision, layout.steps(), slack);
     let Some(filter) = &searches.filter else { return searches };
-    // In a part of a space, the places of ghosts hold only for a stage. Lists cannot refer to them.
-    if layout.borders() != Faces::all(false) {
-        return searches;
-    }
     let Some(widest) = filter.room(geometry.covered_radius(precision)) else { return searches };
     for &number in &searches.populations {
         if let Group::Population(population) = &mut groups[number]

@@ -24,6 +24,7 @@ pub(super) struct Work<'a> {
 
 /// The cells for a kernel.
 pub(super) struct Cells {
+    pub(super) row: usize,
     /// The padded index of the first cell.
     pub(super) first: usize,
     pub(super) origin: [u32; 3],
