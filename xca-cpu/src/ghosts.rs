@@ -5,8 +5,8 @@ use crate::layout::Layout;
 use crate::motion::largest;
 use crate::population::Population;
 use crate::threads::Threads;
+use xca_core::Face;
 use xca_core::engine::{Border, EngineFailure};
-use xca_core::{Face, Faces};
 
 /// Receives the items that are visible across the borders of the part, and how far they are outside their
 /// cells. `slack` is the largest distance in metres of an own item from its cell.
@@ -17,18 +17,10 @@ pub(crate) fn exchange(
     border: &mut dyn Border,
     slack: f64,
 ) -> Result<(), EngineFailure> {
-    let none = Faces::all(vec![0]);
-    threads.run(|| {
-        layout.fill_rows(&mut population.starts, 1, Some(&none), false);
-        layout.fill_rows(&mut population.ends, 1, Some(&none), false);
-    });
     population.slack_of_ghosts = 0.0;
     exchange_along(1, population, layout, border, slack)?;
     // Layers include the ghosts along y, so corners need no messages of their own.
-    threads.run(|| {
-        layout.fill_layers(&mut population.starts, 1, Some(&none));
-        layout.fill_layers(&mut population.ends, 1, Some(&none));
-    });
+    threads.run(|| population.fill_layers(layout));
     exchange_along(2, population, layout, border, slack)
 }
 
@@ -77,7 +69,6 @@ fn unpack(
     face: Face,
     bytes: &[u8],
 ) -> Result<(), EngineFailure> {
-    let none = Faces::all(vec![0]);
     let mut rest = bytes;
     let slack = bytemuck::pod_read_unaligned(take(&mut rest, size_of::<f64>())?);
     population.slack_of_ghosts = largest(population.slack_of_ghosts, slack);
@@ -91,8 +82,8 @@ fn unpack(
             population.starts[cell] = first;
             population.ends[cell] = first + count;
         }
-        layout.fill_line(&mut population.starts, line, &none);
-        layout.fill_line(&mut population.ends, line, &none);
+        layout.fill_line(&mut population.starts, line);
+        layout.fill_line(&mut population.ends, line);
     }
     if rest.is_empty() { Ok(()) } else { Err(mismatch()) }
 }
@@ -106,7 +97,7 @@ pub(crate) fn clear(population: &mut Population, layout: &Layout) {
             population.ends[layout.line(line)].fill(0);
         }
     }
-    population.fill_halo(layout);
+    population.fill_layers(layout);
 }
 
 /// Appends the label and the fields of an item.
@@ -123,9 +114,8 @@ pub(crate) fn unpack_item(
     rest: &mut &[u8],
 ) -> Result<(u32, u32), EngineFailure> {
     let label = number(rest)?;
-    let sizes: Vec<usize> = population.types.iter().map(|stored| stored.size()).collect();
-    let fields: Vec<&[u8]> = sizes.into_iter().map(|size| take(rest, size)).collect::<Result<_, _>>()?;
-    Ok((population.push(label, &fields), label))
+    let size = population.types.iter().map(|stored| stored.size()).sum();
+    Ok((population.push(label, take(rest, size)?), label))
 }
 
 /// Takes a number from the front.

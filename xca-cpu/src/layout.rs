@@ -240,10 +240,10 @@ impl Layout {
         start..start + self.extents[0]
     }
 
-    /// Fills the halo of a line along x.
-    pub(crate) fn fill_line<T: Copy>(&self, plane: &mut [T], line: [isize; 2], outside: &Faces<Vec<T>>) {
+    /// Fills the halo of a line along x, except beyond flat faces.
+    pub(crate) fn fill_line<T: Copy>(&self, plane: &mut [T], line: [isize; 2]) {
         let cells = self.line(line);
-        self.fill_along(0, &mut plane[cells], 1, Some(outside));
+        self.fill_along(0, &mut plane[cells], 1, None);
     }
 
     /// The padded cells of a line, which may be in the halo.
@@ -314,6 +314,10 @@ impl Layout {
         outside: Option<&Faces<Vec<T>>>,
         continued: bool,
     ) {
+        let continued = continued || !self.fills(0, outside.is_some());
+        if continued && !self.fills(1, outside.is_some()) {
+            return;
+        }
         let line = self.padded[0] * values;
         let layer = line * self.padded[1];
         let space = &mut self.lines(plane, values)[self.reach[2] * layer..][..self.extents[2] * layer];
@@ -336,6 +340,9 @@ impl Layout {
         values: usize,
         outside: Option<&Faces<Vec<T>>>,
     ) {
+        if !self.fills(2, outside.is_some()) {
+            return;
+        }
         let layer = self.padded[0] * values * self.padded[1];
         let (below, rest) = self.lines(plane, values).split_at_mut(self.reach[2] * layer);
         let (space, above) = rest.split_at_mut(self.extents[2] * layer);
@@ -376,6 +383,15 @@ impl Layout {
                 Source::Part => {}
             }
         }
+    }
+
+    /// Whether halo cells along an axis are filled here, with or without outside values.
+    fn fills(&self, axis: usize, outside: bool) -> bool {
+        self.along(axis).any(|(_, source)| match source {
+            Source::Cell(_) => true,
+            Source::Outside(_) => outside,
+            Source::Part => false,
+        })
     }
 
     /// The padded indices of the halo along an axis, each with its source.

@@ -317,12 +317,15 @@ impl Population {
         self.rows.last().map_or(0, |places| *places as usize)
     }
 
-    /// Adds an item of another part after all places. Returns its place.
-    pub(crate) fn push(&mut self, label: u32, fields: &[&[u8]]) -> u32 {
+    /// Adds an item of another part after all places, with the bytes of its fields. Returns its place.
+    pub(crate) fn push(&mut self, label: u32, fields: &[u8]) -> u32 {
         let place = self.items.labels.len();
         self.items.labels.push(label);
         self.items.cells.push(0);
-        for (field, bytes) in self.items.fields.iter_mut().zip(fields) {
+        let mut rest = fields;
+        for (field, stored) in self.items.fields.iter_mut().zip(&self.types) {
+            let (bytes, others) = rest.split_at(stored.size());
+            rest = others;
             field.resize((place + 1) * bytes.len());
             field.bytes_mut()[place * bytes.len()..].copy_from_slice(bytes);
         }
@@ -347,13 +350,16 @@ impl Population {
         }
     }
 
-    /// Copies the ranges of the repeated cells to the halo.
+    /// Copies the ranges of the repeated cells to the halo. Beyond flat faces it is empty from the start.
     pub(crate) fn fill_halo(&mut self, layout: &Layout) {
-        if layout.halo_follows().contains(&true) {
-            let none = xca_core::Faces::all(vec![0]);
-            layout.fill_halo(&mut self.starts, 1, Some(&none), false);
-            layout.fill_halo(&mut self.ends, 1, Some(&none), false);
-        }
+        layout.fill_halo(&mut self.starts, 1, None, false);
+        layout.fill_halo(&mut self.ends, 1, None, false);
+    }
+
+    /// The same for the halo along z alone.
+    pub(crate) fn fill_layers(&mut self, layout: &Layout) {
+        layout.fill_layers(&mut self.starts, 1, None);
+        layout.fill_layers(&mut self.ends, 1, None);
     }
 
     pub(crate) fn memory(&self) -> usize {

@@ -59,7 +59,7 @@ impl Buffer {
         let old = self.start;
         self.words.resize(words(length, self.place), 0);
         (self.start, self.length) = (start(&self.words, self.place), length);
-        if kept > 0 {
+        if kept > 0 && old != self.start {
             self.words.copy_within(old..old + kept.div_ceil(WORD), self.start);
         }
         self.bytes_mut()[kept..].fill(0);
