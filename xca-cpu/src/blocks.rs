@@ -34,52 +34,22 @@ pub(crate) fn long_blocks(layout: &Layout, threads: usize, depth: Depth) -> Vec<
     (0..count).map(|number| number * layers / count..(number + 1) * layers / count).collect()
 }
 
-/// The number of blocks of layers per thread. Few, because the gaps between them read memory once more.
-const BLOCKS_OF_LAYERS_PER_THREAD: usize = 4;
-
-/// Blocks of layers with about the same work, long enough for passes of this depth. A single thread has one.
-pub(crate) fn blocks_of_layers(
-    layout: &Layout,
-    populations: &[&Population],
-    threads: usize,
-    depth: Depth,
-) -> Vec<Range<usize>> {
-    let layer = depth.lag.layer;
-    let layers = layout.rows() / layer;
-    let count = if threads == 1 { 1 } else { threads * BLOCKS_OF_LAYERS_PER_THREAD };
-    let work_before = |number: usize| work_before(layout, populations, number * layer);
-    of_same_work(layers, count, depth.least_block(), work_before)
-}
-
 fn blocks_of_same_work(layout: &Layout, populations: &[&Population], count: usize) -> Vec<Range<usize>> {
-    of_same_work(layout.rows(), count, 1, |row| work_before(layout, populations, row))
-}
-
-/// The work of all rows before a row, in cells.
-fn work_before(layout: &Layout, populations: &[&Population], row: usize) -> usize {
-    let items: usize = populations.iter().map(|population| population.rows[row] as usize).sum();
-    row * layout.width() + items * CELLS_PER_ITEM
-}
-
-/// Splits `0..end` into at most `count` ranges of at least `least`, if there are so many, with about the same
-/// work.
-fn of_same_work(
-    end: usize,
-    count: usize,
-    least: usize,
-    work_before: impl Fn(usize) -> usize,
-) -> Vec<Range<usize>> {
-    let work = work_before(end) as u128;
-    let count = count.min(end / least).max(1) as u128;
+    let rows = layout.rows();
+    let work_before = |row: usize| {
+        let items: usize = populations.iter().map(|population| population.rows[row] as usize).sum();
+        row * layout.width() + items * CELLS_PER_ITEM
+    };
+    let work = work_before(rows) as u128;
+    let count = count.min(rows) as u128;
     let mut blocks = Vec::with_capacity(count as usize);
     let mut start = 0;
     for number in 1..=count {
         let share = (work * number / count) as usize;
-        let until = first(start..end, |place| work_before(place) >= share);
-        let until = if end - until < least { end } else { until };
-        if until - start >= least || (until == end && start < end) {
-            blocks.push(start..until);
-            start = until;
+        let end = first(start..rows, |row| work_before(row) >= share);
+        if start < end {
+            blocks.push(start..end);
+            start = end;
         }
     }
     blocks

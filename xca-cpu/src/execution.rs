@@ -14,10 +14,9 @@ use crate::migration;
 use crate::population::Population;
 use crate::reductions::{Reductions, reduce_row};
 use crate::rows::{self, FirstFault, Ground, Mover, StageOfStep};
-use crate::stages::{Convoy, Stage, stages};
+use crate::stages::{Stage, stages};
 use crate::stride::Stride;
 use crate::threads::Threads;
-use crate::wavefront::Lag;
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -43,10 +42,8 @@ pub(crate) struct CpuExecution {
     activity: Option<Activity>,
     stride: Stride,
     reductions: Mutex<Reductions>,
-    /// The stages of a step in which all processes run, in convoys.
-    convoys: Vec<Convoy>,
-    /// The distance at which stages follow each other. `None` if they do not.
-    lag: Option<Lag>,
+    /// The stages of a step in which all processes run.
+    stages: Vec<Stage>,
 }
 
 impl CpuExecution {
@@ -66,9 +63,6 @@ impl CpuExecution {
         let stages = stages(model, 0..model.processes().len());
         let stride = Stride::new((model, &layout, precision), stages.len(), threads.count(), choices);
         let activity = Activity::new(model, &layout, choices.leave_out);
-        // Activity follows single stages.
-        let lag = layout.lag().filter(|lag| activity.is_none() && lag.leaves_room(layout.rows()));
-        let convoys = Convoy::all(model, stages, lag);
         Ok(Self {
             model: model.clone(),
             precision,
@@ -79,8 +73,7 @@ impl CpuExecution {
             activity,
             stride,
             reductions: Mutex::default(),
-            convoys,
-            lag,
+            stages,
         })
     }
 
@@ -89,17 +82,13 @@ impl CpuExecution {
         let all = self.model.processes();
         let whole = processes == (0..all.len()) && all.iter().all(|process| process.is_due(context.step));
         let due = processes.filter(|number| all[*number].is_due(context.step));
-        let convoys = if whole {
-            self.convoys.clone()
-        } else {
-            Convoy::all(&self.model, stages(&self.model, due), self.lag)
-        };
+        let stages = if whole { self.stages.clone() } else { stages(&self.model, due) };
         let threads = self.threads.clone();
         let leaves_out = self.leaves_out();
         if self.edges.is_some() {
-            convoys.iter().try_for_each(|convoy| self.run_convoy_of_part(convoy, leaves_out, context))
+            stages.iter().try_for_each(|stage| self.run_stage_of_part(stage, leaves_out, context))
         } else {
-            threads.run(|| convoys.iter().try_for_each(|convoy| self.run_convoy(convoy, leaves_out, context)))
+            threads.run(|| stages.iter().try_for_each(|stage| self.run_stage(stage, leaves_out, context)))
         }
     }
 
@@ -128,33 +117,32 @@ impl CpuExecution {
         }
     }
 
-    /// Runs a convoy in this part. All other parts do the same at the same time.
-    fn run_convoy_of_part(
+    /// Runs a stage in this part. All other parts do the same at the same time.
+    fn run_stage_of_part(
         &mut self,
-        convoy: &Convoy,
+        stage: &[usize],
         leaves_out: bool,
         context: &StepContext<'_>,
     ) -> Result<(), Fault> {
         let threads = self.threads.clone();
-        let first = convoy.first();
         if let Some(edges) = &mut self.edges {
             let activity = self.activity.as_ref().filter(|_| leaves_out);
-            edges.exchange((&self.model, first), &self.layout, &threads, &mut self.groups, activity)?;
+            edges.exchange((&self.model, stage), &self.layout, &threads, &mut self.groups, activity)?;
         }
-        let result = threads.run(|| self.run_rows(convoy, leaves_out, context));
-        for group in seen(&self.model, first) {
+        let result = threads.run(|| self.run_rows(stage, leaves_out, context));
+        for group in seen(&self.model, stage) {
             if let Group::Population(population) = &mut self.groups[group] {
                 threads.run(|| ghosts::clear(population, &self.layout));
             }
         }
-        for found in convoy.processes().flat_map(|number| &self.model.plan().process(number).uses) {
+        for found in stage.iter().flat_map(|&number| &self.model.plan().process(number).uses) {
             if found.written
                 && let Group::Cells(planes) = &mut self.groups[found.substate.group]
             {
                 planes[found.substate.field].others_wrote();
             }
         }
-        let migration = self.migration(convoy);
+        let migration = self.migration(stage);
         let Some(edges) = &mut self.edges else { return result.map(drop).map_err(|first| first.fault) };
         let mut movers = edges.agree(result)?;
         if let Some((number, group)) = migration
@@ -167,18 +155,18 @@ impl CpuExecution {
         Ok(())
     }
 
-    fn run_convoy(
+    fn run_stage(
         &mut self,
-        convoy: &Convoy,
+        stage: &[usize],
         leaves_out: bool,
         context: &StepContext<'_>,
     ) -> Result<(), Fault> {
-        let movers = self.run_rows(convoy, leaves_out, context).map_err(|first| first.fault)?;
-        self.migrate(convoy, movers)
+        let movers = self.run_rows(stage, leaves_out, context).map_err(|first| first.fault)?;
+        self.migrate(stage, movers)
     }
 
-    fn migrate(&mut self, convoy: &Convoy, mut movers: Vec<Mover>) -> Result<(), Fault> {
-        if let Some((number, group)) = self.migration(convoy)
+    fn migrate(&mut self, stage: &[usize], mut movers: Vec<Mover>) -> Result<(), Fault> {
+        if let Some((number, group)) = self.migration(stage)
             && let Group::Population(population) = &mut self.groups[group]
         {
             let process = &self.model.processes()[number];
@@ -187,33 +175,29 @@ impl CpuExecution {
         Ok(())
     }
 
-    /// The migration of a convoy, which is its last process, and the index of its population.
-    fn migration(&self, convoy: &Convoy) -> Option<(usize, usize)> {
-        let last = convoy.processes().next_back()?;
+    /// The migration of a stage, which is its last process, and the index of its population.
+    fn migration(&self, stage: &[usize]) -> Option<(usize, usize)> {
+        let &last = stage.last()?;
         let migrates = self.model.processes()[last].kind == ProcessKind::Migration;
         Some((last, self.model.plan().process(last).population?)).filter(|_| migrates)
     }
 
-    /// Runs the processes of a convoy over all rows.
+    /// Runs the processes of a stage over all rows.
     fn run_rows(
         &mut self,
-        convoy: &Convoy,
+        stage: &[usize],
         leaves_out: bool,
         context: &StepContext<'_>,
     ) -> Result<Vec<Mover>, FirstFault> {
-        let ground = Ground { model: &self.model, layout: &self.layout, precision: self.precision };
-        let of_stage = |processes| StageOfStep { processes, context: *context };
-        let [stage] = &convoy.stages[..] else {
-            let stages: Vec<StageOfStep<'_>> = convoy.stages.iter().map(|stage| of_stage(stage)).collect();
-            return rows::run_convoy(ground, &mut self.groups, &stages, convoy.lag);
-        };
         if let Some(activity) = &mut self.activity
             && !leaves_out
         {
             activity.worked_on_all(stage);
         }
         let activity = self.activity.as_mut().filter(|_| leaves_out);
-        rows::run(ground, &mut self.groups, of_stage(stage), activity)
+        let ground = Ground { model: &self.model, layout: &self.layout, precision: self.precision };
+        let stage = StageOfStep { processes: stage, context: *context };
+        rows::run(ground, &mut self.groups, stage, activity)
     }
 
     /// The number of steps to do together next, out of `left`.

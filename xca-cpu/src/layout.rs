@@ -166,11 +166,8 @@ impl Layout {
     pub(crate) fn lag(&self) -> Option<Lag> {
         let [_, height, depth] = self.extents;
         let [_, along, up] = self.reach;
-        let is_ring = |axis: usize| {
-            let [low, _] = Face::ALONG[axis];
-            self.boundaries[low] == Boundary::Toroidal && !self.borders[low]
-        };
-        if along > height || up > depth {
+        let is_ring = |axis: usize| self.boundaries[Face::ALONG[axis][0]] == Boundary::Toroidal;
+        if along > height || up > depth || self.borders != Faces::all(false) {
             return None;
         }
         if depth == 1 {

@@ -16,10 +16,10 @@ mod search;
 mod tools;
 
 use crate::activity::Activity;
-use crate::blocks::{blocks, blocks_of_due, blocks_of_layers, long_blocks};
+use crate::blocks::{blocks, blocks_of_due, long_blocks};
 use crate::group::{Group, population};
 use crate::population::Population;
-use crate::wavefront::{Depth, Lag, Piece, Wavefront};
+use crate::wavefront::{Depth, Piece, Wavefront};
 use found::Found;
 pub(crate) use found::{FirstFault, Mover};
 pub(crate) use ground::{Ground, StageOfStep};
@@ -78,35 +78,10 @@ pub(crate) fn run_in_wake(
     stages: &[StageOfStep<'_>],
     depth: Depth,
 ) -> Result<(), FirstFault> {
-    let blocks = long_blocks(ground.layout, rayon::current_num_threads(), depth);
-    run_in_order(ground, groups, stages, &Wavefront::new(depth, blocks)).map(drop)
-}
-
-/// Runs the passes of a convoy. Returns the items that the last one moves, in the order of items.
-pub(crate) fn run_convoy(
-    ground: Ground<'_>,
-    groups: &mut [Group],
-    stages: &[StageOfStep<'_>],
-    lag: Lag,
-) -> Result<Vec<Mover>, FirstFault> {
-    let depth = Depth { passes: stages.len(), lag, chunk: 1, column: None };
-    let processes: Vec<usize> = stages.iter().flat_map(|stage| stage.processes).copied().collect();
-    let populations = populations(ground.model, groups, &processes);
-    let blocks = blocks_of_layers(ground.layout, &populations, rayon::current_num_threads(), depth);
-    let mut movers = run_in_order(ground, groups, stages, &Wavefront::new(depth, blocks))?;
-    movers.sort_unstable_by_key(|mover| mover.item);
-    Ok(movers)
-}
-
-fn run_in_order(
-    ground: Ground<'_>,
-    groups: &mut [Group],
-    stages: &[StageOfStep<'_>],
-    order: &Wavefront,
-) -> Result<Vec<Mover>, FirstFault> {
     let ready: Vec<Ready<'_>> = stages.iter().map(|stage| Ready::new(ground, groups, *stage, true)).collect();
-    let found = work(ground, groups, &ready, order, None);
-    conclude(groups, &ready, found)
+    let blocks = long_blocks(ground.layout, rayon::current_num_threads(), depth);
+    let found = work(ground, groups, &ready, &Wavefront::new(depth, blocks), None);
+    conclude(groups, &ready, found).map(drop)
 }
 
 /// The blocks of all rows for the threads.

@@ -7,7 +7,7 @@ use crate::memory::bytes_per_cell;
 use crate::wavefront::{Depth, Lag};
 use std::time::Duration;
 use xca_core::engine::Figure;
-use xca_core::{Faces, Model, Precision, Process, ProcessKind};
+use xca_core::{Model, Precision, Process, ProcessKind};
 
 /// The largest number of steps done together. With more, the data between the first and the last step exceeds
 /// every cache.
@@ -73,9 +73,7 @@ impl Stride {
         let Choices { stride: fixed, column, .. } = choices;
         let is_over_cells =
             |process: &Process| process.kind == ProcessKind::Cells && process.population().is_none();
-        // Between the stages of a part, its halo comes from other parts.
-        let is_whole = layout.borders() == Faces::all(false);
-        let lag = layout.lag().filter(|_| is_whole && model.processes().iter().all(is_over_cells));
+        let lag = layout.lag().filter(|_| model.processes().iter().all(is_over_cells));
         let most = lag.map_or(1, |lag| {
             // A thread must have more work than remains in the gaps between blocks.
             let blocks = if fixed.is_some() { 1 } else { 2 * threads };

@@ -30,11 +30,6 @@ pub(crate) struct Lag {
 impl Lag {
     /// For passes that do not affect each other.
     pub(crate) const NONE: Self = Self { layer: 1, layers: 0, is_ring: false, along: None };
-
-    /// Whether a pass over so many rows can follow another one.
-    pub(crate) fn leaves_room(&self, rows: usize) -> bool {
-        !self.is_ring || rows / self.layer >= 2 * self.layers
-    }
 }
 
 /// The number of consecutive passes, and their distances.
