@@ -32,6 +32,7 @@ pub mod geotiff;
 pub mod lattice;
 pub mod lines;
 pub mod map;
+mod map_unit;
 pub mod numbered;
 pub mod numbers;
 pub mod particle_csv;

@@ -1,5 +1,6 @@
 //! The place of a layer of cells on a map, and its cells without ground.
 
+pub use crate::map_unit::MapUnit;
 pub use crate::placement::{Placement, PlacementDifference};
 
 use crate::geotiff::GeoKeys;
@@ -48,9 +49,9 @@ impl Map {
         self.coordinate_system.as_ref()
     }
 
-    /// Whether its corner and side are in degrees of longitude and latitude. Otherwise they are in metres.
-    pub fn is_in_degrees(&self) -> bool {
-        self.coordinate_system.as_ref().is_some_and(|keys| keys.is_in_degrees())
+    /// The unit of its corner and side. Metres without a coordinate system.
+    pub fn unit(&self) -> MapUnit {
+        self.coordinate_system.as_ref().map_or(MapUnit::Metre, |keys| keys.unit())
     }
 
     /// The mask of the cells without ground, x fastest, from the south. `None` if every cell has ground.

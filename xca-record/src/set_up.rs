@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use xca_checkpoint::InputFile;
 use xca_checkpoint::Outputs;
 use xca_core::{Model, State, Substates};
-use xca_io::map::{Map, Placement, PlacementDifference};
+use xca_io::map::{Map, MapUnit, Placement, PlacementDifference};
 
 type Observe = dyn Fn(&State<'_>) -> Result<Vec<Observable>, Failure> + Send + Sync;
 
@@ -153,9 +153,19 @@ impl SetUp {
     /// The final state is written as ESRI ASCII grids too, one for each substate of cells
     /// (`final_altitude.asc`); any other model of one layer does so with `run --formats +asc`, and its corner
     /// is at 0, 0. `--formats +tif` writes GeoTIFF.
+    ///
+    /// A map that is not in metres adds a warning, because a model counts in metres.
     #[must_use]
     pub fn map(mut self, map: impl Into<Map>) -> Self {
-        self.map = Some(map.into());
+        let map = map.into();
+        if map.unit() != MapUnit::Metre {
+            let (unit, side) = (map.unit(), map.placement().side);
+            self.warnings.push(format!(
+                "the map is in {unit}, but the model counts in metres and takes its cells as {side} m wide; \
+                 warp it to a system in metres, such as UTM zone 33N: `gdalwarp -t_srs EPSG:32633`"
+            ));
+        }
+        self.map = Some(map);
         // It is known, unless the program has taken it away.
         let _ = self.formats.choose_too(&["asc"]);
         self

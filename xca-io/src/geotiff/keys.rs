@@ -1,5 +1,7 @@
 //! The coordinate system of a GeoTIFF, kept unchanged.
 
+use crate::map_unit::MapUnit;
+
 /// The keys of a GeoTIFF, which name its coordinate system. They are the tags `GeoKeyDirectory`,
 /// `GeoDoubleParams` and `GeoAsciiParams`, and are written exactly as they were read.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,6 +28,12 @@ const GEODETIC: u16 = 2048;
 /// `GeogAngularUnitsGeoKey`, and the code for degrees.
 const ANGULAR_UNIT: u16 = 2054;
 const DEGREE: u16 = 9102;
+
+/// `ProjLinearUnitsGeoKey`, and the codes of its units.
+const LINEAR_UNIT: u16 = 3076;
+const METRE: u16 = 9001;
+const FOOT: u16 = 9002;
+const SURVEY_FOOT: u16 = 9003;
 
 /// The code of a system that the file defines itself.
 const USER_DEFINED: u16 = 32_767;
@@ -73,13 +81,20 @@ impl GeoKeys {
         codes.flatten().next().filter(|code| ![0, USER_DEFINED].contains(code))
     }
 
-    /// Whether coordinates are longitude and latitude in degrees.
-    pub fn is_in_degrees(&self) -> bool {
+    /// The unit of the coordinates. An EPSG code alone does not tell it, so a projected system without
+    /// `ProjLinearUnits` counts as one in metres.
+    pub fn unit(&self) -> MapUnit {
         let is_geographic = match self.short(MODEL_TYPE) {
             Some(model) => model == MODEL_IS_GEOGRAPHIC,
             None => self.short(GEODETIC).is_some() && self.short(PROJECTED).is_none(),
         };
-        is_geographic && self.short(ANGULAR_UNIT).is_none_or(|unit| unit == DEGREE)
+        match (is_geographic, self.short(if is_geographic { ANGULAR_UNIT } else { LINEAR_UNIT })) {
+            (true, None | Some(DEGREE)) => MapUnit::Degree,
+            (false, None | Some(METRE)) => MapUnit::Metre,
+            (false, Some(FOOT)) => MapUnit::Foot,
+            (false, Some(SURVEY_FOOT)) => MapUnit::SurveyFoot,
+            _ => MapUnit::Other,
+        }
     }
 
     /// Whether the keys name a coordinate system.
@@ -98,5 +113,35 @@ impl GeoKeys {
         let count = usize::from(*self.directory.get(KEY - 1)?);
         let mut keys = self.directory.chunks_exact(KEY).skip(1).take(count);
         keys.find(|key| key[0] == wanted && key[1] == 0).map(|key| key[3])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The unit of a system with this model, EPSG key and further key.
+    fn unit(model: u16, epsg: [u16; 2], further: Option<[u16; 2]>) -> MapUnit {
+        let keys = [[MODEL_TYPE, model], epsg].into_iter().chain(further);
+        let keys: Vec<[u16; KEY]> = keys.map(|[key, value]| [key, 0, 1, value]).collect();
+        let header = [1, 1, 0, keys.len() as u16];
+        let directory = std::iter::once(header).chain(keys).flatten().collect();
+        GeoKeys::new(directory, Vec::new(), "").unwrap().unit()
+    }
+
+    #[test]
+    fn the_unit_is_that_of_the_keys() {
+        let (projected, geodetic) = ([PROJECTED, 32_633], [GEODETIC, 4326]);
+        let linear = |code| unit(MODEL_IS_PROJECTED, projected, Some([LINEAR_UNIT, code]));
+        assert_eq!(unit(MODEL_IS_PROJECTED, projected, None), MapUnit::Metre);
+        assert_eq!([9001, 9002, 9003].map(linear), [MapUnit::Metre, MapUnit::Foot, MapUnit::SurveyFoot]);
+        // A yard, and the unit of another kind of coordinates.
+        assert_eq!(linear(9096), MapUnit::Other);
+        assert_eq!(unit(MODEL_IS_GEOGRAPHIC, geodetic, Some([LINEAR_UNIT, FOOT])), MapUnit::Degree);
+        assert_eq!(unit(MODEL_IS_PROJECTED, projected, Some([ANGULAR_UNIT, DEGREE])), MapUnit::Metre);
+        // Radians.
+        assert_eq!(unit(MODEL_IS_GEOGRAPHIC, geodetic, Some([ANGULAR_UNIT, 9101])), MapUnit::Other);
+        assert_eq!(GeoKeys::geographic(4326).unit(), MapUnit::Degree);
+        assert_eq!(GeoKeys::projected(32_633).unit(), MapUnit::Metre);
     }
 }

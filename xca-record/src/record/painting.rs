@@ -7,6 +7,7 @@ use crate::format::Subject;
 use crate::view::{AnyCellView, AnyItemView, AnyView, Drawn};
 use xca_core::model::Group;
 use xca_core::{Geometry, Model, Schema};
+use xca_io::map::MapUnit;
 use xca_picture::{
     Axes, BlockPicture, Category, ColourMap, Domain, LandscapePicture, Lattice, ParticlePicture, Picture,
     PictureError, Relief, Scalar, SlicePicture,
@@ -208,7 +209,7 @@ impl Field<'_> {
         let [x, y] = self.corner.unwrap_or_default();
         let names = match self.corner {
             None => ["x", "y", "z"],
-            Some(_) if self.scale == LengthScale::Degrees => ["longitude", "latitude", "z"],
+            Some(_) if self.scale == LengthScale::Of(MapUnit::Degree) => ["longitude", "latitude", "z"],
             Some(_) => ["easting", "northing", "z"],
         };
         let begins = [x, y, 0.0];

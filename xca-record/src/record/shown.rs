@@ -5,22 +5,19 @@ use super::items::ItemState;
 use super::seen::Seen;
 use crate::view::AnyView;
 use xca_core::{Geometry, GroupSnapshot, Model, Precision, Snapshot};
-use xca_io::map::Map;
+use xca_io::map::{Map, MapUnit};
 
 /// How lengths of a space are measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum LengthScale {
-    Metres,
-    /// Of longitude and latitude.
-    Degrees,
+    Of(MapUnit),
     Cells,
 }
 
 impl LengthScale {
     pub(super) fn unit(self) -> &'static str {
         match self {
-            Self::Metres => "m",
-            Self::Degrees => "°",
+            Self::Of(unit) => unit.sign(),
             Self::Cells => "cells",
         }
     }
@@ -96,11 +93,10 @@ impl Shown {
     /// How lengths of the space are measured.
     pub(super) fn scale(&self, geometry: &Geometry) -> LengthScale {
         match &self.map {
-            Some(map) if map.is_in_degrees() => LengthScale::Degrees,
-            Some(_) => LengthScale::Metres,
+            Some(map) => LengthScale::Of(map.unit()),
             // A side that no one gave is no length.
             None if geometry.side() == 1.0 => LengthScale::Cells,
-            None => LengthScale::Metres,
+            None => LengthScale::Of(MapUnit::Metre),
         }
     }
 

@@ -87,6 +87,10 @@ fn axes_of_a_map_in_degrees_say_so() {
         let debris = (0..25).map(|cell| if cell == 12 { 5.0 } else { 0.0 }).collect();
         geotiff::write(&place.path("d.tif"), &raster(debris), SampleType::F64).unwrap();
         place.succeed(LANDSLIDE, "--dem g.tif --debris d.tif --steps 0");
+        let report = fs::read_to_string(place.path("out/landslide/run.json")).unwrap();
+        let warning =
+            "the map is in degrees, but the model counts in metres and takes its cells as 10 m wide";
+        assert_eq!(report.contains(warning), keys == GeoKeys::geographic(4326));
         pixels(&place.path("out/landslide/final.png"))
     };
     let [(width, metres), (_, degrees)] =
