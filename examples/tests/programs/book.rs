@@ -10,120 +10,135 @@ mod pages;
 mod short;
 
 use crate::running::{CADEM, Workplace};
-use crate::watched::is_watched;
+use crate::watched::assert_watched;
 use before::BEFORE;
-pub(crate) use command::{Command, Invocation, Start};
+use command::{Command, Invocation};
 use elsewhere::ELSEWHERE;
-pub(crate) use pages::Page;
 use short::{SHORT, Short};
-use std::path::{Path, PathBuf};
-use std::process;
+use std::path::Path;
+use std::process::{self, Output};
 
-/// Starts a command in the folder of its page, after what it takes for granted.
-pub(crate) fn prepare(place: &Workplace, command: &Command) {
-    inputs::write(place, &command.text);
-    for before in BEFORE.iter().filter(|before| before.is_before(command)) {
-        place.succeed(path(before.program).to_str().unwrap(), before.options);
-    }
+pub(crate) use command::Start;
+pub(crate) use pages::Page;
+
+/// What is done for a command of a page.
+pub(crate) struct Run {
+    /// What the page says, what is run, and why that is not the same.
+    title: String,
+    pub(crate) program: String,
+    pub(crate) words: Vec<String>,
 }
 
-/// What is run for a command of a page.
-pub(crate) fn shortened(invocation: &Invocation) -> Invocation {
-    let mut invocation = invocation.clone();
-    if let Some(short) = Short::of(&invocation) {
-        short.apply(&mut invocation);
+impl Run {
+    /// Writes the files that a command names, and does what it takes for granted.
+    pub(crate) fn prepare(place: &Workplace, command: &Command, invocation: &Invocation) -> Self {
+        inputs::write(place, &command.text);
+        for before in BEFORE.iter().filter(|before| before.is_before(command)) {
+            place.succeed(&path(before.program), before.options);
+        }
+        let mut invocation = invocation.clone();
+        let mut title = command.to_string();
+        if let Some(short) = Short::of(&invocation) {
+            short.apply(&mut invocation);
+            title = format!("{title}, as `{invocation}`, because {}", short.reason);
+        }
+        let Invocation { program, mut words } = invocation;
+        if words[0] == "resume" && !words.iter().any(|word| word == "--steps") {
+            before::leave_as_killed(&place.path(&words[1]));
+        }
+        if words[0] == "new" {
+            // A reader is in the folder of xca, in which the program finds it.
+            words.extend(["--xca-path".to_owned(), pages::root().to_str().unwrap().to_owned()]);
+        }
+        Self { title, program: path(&program), words }
     }
-    invocation
+
+    /// What is wrong with the end of the command.
+    pub(crate) fn fault(&self, output: &Output) -> Option<String> {
+        fault(&self.title, output)
+    }
 }
 
 /// The built program.
-pub(crate) fn path(program: &str) -> PathBuf {
-    Path::new(CADEM).with_file_name(program)
+fn path(program: &str) -> String {
+    Path::new(CADEM).with_file_name(program).to_str().unwrap().to_owned()
 }
 
-/// Runs a command, which must end with success; gives what is wrong.
-pub(crate) fn fault(mut started: process::Command, command: &Command, run: &str) -> Option<String> {
-    let output = started.output().unwrap_or_else(|error| panic!("{command}: {error}"));
+fn fault(title: &str, output: &Output) -> Option<String> {
     let said = String::from_utf8_lossy(&output.stderr);
-    (!output.status.success()).then(|| format!("{command}, run as `{run}`: {}\n{said}", output.status))
+    (!output.status.success()).then(|| format!("{title}: {}\n{said}", output.status))
 }
 
 #[test]
 fn commands_of_the_book_can_be_run() {
-    let mut faults = Vec::new();
-    let mut count = 0;
+    let (mut faults, mut count) = (Vec::new(), 0);
+    let start = |mut started: process::Command| started.output().unwrap();
     for page in Page::all() {
         let place = Workplace::new();
         for command in &page.commands {
-            let begin = std::time::Instant::now();
-            let found = match &command.start {
+            match &command.start {
                 Start::Program(invocation) => {
-                    prepare(&place, command);
-                    let invocation = shortened(invocation);
-                    let path = path(&invocation.program);
-                    let program = path.to_str().unwrap();
-                    if invocation.words[0] == "watch" {
-                        is_watched(&place, program, &invocation.words[1..].join(" "));
-                        None
+                    let run = Run::prepare(&place, command, invocation);
+                    if run.words[0] == "watch" {
+                        assert_watched(&place, &run.program, &run.words[1..].join(" "));
                     } else {
-                        let mut started = place.invocation(program, "");
-                        started.args(&invocation.words);
-                        fault(started, command, &invocation.to_string())
+                        let mut started = place.invocation(&run.program, "");
+                        started.args(&run.words);
+                        faults.extend(run.fault(&start(started)));
                     }
                 }
                 Start::Shell => {
-                    prepare(&place, command);
+                    inputs::write(&place, &command.text);
                     let mut started = place.invocation("sh", "-c");
                     started.arg(&command.text);
-                    fault(started, command, &command.text)
+                    faults.extend(fault(&command.to_string(), &start(started)));
                 }
                 Start::Mpi(..) | Start::Other => continue,
-            };
-            eprintln!("TIME {:.2} {command}", begin.elapsed().as_secs_f64());
+            }
             count += 1;
-            faults.extend(found);
         }
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
     assert!(count > 50, "{count}");
 }
 
-/// A new command is either run or has to be listed; what no page has any more is not listed.
+/// A new command is either run or has to be listed; what no page has any more must not stay in a list.
 #[test]
 fn lists_are_those_of_the_pages() {
     let pages = Page::all();
     let commands: Vec<&Command> = pages.iter().flat_map(|page| &page.commands).collect();
+    let others: Vec<_> = commands.iter().filter(|command| matches!(command.start, Start::Other)).collect();
     let mut wrong = Vec::new();
-    for command in commands.iter().filter(|command| matches!(command.start, Start::Other)) {
+    for command in &others {
         if !ELSEWHERE.iter().any(|elsewhere| elsewhere.command == command.text) {
             wrong.push(format!("{command} is not run, and not listed in book/elsewhere.rs"));
         }
     }
     for elsewhere in ELSEWHERE {
-        let name = elsewhere.command;
-        if !commands.iter().any(|command| matches!(command.start, Start::Other) && command.text == name) {
-            wrong.push(format!("`{name}` of book/elsewhere.rs is on no page"));
+        let title = format!("book/elsewhere.rs, `{}` ({})", elsewhere.command, elsewhere.why);
+        if !others.iter().any(|command| command.text == elsewhere.command) {
+            wrong.push(format!("{title}: no page has this command"));
         }
         if let Some(file) = elsewhere.checked_by
             && !pages::root().join(file).is_file()
         {
-            wrong.push(format!("`{name}` is checked by {file}, which is not there"));
+            wrong.push(format!("{title}: there is no {file}"));
         }
     }
     for short in SHORT {
         let mut all = commands.iter().filter_map(|command| command.invocation());
         if !all.any(|invocation| Short::of(invocation).is_some_and(|found| found.words == short.words)) {
-            wrong.push(format!("no command begins with `{}` of book/short.rs", short.words));
+            wrong.push(format!("book/short.rs: no command begins with `{}`", short.words));
         }
     }
     for before in BEFORE {
         if !commands.iter().any(|command| before.is_before(command)) {
-            wrong.push(format!("book/before.rs: no command for `{} {}`", before.program, before.options));
+            wrong.push(format!("book/before.rs: {} has no `{}`", before.page, before.command));
         }
     }
     for name in inputs::names() {
         if !commands.iter().any(|command| inputs::is_named(name, &command.text)) {
-            wrong.push(format!("no command names {name} of book/inputs.rs"));
+            wrong.push(format!("book/inputs.rs: no command names {name}"));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));

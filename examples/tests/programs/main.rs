@@ -7,7 +7,6 @@ mod book;
 mod checkpoints;
 mod compared;
 mod continued;
-mod documented;
 mod doors;
 mod files;
 mod gallery;

@@ -140,7 +140,7 @@ fn step(text: &str) -> Option<u64> {
 }
 
 /// Runs `PROGRAM watch OPTIONS` until it shows a step, and leaves it.
-pub(crate) fn is_watched(place: &Workplace, program: &str, options: &str) {
+pub(crate) fn assert_watched(place: &Workplace, program: &str, options: &str) {
     let mut terminal = Terminal::watch(place, program, options);
     terminal.until("the run begins", |text| step(text).is_some());
     terminal.press("q");

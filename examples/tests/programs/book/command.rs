@@ -68,23 +68,19 @@ impl Start {
             return Self::Shell;
         }
         let words = words(text);
-        let invocation = |words: &[String]| match words {
-            [first, words @ ..] => program(first)
-                .map(|program| Invocation { program: program.to_owned(), words: words.to_owned() }),
-            [] => None,
+        // The program that is named here, with the words from there on.
+        let invocation = |named: usize, rest: usize| {
+            let program = program(words.get(named)?)?.to_owned();
+            let words = words.get(rest..).filter(|words| !words.is_empty())?.to_owned();
+            Some(Invocation { program, words })
         };
         let found = match words.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-            ["cargo", "run", "--release", "--bin", program, "--", ..] if is_program(program) => {
-                let words = words[6..].to_owned();
-                Some(Self::Program(Invocation { program: program.to_owned(), words }))
-            }
-            ["mpirun", ..] => {
-                let place = words.iter().position(|word| program(word).is_some());
-                place.and_then(|place| {
-                    Some(Self::Mpi(words[1..place].to_owned(), invocation(&words[place..])?))
-                })
-            }
-            _ => invocation(&words).map(Self::Program),
+            ["cargo", "run", "--release", "--bin", _, "--", ..] => invocation(4, 6).map(Self::Program),
+            ["mpirun", ..] => words
+                .iter()
+                .position(|word| program(word).is_some())
+                .and_then(|place| Some(Self::Mpi(words[1..place].to_owned(), invocation(place, place + 1)?))),
+            _ => invocation(0, 1).map(Self::Program),
         };
         found.unwrap_or(Self::Other)
     }

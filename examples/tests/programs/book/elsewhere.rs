@@ -5,8 +5,7 @@ pub(super) struct Elsewhere {
     pub(super) command: &'static str,
     /// A file of the workspace.
     pub(super) checked_by: Option<&'static str>,
-    #[expect(dead_code, reason = "for readers")]
-    why: &'static str,
+    pub(super) why: &'static str,
 }
 
 const fn by(checked_by: &'static str, command: &'static str, why: &'static str) -> Elsewhere {
@@ -37,7 +36,7 @@ pub(super) const ELSEWHERE: &[Elsewhere] = &[
     by(STARTER, "cd waves", "goes into such a crate"),
     by(STARTER, "cargo test", "compiles the tests of such a crate; the crate `tests/new` runs them"),
     by("tests/new/tests/program.rs", "cargo run --release -- run", "runs the program of such a crate"),
-    by("tests/new/tests/program.rs", "cargo run --release", "runs the program of such a crate"),
+    by("tests/src/lib.rs", "cargo run --release", "compiles and runs the programs of the guide"),
     by(
         "tests/new/tests/program.rs",
         "cargo run --release --features xca/gpu,xca/terminal",

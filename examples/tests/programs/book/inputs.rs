@@ -8,12 +8,13 @@ use xca_run::io::raster::Raster;
 /// A grid of so many columns and rows, with a value for each column and row from the south.
 struct Grid {
     name: &'static str,
+    side: f64,
     cells: [usize; 2],
     value: fn(usize, usize) -> f64,
 }
 
 const fn grid(name: &'static str, cells: [usize; 2], value: fn(usize, usize) -> f64) -> Grid {
-    Grid { name, cells, value }
+    Grid { name, side: 10.0, cells, value }
 }
 
 const GRIDS: &[Grid] = &[
@@ -27,8 +28,7 @@ const GRIDS: &[Grid] = &[
     // The vents of docs/maps.md lie on it.
     grid("etna.asc", [230, 200], |x, y| 3000.0 - 5.0 * (x.abs_diff(212) + y.abs_diff(182)) as f64),
     grid("fuel.asc", [30, 20], |x, y| if (x + y) % 7 == 0 { 0.5 } else { 1.0 }),
-    // The cells of `life`.
-    grid("soup.asc", [256, 256], |x, y| if (x * x + 3 * y) % 5 == 0 { 1.0 } else { 0.0 }),
+    Grid { side: 1.0, ..grid("soup.asc", [256, 256], |x, y| f64::from((x * x + 3 * y) % 5 == 0)) },
 ];
 
 fn slope(x: usize, y: usize) -> f64 {
@@ -58,7 +58,8 @@ pub(super) fn write(place: &Workplace, command: &str) {
     for grid in GRIDS.iter().filter(|grid| is_named(grid.name, command)) {
         let [columns, rows] = grid.cells;
         let values = (0..rows).flat_map(|y| (0..columns).map(move |x| (grid.value)(x, y))).collect();
-        let raster = Raster::new(grid.cells, 10.0, values).unwrap().with_corner([499_000.0, 4_177_000.0]);
+        let raster =
+            Raster::new(grid.cells, grid.side, values).unwrap().with_corner([499_000.0, 4_177_000.0]);
         let path = place.path(grid.name);
         if grid.name.ends_with(".tif") {
             geotiff::write(&path, &raster, SampleType::F64).unwrap();

@@ -9,10 +9,8 @@ pub(super) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// A page with its commands, in the order of the page.
+/// The commands of a page, in its order.
 pub(crate) struct Page {
-    /// Its path from the root of the workspace.
-    pub(crate) name: String,
     pub(crate) commands: Vec<Command>,
 }
 
@@ -22,13 +20,13 @@ impl Page {
         let summary = fs::read_to_string(root().join("docs/SUMMARY.md")).unwrap();
         let links = summary.split("](").skip(1).map(|rest| rest.split(')').next().unwrap());
         let names = links.map(|link| format!("docs/{link}"));
-        std::iter::once("README.md".to_owned()).chain(names).map(Self::read).collect()
+        std::iter::once("README.md".to_owned()).chain(names).map(|name| Self::read(&name)).collect()
     }
 
-    fn read(name: String) -> Self {
-        let text = fs::read_to_string(root().join(&name)).unwrap();
-        let commands = commands(&text).into_iter().map(|(line, text)| Command::read(&name, line, &text));
-        Self { commands: commands.collect(), name }
+    fn read(name: &str) -> Self {
+        let text = fs::read_to_string(root().join(name)).unwrap();
+        let commands = commands(&text).into_iter().map(|(line, text)| Command::read(name, line, &text));
+        Self { commands: commands.collect() }
     }
 }
 
@@ -163,8 +161,8 @@ output
             (3, "life run --steps 3"),
             (7, "life run"),
             (9, "heat run --set 'a#b=1' --steps 4"),
-            (17, "cargo test"),
-            (21, "heat list"),
+            (18, "cargo test"),
+            (22, "heat list"),
         ]
     );
 }
