@@ -114,6 +114,13 @@ fn lists_are_those_of_the_pages() {
             wrong.push(format!("{command} is not run, and not listed in book/elsewhere.rs"));
         }
     }
+    for command in &commands {
+        if let Start::Mpi(words, _) = &command.start
+            && words.first().is_none_or(|word| word != "-n")
+        {
+            wrong.push(format!("{command}: `-n` and the number of ranks come first"));
+        }
+    }
     for elsewhere in ELSEWHERE {
         let title = format!("book/elsewhere.rs, `{}` ({})", elsewhere.command, elsewhere.why);
         if !others.iter().any(|command| command.text == elsewhere.command) {

@@ -7,7 +7,6 @@ use std::fmt;
 const TOOLS: [&str; 7] = ["apt", "apt-get", "bash", "cargo", "mpirun", "srun", "sudo"];
 
 /// What a command starts.
-#[derive(Clone)]
 pub(crate) enum Start {
     /// A program of the gallery.
     Program(Invocation),

@@ -39,7 +39,7 @@ fn commands(text: &str) -> Vec<(usize, String)> {
         if let Some(tag) = line.trim_start().strip_prefix("```") {
             let block: Vec<_> =
                 lines.by_ref().take_while(|(_, line)| !line.trim_start().starts_with("```")).collect();
-            if ["", "sh"].contains(&tag.trim()) {
+            if ["", "bash", "console", "sh", "shell"].contains(&tag.trim()) {
                 found.extend(of_block(&block));
             }
         } else if is_part_of_prose(line) {

@@ -15,9 +15,7 @@ fn commands_of_the_book_can_be_run_by_mpirun() {
         for command in &page.commands {
             let Start::Mpi(words, invocation) = &command.start else { continue };
             let run = Run::prepare(&place, command, invocation);
-            let ["-n", ranks, words @ ..] = &words.iter().map(String::as_str).collect::<Vec<_>>()[..] else {
-                panic!("{command}: the number of ranks comes first");
-            };
+            let [_, ranks, words @ ..] = &words[..] else { panic!("{command} has no number of ranks") };
             let ranks = ranks.parse::<u32>().unwrap().min(MOST_RANKS);
             let mut started = place.invocation("mpirun", &format!("-n {ranks}"));
             started.args(words).arg(&run.program).args(&run.words);
