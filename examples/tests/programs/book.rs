@@ -48,7 +48,7 @@ impl Run {
         }
         if words[0] == "new" {
             // A reader is in the folder of xca, in which the program finds it.
-            words.extend(["--xca-path".to_owned(), pages::root().to_str().unwrap().to_owned()]);
+            words.extend(["--xca-path".to_owned(), command::root().to_str().unwrap().to_owned()]);
         }
         Self { title, program: path(&program), words }
     }
@@ -127,7 +127,7 @@ fn lists_are_those_of_the_pages() {
             wrong.push(format!("{title}: no page has this command"));
         }
         if let Some(file) = elsewhere.checked_by
-            && !pages::root().join(file).is_file()
+            && !command::root().join(file).is_file()
         {
             wrong.push(format!("{title}: there is no {file}"));
         }

@@ -1,10 +1,15 @@
 //! A command of a page: which program it starts, with which words.
 
-use super::pages::root;
 use std::fmt;
+use std::path::{Path, PathBuf};
 
 /// Programs that commands in running text begin with, beside those of the gallery.
 const TOOLS: [&str; 7] = ["apt", "apt-get", "bash", "cargo", "mpirun", "srun", "sudo"];
+
+/// The root of the workspace.
+pub(super) fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
 
 /// What a command starts.
 pub(crate) enum Start {

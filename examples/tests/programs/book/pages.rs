@@ -1,13 +1,7 @@
 //! The pages of the book, and the commands that they show.
 
-use super::command::{Command, is_command};
+use super::command::{Command, is_command, root};
 use std::fs;
-use std::path::{Path, PathBuf};
-
-/// The root of the workspace.
-pub(super) fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
 
 /// The commands of a page, in its order.
 pub(crate) struct Page {
