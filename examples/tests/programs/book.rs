@@ -43,8 +43,11 @@ impl Run {
             title = format!("{title}, as `{invocation}`, because {}", short.reason);
         }
         let Invocation { program, mut words } = invocation;
-        if words[0] == "resume" && !words.iter().any(|word| word == "--steps") {
-            before::leave_as_killed(&place.path(&words[1]));
+        if let [subcommand, folder, ..] = &words[..]
+            && subcommand == "resume"
+            && !words.iter().any(|word| word == "--steps")
+        {
+            before::leave_as_killed(&place.path(folder));
         }
         if words[0] == "new" {
             // A reader is in the folder of xca, in which the program finds it.

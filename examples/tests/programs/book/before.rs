@@ -40,14 +40,18 @@ impl Before {
 }
 
 /// Makes an output directory that of a run killed after its last checkpoint but one, so that `resume` has
-/// something to do. Where there is no such directory, `resume` says so.
+/// something to do. If there is no such directory, `resume` itself says so.
 pub(super) fn leave_as_killed(folder: &Path) {
+    let report = folder.join("run.json");
+    if !report.exists() {
+        return;
+    }
+    fs::remove_file(report).unwrap();
     let Ok(entries) = fs::read_dir(folder.join("checkpoints")) else { return };
     let entries = entries.map(|entry| entry.unwrap().path());
     let is_checkpoint = |path: &PathBuf| path.extension().is_some_and(|it| it == "checkpoint");
     let mut checkpoints: Vec<PathBuf> = entries.filter(is_checkpoint).collect();
     checkpoints.sort();
-    fs::remove_file(folder.join("run.json")).unwrap();
     if checkpoints.len() > 1 {
         fs::remove_file(checkpoints.pop().unwrap()).unwrap();
     }
