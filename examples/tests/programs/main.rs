@@ -3,10 +3,10 @@
 #![allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should")]
 
 mod begun;
+mod book;
 mod checkpoints;
 mod compared;
 mod continued;
-mod documented;
 mod doors;
 mod files;
 mod gallery;

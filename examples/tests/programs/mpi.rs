@@ -2,6 +2,7 @@
 //!
 //! There may be more processes than cores here, so nothing is said about times.
 
+mod book;
 mod ends;
 mod launched;
 mod misuse;

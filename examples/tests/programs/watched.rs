@@ -139,6 +139,14 @@ fn step(text: &str) -> Option<u64> {
     text.strip_prefix("step ")?.split_whitespace().next()?.parse().ok()
 }
 
+/// Runs `PROGRAM watch OPTIONS` until it shows a step, and leaves it.
+pub(crate) fn assert_watched(place: &Workplace, program: &str, options: &str) {
+    let mut terminal = Terminal::watch(place, program, options);
+    terminal.until("the run begins", |text| step(text).is_some());
+    terminal.press("q");
+    assert_eq!(terminal.ended().exit_code(), 0, "{program} watch {options}");
+}
+
 #[test]
 fn a_run_is_paused_and_goes_on_step_by_step() {
     let place = Workplace::new();

@@ -14,15 +14,21 @@ pub(crate) fn mpirun(place: &Workplace, ranks: usize, program: &str, words: &str
     let mut command = Command::new("mpirun");
     command.args(["-n", &ranks.to_string(), "--oversubscribe", "--bind-to", "none"]);
     command.arg(program).args(words.split_whitespace()).current_dir(place.path(""));
+    on_this_machine(&mut command);
+    command
+}
+
+/// Lets `mpirun` start processes on a machine of tests, however few cores it has; what they say is kept.
+pub(super) fn on_this_machine(command: &mut Command) -> &mut Command {
     let settings = [
         ("OMPI_ALLOW_RUN_AS_ROOT", "1"),
         ("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"),
         // Containers may forbid the other ways to share memory.
         ("OMPI_MCA_btl_vader_single_copy_mechanism", "none"),
+        ("OMPI_MCA_rmaps_base_oversubscribe", "1"),
     ];
     command.envs(settings).env_remove("RUST_BACKTRACE");
-    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
-    command
+    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped())
 }
 
 /// Waits until a command has ended; one that hangs is killed.
