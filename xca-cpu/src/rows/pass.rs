@@ -157,7 +157,9 @@ impl<'a> Pass<'a> {
                     }
                     _ => {
                         let outcome = self.run_row(prepared, &cells, *population, &mut work);
-                        self.continue_row(prepared, row);
+                        if prepared.continues {
+                            self.continue_row(prepared, row);
+                        }
                         outcome.widest
                     }
                 };

@@ -54,6 +54,8 @@ pub(super) struct Prepared<'a> {
     pub(super) number: usize,
     pub(super) kernel: RowKernel,
     pub(super) substates: Vec<Shared>,
+    /// Whether one of them must be continued into the halo.
+    pub(super) continues: bool,
     pub(super) population: Option<usize>,
 }
 
@@ -69,10 +71,11 @@ pub(super) fn prepare<'a>(
     let process = &model.processes()[index];
     let plan = model.plan().process(index);
     let accesses = process.access.iter().zip(&plan.accesses);
-    let substates =
+    let substates: Vec<Shared> =
         accesses.map(|(access, &substate)| shared(layout, groups, access, substate, written)).collect();
-    let population = plan.population;
-    Prepared { process, index, number, kernel: process.kernel(precision), substates, population }
+    let continues = substates.iter().any(|shared| shared.continued);
+    let (kernel, population) = (process.kernel(precision), plan.population);
+    Prepared { process, index, number, kernel, substates, continues, population }
 }
 
 fn shared(

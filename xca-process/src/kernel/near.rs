@@ -127,7 +127,7 @@ impl Row<'_> {
         walk.key = Some(key);
         let walk = &mut *walk;
         let square = radius * radius;
-        self.fetch(positions);
+        self.fetch(filter, positions);
         if self.frame.toroidal.contains(&true) {
             let draws = self.draws();
             let space = self.space::<R>(&draws);

@@ -341,9 +341,9 @@ impl<'a> Row<'a> {
 
     /// Prefetches the positions that the next row's searches read first: those after the last row of the
     /// neighbourhood. The processor's own prefetcher cannot predict the jumps of searches.
-    pub(super) fn fetch<R: Float>(&self, positions: &[Vector3<R>]) {
+    pub(super) fn fetch<R: Float>(&self, filter: &CellFilter, positions: &[Vector3<R>]) {
         let Some(&last) = self.frame.offsets.last() else { return };
-        let end = self.length.saturating_sub(1 + self.frame.geometry.neighbourhood().reach()[0]);
+        let end = self.length.saturating_sub(1 + filter.reach[0] as usize);
         // SAFETY: an offset of the neighbourhood.
         let [first, end] = [0, end].map(|number| unsafe { self.items_at(self.column(number), last) });
         // One row ahead, so that there is time to load them.
