@@ -40,7 +40,7 @@ impl Files {
     /// Makes the folder; `inputs` is what the comparison has read.
     pub fn prepare(folder: &Path, inputs: &[InputFile]) -> Result<Self, FolderError> {
         let files: Vec<String> = files().map(str::to_owned).collect();
-        let claim = Claim { kind: Kind::Comparison, files: &files, inputs, program: None };
+        let claim = Claim { kind: Kind::Comparison, files: &files, inputs, program: None, overwrite: false };
         Ok(Self { folder: LockedFolder::prepare(folder, &claim)? })
     }
 

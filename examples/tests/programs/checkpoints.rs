@@ -70,6 +70,27 @@ fn the_offer_names_the_program_as_it_was_started() {
     }
 }
 
+/// A run that could be resumed is overwritten only on demand; one that has ended always.
+#[test]
+fn an_unfinished_run_is_not_overwritten_silently() {
+    let run = Killed::new();
+    let words = "run --size 10 --steps 3 --until 0 --out here";
+    let said = run.refuse(HEAT, words);
+    assert_eq!(
+        said,
+        format!(
+            "error: here holds an unfinished run with checkpoints; resume it, overwrite it with --overwrite, \
+             or give another directory with --out\nresume it with\n  {HEAT} resume here\n"
+        )
+    );
+    assert!(run.latest.is_file() && run.older.is_file());
+    run.place.succeed(HEAT, "--size 10 --steps 3 --until 0 --out here --overwrite");
+    assert!(!run.latest.exists() && !run.older.exists());
+    run.place.succeed(HEAT, "--size 10 --steps 4 --until 0 --checkpoint-every 2 --out here");
+    run.place.succeed(HEAT, "--size 10 --steps 5 --until 0 --out here");
+    assert_eq!(report(&run.place.path("here"))["progress"]["steps"], 5);
+}
+
 #[test]
 fn truncated_or_altered_ones() {
     let run = Killed::new();
