@@ -11,7 +11,7 @@ mod tests;
 
 pub use error::ReportError;
 
-use crate::table::table;
+use crate::table::table_within;
 use sheets::Sheet;
 use std::fmt::Write as _;
 use std::io::{self, Write as _};
@@ -30,6 +30,9 @@ pub struct Files {
 /// What is in it.
 const PAGE: &str = "compare.html";
 const MARKDOWN: &str = "compare.md";
+
+/// The most columns of a table on the terminal.
+const WIDTH: usize = 100;
 
 /// The files of a comparison.
 fn files() -> impl Iterator<Item = &'static str> {
@@ -71,9 +74,9 @@ impl Files {
 /// For the terminal.
 pub fn text(comparison: &ComparisonReport) -> String {
     let mut out = sheets::headline(comparison);
-    for Sheet { header, right, rows, .. } in sheets::all(comparison) {
+    for Sheet { header, right, rows, .. } in sheets::narrow(comparison) {
         // Writing to a string cannot fail.
-        let _ = write!(out, "\n\n{}", table(header, rows, &right));
+        let _ = write!(out, "\n\n{}", table_within(WIDTH, &header, &rows, &right));
     }
     out.push('\n');
     for note in sheets::notes(comparison) {
