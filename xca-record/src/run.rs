@@ -196,7 +196,7 @@ impl Run {
         Self { allow_rounding: true, ..self }
     }
 
-    /// Also overwrites an unfinished run that has checkpoints. Default: [`Self::begin`] refuses its directory.
+    /// Also overwrites an unfinished run with checkpoints. Default: [`Self::begin`] refuses its directory.
     #[must_use]
     pub fn overwrite(self) -> Self {
         Self { overwrite: true, ..self }

@@ -2,13 +2,18 @@
 
 use std::env;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A command of this program that the user can paste, such as `./life resume out/life`. Without the words of
 /// the process it starts with the name of the program.
 pub(crate) fn command(name: &str, words: &[&str]) -> String {
     let start = Start::of_process().map_or_else(|| name.to_owned(), |start| start.words());
     [start].into_iter().chain(words.iter().copied().map(quoted)).collect::<Vec<_>>().join(" ")
+}
+
+/// The command of this program that resumes a run.
+pub(crate) fn resume(name: &str, folder: &Path) -> String {
+    command(name, &["resume", &folder.display().to_string()])
 }
 
 /// How a process was started.

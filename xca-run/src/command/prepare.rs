@@ -2,7 +2,6 @@
 
 use super::choice::RunInvocation;
 use super::outcome::Unable;
-use super::resume;
 use super::working_directory::WorkingDirectory;
 use crate::called;
 use crate::engines::EngineChoice;
@@ -107,8 +106,8 @@ pub(super) fn not_begun(program: &str, error: BeginError) -> Unable {
     match error {
         BeginError::Start(error) => not_started(error),
         BeginError::Folder(FolderError::Unfinished { ref folder }) => {
-            let command = called::command(program, &[resume::NAME, &folder.display().to_string()]);
-            Unable::RefusedOffering(error.into(), format!("resume it with\n  {command}"))
+            let offer = format!("resume it with\n  {}", called::resume(program, folder));
+            Unable::RefusedOffering(error.into(), offer)
         }
         other => Unable::refused(other),
     }

@@ -38,8 +38,7 @@ impl UnderWay {
     }
 
     fn how_to_go_on(&self) -> String {
-        let folder = self.recording.folder().display().to_string();
-        let command = called::command(&self.recording.report().program, &["resume", &folder]);
+        let command = called::resume(&self.recording.report().program, self.recording.folder());
         format!("; continue with `{command}`")
     }
 
