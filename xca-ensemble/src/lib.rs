@@ -338,7 +338,8 @@ impl Ensemble {
             return if is_own { Ok(folder) } else { Err(other()) };
         }
         let files = [MEMBERS, SUMMARY, PAGE].map(str::to_owned);
-        let claim = Claim { kind: Kind::Ensemble, files: &files, inputs: &[], program: None };
+        let claim =
+            Claim { kind: Kind::Ensemble, files: &files, inputs: &[], program: None, overwrite: false };
         let folder = LockedFolder::prepare(path, &claim)?;
         let Identity { program, version, .. } = self.identity.clone();
         let told = Told {

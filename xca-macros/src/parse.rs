@@ -4,6 +4,7 @@
 //! instead.
 
 mod calls;
+mod draws;
 mod expressions;
 mod loops;
 mod matches;
@@ -29,6 +30,7 @@ pub(crate) fn function(item: &syn::ItemFn, wanted: Wanted) -> Result<Function> {
     let body = scope.block(&item.block);
     scope.finish()?;
     let body = body?;
+    draws::check(&body)?;
     let answers = matches!(signature.kind, FunctionKind::Helper | FunctionKind::Migration);
     if answers && body.value.is_none() && !statements::ends_in_return(&body) {
         return Err(Error::new_spanned(

@@ -91,7 +91,17 @@ impl<T: ElementType, const N: usize> FieldType for [T; N] {
     }
 }
 
-impl<T: States> ElementType for T {
+/// A type that can be copied and compared, as [`States`] must be. An enum that lacks this gets one message.
+#[diagnostic::on_unimplemented(
+    message = "values of type `{Self}` cannot be copied and compared",
+    label = "`{Self}` needs `#[derive(Clone, Copy, PartialEq)]`"
+)]
+pub trait PlainValue {}
+
+#[diagnostic::do_not_recommend]
+impl<T: Copy + PartialEq> PlainValue for T {}
+
+impl<T: States + PlainValue> ElementType for T {
     const TYPE: ValueType = ValueType::scalar(ScalarType::State(T::NAMES));
     type Host = T;
     type Native<R: Float> = T;

@@ -78,7 +78,7 @@ pub use report::ReadReportError;
 #[doc(hidden)]
 pub use run::Resumed;
 pub use run::{BeginError, Run};
-pub use set_up::{SetUp, SetUpError};
+pub use set_up::{FinalWarning, SetUp, SetUpError};
 pub use view::{CellView, ItemView, ViewError};
 #[doc(no_inline)]
 pub use xca_checkpoint::{CheckpointError, InputFile, Outputs};

@@ -11,13 +11,14 @@ pub use finite::check as check_finite;
 
 use crate::machine::peak_memory;
 use crate::monitor::Monitor;
-use crate::observable::Failure;
+use crate::observable::{Failure, Observable};
 use crate::record::{Recorder, RunFolder};
 use crate::report::{self, Earlier, Report};
 use std::path::Path;
 use std::time::{Duration, Instant};
 use xca_checkpoint::{Checkpoint, Description, Origin};
 use xca_core::Simulation;
+use xca_io::numbers::significant;
 
 /// A run in progress. [`crate::Run::begin`] and [`crate::Run::resume`] start one.
 #[derive(Debug)]
@@ -63,6 +64,20 @@ impl Recording {
     /// The output directory.
     pub fn folder(&self) -> &Path {
         self.folder.top.path()
+    }
+
+    /// The warnings of the last observables.
+    #[doc(hidden)]
+    pub fn final_warnings(&self) -> Vec<String> {
+        let (_, _, last) = self.recorder.results();
+        let warnings = self.recorder.set_up().final_warnings.iter();
+        let due = warnings.filter_map(|warning| {
+            let found = last.iter().find(|observable| observable.name == warning.observable)?;
+            let Observable { name, unit, value, .. } = found;
+            let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+            (*value != 0.0).then(|| format!("{} ({name}: {}{unit})", warning.text, significant(*value, 6)))
+        });
+        due.collect()
     }
 
     /// Whether the run writes checkpoints.
@@ -135,6 +150,8 @@ impl Recording {
         self.simulation.finish()?;
         self.check_finite()?;
         self.recorder.finish(&mut self.simulation)?;
+        let warnings = self.final_warnings();
+        self.report.warnings.extend(warnings);
         let done = self.simulation.step_number();
         let progress = &mut self.report.progress;
         if let Some(reason) = self.simulation.stop_reason() {

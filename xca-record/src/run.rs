@@ -64,6 +64,7 @@ pub struct Run {
     checkpoint_every: Option<Interval>,
     allow_non_finite: bool,
     allow_rounding: bool,
+    overwrite: bool,
 }
 
 /// A run that cannot begin or resume.
@@ -130,6 +131,7 @@ impl Run {
             checkpoint_every: None,
             allow_non_finite: false,
             allow_rounding: false,
+            overwrite: false,
         })
     }
 
@@ -194,6 +196,12 @@ impl Run {
         Self { allow_rounding: true, ..self }
     }
 
+    /// Also overwrites an unfinished run with checkpoints. Default: [`Self::begin`] refuses its directory.
+    #[must_use]
+    pub fn overwrite(self) -> Self {
+        Self { overwrite: true, ..self }
+    }
+
     #[doc(hidden)]
     #[must_use]
     pub fn identity(self, identity: Identity) -> Self {
@@ -242,11 +250,13 @@ impl Run {
         report
     }
 
-    /// Prepares the output directory and the initial state. Overwrites an earlier run there.
+    /// Prepares the output directory and the initial state. Overwrites an earlier run there, if it has ended
+    /// or has no checkpoint.
     ///
     /// # Errors
-    /// Returns an error if the directory holds files that no run of this program has made, another run writes
-    /// there, or the engine cannot run the model.
+    /// Returns an error if the directory holds files that no run of this program has made, an unfinished run
+    /// with checkpoints (see [`Self::overwrite`] and [`Self::resume_or_begin`]), another run writes there, or
+    /// the engine cannot run the model.
     pub fn begin(self, folder: impl AsRef<Path>, engine: &dyn Engine) -> Result<Recording, BeginError> {
         let begin = Instant::now();
         let origin = self.origin().on(engine);
@@ -258,7 +268,8 @@ impl Run {
         }
         let inputs = &self.recorder.set_up().inputs;
         let program = Some(report.program.as_str());
-        let claim = Claim { kind: Kind::Run, files: &report.files, inputs, program };
+        let claim =
+            Claim { kind: Kind::Run, files: &report.files, inputs, program, overwrite: self.overwrite };
         let folder = RunFolder::prepare(folder.as_ref(), &claim)?;
         let checkpoints = self.checkpoint_every.map(|interval| Checkpoints::new(interval, &folder, None));
         Ok(Recording {

@@ -63,6 +63,16 @@ pub struct SetUp {
     pub notes: serde_json::Map<String, serde_json::Value>,
     /// Reasons to doubt the results, in sentences.
     pub warnings: Vec<String>,
+    /// Warnings of the end of a run.
+    pub final_warnings: Vec<FinalWarning>,
+}
+
+/// A warning after the last step, if an observable is not zero then.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct FinalWarning {
+    pub observable: String,
+    pub text: String,
 }
 
 impl SetUp {
@@ -87,6 +97,7 @@ impl SetUp {
             formats,
             notes: serde_json::Map::new(),
             warnings: Vec::new(),
+            final_warnings: Vec::new(),
         }
     }
 
@@ -192,6 +203,16 @@ impl SetUp {
     #[must_use]
     pub fn warning(mut self, text: impl Into<String>) -> Self {
         self.warnings.push(text.into());
+        self
+    }
+
+    /// Warns after the last step if an observable is not zero then, such as the number of cells in which lava
+    /// has reached the edge of the map.
+    ///
+    /// A program prints the text with the value on stderr; `run.json` keeps it in `warnings`.
+    #[must_use]
+    pub fn warning_unless_zero(mut self, observable: impl Into<String>, text: impl Into<String>) -> Self {
+        self.final_warnings.push(FinalWarning { observable: observable.into(), text: text.into() });
         self
     }
 

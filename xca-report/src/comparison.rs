@@ -11,7 +11,7 @@ mod tests;
 
 pub use error::ReportError;
 
-use crate::table::table;
+use crate::table::table_within;
 use sheets::Sheet;
 use std::fmt::Write as _;
 use std::io::{self, Write as _};
@@ -31,6 +31,9 @@ pub struct Files {
 const PAGE: &str = "compare.html";
 const MARKDOWN: &str = "compare.md";
 
+/// The most columns of a table on the terminal.
+const WIDTH: usize = 100;
+
 /// The files of a comparison.
 fn files() -> impl Iterator<Item = &'static str> {
     [JSON, PAGE, MARKDOWN].into_iter().chain(csv_files::NAMES)
@@ -40,7 +43,7 @@ impl Files {
     /// Makes the folder; `inputs` is what the comparison has read.
     pub fn prepare(folder: &Path, inputs: &[InputFile]) -> Result<Self, FolderError> {
         let files: Vec<String> = files().map(str::to_owned).collect();
-        let claim = Claim { kind: Kind::Comparison, files: &files, inputs, program: None };
+        let claim = Claim { kind: Kind::Comparison, files: &files, inputs, program: None, overwrite: false };
         Ok(Self { folder: LockedFolder::prepare(folder, &claim)? })
     }
 
@@ -71,9 +74,9 @@ impl Files {
 /// For the terminal.
 pub fn text(comparison: &ComparisonReport) -> String {
     let mut out = sheets::headline(comparison);
-    for Sheet { header, right, rows, .. } in sheets::all(comparison) {
+    for Sheet { header, right, rows, .. } in sheets::narrow(comparison) {
         // Writing to a string cannot fail.
-        let _ = write!(out, "\n\n{}", table(header, rows, &right));
+        let _ = write!(out, "\n\n{}", table_within(WIDTH, &header, &rows, &right));
     }
     out.push('\n');
     for note in sheets::notes(comparison) {

@@ -31,6 +31,32 @@ pub fn table(
     out
 }
 
+/// A table within a width. What does not fit of its last columns stands below each row, indented.
+pub fn table_within(width: usize, header: &[String], rows: &[Vec<String>], right: &[usize]) -> String {
+    let of = |row: &[String], columns: usize| row[..columns.min(row.len())].to_vec();
+    let narrowed = |columns: usize| {
+        let rows = rows.iter().map(|row| of(row, columns));
+        table(of(header, columns), rows, right)
+    };
+    let is_narrow = |text: &str| text.lines().all(|line| line.chars().count() <= width);
+    let mut columns = header.len();
+    let mut text = narrowed(columns);
+    while columns > 1 && !is_narrow(&text) {
+        columns -= 1;
+        text = narrowed(columns);
+    }
+    let mut lines = text.lines();
+    let mut out: Vec<String> = lines.by_ref().take(2).map(str::to_owned).collect();
+    for (line, row) in lines.zip(rows) {
+        out.push(line.to_owned());
+        let rest =
+            header.iter().zip(row).skip(columns).filter(|(_, value)| !["", "–"].contains(&value.as_str()));
+        let rest: Vec<String> = rest.map(|(name, value)| format!("{name}: {value}")).collect();
+        out.extend(wrapped(&rest.join("; "), width - 4).into_iter().map(|line| format!("    {line}")));
+    }
+    out.join("\n")
+}
+
 /// Columns that a terminal has.
 pub const WIDTH: usize = 80;
 
@@ -82,6 +108,20 @@ mod tests {
         assert!(lines[2].starts_with(" a") && lines[6].starts_with(" b"), "{text}");
         assert_eq!(lines[3].chars().count(), 4 + 15 * 5 - 1, "{text}");
         assert_eq!([lines[4].len(), lines[5].len()], [4 + 15 * 5 - 1, 8], "{text}");
+    }
+
+    #[test]
+    fn what_does_not_fit_stands_below() {
+        let words = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect::<Vec<String>>();
+        let header = words(&["engine", "ulp", "worst in"]);
+        let rows = [words(&["cpu", "12", "cell [10, 20, 3]"]), words(&["gpu", "0", "–"])];
+        let wide = table_within(80, &header, &rows, &[1]);
+        assert_eq!(wide, table(header.clone(), rows.clone(), &[1]));
+        let narrow = table_within(30, &header, &rows, &[1]);
+        let lines: Vec<&str> = narrow.lines().collect();
+        assert_eq!(lines.len(), 5, "{narrow}");
+        assert_eq!(lines[3], "    worst in: cell [10, 20, 3]");
+        assert!(lines[0].ends_with("ulp") && lines[2].ends_with("12") && lines[4].ends_with('0'), "{narrow}");
     }
 
     #[test]

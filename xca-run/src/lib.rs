@@ -71,6 +71,7 @@
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
+mod called;
 mod command;
 mod contender;
 mod engines;

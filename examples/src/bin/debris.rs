@@ -36,6 +36,8 @@ fn main() -> ExitCode {
             ])
         };
         let model = model(EXTENTS, SIDE, Debris::default(), gully)?;
-        Ok(SetUp::new(model, 800).observables(observe).cells(view))
+        let set_up = SetUp::new(model, 800).observables(observe).cells(view);
+        let text = "debris has reached the edge of the map and piles up there";
+        Ok(set_up.warning_unless_zero("debris_at_edge", text))
     })
 }

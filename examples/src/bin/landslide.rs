@@ -168,6 +168,9 @@ fn fitness(thickness: &[f64], observed: &[bool]) -> f64 {
     if either == 0 { 1.0 } else { (shared as f64 / either as f64).sqrt() }
 }
 
+/// The warning of a run in which debris has reached the edge.
+const TOO_SMALL: &str = "debris has reached the edge of the map and piles up there; use a larger map";
+
 impl Program for Landslide {
     const NAME: &'static str = "landslide";
     const ABOUT: &'static str =
@@ -224,6 +227,7 @@ impl Program for Landslide {
         let view = CellView::named("landslide").draw(Slope::THICKNESS, "thickness of the debris (m)");
         let view = view.relief(Slope::ALTITUDE, 0.0);
         let set_up = SetUp::new(model, 4000).observables(observe).cells(view).map(map);
+        let set_up = set_up.warning_unless_zero("debris_at_edge", TOO_SMALL);
         Ok(files.fold(set_up, SetUp::input))
     }
 }

@@ -77,6 +77,9 @@ impl Eruption {
     }
 }
 
+/// The warning of a run in which lava has reached the edge.
+const TOO_SMALL: &str = "lava has reached the edge of the map and piles up there; use a larger map";
+
 impl Program for Eruption {
     const NAME: &'static str = "lava";
     const ABOUT: &'static str = "Lava out of the vents of a volcano";
@@ -113,6 +116,7 @@ impl Program for Eruption {
         let view = CellView::named("lava").draw(Volcano::TEMPERATURE, "temperature (K)");
         let view = view.range(1000.0, lava.vent_temperature).relief(Volcano::ALTITUDE, 0.0);
         let set_up = SetUp::new(model, 720).time_step(lava.clock).observables(observe).cells(view);
+        let set_up = set_up.warning_unless_zero("lava_at_edge", TOO_SMALL);
         Ok(self.dem.iter().fold(set_up.map(map), SetUp::input))
     }
 }

@@ -3,7 +3,7 @@
 
 use crate::running::{HEAT, LIFE, MOD2, Workplace, report, results};
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A run that was killed, with two checkpoints.
 struct Killed {
@@ -12,8 +12,13 @@ struct Killed {
     latest: PathBuf,
 }
 
-const OFFER: &str = "another checkpoint is intact; resume from it with\n  \
-     heat resume here --checkpoint here/checkpoints/step_00000020.checkpoint\n";
+/// What is offered instead of the latest checkpoint, with the words that start the program.
+fn offer(start: &str) -> String {
+    format!(
+        "another checkpoint is intact; resume from it with\n  \
+         {start} resume here --checkpoint here/checkpoints/step_00000020.checkpoint\n"
+    )
+}
 
 impl Killed {
     fn new() -> Self {
@@ -45,6 +50,47 @@ impl Killed {
     }
 }
 
+/// A hint can be pasted: it starts the program as the user did.
+#[test]
+fn the_offer_names_the_program_as_it_was_started() {
+    let run = Killed::new();
+    fs::write(&run.latest, "").unwrap();
+    let package = env!("CARGO_MANIFEST_DIR");
+    let mut command = run.place.invocation(HEAT, "resume here");
+    command.env("CARGO", "cargo").env("CARGO_MANIFEST_DIR", package).env("CARGO_PKG_NAME", "xca-examples");
+    let said = String::from_utf8(command.output().unwrap().stderr).unwrap();
+    let profile = if Path::new(HEAT).parent().unwrap().ends_with("release") { " --release" } else { "" };
+    assert!(said.ends_with(&offer(&format!("cargo run{profile} --bin heat --"))), "{said}");
+    #[cfg(unix)]
+    {
+        let mut command = run.place.invocation(HEAT, "resume here");
+        std::os::unix::process::CommandExt::arg0(&mut command, "./heat");
+        let said = String::from_utf8(command.output().unwrap().stderr).unwrap();
+        assert!(said.ends_with(&offer("./heat")), "{said}");
+    }
+}
+
+/// A run that could be resumed is overwritten only on demand; one that has ended always.
+#[test]
+fn an_unfinished_run_is_not_overwritten_silently() {
+    let run = Killed::new();
+    let words = "run --size 10 --steps 3 --until 0 --out here";
+    let said = run.refuse(HEAT, words);
+    assert_eq!(
+        said,
+        format!(
+            "error: here holds an unfinished run with checkpoints; resume it, overwrite it with --overwrite, \
+             or give another directory with --out\nresume it with\n  {HEAT} resume here\n"
+        )
+    );
+    assert!(run.latest.is_file() && run.older.is_file());
+    run.place.succeed(HEAT, "--size 10 --steps 3 --until 0 --out here --overwrite");
+    assert!(!run.latest.exists() && !run.older.exists());
+    run.place.succeed(HEAT, "--size 10 --steps 4 --until 0 --checkpoint-every 2 --out here");
+    run.place.succeed(HEAT, "--size 10 --steps 5 --until 0 --out here");
+    assert_eq!(report(&run.place.path("here"))["progress"]["steps"], 5);
+}
+
 #[test]
 fn truncated_or_altered_ones() {
     let run = Killed::new();
@@ -55,7 +101,10 @@ fn truncated_or_altered_ones() {
         fs::write(&run.latest, &whole[..length]).unwrap();
         let said = run.refuse(HEAT, "resume here");
         let file = "error: here/checkpoints/step_00000022.checkpoint is truncated: ";
-        assert!(said.starts_with(&format!("{file}{length} bytes of ")) && said.ends_with(OFFER), "{said}");
+        assert!(
+            said.starts_with(&format!("{file}{length} bytes of ")) && said.ends_with(&offer(HEAT)),
+            "{said}"
+        );
     }
     for place in [line + 30, whole.len() - 2000, whole.len() - 1] {
         let mut altered = whole.clone();
@@ -64,7 +113,7 @@ fn truncated_or_altered_ones() {
         let said = run.refuse(HEAT, "resume here");
         assert!(
             said.contains("has been altered: its checksum does not match its content\n")
-                && said.ends_with(OFFER),
+                && said.ends_with(&offer(HEAT)),
             "{said}"
         );
     }
@@ -100,7 +149,7 @@ fn those_of_others() {
         said.contains("belongs to another run: its command line is ") && said.contains("alpha=0.1"),
         "{said}"
     );
-    assert!(said.ends_with(&OFFER.replace("00000020", "00000022")), "{said}");
+    assert!(said.ends_with(&offer(HEAT).replace("00000020", "00000022")), "{said}");
     // Also where nothing else tells that the run was another one.
     fs::copy(run.place.path("there/run.json"), run.place.path("here/run.json")).unwrap();
     let report = run.place.read("here/run.json").replace("\"done\"", "\"running\"");

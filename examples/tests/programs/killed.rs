@@ -131,7 +131,7 @@ fn a_run_goes_on_after_ctrl_c() {
     let output = child.wait_with_output().unwrap();
     let said = String::from_utf8(output.stdout).unwrap();
     assert_eq!(output.status.code(), Some(130), "{said}");
-    assert!(said.contains("; continue with `mod2 resume here`"), "{said}");
+    assert!(said.contains(&format!("; continue with `{MOD2} resume here`")), "{said}");
     let steps = report(&place.path("here"))["progress"]["steps"].as_u64().unwrap();
     assert!(place.path(&format!("here/checkpoints/step_{steps:08}.checkpoint")).is_file());
     assert!(place.path("here/final.png").is_file());

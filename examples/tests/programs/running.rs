@@ -53,6 +53,8 @@ impl Workplace {
         let mut command = Command::new(program);
         command.args(words.split_whitespace()).current_dir(self.folder.path());
         command.env_remove("RUST_BACKTRACE");
+        // The test is started by cargo, the program by the test.
+        command.env_remove("CARGO");
         // Where there is no desktop, a layer that comes with Mesa complains of that on stderr.
         command.env("NODEVICE_SELECT", "1");
         command

@@ -264,8 +264,8 @@ fn without_a_terminal_nothing_is_watched() {
     let output = place.invocation(LIFE, "watch").output().unwrap();
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(2), "{said}");
-    assert!(said.starts_with("error: `life watch` needs a terminal"), "{said}");
-    assert!(said.contains("`life run`") && said.contains("`life render`"), "{said}");
+    assert!(said.starts_with("error: `watch` needs a terminal; "), "{said}");
+    assert!(said.contains("`run` writes files and `render` draws pictures"), "{said}");
     assert!(output.stdout.is_empty());
 }
 

@@ -116,6 +116,8 @@ pub struct Claim<'a> {
     pub inputs: &'a [InputFile],
     /// The program whose output alone may be replaced. `None` if it may be that of any program.
     pub program: Option<&'a str>,
+    /// Whether an unfinished run may be replaced, also where it could be resumed.
+    pub overwrite: bool,
 }
 
 impl Claim<'_> {
@@ -129,6 +131,9 @@ impl Claim<'_> {
             let is_other = |found: &&String| self.program.is_some_and(|program| program != **found);
             if let Some(program) = owner.program.as_ref().filter(is_other) {
                 return Err(FolderError::OtherProgram { folder: path.to_owned(), program: program.clone() });
+            }
+            if !self.overwrite && owner.can_resume(path) {
+                return Err(FolderError::Unfinished { folder: path.to_owned() });
             }
             old.extend(owner.files(path, self.files));
         }

@@ -21,6 +21,25 @@ pub(super) struct Sheet {
     pub(super) rows: Vec<Vec<String>>,
 }
 
+/// What a table shows where there is nothing to tell.
+const DASH: &str = "–";
+
+impl Sheet {
+    /// The columns with these numbers, without those that tell nothing.
+    fn columns(&self, columns: &[usize]) -> Self {
+        let has_content = |column: &usize| self.rows.iter().any(|row| row[*column] != DASH);
+        let columns: Vec<usize> = columns.iter().copied().filter(has_content).collect();
+        let of = |row: &Vec<String>| columns.iter().map(|column| row[*column].clone()).collect();
+        let is_right = |place: &usize| self.right.contains(&columns[*place]);
+        Self {
+            title: self.title,
+            header: of(&self.header),
+            right: (0..columns.len()).filter(is_right).collect(),
+            rows: self.rows.iter().map(of).collect(),
+        }
+    }
+}
+
 fn words<const N: usize>(words: [&str; N]) -> Vec<String> {
     words.map(str::to_owned).to_vec()
 }
@@ -29,6 +48,18 @@ pub(super) fn all(comparison: &ComparisonReport) -> Vec<Sheet> {
     let sheets = [engines(comparison), work(comparison), differences(comparison), observables(comparison)];
     sheets.into_iter().filter(|sheet| !sheet.rows.is_empty()).collect()
 }
+
+/// The tables for a terminal. The engines have two, as one would be too wide: times, and what else they take.
+pub(super) fn narrow(comparison: &ComparisonReport) -> Vec<Sheet> {
+    let mut sheets = all(comparison);
+    if sheets.first().is_some_and(|sheet| sheet.title == TIMES) {
+        let engines = sheets.remove(0);
+        sheets.splice(0..0, [&[0, 1, 6, 7, 8, 9][..], &[0, 2, 3, 4, 5, 10]].map(|it| engines.columns(it)));
+    }
+    sheets
+}
+
+const TIMES: &str = "Times, speed-up and memory";
 
 pub(super) fn headline(comparison: &ComparisonReport) -> String {
     let times = match comparison.repeats {
@@ -65,7 +96,7 @@ fn spread(spread: Option<Spread>) -> [String; 2] {
         Some(Spread { median, least, largest }) => {
             [seconds(median), format!("{} – {}", seconds(least), seconds(largest))]
         }
-        None => words(["–", "–"]).try_into().unwrap_or_default(),
+        None => words([DASH, DASH]).try_into().unwrap_or_default(),
     }
 }
 
@@ -80,7 +111,7 @@ fn bytes(bytes: usize) -> String {
 }
 
 fn or_dash(value: Option<String>) -> String {
-    value.unwrap_or_else(|| "–".to_owned())
+    value.unwrap_or_else(|| DASH.to_owned())
 }
 
 fn engines(comparison: &ComparisonReport) -> Sheet {
@@ -116,7 +147,7 @@ fn engines(comparison: &ComparisonReport) -> Sheet {
     ]);
     header[8] = format!("{}/s", comparison.updated);
     let rows = comparison.engines.iter().map(row).collect();
-    Sheet { title: "Times, speed-up and memory", header, right: vec![1, 4, 5, 6, 7, 8, 9, 10], rows }
+    Sheet { title: TIMES, header, right: vec![1, 4, 5, 6, 7, 8, 9, 10], rows }
 }
 
 /// What engines tell of their work.
@@ -141,7 +172,7 @@ fn number(value: f64) -> String {
 fn differences(comparison: &ComparisonReport) -> Sheet {
     let row = |engine: &EngineResult, difference: &Difference| {
         let of_numbers =
-            |value: f64| if difference.kind == Kind::Cell { "–".to_owned() } else { number(value) };
+            |value: f64| if difference.kind == Kind::Cell { DASH.to_owned() } else { number(value) };
         let mut place = or_dash(difference.worst.as_ref().map(|worst| worst.place.to_string()));
         if difference.unmatched > 0 {
             place = format!("{} in one state only", counted(difference.unmatched as u64, "item"));

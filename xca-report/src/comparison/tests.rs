@@ -74,6 +74,39 @@ fn markdown_tables_have_rows_of_one_length() {
     assert!(text.contains("harmed: one \\<bit\\> & no more"), "{text}");
 }
 
+/// Also where the place of a difference is long, and with five engines.
+#[test]
+fn tables_fit_the_terminal() {
+    let mut comparison = rounded();
+    let (text, lines) = (text(&comparison), tables(&comparison));
+    for name in ["threads", "time a step", "least – largest", "items/s", "speed-up", "precision", "set-up"]
+    {
+        assert!(lines.iter().any(|line| line.contains(name)), "{name}: {text}");
+    }
+    assert!(!text.contains("adapter"), "{text}");
+    for number in 0..3 {
+        let mut other = comparison.engines[1].clone();
+        other.name = format!("parts:{number}:cpu:16@f32");
+        comparison.engines.push(other);
+        for observable in &mut comparison.observables {
+            observable.last.push(observable.last[1]);
+            observable.drift.extend(observable.drift.get(1).copied());
+        }
+    }
+    let lines = tables(&comparison);
+    let below = lines.iter().any(|line| line.starts_with("    ") && line.ends_with("parts:2:cpu:16@f32: 67"));
+    assert!(below, "{lines:#?}");
+}
+
+/// The lines of the tables, which fit.
+fn tables(comparison: &ComparisonReport) -> Vec<String> {
+    let text = text(comparison);
+    let (tables, _) = text.split_once("\n\nnote: ").unwrap();
+    let lines: Vec<String> = tables.lines().map(str::to_owned).collect();
+    assert!(lines.iter().all(|line| line.chars().count() <= 100), "{tables}");
+    lines
+}
+
 #[test]
 fn the_terminal_shows_tables_and_verdicts() {
     let text = text(&rounded());

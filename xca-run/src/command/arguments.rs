@@ -42,9 +42,13 @@ pub(crate) struct RunArguments {
     #[arg(long, value_name = "N", value_parser = steps)]
     pub(crate) steps: Option<u64>,
 
-    /// Output directory [default: out/NAME]. Overwrites an earlier run
+    /// Output directory [default: out/NAME]. Overwrites an earlier run, unless it can be resumed
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+
+    /// Overwrite an earlier run even if it can be resumed
+    #[arg(long)]
+    pub(crate) overwrite: bool,
 
     /// Write observables and a frame every N steps [default: 20 times in the run]
     #[arg(long, value_name = "N", value_parser = interval)]

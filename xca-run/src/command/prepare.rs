@@ -3,12 +3,14 @@
 use super::choice::RunInvocation;
 use super::outcome::Unable;
 use super::working_directory::WorkingDirectory;
+use crate::called;
 use crate::engines::EngineChoice;
 use crate::program::Given;
 use crate::terminal;
 use xca_checkpoint::Identity;
 use xca_core::{Engine, Model, Precision, RunError, RunOptions};
 use xca_record::machine::check_memory;
+use xca_record::record::FolderError;
 use xca_record::{BeginError, Run, SetUp};
 
 /// A run that can begin.
@@ -55,7 +57,10 @@ fn run_of(invocation: &RunInvocation<'_>, given: &Given, set_up: SetUp) -> Resul
     if let Some(interval) = arguments.checkpoint_every {
         run = run.checkpoint_every(interval);
     }
-    Ok(if arguments.allow_non_finite { run.allow_non_finite() } else { run })
+    if arguments.allow_non_finite {
+        run = run.allow_non_finite();
+    }
+    Ok(if arguments.overwrite { run.overwrite() } else { run })
 }
 
 /// The model, with the formats of its files.
@@ -96,10 +101,14 @@ pub(super) fn warn(set_up: &SetUp) {
     }
 }
 
-/// What cannot begin is a mistake in what was given.
-pub(super) fn not_begun(error: BeginError) -> Unable {
+/// What cannot begin is a mistake in what was given. The command is offered that resumes an unfinished run.
+pub(super) fn not_begun(program: &str, error: BeginError) -> Unable {
     match error {
         BeginError::Start(error) => not_started(error),
+        BeginError::Folder(FolderError::Unfinished { ref folder }) => {
+            let offer = format!("resume it with\n  {}", called::resume(program, folder));
+            Unable::RefusedOffering(error.into(), offer)
+        }
         other => Unable::refused(other),
     }
 }

@@ -103,7 +103,7 @@ fn distance(outputs: Outputs) -> String {
 
 /// Makes the folder for these files.
 fn pictures_folder(path: &Path, files: &[String], inputs: &[InputFile]) -> Result<RunFolder, Unable> {
-    RunFolder::prepare(path, &Claim { kind: Kind::Pictures, files, inputs, program: None })
+    RunFolder::prepare(path, &Claim { kind: Kind::Pictures, files, inputs, program: None, overwrite: false })
         .map_err(Unable::refused)
 }
 

@@ -10,6 +10,7 @@ use super::parse;
 use super::prepare::{Prepared, check_room, described};
 use super::under_way::UnderWay;
 use super::working_directory::WorkingDirectory;
+use crate::called;
 use crate::engines::EngineChoice;
 use clap::{Args, Command};
 use serde_json::json;
@@ -215,13 +216,10 @@ impl Found<'_> {
         let is_other = |path: &PathBuf| path.file_name() != self.path.file_name();
         let others = CheckpointFolder::of_run(&self.arguments.folder).into_iter().filter(is_other);
         let Some(older) = others.into_iter().find(might_do) else { return Unable::Refused(error) };
-        let (name, folder) = (self.definition.name, self.arguments.folder.display());
-        Unable::RefusedOffering(
-            error,
-            format!(
-                "another checkpoint is intact; resume from it with\n  {name} resume {folder} --checkpoint {}",
-                older.display()
-            ),
-        )
+        let [folder, older] = [&self.arguments.folder, &older].map(|path| path.display().to_string());
+        let words = [NAME, &folder, "--checkpoint", &older];
+        let command = called::command(self.definition.name, &words);
+        let offer = format!("another checkpoint is intact; resume from it with\n  {command}");
+        Unable::RefusedOffering(error, offer)
     }
 }

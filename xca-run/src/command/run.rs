@@ -37,7 +37,7 @@ pub(super) fn run(invocation: RunInvocation<'_>) -> Result<Ended, Unable> {
     let Prepared { engine, run } = Prepared::new(&invocation, &invocation.engine)?;
     let RunInvocation { model, run: arguments, .. } = invocation;
     let folder = arguments.out.unwrap_or_else(|| PathBuf::from("out").join(model.definition.name));
-    let recording = run.begin(folder, &*engine).map_err(not_begun)?;
+    let recording = run.begin(folder, &*engine).map_err(|error| not_begun(model.definition.name, error))?;
     UnderWay { recording, voice: arguments.voice, note: engine.note() }.go()
 }
 

@@ -10,6 +10,7 @@ use super::prepare::warn;
 use super::voice::Voice;
 use crate::interrupt::Interrupt;
 use crate::progress::Progress;
+use crate::terminal;
 use xca_record::{Monitor, Outcome, Recording};
 
 /// A run under way.
@@ -55,13 +56,16 @@ impl UnderWay {
         }
         warn(self.recording.recorder().set_up());
         let line = self.voice.line(self.known_steps());
-        let mut terminal = Terminal { line, interrupt: &interrupt };
-        let result = self.recording.go(&mut terminal);
-        terminal.line.finish();
+        let mut monitor = Terminal { line, interrupt: &interrupt };
+        let result = self.recording.go(&mut monitor);
+        monitor.line.finish();
         let outcome = result.map_err(|error| Unable::FailedLeaving(error, self.remains()))?;
         match self.voice.tell(self.recording.report(), || self.summary()) {
             Err(Unable::Failed(error)) => return Err(Unable::FailedLeaving(error, self.remains())),
             told => told?,
+        }
+        for warning in self.recording.final_warnings() {
+            terminal::remark(&format!("warning: {warning}"));
         }
         Ok(if outcome == Outcome::Interrupted { Ended::Interrupted } else { Ended::Done })
     }

@@ -65,6 +65,7 @@ impl WatchArguments {
             checkpoint_every: None,
             formats: Vec::new(),
             allow_non_finite: true,
+            overwrite: false,
             print_source: false,
             voice: Voice::default(),
         }

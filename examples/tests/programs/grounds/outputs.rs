@@ -183,7 +183,14 @@ fn what_reaches_the_edge_is_told() {
     let row = ["700"; 9].join(" ");
     place.write("g.asc", &ground.replace(&row, "700 700 700 700 700 -9999 700 700 700"));
     assert_eq!(at_edge("--steps 0"), 1.0);
-    let said = place.succeed(LAVA, "--dem g.asc --steps 5");
-    assert!(said.contains("lava_at_edge"), "{said}");
+    let output = place.run(LAVA, "--dem g.asc --steps 5");
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success() && said.contains("lava_at_edge"), "{said}");
+    let warned = String::from_utf8(output.stderr).unwrap();
+    let warning = "lava has reached the edge of the map and piles up there; use a larger map (lava_at_edge: ";
+    let line = warned.lines().find(|line| line.starts_with("warning: lava")).unwrap_or_default();
+    assert!(line.starts_with(&format!("warning: {warning}")) && line.ends_with(" cells)"), "{warned}");
+    let report = report(&place.path("out/lava"));
+    assert!(report["warnings"][0].as_str().unwrap().starts_with(warning), "{report}");
     assert_eq!(Table::read(&place.path("out/lava/observables.csv")).column("lava_at_edge")[0], 1.0);
 }

@@ -33,6 +33,12 @@ pub enum FolderError {
     )]
     OtherProgram { folder: PathBuf, program: String },
     #[error(
+        "{} holds an unfinished run with checkpoints; resume it, overwrite it with --overwrite, or give \
+         another directory with --out",
+        folder.display()
+    )]
+    Unfinished { folder: PathBuf },
+    #[error(
         "the run starts from {}, which it would overwrite; move it or give another directory with --out",
         file.display()
     )]

@@ -14,6 +14,8 @@ pub(super) struct Owner {
     pub(super) kind: Kind,
     /// The program that was run, if the report says so.
     pub(super) program: Option<String>,
+    /// Whether there is nothing left to do.
+    has_ended: bool,
     /// What the report lists, `*` standing for digits.
     files: Vec<String>,
 }
@@ -27,10 +29,16 @@ impl Owner {
             if let Some(earlier) = earlier.filter(|earlier| earlier.xca.is_some()) {
                 let is_pictures = kind == Kind::Run && earlier.is_of("render");
                 let kind = if is_pictures { Kind::Pictures } else { kind };
-                owners.push(Self { kind, program: earlier.program, files: earlier.files });
+                let has_ended = earlier.has_ended();
+                owners.push(Self { kind, program: earlier.program, has_ended, files: earlier.files });
             }
         }
         Ok(owners)
+    }
+
+    /// Whether it is a run that can be resumed to its end.
+    pub(super) fn can_resume(&self, folder: &Path) -> bool {
+        self.kind == Kind::Run && !self.has_ended && !CheckpointFolder::of_run(folder).is_empty()
     }
 
     /// The files that are there of those that the report lists: as far as a command can have made them. A

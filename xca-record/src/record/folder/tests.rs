@@ -21,7 +21,7 @@ fn report(folder: &Path, command: &str, files: &str) {
 }
 
 fn prepare(folder: &Path, files: &[String], inputs: &[InputFile]) -> Result<RunFolder, FolderError> {
-    RunFolder::prepare(folder, &Claim { kind: Kind::Run, files, inputs, program: None })
+    RunFolder::prepare(folder, &Claim { kind: Kind::Run, files, inputs, program: None, overwrite: false })
 }
 
 fn refused(folder: &Path, claim: &Claim<'_>) -> String {
@@ -105,7 +105,7 @@ fn each_kind_of_command_keeps_to_its_folders() {
             fs::rename(path.join(REPORT), path.join(owner.report())).unwrap();
         }
         for kind in kinds {
-            let claim = Claim { kind, files: &[], inputs: &[], program: None };
+            let claim = Claim { kind, files: &[], inputs: &[], program: None, overwrite: false };
             if kind == owner {
                 LockedFolder::prepare(path, &claim).unwrap();
             } else {
@@ -129,11 +129,56 @@ fn a_run_of_another_program_is_not_replaced() {
         r#"{"xca": "0.1.0", "program": "slide", "command_line": ["slide", "run"], "files": ["final.csv"]}"#;
     fs::write(path.join(REPORT), text).unwrap();
     write(path, &["final.csv"]);
-    let claim = |program| Claim { kind: Kind::Run, files: &[], inputs: &[], program: Some(program) };
+    let claim = |program| Claim {
+        kind: Kind::Run,
+        files: &[],
+        inputs: &[],
+        program: Some(program),
+        overwrite: false,
+    };
     assert!(refused(path, &claim("life")).contains("holds a run of `slide`, which this would overwrite"));
     assert!(path.join("final.csv").exists());
     RunFolder::prepare(path, &claim("slide")).unwrap();
     assert!(!path.join("final.csv").exists());
+}
+
+/// Only a run that can be resumed, unless the command says so.
+#[test]
+fn an_unfinished_run_with_checkpoints_is_not_replaced() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let claim =
+        |overwrite| Claim { kind: Kind::Run, files: &[], inputs: &[], program: Some("life"), overwrite };
+    let checkpoint = path.join("checkpoints/step_00000007.checkpoint");
+    let left = |outcome: &str, names: &[&str]| {
+        let listed = r#""final.csv", "checkpoints/step_*.checkpoint""#;
+        let progress = format!(r#"{{"outcome": "{outcome}"}}"#);
+        let text = format!(
+            r#"{{"xca": "0.1.0", "program": "life", "command_line": ["life", "run"], "progress": {progress}, "files": [{listed}]}}"#
+        );
+        write(path, names);
+        fs::write(path.join(REPORT), text).unwrap();
+    };
+    let all = ["final.csv", "checkpoints/step_00000007.checkpoint"];
+    for outcome in ["running", "interrupted", "failed"] {
+        left(outcome, &all);
+        let said = refused(path, &claim(false));
+        assert!(
+            said.ends_with(
+                "holds an unfinished run with checkpoints; resume it, overwrite it with --overwrite, or give \
+                 another directory with --out"
+            ),
+            "{said}"
+        );
+        assert!(checkpoint.is_file());
+        RunFolder::prepare(path, &claim(true)).unwrap();
+        assert!(!checkpoint.exists() && !path.join("final.csv").exists());
+    }
+    for (outcome, names) in [("done", &all[..]), ("stopped", &all), ("interrupted", &all[..1])] {
+        left(outcome, names);
+        RunFolder::prepare(path, &claim(false)).unwrap();
+        assert!(!checkpoint.exists() && !path.join("final.csv").exists());
+    }
 }
 
 #[test]
@@ -141,7 +186,8 @@ fn a_folder_is_one_command_s_at_a_time() {
     let folder = tempfile::tempdir().unwrap();
     let held = prepare(folder.path(), &files(), &[]).unwrap();
     for kind in [Kind::Run, Kind::Pictures, Kind::Comparison] {
-        let said = refused(folder.path(), &Claim { kind, files: &[], inputs: &[], program: None });
+        let said =
+            refused(folder.path(), &Claim { kind, files: &[], inputs: &[], program: None, overwrite: false });
         assert!(said.contains("another run is writing to"), "{said}");
     }
     assert!(matches!(LockedFolder::beside(folder.path(), "a.png"), Err(FolderError::InUse { .. })));

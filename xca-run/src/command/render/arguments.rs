@@ -157,6 +157,7 @@ impl RenderArguments {
             checkpoint_every: None,
             formats: Vec::new(),
             allow_non_finite: true,
+            overwrite: false,
             print_source: false,
             voice: self.voice,
         }

@@ -351,7 +351,7 @@ fn nan_ends_the_run_and_the_last_good_checkpoint_stays() {
     assert_eq!(checkpoints(), ["step_00000005.checkpoint"]);
 
     let (ended, report) =
-        run_model(&withering, &[&words[..], &["--allow-non-finite"]].concat(), folder.path());
+        run_model(&withering, &[&words[..], &["--allow-non-finite", "--overwrite"]].concat(), folder.path());
     assert!(matches!(ended, Ok(Ended::Done)), "{}", message(&ended));
     assert_eq!(report["progress"]["steps"], 20);
     assert!(checkpoints().contains(&"step_00000015.checkpoint".to_owned()));

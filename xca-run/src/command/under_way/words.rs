@@ -1,6 +1,7 @@
 //! What a run says of itself at its start and at its end.
 
 use super::UnderWay;
+use crate::called;
 use crate::progress::{self, Diagnostic};
 use std::time::Duration;
 use xca_core::Model;
@@ -37,8 +38,8 @@ impl UnderWay {
     }
 
     fn how_to_go_on(&self) -> String {
-        let folder = self.recording.folder().display();
-        format!("; continue with `{} resume {folder}`", self.recording.report().program)
+        let command = called::resume(&self.recording.report().program, self.recording.folder());
+        format!("; continue with `{command}`")
     }
 
     /// The table of observables, how it ended, and where the files are.

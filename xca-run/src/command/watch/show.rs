@@ -16,11 +16,10 @@ const PICTURES: u64 = 1000;
 
 /// Shows a run in the terminal.
 pub(super) fn show(invocation: &RunInvocation<'_>, arguments: &WatchArguments) -> Result<Ended, Unable> {
-    let name = invocation.model.definition.name;
     if !(stdin().is_terminal() && stdout().is_terminal()) {
-        return Err(Unable::refused(format!(
-            "`{name} watch` needs a terminal to draw on and to read keys from; without one, `{name} run` writes files and `{name} render` draws pictures"
-        )));
+        return Err(Unable::refused(
+            "`watch` needs a terminal; without one, `run` writes files and `render` draws pictures",
+        ));
     }
     let Prepared { engine, run } = Prepared::new(invocation, &invocation.engine)?;
     let origin = run.origin().on(&*engine);
