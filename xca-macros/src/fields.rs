@@ -5,7 +5,7 @@ mod parameters;
 mod substates;
 mod words;
 
-use crate::native::checked;
+use crate::checked::{self, checked};
 use attributes::{About, Wanted};
 pub(crate) use parameters::parameters;
 use proc_macro2::{Literal, TokenStream};
@@ -96,7 +96,7 @@ fn handle(name: &Ident) -> String {
 /// A constant that has a value only where the types of all fields are what their words say: all else goes
 /// through it, so that one mistake gives one message (`xca_core::checks`).
 fn proof(fields: &[Field]) -> TokenStream {
-    let name = crate::native::check_name();
+    let name = checked::name();
     let proofs = fields.iter().map(|field| {
         let (type_, marked) = (&field.type_, marked(&field.type_));
         quote_spanned! {type_.span()=>
@@ -118,7 +118,7 @@ fn field_type(field: &Field) -> TokenStream {
 /// The value of a field, where the proof holds.
 fn value(field: &Field) -> TokenStream {
     let name = &field.name;
-    crate::native::checked_value(&quote!(self.#name))
+    checked::checked_value(&quote!(self.#name))
 }
 
 fn schema(item: &DeriveInput, fields: &[Field]) -> TokenStream {

@@ -5,6 +5,7 @@
 
 mod access;
 mod ast;
+mod checked;
 mod data;
 mod fields;
 mod library;

@@ -1,108 +1,40 @@
 //! The native side: a type for the model to hold, the kernels, and a copy of the function for the compiler to
 //! check.
 
+mod attributes;
 mod blocks;
 mod body;
 mod check;
 mod expressions;
 mod fetches;
+mod generics;
 mod helper;
 mod kernels;
+mod labels;
 mod loops;
+mod names;
+mod types;
 mod unrolled;
 mod work;
 
-use crate::access::{GroupOf, Uses, structs};
+use crate::access::{Uses, structs};
 use crate::ast::{Function, FunctionKind, Role};
-use crate::fields::{POSITION, name_number};
+use attributes::{conditions, lints};
+use generics::Generics;
 use proc_macro2::{Ident, Span, TokenStream};
-use quote::{ToTokens, format_ident, quote, quote_spanned};
+use quote::quote;
+use syn::Result;
 use syn::ext::IdentExt;
-use syn::spanned::Spanned;
-use syn::{Attribute, Meta, Result, Type};
+use types::{parameters, struct_of, substate};
 
 /// The most substates of a process: a row marks those that it has handed out in so many bits.
 const MOST_SUBSTATES: usize = 128;
-
-/// A name of the generated code that no name of the user can meet.
-fn hidden(name: &str, span: Span) -> Ident {
-    format_ident!("__xca_{name}", span = Span::mixed_site().located_at(span))
-}
 
 pub(crate) fn expand(function: &Function, original: &syn::ItemFn) -> Result<TokenStream> {
     match function.kind {
         FunctionKind::Helper => helper::expand(function, original),
         _ => process(function, original),
     }
-}
-
-/// A type of the user, or one that is unknown to the compiler where the check of the function has found an
-/// error.
-pub(crate) fn checked(type_: &impl ToTokens) -> Type {
-    let check = check::name();
-    Type::Verbatim(quote!(<::xca_core::checks::Checked<#check> as ::xca_core::checks::Then<#type_>>::Type))
-}
-
-/// A value of the user, likewise.
-pub(crate) fn checked_value(value: &TokenStream) -> TokenStream {
-    let check = check::name();
-    quote!(<::xca_core::checks::Checked<#check> as ::xca_core::checks::Then<_>>::pass(#value))
-}
-
-/// The name of the constant that has a value only where all is right.
-pub(crate) fn check_name() -> Ident {
-    check::name()
-}
-
-/// The function behind a method that is an operation.
-fn operation(name: &Ident) -> TokenStream {
-    quote_spanned!(name.span()=> ::xca_core::methods::#name)
-}
-
-/// The attributes that everything made from the function needs.
-fn conditions(function: &Function) -> impl Iterator<Item = &Attribute> {
-    function.attributes.iter().filter(|attribute| attribute.path().is_ident("cfg"))
-}
-
-/// The attributes that set lints. What the user expects may come true in one part of what the function
-/// becomes and not in another.
-fn lints(attributes: &[Attribute]) -> Vec<Attribute> {
-    let levels = ["allow", "expect", "warn", "deny"];
-    let mut lints: Vec<Attribute> = attributes
-        .iter()
-        .filter(|attribute| levels.iter().any(|word| attribute.path().is_ident(word)))
-        .cloned()
-        .collect();
-    for attribute in &mut lints {
-        if let Meta::List(list) = &mut attribute.meta
-            && list.path.is_ident("expect")
-        {
-            list.path = Ident::new("allow", list.path.span()).into();
-        }
-    }
-    lints
-}
-
-/// `<S as HasSubstate<…>>` for a substate.
-fn substate(group: GroupOf, field: &Ident, function: &Function) -> TokenStream {
-    let type_ = structs(function).nth(group.argument().0).map(struct_of);
-    let key = match group {
-        GroupOf::Position => name_number(POSITION),
-        _ => name_number(&field.unraw().to_string()),
-    };
-    let span = field.span();
-    quote_spanned!(span=> <#type_ as ::xca_core::HasSubstate<#key>>)
-}
-
-/// The type of a substate in a kernel.
-fn native_type(group: GroupOf, field: &Ident, function: &Function, real: &TokenStream) -> TokenStream {
-    let substate = substate(group, field, function);
-    quote!(#substate::Native<#real>)
-}
-
-/// What a kernel sees of the parameters.
-fn native_parameters(type_: &Type, real: &TokenStream) -> TokenStream {
-    quote!(<#type_ as ::xca_core::Parameters>::Native<#real>)
 }
 
 fn process(function: &Function, original: &syn::ItemFn) -> Result<TokenStream> {
@@ -149,25 +81,6 @@ fn process(function: &Function, original: &syn::ItemFn) -> Result<TokenStream> {
             #aliases
         };
     })
-}
-
-/// The constants that a function is generic in.
-struct Generics {
-    /// `<const N: usize>`
-    declared: TokenStream,
-    /// `<N>`
-    given: TokenStream,
-}
-
-impl Generics {
-    fn of(function: &Function) -> Self {
-        if function.constants.is_empty() {
-            return Self { declared: TokenStream::new(), given: TokenStream::new() };
-        }
-        let (constants, names) =
-            (&function.constants, function.constants.iter().map(|constant| &constant.ident));
-        Self { declared: quote!(<#(#constants),*>), given: quote!(<#(#names),*>) }
-    }
 }
 
 /// What the process is called, `update<0>` where it is generic.
@@ -241,20 +154,4 @@ fn description(function: &Function, uses: &Uses, data: &TokenStream) -> TokenStr
             row_f64: #row_f64,
         }
     }
-}
-
-/// The type of a struct of substates.
-fn struct_of(role: &Role) -> Option<&Type> {
-    match role {
-        Role::Cell(type_) | Role::Slot(type_) | Role::Slots(type_) => Some(type_),
-        Role::Parameters(_) | Role::Space | Role::Value(_) => None,
-    }
-}
-
-/// The structs of parameters, with the names of their arguments.
-fn parameters(function: &Function) -> impl Iterator<Item = (&Ident, &Type)> {
-    function.arguments.iter().filter_map(|argument| match &argument.role {
-        Role::Parameters(type_) => Some((&argument.name, type_)),
-        _ => None,
-    })
 }

@@ -14,12 +14,14 @@ mod scope;
 mod signature;
 mod similar;
 mod statements;
+mod wanted;
 
 use crate::ast::{Function, FunctionKind, Role};
-use crate::native::checked;
+use crate::checked::checked;
 pub(crate) use places::plain_operator;
 use scope::Scope;
 use syn::{Error, Result};
+pub(crate) use wanted::Wanted;
 
 /// Parses and checks a function of the given kind; for processes the kind (cells or items) follows from the
 /// first argument.
@@ -73,23 +75,4 @@ pub(crate) fn function(item: &syn::ItemFn, wanted: Wanted) -> Result<Function> {
         body,
         mentions,
     })
-}
-
-/// Which attribute stands on the function.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Wanted {
-    Process,
-    Migration,
-    Helper,
-}
-
-impl Wanted {
-    /// The attribute.
-    pub(crate) fn attribute(self) -> &'static str {
-        match self {
-            Self::Process => "#[elementary_process]",
-            Self::Migration => "#[migration]",
-            Self::Helper => "#[helper]",
-        }
-    }
 }

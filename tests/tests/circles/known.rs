@@ -54,32 +54,13 @@ pub(crate) const KNOWN: &[Known] = &[
     },
     // A simulation gives snapshots, and begins with them.
     Known { folder: "xca-core/src", files: &["simulation/snapshot.rs", "simulation.rs"] },
-    // Expressions hold statements, and the words for both are shared.
-    Known {
-        folder: "xca-macros/src",
-        files: &[
-            "data/loops.rs",
-            "data/words.rs",
-            "data.rs",
-            "fields.rs",
-            "native/blocks.rs",
-            "native/body.rs",
-            "native/check.rs",
-            "native/helper.rs",
-            "native/kernels.rs",
-            "native/loops.rs",
-            "native/unrolled.rs",
-            "native/work.rs",
-            "native.rs",
-        ],
-    },
-    // Expressions hold statements, and statements expressions.
+    // Recursion: statements hold loops, which hold statements.
+    Known { folder: "xca-macros/src", files: &["data/loops.rs", "data.rs"] },
+    // Recursion: expressions hold statements, and statements expressions.
     Known {
         folder: "xca-macros/src",
         files: &["parse/calls.rs", "parse/expressions.rs", "parse/places.rs", "parse/statements.rs"],
     },
-    // Signatures, and the functions that have them.
-    Known { folder: "xca-macros/src", files: &["parse/signature.rs", "parse.rs"] },
     // Statements hold expressions, which call routines, which are written like statements.
     Known {
         folder: "xca-wgsl/src",

@@ -109,7 +109,7 @@ pub(super) fn known_length(length: &Expr) -> TokenStream {
     match length {
         Expr::Lit(literal) => quote!(#literal),
         // Where it is no `usize`, the check of the function says so.
-        other => crate::native::checked_value(&quote!(#other)),
+        other => crate::checked::checked_value(&quote!(#other)),
     }
 }
 
@@ -123,7 +123,7 @@ fn named_type(written: &Type, name: &Ident, arguments: &PathArguments) -> Result
             "bool" => Ok(quote!(::xca_core::ir::Type::Bool)),
             "Destination" => Ok(quote!(::xca_core::ir::Type::Destination)),
             word if crate::fields::may_be_states(word) => {
-                let states = crate::native::checked(written);
+                let states = crate::checked::checked(written);
                 Ok(quote!(::xca_core::ir::Type::State(<#states as ::xca_core::States>::NAMES)))
             }
             _ => Err(unsupported(written)),

@@ -2,7 +2,7 @@
 
 use super::attributes::Wanted;
 use super::{field_type, fields, schema, value};
-use crate::native::checked;
+use crate::checked::checked;
 use proc_macro2::{Span, TokenStream};
 use quote::{format_ident, quote};
 use syn::{DeriveInput, Error, Ident, Result};

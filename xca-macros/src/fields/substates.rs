@@ -2,7 +2,7 @@
 
 use super::attributes::Wanted;
 use super::{POSITION, field_type, fields, handle, name_number, schema, value};
-use crate::native::checked;
+use crate::checked::checked;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use syn::ext::IdentExt;

@@ -1,7 +1,6 @@
 //! The blocks of cells through which a kernel goes.
 
-use super::body::write_name;
-use super::hidden;
+use super::names::{hidden, write_name};
 use crate::access::Access;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;

@@ -1,34 +1,13 @@
 //! The body in one precision.
 
-use super::hidden;
-use super::loops::hidden_label;
-use super::unrolled::Unrolled;
+use super::labels::{Unrolled, hidden_label};
+use super::names::{hidden, own_name};
 use crate::access::{Access, GroupOf, Uses};
 use crate::ast::{Block, Expression, Function, FunctionKind, Place, PlaceRoot, Projection, Statement};
 use crate::fields::with_real;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{quote, quote_spanned};
-use syn::ext::IdentExt;
 use syn::{BinOp, Lifetime};
-
-/// The variable that holds an own substate while the body runs.
-pub(super) fn own_name(field: &Ident) -> Ident {
-    hidden(&format!("own_{}", field.unraw()), field.span())
-}
-
-/// The argument from which a substate is read.
-pub(super) fn read_name(group: GroupOf, field: &Ident) -> Ident {
-    let prefix = match group {
-        GroupOf::Argument(number) => format!("read_{}", number.0),
-        GroupOf::Position => "search".to_owned(),
-    };
-    hidden(&format!("{prefix}_{}", field.unraw()), field.span())
-}
-
-/// The argument to which a substate is written.
-pub(super) fn write_name(field: &Ident) -> Ident {
-    hidden(&format!("write_{}", field.unraw()), field.span())
-}
 
 /// Writes a body as Rust of one precision.
 pub(super) struct Writer<'a> {

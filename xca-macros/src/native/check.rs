@@ -2,21 +2,19 @@
 //!
 //! It stands in a constant that has a value only if the copy is without errors; see `xca_core::checks`.
 
+use super::attributes::lints;
+use super::types::operation;
 use crate::ast::{Call, Function};
+use crate::checked::{self, checked};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{quote, quote_spanned};
 use syn::spanned::Spanned;
 use syn::visit_mut::VisitMut;
 use xca_methods::{Meaning, Method};
 
-/// The name of the constant.
-pub(super) fn name() -> Ident {
-    Ident::new("__XCA_CHECKED", Span::call_site())
-}
-
 /// The constant.
 pub(super) fn check(function: &Function, original: &syn::ItemFn) -> TokenStream {
-    let name = name();
+    let name = checked::name();
     let mentions = &function.mentions;
     let constants = mentions.constants.iter().map(|path| {
         quote_spanned!(path.span()=> ::core::mem::drop(::xca_core::ir::ConstantValue::constant(&#path));)
@@ -84,7 +82,7 @@ fn copy(function: &Function, original: &syn::ItemFn) -> TokenStream {
         syn::ReturnType::Default => quote!(-> ()),
         written @ syn::ReturnType::Type(..) => quote!(#written),
     };
-    let lints = super::lints(&original.attrs);
+    let lints = lints(&original.attrs);
     // A constant that the function is generic in has another value here.
     let generic =
         (!function.constants.is_empty()).then(|| quote!(#[allow(arithmetic_overflow, unconditional_panic)]));
@@ -205,7 +203,7 @@ fn as_function(call: &syn::ExprMethodCall) -> Option<syn::Expr> {
     let (arguments, span) = (&call.args, call.method.span());
     Some(syn::Expr::Verbatim(match method.meaning {
         Meaning::Operation(_) => {
-            let function = super::operation(&call.method);
+            let function = operation(&call.method);
             quote_spanned!(span=> #function(#receiver, #arguments))
         }
         Meaning::Function(function) => {
@@ -232,7 +230,7 @@ pub(super) fn aliases(function: &Function) -> TokenStream {
     });
     let imports = calls.iter().map(|call| {
         let Call { function, import, alias } = call;
-        let checked = super::checked(import);
+        let checked = checked(import);
         let fallback = function.get_ident().map(|name| {
             quote! {
                 #[allow(unused_macros)]

@@ -1,9 +1,11 @@
 //! Expressions in one precision.
 
-use super::body::{Writer, own_name, read_name};
-use super::{checked_value, hidden, native_type};
+use super::body::Writer;
+use super::names::{hidden, own_name, read_name};
+use super::types::{native_type, operation};
 use crate::access::GroupOf;
 use crate::ast::{ArgumentNumber, Arm, Builtin, Expression, FunctionKind, Pattern};
+use crate::checked::checked_value;
 use crate::fields::with_real;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
@@ -80,7 +82,7 @@ impl Writer<'_> {
                 let receiver = self.expression(receiver);
                 let arguments = self.expressions(arguments);
                 let function = match method.meaning {
-                    Meaning::Operation(_) => super::operation(name),
+                    Meaning::Operation(_) => operation(name),
                     Meaning::Function(function) => {
                         let function = Ident::new(function, name.span());
                         let native = format_ident!("native_{}", self.real.to_string());

@@ -1,8 +1,13 @@
 //! Helpers: an ordinary function, and one for each precision, found through a type of the same name.
 
+use super::attributes::conditions;
 use super::body::Writer;
-use super::{Generics, check, checked, conditions, hidden, native_parameters};
+use super::check;
+use super::generics::Generics;
+use super::names::hidden;
+use super::types::native_parameters;
 use crate::ast::{Function, Role};
+use crate::checked::checked;
 use crate::fields::with_real;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};

@@ -4,12 +4,14 @@
 //! written is apart from what is read, without which it would not vectorise.
 
 use super::blocks::Blocks;
-use super::body::{Writer, own_name, read_name, write_name};
+use super::body::Writer;
 use super::fetches::{Names, fetches};
+use super::names::{hidden, own_name, read_name, write_name};
+use super::types::{native_parameters, native_type, parameters};
 use super::work::{Argument, LIFE, Typed, Work};
-use super::{checked_value, hidden, native_parameters, native_type, parameters};
 use crate::access::{Access, GroupOf, Uses, structs};
 use crate::ast::{Function, FunctionKind, Role};
+use crate::checked::checked_value;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 

@@ -1,16 +1,12 @@
 //! Loops in one precision.
 
-use super::body::{Writer, read_name};
+use super::body::Writer;
+use super::labels::hidden_label;
+use super::names::read_name;
 use crate::access::GroupOf;
 use crate::ast::{Block, Expression, Loop, LoopKind, Range, Reach};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
-use syn::Lifetime;
-
-/// The label of a loop in the generated code, apart from the labels that the generated code has for itself.
-pub(super) fn hidden_label(label: &Lifetime) -> Lifetime {
-    Lifetime::new(&format!("'__xca_loop_{}", label.ident), label.span())
-}
 
 impl Writer<'_> {
     pub(super) fn loop_(&mut self, loop_: &Loop) -> TokenStream {

@@ -8,9 +8,9 @@
 //! few of these are large.
 
 use super::body::Writer;
-use super::loops::hidden_label;
+use super::labels::{Unrolled, hidden_label, turn, turns};
 use crate::ast::{Block, Expression, Range};
-use proc_macro2::{Ident, Span, TokenStream};
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 use syn::{BinOp, Lifetime};
 
@@ -19,29 +19,6 @@ const MOST: usize = 27;
 
 /// The largest number at which a loop that is written out begins: with the turns it stays within all types.
 const LARGEST_START: usize = 100;
-
-/// A loop whose turns are written out.
-pub(super) struct Unrolled {
-    label: Option<Lifetime>,
-}
-
-impl Unrolled {
-    /// What a `break` or `continue` with this label leaves: nothing where that is another loop.
-    pub(super) fn leaves(&self, label: Option<&Lifetime>, whole: bool) -> Option<Lifetime> {
-        let own = label.is_none() || label == self.label.as_ref();
-        own.then(|| if whole { turns() } else { turn() })
-    }
-}
-
-/// The label of all turns.
-fn turns() -> Lifetime {
-    Lifetime::new("'__xca_turns", Span::mixed_site())
-}
-
-/// The label of one turn.
-fn turn() -> Lifetime {
-    Lifetime::new("'__xca_turn", Span::mixed_site())
-}
 
 impl Writer<'_> {
     /// A loop over a range, written out where its ends are known to the compiler and near, and no loop stands

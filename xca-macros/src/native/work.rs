@@ -1,7 +1,7 @@
 //! A kernel's work on a row, as a type whose method the library compiles for several processors.
 
 use super::blocks::Blocks;
-use super::hidden;
+use super::names::hidden;
 use crate::ast::{Function, FunctionKind};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{ToTokens, quote};

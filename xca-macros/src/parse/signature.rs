@@ -1,6 +1,6 @@
 //! The arguments and the result of a function.
 
-use super::Wanted;
+use super::wanted::Wanted;
 use crate::ast::{Argument, FunctionKind, Role};
 use syn::{
     ConstParam, Error, FnArg, GenericArgument, GenericParam, Ident, ItemFn, Pat, PathArguments, PathSegment,
