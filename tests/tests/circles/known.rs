@@ -112,20 +112,6 @@ pub(crate) const KNOWN: &[Known] = &[
     Known { folder: "xca-gpu/src", files: &["device/code.rs", "device.rs", "error.rs"] },
     // A screen, and the words on it.
     Known { folder: "xca-watch/src", files: &["screen.rs", "words.rs"] },
-    // `resume`, `render` and `inspect` read the command line of an earlier run as it was read then.
-    Known {
-        folder: "xca-run/src",
-        files: &[
-            "command/clashes.rs",
-            "command/inspect/frames.rs",
-            "command/inspect.rs",
-            "command/parse.rs",
-            "command/render/kept.rs",
-            "command/resume.rs",
-        ],
-    },
-    // The command `watch`, with the feature that it needs.
-    Known { folder: "xca-run/src", files: &["command/watch/show.rs", "command/watch.rs"] },
     // A site, and what it sees around.
     Known { folder: "tests/src", files: &["suite/around.rs", "suite/site.rs"] },
     // What is measured, and another program beside it.
