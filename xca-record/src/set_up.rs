@@ -250,7 +250,7 @@ impl SetUp {
         place_of(&self.model, self.map.as_ref())
     }
 
-    /// What a run of it is of, for formats.
+    /// What formats get of the set-up.
     pub(crate) fn subject<'a>(&'a self, shown: &'a [Shown]) -> Subject<'a> {
         let Self { model, title, time_step, .. } = self;
         Subject { model, title, map: self.map.as_ref(), time_step: *time_step, shown }

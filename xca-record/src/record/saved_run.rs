@@ -1,4 +1,4 @@
-//! A run that has been, by its folder.
+//! An earlier run, whose saved states are drawn.
 
 use std::path::PathBuf;
 use xca_core::Precision;
