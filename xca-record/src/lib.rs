@@ -57,6 +57,7 @@ mod items_file;
 pub mod machine;
 mod monitor;
 mod observable;
+mod place;
 #[doc(hidden)]
 pub mod record;
 #[doc(hidden)]

@@ -11,6 +11,7 @@ mod painting;
 mod panel;
 mod recorded;
 mod saved;
+mod saved_run;
 mod seen;
 mod shown;
 mod sight;
@@ -21,11 +22,13 @@ mod values;
 pub use cells::CellState;
 pub(crate) use cells::lattice;
 pub use drawing::{Drawing, Scales};
+pub(crate) use folder::SERIES;
 pub use folder::{COMPARISON, Claim, ENSEMBLE, FRAMES, FolderError, Kind, LockedFolder, REPORT, RunFolder};
 pub use items::{ItemColumn, ItemState, column_type};
 pub use look::{Look, ViewKind};
 pub(crate) use painting::Frame;
-pub use saved::{SavedError, SavedRun};
+pub use saved::SavedError;
+pub use saved_run::SavedRun;
 pub use seen::Seen;
 pub(crate) use shown::Shown;
 pub use sight::{Sight, Subject};
@@ -121,7 +124,7 @@ impl Recorder {
     }
 
     pub(crate) fn subject(&self) -> format::Subject<'_> {
-        format::Subject { set_up: &self.set_up, shown: &self.shown }
+        self.set_up.subject(&self.shown)
     }
 
     /// The files that a run makes, below its folder; `*` stands for the number of the step.
@@ -177,7 +180,7 @@ impl Recorder {
         write: fn(&mut dyn format::Writer, RecordedState<'_>) -> Result<(), Failure>,
     ) -> Result<(), RecordError> {
         let Some(folder) = &self.folder else { return Ok(()) };
-        let subject = format::Subject { set_up: &self.set_up, shown: &self.shown };
+        let subject = self.set_up.subject(&self.shown);
         let state = RecordedState { subject, snapshot, precision: simulation.options().precision, folder };
         let mut writers = self.formats.writers();
         writers.try_for_each(|writer| write(&mut **writer, state)).map_err(RecordError::Format)
@@ -230,6 +233,3 @@ impl Recorder {
         Ok(())
     }
 }
-
-/// The time series.
-pub(crate) const SERIES: &str = "observables.csv";

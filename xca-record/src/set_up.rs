@@ -1,7 +1,9 @@
 //! A model with what its program shows of it.
 
-use crate::format::{Formats, Writer, is_row};
+use crate::format::{Formats, Subject, Writer, is_row};
 use crate::observable::{Failure, Observable};
+use crate::place::{place_of, unplaced};
+use crate::record::Shown;
 use crate::view::{AnyView, CellView, ItemView, ViewError};
 use serde::Serialize;
 use std::fmt;
@@ -270,22 +272,19 @@ impl SetUp {
             return Err(SetUpError::Layers { model: self.model.name().to_owned(), layers });
         }
         let placement = map.placement();
-        let cells = Placement { corner: placement.corner, ..self.unplaced() };
+        let cells = Placement { corner: placement.corner, ..unplaced(&self.model) };
         placement.difference(&cells).map_or(Ok(()), |difference| Err(SetUpError::Map(difference)))
-    }
-
-    /// The place of the model's cells where no map says one.
-    fn unplaced(&self) -> Placement {
-        let geometry = self.model.geometry();
-        let [columns, rows, _] = geometry.extents();
-        Placement { extents: [columns, rows], corner: [0.0; 2], side: geometry.side() }
     }
 
     /// The place of the model's cells on the map.
     pub fn placement(&self) -> Placement {
-        // The side of the model: that of the map may have other digits.
-        let cells = self.unplaced();
-        self.map.as_ref().map_or(cells, |map| Placement { corner: map.placement().corner, ..cells })
+        place_of(&self.model, self.map.as_ref())
+    }
+
+    /// What formats get of the set-up.
+    pub(crate) fn subject<'a>(&'a self, shown: &'a [Shown]) -> Subject<'a> {
+        let Self { model, title, time_step, .. } = self;
+        Subject { model, title, map: self.map.as_ref(), time_step: *time_step, shown }
     }
 
     /// The cells without ground, if there are any.

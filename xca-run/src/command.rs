@@ -19,6 +19,7 @@ mod prepare;
 mod render;
 mod resume;
 mod run;
+mod subcommands;
 mod sweep;
 mod under_way;
 mod voice;

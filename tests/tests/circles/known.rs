@@ -91,48 +91,8 @@ pub(crate) const KNOWN: &[Known] = &[
     },
     // A device, and the code that it compiles.
     Known { folder: "xca-gpu/src", files: &["device/code.rs", "device.rs", "error.rs"] },
-    // Formats write what a recorder shows them, and a recorder holds formats.
-    Known {
-        folder: "xca-record/src",
-        files: &[
-            "format/ascii_grid.rs",
-            "format/extended_xyz.rs",
-            "format/file.rs",
-            "format/formats.rs",
-            "format/geotiff.rs",
-            "format/pictures.rs",
-            "format/saved_view.rs",
-            "format/space_time.rs",
-            "format/subject.rs",
-            "format/table.rs",
-            "format/vtk.rs",
-            "format.rs",
-            "record/folder/error.rs",
-            "record/folder/owner.rs",
-            "record/folder.rs",
-            "record/layer.rs",
-            "record/painting.rs",
-            "record/saved.rs",
-            "record.rs",
-            "set_up.rs",
-        ],
-    },
     // A screen, and the words on it.
     Known { folder: "xca-watch/src", files: &["screen.rs", "words.rs"] },
-    // `resume`, `render` and `inspect` read the command line of an earlier run as it was read then.
-    Known {
-        folder: "xca-run/src",
-        files: &[
-            "command/clashes.rs",
-            "command/inspect/frames.rs",
-            "command/inspect.rs",
-            "command/parse.rs",
-            "command/render/kept.rs",
-            "command/resume.rs",
-        ],
-    },
-    // The command `watch`, with the feature that it needs.
-    Known { folder: "xca-run/src", files: &["command/watch/show.rs", "command/watch.rs"] },
     // A site, and what it sees around.
     Known { folder: "tests/src", files: &["suite/around.rs", "suite/site.rs"] },
     // What is measured, and another program beside it.

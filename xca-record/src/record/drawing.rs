@@ -3,7 +3,8 @@
 use super::look::{Look, LookError};
 use super::painting::Frame;
 use super::panel::Panel;
-use super::saved::{SavedError, SavedRun};
+use super::saved::SavedError;
+use super::saved_run::SavedRun;
 use super::seen::{Seen, wider};
 use super::{RecordError, Recorder};
 use xca_core::{Model, Precision, Snapshot};

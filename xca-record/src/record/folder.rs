@@ -4,9 +4,14 @@
 //! files, and no command replaces others. While a command writes, the folder is locked.
 
 mod error;
+mod kind;
+mod names;
 mod owner;
 
 pub use error::FolderError;
+pub use kind::Kind;
+pub(crate) use names::SERIES;
+pub use names::{COMPARISON, ENSEMBLE, FRAMES, REPORT};
 
 use owner::{Owner, is_folder, meant};
 use std::fs::{self, File, TryLockError};
@@ -17,48 +22,6 @@ use xca_checkpoint::CHECKPOINTS;
 use xca_checkpoint::InputFile;
 use xca_io::atomic::{OutputFolder, remove_leftovers};
 use xca_picture::is_picture_of_xca;
-
-/// The folder, below the run's own, that holds the frames.
-pub const FRAMES: &str = "frames";
-
-/// The report, by which a folder is known to be a run's.
-pub const REPORT: &str = "run.json";
-
-/// The report of a comparison of engines.
-pub const COMPARISON: &str = "compare.json";
-
-/// The report of an ensemble.
-pub const ENSEMBLE: &str = "sweep.json";
-
-/// What a folder is for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names say it")]
-pub enum Kind {
-    Run,
-    Pictures,
-    Comparison,
-    Ensemble,
-}
-
-impl Kind {
-    /// The file by which a folder is known to be of this kind.
-    fn report(self) -> &'static str {
-        match self {
-            Self::Run | Self::Pictures => REPORT,
-            Self::Comparison => COMPARISON,
-            Self::Ensemble => ENSEMBLE,
-        }
-    }
-
-    fn noun(self) -> &'static str {
-        match self {
-            Self::Run => "run",
-            Self::Pictures => "rendering",
-            Self::Comparison => "comparison",
-            Self::Ensemble => "sweep",
-        }
-    }
-}
 
 /// A folder that this process alone writes to.
 #[derive(Debug, Clone)]

@@ -82,8 +82,8 @@ pub(crate) fn bands(model: &Model) -> Vec<Band> {
 impl Band {
     /// Its values at their place on the map; NaN where there is no ground.
     pub(crate) fn raster(&self, state: RecordedState<'_>) -> Option<Raster> {
-        let (place, map) = (state.subject().placement(), &state.subject().set_up.map);
-        let coordinate_system = map.as_ref().and_then(Map::coordinate_system).cloned();
+        let (place, map) = (state.subject().placement(), state.subject().map);
+        let coordinate_system = map.and_then(Map::coordinate_system).cloned();
         let raster = Raster::new(place.extents, place.side, self.values(state)?)?;
         Some(raster.with_corner(place.corner).with_coordinate_system(coordinate_system))
     }

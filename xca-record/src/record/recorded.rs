@@ -2,7 +2,7 @@
 
 use super::folder::remove;
 use super::{RecordError, Recorder, RunFolder, SERIES};
-use crate::format::{Moment, ResumedRun, Subject};
+use crate::format::{Moment, ResumedRun};
 use crate::observable::Observable;
 use serde_json::Value;
 use std::collections::HashSet;
@@ -50,7 +50,7 @@ impl Recorder {
         self.series =
             Some(SeriesWriter::resume(&folder.top.file(SERIES), self.first.len(), recorded.series)?);
         remove(self.newer_files(&folder))?;
-        let subject = Subject { set_up: &self.set_up, shown: &self.shown };
+        let subject = self.set_up.subject(&self.shown);
         for writer in self.formats.writers() {
             let memory = recorded.formats.get(writer.name()).unwrap_or(&Value::Null);
             let run = ResumedRun::new(subject, &recorded.steps, &folder);

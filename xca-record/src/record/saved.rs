@@ -1,6 +1,7 @@
 //! What a view sees of the states that a run has saved: its frames.
 
 use super::cells::{self, DrawnValues};
+use super::saved_run::SavedRun;
 use super::seen::Seen;
 use super::shown::Shown;
 use super::values::{Plane, stored_of};
@@ -14,17 +15,6 @@ use xca_checkpoint::components::{DrawnPart, Part, state_names};
 use xca_core::model::Group;
 use xca_core::{Geometry, GroupSnapshot, Model, Precision, ScalarType, Snapshot, StoredType};
 use xca_io::vtk::{NumberType, ReadArray};
-
-/// What a run has left, whose states are drawn.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct SavedRun {
-    /// Its folder.
-    pub folder: PathBuf,
-    /// What `Real` was.
-    pub precision: Precision,
-    /// The step of its last state.
-    pub last_step: u64,
-}
 
 /// A saved state that cannot be drawn.
 #[derive(Debug, thiserror::Error)]

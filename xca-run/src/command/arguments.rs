@@ -76,42 +76,6 @@ pub(crate) struct RunArguments {
     pub(crate) voice: Voice,
 }
 
-/// Options of `resume`.
-#[derive(Args, Debug, Clone)]
-pub(crate) struct ResumeArguments {
-    /// Output directory of the run
-    #[arg(value_name = "DIR")]
-    pub(crate) folder: PathBuf,
-
-    /// Checkpoint to resume from [default: the latest]
-    #[arg(long, value_name = "FILE")]
-    pub(crate) checkpoint: Option<PathBuf>,
-
-    /// Total number of steps of the run. May exceed the original number [default: as before]
-    #[arg(long, value_name = "N", value_parser = steps)]
-    pub(crate) steps: Option<u64>,
-
-    /// Slots of a cell, after a run that ended with a full cell [default: as before]
-    #[arg(long, value_name = "N", value_parser = slots)]
-    pub(crate) slots: Option<usize>,
-
-    /// Resume on an engine that rounds differently. The results will differ from those of an uninterrupted
-    /// run
-    #[arg(long)]
-    pub(crate) allow_rounding: bool,
-
-    /// Continue when a substate becomes NaN or infinite [default: as before]
-    #[arg(long)]
-    pub(crate) allow_non_finite: bool,
-
-    /// Write a checkpoint every N steps or every TIME [default: as before]
-    #[arg(long, value_name = "N|TIME")]
-    pub(crate) checkpoint_every: Option<Interval>,
-
-    #[command(flatten)]
-    pub(crate) voice: Voice,
-}
-
 impl ModelArguments {
     pub(crate) fn given(&self, steps: Option<u64>) -> Given {
         Given { seed: self.seed, precision: self.precision, steps, parameters: self.set.clone() }
@@ -125,13 +89,6 @@ fn seed(text: &str) -> Result<u64, String> {
 
 pub(super) fn steps(text: &str) -> Result<u64, &'static str> {
     text.parse().map_err(|_| "the number of steps must be a whole number")
-}
-
-fn slots(text: &str) -> Result<usize, &'static str> {
-    text.parse()
-        .ok()
-        .filter(|slots| *slots > 0)
-        .ok_or("the number of slots must be a whole number, at least 1")
 }
 
 pub(super) fn interval(text: &str) -> Result<u64, String> {

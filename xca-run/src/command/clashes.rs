@@ -1,7 +1,7 @@
 //! A model's own options, which must not have the names of the frame's.
 
 use super::definition::Definition;
-use super::{engine, parse};
+use super::{engine, subcommands};
 use crate::engines::Engines;
 use clap::{Arg, Command};
 use std::collections::BTreeSet;
@@ -33,7 +33,7 @@ pub(super) fn check(definition: &Definition<'_>) -> Result<(), ClashError> {
         return Err(ClashError::Positional(option.get_id().to_string()));
     }
     let options = |command: Command| command.arg(Arg::new(MARK).long(MARK));
-    let frame = parse::command(&Definition { options, ..*definition });
+    let frame = subcommands::command(&Definition { options, ..*definition });
     let with_model = |command: &&Command| command.get_arguments().any(|option| option.get_id() == MARK);
     let commands: Vec<(&str, BTreeSet<String>)> = frame
         .get_subcommands()
@@ -59,7 +59,7 @@ pub(super) fn check(definition: &Definition<'_>) -> Result<(), ClashError> {
 fn check_engines(definition: &Definition<'_>) -> Result<(), ClashError> {
     let bare = Engines::default();
     let without = Definition { options: std::convert::identity, engines: &bare, ..*definition };
-    let frame = parse::command(&without);
+    let frame = subcommands::command(&without);
     let known = engine::options(&bare);
     for kind in definition.engines.kinds() {
         let others = kind.options().iter().filter(|own| known.iter().all(|option| option.name != own.name));
@@ -102,7 +102,7 @@ fn taken(command: &Command) -> BTreeSet<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Unable;
+    use super::super::{Unable, parse};
     use super::*;
     use crate::engines::{EngineKind, EngineOption, EngineOptions};
     use clap::Args;

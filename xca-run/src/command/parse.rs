@@ -1,16 +1,16 @@
 //! From the words of a command line to what they mean.
 
-use super::arguments::ResumeArguments;
 use super::choice::{Choice, RunInvocation, parsed};
 use super::compare::CompareArguments;
 use super::definition::Definition;
 use super::engine::{OtherChoice, chosen, given};
-use super::help::EXIT_CODES;
 use super::inspect::InspectArguments;
 use super::list::ListArguments;
 use super::new::NewArguments;
 use super::outcome::Unable;
 use super::render::RenderArguments;
+use super::resume::ResumeArguments;
+use super::subcommands::command;
 use super::sweep::SweepArguments;
 use super::watch::WatchArguments;
 use super::{clashes, compare, config, inspect, list, new, render, resume, run, sweep, watch};
@@ -36,38 +36,6 @@ pub(super) enum Invocation<'a> {
     Compare(Box<Choice<'a>>, Box<CompareArguments>, EngineOptions, Vec<String>),
     Sweep(Box<Choice<'a>>, EngineChoice, SweepArguments),
     New(NewArguments),
-}
-
-/// The whole command.
-pub(super) fn command(definition: &Definition<'_>) -> Command {
-    let Definition { name, about, version, .. } = definition;
-    let steps = [
-        (format!("{name} run"), format!("runs the model; output in out/{name}")),
-        (format!("{name} render out/{name}"), "draws pictures of that run".to_owned()),
-        (format!("{name} list"), "lists parameters, substates and engines".to_owned()),
-    ];
-    let width = steps.iter().map(|(words, _)| words.len()).max().unwrap_or(0);
-    let steps = steps.map(|(words, about)| format!("\n  {words:width$}  {about}")).concat();
-    Command::new(*name)
-        .about(*about)
-        .version(*version)
-        .subcommand_required(true)
-        .arg_required_else_help(true)
-        .after_help(format!(
-            "First steps:{steps}\n\n`{name} run --help` lists the options of a run. Each command has its own \
-             --help.\n\n{EXIT_CODES}"
-        ))
-        .subcommands([
-            run::command(definition),
-            resume::command(definition),
-            render::command(definition),
-            watch::command(definition),
-            list::command(definition),
-            inspect::command(definition),
-            compare::command(definition),
-            sweep::command(definition),
-            new::command(definition),
-        ])
 }
 
 /// Reads the command line, and the configuration file that it names.

@@ -1,10 +1,12 @@
 //! The subcommand `resume`.
 
-use super::arguments::ResumeArguments;
+mod arguments;
+
+pub(super) use arguments::{NAME, ResumeArguments, command};
+
 use super::choice::RunInvocation;
 use super::definition::Definition;
-use super::engine::{OtherChoice, help, with_other_engine};
-use super::help::with_help;
+use super::engine::{OtherChoice, help};
 use super::outcome::{Ended, Unable};
 use super::parse;
 use super::prepare::{Prepared, check_room, described};
@@ -12,7 +14,6 @@ use super::under_way::UnderWay;
 use super::working_directory::WorkingDirectory;
 use crate::called;
 use crate::engines::EngineChoice;
-use clap::{Args, Command};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use xca_checkpoint::{Checkpoint, CheckpointError, CheckpointFolder, Description, Difference};
@@ -23,32 +24,6 @@ use xca_record::record::REPORT;
 use xca_record::report;
 use xca_record::report::Earlier;
 use xca_record::{BeginError, ReadReportError, Resumed, Run};
-
-pub(super) const NAME: &str = "resume";
-
-const ABOUT: &str = "Resume an interrupted run from its latest checkpoint";
-
-const FILES: &str = "\
-The output becomes, byte for byte, that of a run without the interruption. The model
-with its options, seed and precision stay those of the run. Engine and threads are
-free.
-
---steps continues past the end of the run. --slots continues a run that ended with a
-full cell. The input files must be unchanged. Relative paths start at the directory
-in which the run was started, if it still exists.";
-
-pub(super) fn command(definition: &Definition<'_>) -> Command {
-    let name = definition.name;
-    let examples = [
-        format!("{name} resume out/{name}"),
-        format!("{name} resume out/{name} --steps 100000"),
-        format!("{name} resume out/{name} --engine reference"),
-        format!("{name} resume out/{name} --checkpoint out/{name}/checkpoints/step_00000500.checkpoint"),
-    ];
-    let command = with_other_engine(Command::new(NAME), definition.engines);
-    with_help(ResumeArguments::augment_args(command), ABOUT, &examples)
-        .long_about(format!("{ABOUT}\n\n{FILES}"))
-}
 
 /// Goes on with a run.
 pub(super) fn resume(

@@ -1,17 +1,17 @@
 //! The subcommand `watch`. Its options are known in each program; what shows the run is built with the
 //! feature `terminal`.
 
+mod arguments;
 #[cfg(feature = "terminal")]
 mod show;
 
-use super::arguments::{RunArguments, interval, steps};
+pub(super) use arguments::WatchArguments;
+
 use super::choice::RunInvocation;
 use super::definition::Definition;
 use super::engine::with_engine;
 use super::help::{with_help, with_model};
-use super::look::LookArguments;
 use super::outcome::{Ended, Unable};
-use super::voice::Voice;
 use clap::{Args, Command};
 
 pub(super) const NAME: &str = "watch";
@@ -35,42 +35,6 @@ Keys:
   r          begin the run anew
   q          quit (also Esc), with exit code 0
   Ctrl-C     quit, with exit code 130";
-
-/// What is watched.
-#[derive(Args, Debug, Clone)]
-pub(super) struct WatchArguments {
-    /// Stop after N steps [default: when the model stops]
-    #[arg(long, value_name = "N", value_parser = steps)]
-    steps: Option<u64>,
-
-    /// Draw every N steps, and at least every half second [default: 1/1000 of the model's steps]
-    #[arg(long, value_name = "N", value_parser = interval)]
-    every: Option<u64>,
-
-    /// Maximum number of pictures per second
-    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u16).range(1..=60))]
-    fps: u16,
-
-    #[command(flatten)]
-    look: LookArguments,
-}
-
-impl WatchArguments {
-    /// What a run would be told.
-    pub(super) fn as_of_run(&self) -> RunArguments {
-        RunArguments {
-            steps: self.steps,
-            out: None,
-            every: None,
-            checkpoint_every: None,
-            formats: Vec::new(),
-            allow_non_finite: true,
-            overwrite: false,
-            print_source: false,
-            voice: Voice::default(),
-        }
-    }
-}
 
 pub(super) fn command(definition: &Definition<'_>) -> Command {
     let name = definition.name;

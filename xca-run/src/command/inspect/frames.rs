@@ -1,8 +1,11 @@
 //! The last state that a run has saved as frames, where there is no checkpoint to look into.
 
+use super::arguments::InspectArguments;
+use super::findings::Inside;
 use super::numbers::Numbers;
 use super::state::{Described, NamedValue, Place, Statistics, linear};
-use super::{Definition, Inside, InspectArguments, Unable};
+use crate::command::definition::Definition;
+use crate::command::outcome::Unable;
 use crate::command::render::formats_of;
 use serde_json::Value;
 use std::fs;

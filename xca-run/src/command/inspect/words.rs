@@ -1,7 +1,7 @@
 //! What was found, as text.
 
+use super::findings::{Findings, Inside};
 use super::state::{Place, Spread, Statistics};
-use super::{Findings, Inside};
 use serde_json::Value;
 use std::fmt;
 use xca_checkpoint::Exact;

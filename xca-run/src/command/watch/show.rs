@@ -4,7 +4,7 @@ use super::super::choice::RunInvocation;
 use super::super::outcome::{Ended, Unable};
 use super::super::prepare::{Prepared, not_started, warn};
 use super::super::under_way::engine_words;
-use super::WatchArguments;
+use super::arguments::WatchArguments;
 use crate::interrupt::Interrupt;
 use std::io::{IsTerminal, stdin, stdout};
 use xca_core::Simulation;
