@@ -1,6 +1,7 @@
 //! A model on an engine.
 
 mod finite;
+mod restore;
 mod snapshot;
 
 pub use snapshot::{GroupSnapshot, Snapshot, SnapshotError};

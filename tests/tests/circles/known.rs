@@ -16,8 +16,6 @@ impl Known {
 
 /// Circles may become smaller. They must not grow.
 pub(crate) const KNOWN: &[Known] = &[
-    // How far a neighbourhood covers a space is known when the space is made.
-    Known { folder: "xca-process/src", files: &["geometry/cover.rs", "geometry.rs"] },
     // The body of a process is a tree: blocks hold expressions, and expressions blocks.
     Known { folder: "xca-process/src", files: &["ir/expression.rs", "ir.rs", "ir_constant.rs"] },
     // Rows, and the search in them.
@@ -52,8 +50,6 @@ pub(crate) const KNOWN: &[Known] = &[
             "steering.rs",
         ],
     },
-    // A simulation gives snapshots, and begins with them.
-    Known { folder: "xca-core/src", files: &["simulation/snapshot.rs", "simulation.rs"] },
     // Expressions hold statements, and the words for both are shared.
     Known {
         folder: "xca-macros/src",
