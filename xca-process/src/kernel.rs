@@ -43,10 +43,12 @@ pub use near::{NO_PLACE, NearLists};
 pub use neighbours::{Directions, Offsets};
 pub use search::{CellFilter, Found, Scratch, reach};
 pub use space::NativeSpace;
-pub use values::{ArrayValue, KernelElement, KernelValue, load, load_element, store};
+pub use values::{
+    ArrayValue, KernelElement, KernelValue, Lanes, Planes, Written, block, load, load_element, store,
+};
 pub use work::{Work, run};
 use work::{announce, announce_bytes};
-pub use written::{Lanes, Planes, Stage, Written, WrittenArrays, block};
+pub use written::{Stage, WrittenArrays};
 
 /// The result of a migration: the item stays in its cell.
 pub const STAY: u32 = u32::MAX;

@@ -2,8 +2,7 @@
 
 use super::Row;
 use super::cells::{AroundRead, CentreRead};
-use super::values::{KernelElement, KernelValue};
-use super::written::{Planes, Written};
+use super::values::{KernelElement, KernelValue, Planes, Written};
 use std::marker::PhantomData;
 
 /// One substate in memory.
