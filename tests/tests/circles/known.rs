@@ -19,19 +19,6 @@ pub(crate) const KNOWN: &[Known] = &[
     // The body of a process is a tree, which is recursion: blocks hold expressions, expressions hold blocks and
     // calls of functions, and functions hold blocks.
     Known { folder: "xca-process/src", files: &["ir/expression.rs", "ir/function.rs", "ir/statement.rs"] },
-    // Rows, and the search in them.
-    Known {
-        folder: "xca-process/src",
-        files: &[
-            "kernel/cells.rs",
-            "kernel/entries.rs",
-            "kernel/near.rs",
-            "kernel/search.rs",
-            "kernel/space.rs",
-            "kernel/wide.rs",
-            "kernel.rs",
-        ],
-    },
     // A model holds steering, which acts on a state, which is a state of a model.
     Known {
         folder: "xca-core/src",
