@@ -8,8 +8,8 @@ use xca_values::{Field, Precision};
 
 /// The whole state of a run between two steps. Equal snapshots are equal to the last bit.
 ///
-/// With the model and the [`crate::RunOptions`] it determines the rest of the run, on any engine. Variables that a
-/// steering operation keeps to itself, in a `Mutex` for example, are not part of it.
+/// With the model and the [`crate::RunOptions`] it determines the rest of the run, on any engine. Variables
+/// that a steering operation keeps to itself, in a `Mutex` for example, are not part of it.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Snapshot {
     /// The number of steps done.
