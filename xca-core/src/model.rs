@@ -4,25 +4,29 @@ mod builder;
 mod check;
 mod error;
 mod filling;
+mod filling_check;
+mod group;
 mod initial;
 mod names;
+mod schedules;
+mod structure;
 
 pub use builder::ModelBuilder;
 pub use error::ModelError;
+pub use group::{Group, GroupKind, WriteOutside};
 pub use initial::InitialError;
+pub(crate) use structure::Structure;
 
 use crate::engine::SubstateId;
 use crate::parameter_set::ParameterSet;
 use crate::plan::Plan;
 use crate::steering::{Schedule, Steering};
 use std::any::TypeId;
-use std::fmt;
-use std::sync::Arc;
+use xca_process::Geometry;
 use xca_process::Process;
 use xca_process::Substates;
-use xca_process::{Faces, Geometry};
 use xca_process::{ParameterError, Parameters};
-use xca_values::{Field, Schema};
+use xca_values::Field;
 use xca_values::{Precision, ScalarType, StoredType};
 
 /// An Extended Cellular Automaton, checked and ready to run on any engine.
@@ -66,9 +70,7 @@ use xca_values::{Precision, ScalarType, StoredType};
 /// so one model serves many runs.
 #[derive(Clone, Debug)]
 pub struct Model {
-    name: String,
-    geometry: Geometry,
-    groups: Vec<Group>,
+    structure: Structure,
     processes: Vec<Process>,
     parameters: ParameterSet,
     plan: Plan,
@@ -80,105 +82,20 @@ pub struct Model {
     fault_texts: Vec<(u32, String)>,
 }
 
-/// The substates of one struct, in a model.
-#[derive(Clone)]
-pub struct Group {
-    type_id: TypeId,
-    /// With its path, for messages.
-    type_name: &'static str,
-    schema: &'static Schema,
-    kind: GroupKind,
-}
-
-/// Writes the value of the field with this number, in its stored type.
-pub type WriteOutside = dyn Fn(usize, Precision, &mut [u8]) + Send + Sync;
-
-/// The owners of a group's substates.
-#[derive(Clone)]
-pub enum GroupKind {
-    /// The cells.
-    Cells {
-        /// Writes the outside value of a field, for each flat face.
-        outside: Faces<Arc<WriteOutside>>,
-    },
-    /// The items of a population.
-    Population {
-        /// The most items in a cell.
-        slots: usize,
-        /// Whether a migration may send items out of the space.
-        may_leave: bool,
-    },
-}
-
-impl fmt::Debug for GroupKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Cells { .. } => f.write_str("Cells"),
-            Self::Population { slots, may_leave } => {
-                f.debug_struct("Population").field("slots", slots).field("may_leave", may_leave).finish()
-            }
-        }
-    }
-}
-
-impl Group {
-    /// The type of the struct.
-    pub fn type_id(&self) -> TypeId {
-        self.type_id
-    }
-
-    /// The fields.
-    pub fn schema(&self) -> &'static Schema {
-        self.schema
-    }
-
-    /// Whether the substates belong to cells or to a population.
-    pub fn kind(&self) -> &GroupKind {
-        &self.kind
-    }
-
-    /// The machine types of the fields.
-    pub fn stored(&self, precision: Precision) -> Vec<StoredType> {
-        self.schema.fields.iter().map(|field| field.value_type.stored(precision)).collect()
-    }
-
-    /// The stored bytes of a field beyond each flat face. `None` for a population.
-    pub fn outside(&self, field: usize, precision: Precision) -> Option<Faces<Vec<u8>>> {
-        let GroupKind::Cells { outside } = &self.kind else { return None };
-        let size = self.schema.fields[field].value_type.stored(precision).size();
-        Some(outside.map(|write| {
-            let mut bytes = vec![0; size];
-            write(field, precision, &mut bytes);
-            bytes
-        }))
-    }
-}
-
-impl fmt::Debug for Group {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Group").field("substates", &self.schema.name).field("kind", &self.kind).finish()
-    }
-}
-
 impl Model {
-    /// Starts the definition of a model.
-    pub fn builder(name: impl Into<String>) -> ModelBuilder {
-        ModelBuilder::new(name.into())
-    }
-
     /// The model's name.
     pub fn name(&self) -> &str {
-        &self.name
+        self.structure.name()
     }
 
     /// The cellular space.
     pub fn geometry(&self) -> &Geometry {
-        &self.geometry
+        self.structure.geometry()
     }
 
     /// The structs of substates, in the order of their addition.
     pub fn groups(&self) -> &[Group] {
-        &self.groups
+        self.structure.groups()
     }
 
     /// The elementary processes, in the order in which they run.
@@ -194,6 +111,11 @@ impl Model {
     /// The plan that engines derive from the processes.
     pub fn plan(&self) -> &Plan {
         &self.plan
+    }
+
+    /// The space and the substates, for a state.
+    pub(crate) fn structure(&self) -> &Structure {
+        &self.structure
     }
 
     pub(crate) fn steering(&self) -> &[Steering] {
@@ -214,7 +136,7 @@ impl Model {
             };
             definition.schema.fields.iter().enumerate().filter_map(floating).collect::<Vec<_>>()
         };
-        let all = self.groups.iter().enumerate().flat_map(of_group);
+        let all = self.structure.groups.iter().enumerate().flat_map(of_group);
         all.filter(|substate| !self.may_be_non_finite.contains(substate))
     }
 
@@ -225,17 +147,17 @@ impl Model {
 
     /// The number of the group of this type, if the model has it.
     pub fn group_number(&self, type_id: TypeId) -> Option<usize> {
-        self.groups.iter().position(|group| group.type_id == type_id)
+        self.structure.group_number(type_id)
     }
 
     /// The number of the group of the struct `S`, if the model has it.
     pub fn group_of<S: Substates>(&self) -> Option<usize> {
-        self.group_number(TypeId::of::<S>())
+        self.structure.group_of::<S>()
     }
 
     /// The machine type of a substate.
     pub fn stored(&self, substate: SubstateId, precision: Precision) -> StoredType {
-        self.groups[substate.group].schema.fields[substate.field].value_type.stored(precision)
+        self.structure.stored(substate, precision)
     }
 
     /// Replaces the parameters of the struct `P`. Initial states that use them change with them.
@@ -249,7 +171,7 @@ impl Model {
 
     /// The number of slots in a cell for the items of a population, by the name of its struct.
     pub fn slots(&self, population: &str) -> Option<usize> {
-        let group = self.groups.iter().find(|group| group.schema.name == population)?;
+        let group = self.structure.groups.iter().find(|group| group.schema.name == population)?;
         match group.kind {
             GroupKind::Population { slots, .. } => Some(slots),
             GroupKind::Cells { .. } => None,
@@ -273,7 +195,7 @@ impl Model {
     /// # Errors
     /// Returns an error if no population has the name, or `slots` is 0.
     pub fn set_slots(&mut self, population: &str, slots: usize) -> Result<(), ModelError> {
-        for group in &mut self.groups {
+        for group in &mut self.structure.groups {
             if let (true, GroupKind::Population { slots: own, .. }) =
                 (group.schema.name == population, &mut group.kind)
             {
@@ -284,7 +206,10 @@ impl Model {
                 return Ok(());
             }
         }
-        Err(ModelError::NoPopulation { model: self.name.clone(), population: population.to_owned() })
+        Err(ModelError::NoPopulation {
+            model: self.structure.name.clone(),
+            population: population.to_owned(),
+        })
     }
 
     /// Sets a parameter by name, from text. Initial states that use it change with it.

@@ -1,6 +1,7 @@
 //! A model on an engine.
 
 mod finite;
+mod restore;
 mod snapshot;
 
 pub use snapshot::{GroupSnapshot, Snapshot, SnapshotError};
@@ -211,7 +212,7 @@ impl Simulation {
     /// The state for the steering operation with this number.
     fn state_for(&mut self, operation: u32) -> State<'_> {
         State {
-            model: &self.model,
+            structure: self.model.structure(),
             execution: &mut *self.execution,
             left_before: &self.left_before,
             parameters: &mut self.parameters,

@@ -1,23 +1,26 @@
 //! The state of a run as steering and the host see it.
 
 mod cells;
+mod error;
 mod expressions;
 mod initial;
+mod parameters;
 
-use crate::engine::{EngineFailure, Execution, Fault, Population, SubstateId};
-use crate::model::Model;
+pub use error::StateError;
+
+use crate::engine::{Execution, Population, SubstateId};
+use crate::model::{GroupKind, Structure};
 use crate::parameter_set::ParameterSet;
 use crate::reduction::{Reduced, Reducible, Reduction};
 use xca_process::Geometry;
 use xca_process::{Draw, Stream, uniform};
 use xca_process::{HostScalar, HostValue};
-use xca_process::{ParameterError, ParameterValue, Parameters};
 use xca_process::{Substate, Substates};
 use xca_values::{Precision, StoredScalar};
 
 #[doc = include_str!("../docs/state.md")]
 pub struct State<'a> {
-    pub(crate) model: &'a Model,
+    pub(crate) structure: &'a Structure,
     pub(crate) execution: &'a mut dyn Execution,
     pub(crate) left_before: &'a [u64],
     pub(crate) parameters: &'a mut ParameterSet,
@@ -44,56 +47,6 @@ pub struct Item<S> {
     pub state: S,
 }
 
-/// A request that does not fit the model.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum StateError {
-    /// The model does not have these substates.
-    #[error("the model has no substates `{0}`")]
-    UnknownSubstates(&'static str),
-    /// The substates belong to cells.
-    #[error("`{0}` are the substates of cells, not of a population")]
-    NotAPopulation(&'static str),
-    /// The substates belong to items.
-    #[error("`{0}` is a population; its items are not numbered by cells")]
-    NotOfCells(&'static str),
-    /// A cell that the space does not have.
-    #[error("the space of {extents:?} cells has no cell {cell:?}")]
-    NoSuchCell {
-        /// The indices of the cell.
-        cell: [usize; 3],
-        /// The extents.
-        extents: [usize; 3],
-    },
-    /// The number of values differs from that of the cells or items.
-    #[error("`{substate}` has {wanted} values, but {given} are given")]
-    WrongNumber {
-        /// The substate.
-        substate: &'static str,
-        /// The number of cells or items.
-        wanted: usize,
-        /// The number of values.
-        given: usize,
-    },
-    /// A bitwise reduction of floating-point numbers.
-    #[error(
-        "`{0}` holds floating numbers, whose bits cannot be reduced; use a logical reduction, or a substate of integers"
-    )]
-    BitsOfFloats(&'static str),
-    /// Two items with the same label.
-    #[error("the label {0} is given to two items")]
-    LabelTwice(u32),
-    /// A parameter that cannot be read or set.
-    #[error(transparent)]
-    Parameter(#[from] ParameterError),
-    /// The engine lost its state.
-    #[error(transparent)]
-    Engine(#[from] EngineFailure),
-    /// Items that do not fit.
-    #[error(transparent)]
-    Fault(#[from] Fault),
-}
-
 impl State<'_> {
     /// The number of steps done.
     pub fn step(&self) -> u64 {
@@ -112,7 +65,7 @@ impl State<'_> {
 
     /// The cellular space.
     pub fn geometry(&self) -> &Geometry {
-        self.model.geometry()
+        self.structure.geometry()
     }
 
     /// A random number in [0, 1) for steering: a function of seed, step, operation and `draw`.
@@ -149,11 +102,11 @@ impl State<'_> {
     }
 
     fn group<S: Substates>(&self) -> Result<usize, StateError> {
-        self.model.group_of::<S>().ok_or(StateError::UnknownSubstates(S::SCHEMA.name))
+        self.structure.group_of::<S>().ok_or(StateError::UnknownSubstates(S::SCHEMA.name))
     }
 
     fn is_population(&self, group: usize) -> bool {
-        matches!(self.model.groups()[group].kind(), crate::model::GroupKind::Population { .. })
+        matches!(self.structure.groups()[group].kind(), GroupKind::Population { .. })
     }
 
     fn population_of<S: Substates>(&self) -> Result<usize, StateError> {
@@ -185,7 +138,7 @@ impl State<'_> {
     /// Returns an error if the model does not have the substate.
     pub fn read<S: Substates, V: HostValue>(&self, substate: Substate<S, V>) -> Result<Vec<V>, StateError> {
         let id = self.id(substate)?;
-        let stored = self.model.stored(id, self.precision);
+        let stored = self.structure.stored(id, self.precision);
         Ok(self
             .execution
             .read(id)?
@@ -204,7 +157,7 @@ impl State<'_> {
         values: &[V],
     ) -> Result<(), StateError> {
         let id = self.id(substate)?;
-        let stored = self.model.stored(id, self.precision);
+        let stored = self.structure.stored(id, self.precision);
         let wanted = if self.is_population(id.group) {
             self.execution.items(id.group)
         } else {
@@ -238,8 +191,11 @@ impl State<'_> {
     /// Returns an error if the model does not have the population.
     pub fn items<S: Substates>(&self) -> Result<Vec<Item<S>>, StateError> {
         let group = self.population_of::<S>()?;
-        let sizes: Vec<usize> =
-            self.model.groups()[group].stored(self.precision).iter().map(|stored| stored.size()).collect();
+        let sizes: Vec<usize> = self.structure.groups()[group]
+            .stored(self.precision)
+            .iter()
+            .map(|stored| stored.size())
+            .collect();
         let population = self.execution.population(group)?;
         let mut items = Vec::with_capacity(population.labels.len());
         let cells =
@@ -271,7 +227,7 @@ impl State<'_> {
         }
         let geometry = self.geometry();
         items.sort_unstable_by_key(|item| (geometry.linear(item.cell), item.label));
-        let types = self.model.groups()[group].stored(self.precision);
+        let types = self.structure.groups()[group].stored(self.precision);
         let mut fields: Vec<Vec<u8>> =
             types.iter().map(|stored| vec![0; stored.size() * items.len()]).collect();
         for (index, item) in items.iter().enumerate() {
@@ -320,7 +276,7 @@ impl State<'_> {
     ) -> Result<Vec<Reduced>, StateError> {
         let id = self.id(substate)?;
         let of_bits = matches!(reduction, Reduction::BitAnd | Reduction::BitOr | Reduction::BitXor);
-        let scalar = self.model.stored(id, self.precision).scalar;
+        let scalar = self.structure.stored(id, self.precision).scalar;
         if of_bits && matches!(scalar, StoredScalar::F32 | StoredScalar::F64) {
             return Err(StateError::BitsOfFloats(substate.name()));
         }
@@ -395,7 +351,7 @@ impl State<'_> {
         substate: Substate<S, V>,
         value: V,
     ) -> Result<u64, StateError> {
-        let stored = self.model.stored(self.id(substate)?, self.precision);
+        let stored = self.structure.stored(self.id(substate)?, self.precision);
         let mut bytes = vec![0; stored.size()];
         HostValue::encode(&value, stored, &mut bytes);
         let results = self.reduce(substate, &Reduction::CountEqual(bytes))?;
@@ -404,45 +360,12 @@ impl State<'_> {
             _ => 0,
         })
     }
-
-    /// The parameters of the struct `P`.
-    ///
-    /// # Errors
-    /// Returns an error if the model has no parameters of this type.
-    pub fn parameters<P: Parameters>(&self) -> Result<P, StateError> {
-        Ok(self.parameters.typed::<P>()?.clone())
-    }
-
-    /// Replaces the parameters of the struct `P`, from the next step on.
-    ///
-    /// # Errors
-    /// Returns an error if the model has no parameters of this type, or a value is out of its range.
-    pub fn set_parameters<P: Parameters>(&mut self, parameters: P) -> Result<(), StateError> {
-        Ok(self.parameters.replace(self.precision, parameters)?)
-    }
-
-    /// The value of a parameter by name.
-    ///
-    /// # Errors
-    /// Returns an error if the name is unknown or ambiguous.
-    pub fn parameter(&self, name: &str) -> Result<ParameterValue, StateError> {
-        Ok(self.parameters.value_by_name(name)?)
-    }
-
-    /// Sets a parameter by name, from text, from the next step on.
-    ///
-    /// # Errors
-    /// Returns an error if the name is unknown or ambiguous, the parameter is computed, or the text is not a
-    /// value of its type and range.
-    pub fn set_parameter(&mut self, name: &str, text: &str) -> Result<(), StateError> {
-        Ok(self.parameters.change(self.precision, |parameters| parameters.set_by_name(name, text))?)
-    }
 }
 
 impl std::fmt::Debug for State<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("State")
-            .field("model", &self.model.name())
+            .field("model", &self.structure.name())
             .field("step", &self.step)
             .finish_non_exhaustive()
     }

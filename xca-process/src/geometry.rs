@@ -6,6 +6,7 @@ mod faces;
 pub use faces::{Face, Faces};
 
 use crate::neighbourhood::Neighbourhood;
+use cover::Covering;
 use std::fmt;
 use xca_values::Precision;
 
@@ -106,7 +107,11 @@ impl Geometry {
         neighbourhood: Neighbourhood,
     ) -> Self {
         let mut geometry = Self { extents, side, boundaries, neighbourhood, covered: 0.0 };
-        geometry.covered = cover::covered(&geometry);
+        geometry.covered = cover::covered(Covering {
+            extents,
+            toroidal: geometry.toroidal(),
+            neighbourhood: &geometry.neighbourhood,
+        });
         geometry
     }
 

@@ -16,7 +16,6 @@ mod float;
 mod geometry;
 mod host_value;
 pub mod ir;
-mod ir_constant;
 pub mod kernel;
 pub mod math;
 mod neighbourhood;

@@ -16,44 +16,9 @@ impl Known {
 
 /// Circles may become smaller. They must not grow.
 pub(crate) const KNOWN: &[Known] = &[
-    // How far a neighbourhood covers a space is known when the space is made.
-    Known { folder: "xca-process/src", files: &["geometry/cover.rs", "geometry.rs"] },
-    // The body of a process is a tree: blocks hold expressions, and expressions blocks.
-    Known { folder: "xca-process/src", files: &["ir/expression.rs", "ir.rs", "ir_constant.rs"] },
-    // Rows, and the search in them.
-    Known {
-        folder: "xca-process/src",
-        files: &[
-            "kernel/cells.rs",
-            "kernel/entries.rs",
-            "kernel/near.rs",
-            "kernel/search.rs",
-            "kernel/space.rs",
-            "kernel/wide.rs",
-            "kernel.rs",
-        ],
-    },
-    // Values, and the blocks in which they are written.
-    Known { folder: "xca-process/src", files: &["kernel/values.rs", "kernel/written.rs"] },
-    // A model holds steering, which acts on a state, which is a state of a model.
-    Known {
-        folder: "xca-core/src",
-        files: &[
-            "engine/fault.rs",
-            "engine/input.rs",
-            "engine.rs",
-            "model/builder.rs",
-            "model/check.rs",
-            "model/filling.rs",
-            "model/names.rs",
-            "model.rs",
-            "plan.rs",
-            "state.rs",
-            "steering.rs",
-        ],
-    },
-    // A simulation gives snapshots, and begins with them.
-    Known { folder: "xca-core/src", files: &["simulation/snapshot.rs", "simulation.rs"] },
+    // Recursion: the body of a process is a tree. Blocks hold expressions; expressions hold blocks and call
+    // functions; functions hold blocks.
+    Known { folder: "xca-process/src", files: &["ir/expression.rs", "ir/function.rs", "ir/statement.rs"] },
     // Recursion: statements hold loops, which hold statements.
     Known { folder: "xca-macros/src", files: &["data/loops.rs", "data.rs"] },
     // Recursion: expressions hold statements, and statements expressions.

@@ -1,6 +1,6 @@
 //! Errors that end a run.
 
-use super::input::InputError;
+use super::InputError;
 use std::any::Any;
 use std::fmt;
 use xca_process::Geometry;
@@ -228,6 +228,12 @@ impl std::error::Error for Fault {}
 impl From<EngineFailure> for Fault {
     fn from(failure: EngineFailure) -> Self {
         Self::Engine(failure)
+    }
+}
+
+impl From<InputError> for Fault {
+    fn from(error: InputError) -> Self {
+        Self::Engine(EngineFailure::Input(error))
     }
 }
 

@@ -1,24 +1,22 @@
 //! The definition of a model.
 
 use super::check::{check_geometry, check_group, check_opposites, check_process};
-use super::filling::Filling;
+use super::filling_check::Filling;
 use super::names::check_names;
-use super::{Group, GroupKind, Model, ModelError, WriteOutside};
+use super::{Group, GroupKind, Model, ModelError, Structure, WriteOutside};
 use crate::engine::SubstateId;
 use crate::parameter_set::ParameterSet;
 use crate::plan::Plan;
-use crate::state::State;
-use crate::steering::{Schedule, Steering, SteeringError};
+use crate::steering::{Schedule, Steering};
 use std::any::TypeId;
 use std::fmt;
 use std::sync::Arc;
-use xca_process::HostValue;
 use xca_process::Neighbourhood;
 use xca_process::Parameters;
 use xca_process::Stream;
+use xca_process::Substates;
 use xca_process::{Boundary, Face, Faces, Geometry};
 use xca_process::{Process, Processes};
-use xca_process::{Substate, Substates};
 use xca_values::Precision;
 
 /// Collects the definition of a model. [`Model::builder`] makes one; [`ModelBuilder::build`] checks it and
@@ -63,17 +61,17 @@ pub struct ModelBuilder {
     side: f64,
     boundaries: Faces<Boundary>,
     neighbourhood: Neighbourhood,
-    groups: Vec<Group>,
+    pub(super) groups: Vec<Group>,
     /// The faces that were given outside values of their own.
     outsides: Vec<Outside>,
     processes: Vec<Process>,
     parameters: ParameterSet,
-    steering: Vec<Steering>,
-    watches: Vec<Schedule>,
-    may_be_non_finite: Vec<SubstateId>,
+    pub(super) steering: Vec<Steering>,
+    pub(super) watches: Vec<Schedule>,
+    pub(super) may_be_non_finite: Vec<SubstateId>,
     pub(super) fillings: Vec<Filling>,
     fault_texts: Vec<(u32, String)>,
-    mistake: Option<ModelError>,
+    pub(super) mistake: Option<ModelError>,
 }
 
 /// Substates that have values of their own beyond a face.
@@ -82,8 +80,15 @@ struct Outside {
     face: Face,
 }
 
+impl Model {
+    /// Starts the definition of a model.
+    pub fn builder(name: impl Into<String>) -> ModelBuilder {
+        ModelBuilder::new(name.into())
+    }
+}
+
 impl ModelBuilder {
-    pub(super) fn new(name: String) -> Self {
+    fn new(name: String) -> Self {
         Self {
             name,
             extents: None,
@@ -192,8 +197,8 @@ impl ModelBuilder {
         self.add_group::<S>(GroupKind::Population { slots, may_leave: false })
     }
 
-    /// Allows migrations to send items of the population `S` out of the space. [`State::count_left`] counts
-    /// them.
+    /// Allows migrations to send items of the population `S` out of the space.
+    /// [`crate::State::count_left`] counts them.
     pub fn items_may_leave<S: Substates>(mut self) -> Self {
         let group = self.groups.iter_mut().find(|group| group.type_id == TypeId::of::<S>());
         match group.map(|group| &mut group.kind) {
@@ -283,85 +288,6 @@ impl ModelBuilder {
         self
     }
 
-    /// Adds a global operation. The schedule says when it runs.
-    pub fn steer(
-        mut self,
-        schedule: Schedule,
-        operation: impl Fn(&mut State<'_>) -> Result<(), SteeringError> + Send + Sync + 'static,
-    ) -> Self {
-        self.check_schedule(&schedule);
-        self.steering.push(Steering::new(schedule, operation));
-        self
-    }
-
-    fn check_schedule(&mut self, schedule: &Schedule) {
-        if matches!(schedule, Schedule::Every(0) | Schedule::EveryFromStart(0)) {
-            self.mistake.get_or_insert(ModelError::ZeroInterval);
-        }
-    }
-
-    /// Adds a global operation that makes the initial state. [`Self::fill`] and [`Self::populate`] do so cell
-    /// by cell.
-    pub fn initialise(
-        self,
-        operation: impl Fn(&mut State<'_>) -> Result<(), SteeringError> + Send + Sync + 'static,
-    ) -> Self {
-        self.steer(Schedule::Start, operation)
-    }
-
-    /// Stops the run when the condition returns a reason.
-    ///
-    /// ```
-    /// # use xca_core::prelude::*;
-    /// # #[derive(Substates, Clone, Copy)]
-    /// # struct Lava { speed: Real }
-    /// # let builder = Model::builder("lava").extents([4, 4, 1]).substates::<Lava>();
-    /// builder.stop_when(Schedule::Every(10), |state| {
-    ///     let fastest = state.maximum(Lava::SPEED)?.unwrap_or(0.0);
-    ///     Ok((fastest < 1e-6).then(|| "the lava stands still".to_owned()))
-    /// });
-    /// ```
-    ///
-    /// If a reduction in the condition gives NaN, the run checks all substates. A NaN or an infinity ends the
-    /// run with the fault [`crate::Fault::NotFinite`], which names the cell. Substates of
-    /// [`Self::allow_non_finite`] are exempt.
-    pub fn stop_when(
-        self,
-        schedule: Schedule,
-        condition: impl Fn(&mut State<'_>) -> Result<Option<String>, SteeringError> + Send + Sync + 'static,
-    ) -> Self {
-        self.steer(schedule, move |state| {
-            if let Some(reason) = condition(state)? {
-                state.stop(reason);
-            }
-            state.undecided = state.reduced_nan.get();
-            Ok(())
-        })
-    }
-
-    /// Checks at these times that all floating-point substates are finite. A NaN or an infinity ends the run
-    /// with the fault [`crate::Fault::NotFinite`], which names step, substate, cell and item.
-    ///
-    /// The check comes before the steering of its step, so no stop criterion sees a NaN. With `Start` it
-    /// follows the initial state, with `End` the last steering. It reads each substate once.
-    /// [`crate::Simulation::check_finite`] checks at any other time.
-    pub fn watch_finite(mut self, schedule: Schedule) -> Self {
-        self.check_schedule(&schedule);
-        self.watches.push(schedule);
-        self
-    }
-
-    /// Exempts a substate from all checks for NaN and infinities.
-    pub fn allow_non_finite<S: Substates, V: HostValue>(mut self, substate: Substate<S, V>) -> Self {
-        match self.groups.iter().position(|group| group.type_id == TypeId::of::<S>()) {
-            Some(group) => self.may_be_non_finite.push(SubstateId { group, field: substate.index() }),
-            None => {
-                self.mistake.get_or_insert(ModelError::NotAdded { substates: S::SCHEMA.name });
-            }
-        }
-        self
-    }
-
     /// Sets the message for a fault code.
     pub fn fault_text(mut self, code: u32, text: impl Into<String>) -> Self {
         self.fault_texts.push((code, text.into()));
@@ -409,10 +335,8 @@ impl ModelBuilder {
         let mut parameters = self.parameters;
         parameters.change(Precision::F64, |_| Ok(()))?;
         Ok(Model {
-            name: self.name,
             plan: Plan::new(&self.processes, &self.groups),
-            geometry,
-            groups: self.groups,
+            structure: Structure { name: self.name, geometry, groups: self.groups },
             processes: self.processes,
             parameters,
             steering: self.steering,

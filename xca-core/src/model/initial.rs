@@ -95,7 +95,7 @@ impl Model {
         let values: Vec<Option<f64>> = values.into_iter().map(Into::into).collect();
         let (id, value_type, component) = self.component_of_cells(substate)?;
         let name = substate.to_owned();
-        let cells = self.geometry.cells();
+        let cells = self.geometry().cells();
         if values.len() != cells {
             return Err(InitialError::WrongNumber { name, cells, given: values.len() });
         }
@@ -103,7 +103,7 @@ impl Model {
         if let Some((cell, value)) =
             values.iter().enumerate().find_map(|(cell, value)| Some((cell, unfit(value)?)))
         {
-            return Err(InitialError::Value { name, cell: self.geometry.indices(cell), value, value_type });
+            return Err(InitialError::Value { name, cell: self.geometry().indices(cell), value, value_type });
         }
         self.steering.push(Steering::new(Schedule::Start, move |state| {
             let stored = value_type.stored(state.precision);
@@ -141,7 +141,7 @@ impl Model {
 
     /// All substates of cells.
     fn of_cells(&self) -> Vec<Named> {
-        let groups = self.groups.iter().enumerate();
+        let groups = self.groups().iter().enumerate();
         let groups = groups.filter(|(_, group)| matches!(group.kind, GroupKind::Cells { .. }));
         let named = |(group, of): (usize, &Group)| {
             let of = of.schema;

@@ -29,7 +29,7 @@ impl State<'_> {
     ) -> Result<V, StateError> {
         let id = self.of_cells(substate)?;
         let bytes = self.execution.read_cells(id, &[self.cell(cell)?])?;
-        Ok(V::decode(self.model.stored(id, self.precision), &bytes))
+        Ok(V::decode(self.structure.stored(id, self.precision), &bytes))
     }
 
     /// The values of a substate in several cells, in their order. The engine reads them in one go.
@@ -168,7 +168,7 @@ impl State<'_> {
     }
 
     fn values_of<V: HostValue>(&self, id: SubstateId, numbers: &[usize]) -> Result<Vec<V>, StateError> {
-        let stored = self.model.stored(id, self.precision);
+        let stored = self.structure.stored(id, self.precision);
         let bytes = self.execution.read_cells(id, numbers)?;
         Ok(bytes.chunks_exact(stored.size()).map(|bytes| V::decode(stored, bytes)).collect())
     }
@@ -179,7 +179,7 @@ impl State<'_> {
         numbers: &[usize],
         values: &[V],
     ) -> Result<(), StateError> {
-        let stored = self.model.stored(id, self.precision);
+        let stored = self.structure.stored(id, self.precision);
         let mut bytes = vec![0; stored.size() * values.len()];
         for (value, bytes) in values.iter().zip(bytes.chunks_exact_mut(stored.size())) {
             value.encode(stored, bytes);

@@ -69,7 +69,7 @@ impl State<'_> {
     /// Visits the cells, or the items of a population, row by row, with the number of the row.
     fn for_each<S: Substates>(&self, mut visit: impl FnMut(usize, &S)) -> Result<(), StateError> {
         let group = self.group::<S>()?;
-        let stored = self.model.groups()[group].stored(self.precision);
+        let stored = self.structure.groups()[group].stored(self.precision);
         let width = self.geometry().extents()[0];
         let (fields, lengths) = if self.is_population(group) {
             let Population { counts, fields, .. } = self.execution.population(group)?;

@@ -8,7 +8,7 @@ use xca_process::Substates;
 
 impl State<'_> {
     fn sites(&self, group: usize) -> Sites<'_> {
-        let (geometry, step) = (self.model.geometry(), self.step);
+        let (geometry, step) = (self.structure.geometry(), self.step);
         Sites { geometry, group, step, seed: self.seed }
     }
 
@@ -74,8 +74,11 @@ impl State<'_> {
 
     /// The stored bytes of each field of these states.
     fn encoded<S: Substates>(&self, group: usize, states: impl Iterator<Item = S>) -> Vec<Vec<u8>> {
-        let sizes: Vec<usize> =
-            self.model.groups()[group].stored(self.precision).iter().map(|stored| stored.size()).collect();
+        let sizes: Vec<usize> = self.structure.groups()[group]
+            .stored(self.precision)
+            .iter()
+            .map(|stored| stored.size())
+            .collect();
         let count = states.size_hint().0;
         let mut fields: Vec<Vec<u8>> = sizes.iter().map(|size| Vec::with_capacity(size * count)).collect();
         for state in states {

@@ -1,7 +1,17 @@
 //! The largest radius of a search that finds every item.
 
-use super::Geometry;
+use crate::neighbourhood::Neighbourhood;
 use std::collections::HashSet;
+
+/// What the radius depends on.
+#[derive(Clone, Copy)]
+pub(super) struct Covering<'a> {
+    /// The number of cells along x, y, z, before the model has checked it.
+    pub(super) extents: [usize; 3],
+    /// Whether the axes x, y, z are toroidal.
+    pub(super) toroidal: [bool; 3],
+    pub(super) neighbourhood: &'a Neighbourhood,
+}
 
 /// The distance from a cell to the nearest cell of the space that is not in its neighbourhood, in sides of a
 /// cell. Infinite if the neighbourhood holds the whole space.
@@ -9,22 +19,22 @@ use std::collections::HashSet;
 /// Cells are closed boxes, so touching cells have distance 0. A displacement counts if it leads from some
 /// cell to a cell of the space. It does not cross the flat faces of a thin space, and takes the shorter way
 /// on a torus. With hexagons, the rows or columns that see less decide.
-pub(super) fn covered(geometry: &Geometry) -> f64 {
+pub(super) fn covered(covering: Covering<'_>) -> f64 {
     let alternating = [[0; 3], [1, 1, 0]];
-    alternating.map(|cell| covered_from(geometry, cell)).into_iter().fold(f64::INFINITY, f64::min)
+    alternating.map(|cell| covered_from(covering, cell)).into_iter().fold(f64::INFINITY, f64::min)
 }
 
-fn covered_from(geometry: &Geometry, cell: [usize; 3]) -> f64 {
-    let displacements = geometry.neighbourhood.displacements(cell);
+fn covered_from(covering: Covering<'_>, cell: [usize; 3]) -> f64 {
+    let displacements = covering.neighbourhood.displacements(cell);
     let held: HashSet<[i32; 3]> =
-        displacements.iter().map(|at| [0, 1, 2].map(|axis| canonical(geometry, axis, at[axis]))).collect();
+        displacements.iter().map(|at| [0, 1, 2].map(|axis| canonical(covering, axis, at[axis]))).collect();
     // The displacements along an axis that lead to cells of the space, up to one cell beyond the reach. Cells
     // farther away are also missing, but are not nearer.
     let steps = |axis: usize| {
-        let extent = extent(geometry, axis);
+        let extent = extent(covering, axis);
         let (low, high) =
-            if geometry.toroidal()[axis] { ((extent - 1) / 2, extent / 2) } else { (extent - 1, extent - 1) };
-        let reach = geometry.neighbourhood.reach()[axis] as i64 + 1;
+            if covering.toroidal[axis] { ((extent - 1) / 2, extent / 2) } else { (extent - 1, extent - 1) };
+        let reach = covering.neighbourhood.reach()[axis] as i64 + 1;
         -low.min(reach)..=high.min(reach)
     };
     let [along_x, along_y, along_z] = [0, 1, 2].map(steps);
@@ -57,14 +67,14 @@ fn covered_from(geometry: &Geometry, cell: [usize; 3]) -> f64 {
 }
 
 /// The number of cells along an axis, before the model has checked it.
-fn extent(geometry: &Geometry, axis: usize) -> i64 {
-    i64::try_from(geometry.extents[axis]).unwrap_or(i64::MAX)
+fn extent(covering: Covering<'_>, axis: usize) -> i64 {
+    i64::try_from(covering.extents[axis]).unwrap_or(i64::MAX)
 }
 
 /// The shorter of the displacements that lead to the same cell.
-fn canonical(geometry: &Geometry, axis: usize, step: i32) -> i32 {
-    let extent = extent(geometry, axis);
-    if !geometry.toroidal()[axis] || extent == 0 {
+fn canonical(covering: Covering<'_>, axis: usize, step: i32) -> i32 {
+    let extent = extent(covering, axis);
+    if !covering.toroidal[axis] || extent == 0 {
         return step;
     }
     let low = (extent - 1) / 2;

@@ -4,8 +4,8 @@
 //! come from the row too. A kernel therefore needs no unsafe code, and cannot reach memory of others.
 
 use super::values::{KernelElement, KernelValue};
+use super::work::announce_bytes;
 use super::written::BLOCK_BYTES;
-use super::{Row, announce_bytes};
 use std::fmt;
 use std::marker::PhantomData;
 use std::ops::Range;
@@ -13,9 +13,9 @@ use std::ops::Range;
 /// The index of a cell in its row, below the row's length.
 #[derive(Debug, Clone, Copy)]
 pub struct Column<'r> {
-    first: usize,
-    lane: usize,
-    row: PhantomData<&'r ()>,
+    pub(super) first: usize,
+    pub(super) lane: usize,
+    pub(super) row: PhantomData<&'r ()>,
 }
 
 impl Column<'_> {
@@ -29,14 +29,6 @@ impl Column<'_> {
     #[inline(always)]
     pub fn lane(self) -> usize {
         self.lane
-    }
-}
-
-impl Row<'_> {
-    /// The cell with this index, or the last cell if there is none.
-    #[inline(always)]
-    pub(super) fn column(&self, number: usize) -> Column<'_> {
-        Column { first: 0, lane: number.min(self.length.saturating_sub(1)), row: PhantomData }
     }
 }
 

@@ -5,54 +5,11 @@
 //! and in cells give the same result. Lists refer to items by numbers, which do not change when items move in
 //! memory.
 
-use super::search::{CellFilter, reach};
-use super::{Column, Row, RowItems, announce};
+use super::distance::length_squared;
+use super::walk::{Key, Walk};
+use super::{CellFilter, Column, NearLists, Row, RowItems, reach};
 use crate::float::Float;
 use xca_values::Vector3;
-
-/// The place in [`NearLists::places`] of an item that has left the space.
-pub const NO_PLACE: u32 = u32::MAX;
-
-/// The neighbour list of each item.
-#[derive(Debug, Clone, Copy)]
-pub struct NearLists<'a> {
-    /// The number of the item at each place.
-    pub numbers: &'a [u32],
-    /// The place of the item with each number, or [`NO_PLACE`].
-    pub places: &'a [u32],
-    /// The start of the list in `candidates` for each number, then the length of `candidates`.
-    pub starts: &'a [u32],
-    /// The numbers in all lists.
-    pub candidates: &'a [u32],
-    /// The owner of the list of each candidate, as a number.
-    pub owners: &'a [u32],
-    /// The linear index of the cell of the item at each place.
-    pub cells: &'a [u32],
-    /// A search within this radius, in metres, gives the same result in the lists as in the cells.
-    pub radius: f64,
-}
-
-/// The results of all searches of a row, for reuse by other processes of the pass.
-#[derive(Debug, Default)]
-pub(super) struct Walk {
-    key: Option<Key>,
-    /// The start in `near` for each own item, then the length of `near`.
-    starts: Vec<u32>,
-    /// The places of near items.
-    near: Vec<u32>,
-    /// The index of the searching item among the row's own items.
-    owners: Vec<u32>,
-    /// Whether the near items are sorted by neighbour index, not by place.
-    ordered: bool,
-}
-
-/// The properties that determine the result of a search.
-#[derive(Debug, PartialEq)]
-struct Key {
-    positions: usize,
-    own: (usize, usize),
-    radius: u64,
-}
 
 /// The inputs of a search by lists.
 struct Lists<'a> {
@@ -105,7 +62,7 @@ impl Row<'_> {
             let Some(other) = positions.get(place as usize) else { continue };
             let here = own.contains(&(place as usize));
             let wanted = REACH == reach::ALL || here == (REACH == reach::CELL);
-            if wanted && super::search::length_squared(positions[item] - *other) < square {
+            if wanted && length_squared(positions[item] - *other) < square {
                 found.push(place);
             }
         }
@@ -132,12 +89,10 @@ impl Row<'_> {
             let draws = self.draws();
             let space = self.space::<R>(&draws);
             walk.fill(items, near, positions, |one, other| {
-                super::search::length_squared(space.nearest_image(one - other)) < square
+                length_squared(space.nearest_image(one - other)) < square
             });
         } else {
-            walk.fill(items, near, positions, |one, other| {
-                super::search::length_squared(one - other) < square
-            });
+            walk.fill(items, near, positions, |one, other| length_squared(one - other) < square);
         }
         walk.ordered = !plain;
         if plain {
@@ -205,112 +160,4 @@ impl Row<'_> {
             walk.near.push(place);
         }
     }
-}
-
-impl Walk {
-    /// Finds the near items of each own item. Items with consecutive numbers have consecutive lists. One loop
-    /// goes through these, without a branch on the owner or on the result.
-    #[inline(always)]
-    fn fill<R: Float>(
-        &mut self,
-        items: &RowItems<'_>,
-        lists: &NearLists<'_>,
-        positions: &[Vector3<R>],
-        is_near: impl Fn(Vector3<R>, Vector3<R>) -> bool,
-    ) {
-        let (first, end) = items.own;
-        let numbers = &lists.numbers[first..end];
-        let own = &positions[first..end];
-        let (mut length, mut start) = (0, 0);
-        while start < numbers.len() {
-            let base = numbers[start];
-            let run =
-                numbers[start..].iter().zip(base..).take_while(|(number, next)| *number == next).count();
-            let (from, to) =
-                (lists.starts[base as usize] as usize, lists.starts[base as usize + run] as usize);
-            self.near.resize(length + to - from, 0);
-            self.owners.resize(length + to - from, 0);
-            let pairs = Pairs {
-                candidates: &lists.candidates[from..to],
-                owners: &lists.owners[from..to],
-                base,
-                own: &own[start..start + run],
-                places: lists.places,
-                positions,
-            };
-            let (near, owners) = (&mut self.near[length..], &mut self.owners[length..]);
-            length += keep(pairs, start as u32, near, owners, &is_near);
-            start += run;
-        }
-        self.near.truncate(length);
-        self.owners.truncate(length);
-    }
-
-    /// Sorts the near items of each item by place. They are nearly sorted.
-    fn sort(&mut self) {
-        let mut start = 0;
-        while start < self.owners.len() {
-            let owner = self.owners[start];
-            let count = self.owners[start..].iter().take_while(|other| **other == owner).count();
-            let near = &mut self.near[start..start + count];
-            if !near.is_sorted() {
-                near.sort_unstable();
-            }
-            start += count;
-        }
-    }
-
-    /// Stores the start of each item's results.
-    fn count(&mut self, items: usize) {
-        self.starts.clear();
-        self.starts.resize(items + 1, 0);
-        for owner in &self.owners {
-            self.starts[*owner as usize + 1] += 1;
-        }
-        let mut sum = 0;
-        for start in &mut self.starts {
-            sum += *start;
-            *start = sum;
-        }
-    }
-}
-
-/// The lists of consecutive items of a row.
-struct Pairs<'a, R> {
-    candidates: &'a [u32],
-    owners: &'a [u32],
-    /// The number of the first item.
-    base: u32,
-    /// The positions of the items.
-    own: &'a [Vector3<R>],
-    places: &'a [u32],
-    positions: &'a [Vector3<R>],
-}
-
-/// Keeps the near pairs and returns their number. The output is an argument of its own, so that it does not
-/// overlap the input.
-#[inline(never)]
-fn keep<R: Float>(
-    Pairs { candidates, owners, base, own, places, positions }: Pairs<'_, R>,
-    first: u32,
-    near: &mut [u32],
-    near_owners: &mut [u32],
-    is_near: &impl Fn(Vector3<R>, Vector3<R>) -> bool,
-) -> usize {
-    // Look up all places first, so that the processor waits for many of them together.
-    for (place, candidate) in near.iter_mut().zip(candidates) {
-        *place = places[*candidate as usize];
-        announce(positions.as_ptr().wrapping_add(*place as usize).cast());
-    }
-    let mut count = 0;
-    for (number, owner) in owners.iter().enumerate() {
-        let place = near[number];
-        let owner = owner - base;
-        // An item that has left the space has no place.
-        let Some(other) = positions.get(place as usize) else { continue };
-        near[count] = place;
-        near_owners[count] = first + owner;
-        count += usize::from(is_near(own[owner as usize], *other));
-    }
-    count
 }

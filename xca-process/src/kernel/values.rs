@@ -1,11 +1,11 @@
-//! Values in kernels, and their form in memory.
+//! Values in kernels, their form in memory, and how a kernel writes them.
 //!
 //! An engine stores each substate of cells in planes at a fixed stride: one for a single value, one for each
 //! element of an array. Values of items are stored whole, one after the other.
 
-use super::written::{Lanes, Stage, Written, WrittenArrays, staged};
 use crate::states::States;
 use bytemuck::Pod;
+use std::ops::Range;
 use xca_values::{Vector2, Vector3, Vector4};
 
 /// A single value: a number, a bool, a state or a small vector.
@@ -121,54 +121,59 @@ pub trait KernelValue: Copy + 'static {
     fn to_memory(self) -> Self::Memory;
 }
 
-impl<T: KernelElement> KernelValue for T {
-    type Element = T;
-    const LENGTH: usize = 1;
-    type Memory = T::Memory;
-    type Written<'r> = &'r mut [T::Memory];
-    type Stage = ();
-    type Lanes<'b> = &'b mut [T::Memory];
-    const BLOCK: usize = usize::MAX;
-
-    #[inline(always)]
-    fn from_elements(mut element: impl FnMut(usize) -> T) -> T {
-        element(0)
-    }
-
-    #[inline(always)]
-    fn from_memory(memory: T::Memory) -> T {
-        T::from_memory(memory)
-    }
-
-    #[inline(always)]
-    fn to_memory(self) -> T::Memory {
-        KernelElement::to_memory(self)
-    }
+/// The planes of a row's cells, as the engine describes them.
+#[derive(Debug, Clone, Copy)]
+pub struct Planes<M> {
+    pub(super) first: *mut M,
+    pub(super) stride: usize,
+    pub(super) cells: usize,
 }
 
-impl<T: KernelElement, const N: usize> KernelValue for [T; N] {
-    type Element = T;
-    const LENGTH: usize = N;
-    type Memory = [T::Memory; N];
-    type Written<'r> = WrittenArrays<'r, T::Memory, N>;
-    type Stage = Stage<T::Memory, N>;
-    type Lanes<'b> = &'b mut Stage<T::Memory, N>;
-    const BLOCK: usize = staged::<T::Memory>();
+/// The values of a row's cells, for writing.
+pub trait Written<'r, T: KernelValue>: Sized {
+    /// Takes the planes of a row.
+    ///
+    /// # Safety
+    /// For `'r`, each plane is aligned and has `cells` cells from the first on. The planes are `stride`
+    /// elements apart. No one else reads or writes them.
+    #[allow(unsafe_code)]
+    unsafe fn new(planes: Planes<<T::Element as KernelElement>::Memory>) -> Self;
 
-    #[inline(always)]
-    fn from_elements(element: impl FnMut(usize) -> T) -> Self {
-        std::array::from_fn(element)
-    }
+    /// Creates a stage.
+    fn stage() -> T::Stage;
 
-    #[inline(always)]
-    fn from_memory(memory: Self::Memory) -> Self {
-        memory.map(<T as KernelElement>::from_memory)
-    }
+    /// Fills the stage with the current values of a block.
+    fn load(&self, stage: &mut T::Stage, block: &Range<usize>);
 
-    #[inline(always)]
-    fn to_memory(self) -> Self::Memory {
-        self.map(KernelElement::to_memory)
+    /// The values of a block.
+    fn lanes<'b>(&'b mut self, stage: &'b mut T::Stage, block: &Range<usize>) -> T::Lanes<'b>;
+
+    /// Copies a block from the stage to the planes.
+    fn store(&mut self, stage: &T::Stage, block: &Range<usize>);
+}
+
+/// The largest number of cells in a block that suits all values that a kernel writes.
+pub const fn block(most: &[usize]) -> usize {
+    let (mut least, mut number) = (usize::MAX, 0);
+    while number < most.len() {
+        if most[number] < least {
+            least = most[number];
+        }
+        number += 1;
     }
+    least
+}
+
+/// The values of a block of cells, for writing.
+pub trait Lanes<T: KernelValue> {
+    /// The first lanes only. If the compiler knows their number, it can remove checks.
+    fn first(self, lanes: usize) -> Self;
+
+    /// The value of a cell.
+    fn get(&self, lane: usize) -> T;
+
+    /// Replaces the value of a cell.
+    fn set(&mut self, lane: usize, value: T);
 }
 
 /// The value of a memory content.
@@ -193,11 +198,4 @@ pub fn load_element<T: ArrayValue>(memory: &T::Memory, element: usize) -> T::Ele
 pub trait ArrayValue: KernelValue {
     /// An element of an array in memory.
     fn element_of(memory: &Self::Memory, element: usize) -> Self::Element;
-}
-
-impl<T: KernelElement, const N: usize> ArrayValue for [T; N] {
-    #[inline(always)]
-    fn element_of(memory: &[T::Memory; N], element: usize) -> T {
-        <T as KernelElement>::from_memory(memory[element])
-    }
 }

@@ -2,6 +2,7 @@
 //!
 //! Each lane performs the operations of the plain loop, in the same order, with the same rounding and without
 //! fused operations. The results are therefore equal.
+#![allow(unsafe_code)]
 
 use super::instructions::Instructions;
 use std::ops::Range;
@@ -46,7 +47,7 @@ impl Wide {
 #[cfg(target_arch = "x86_64")]
 mod avx2 {
     use super::Sphere;
-    use crate::kernel::search;
+    use crate::kernel::distance;
     use std::arch::x86_64::{
         _CMP_LT_OQ, _mm256_add_pd, _mm256_blend_pd, _mm256_cmp_pd, _mm256_loadu_pd, _mm256_movemask_pd,
         _mm256_mul_pd, _mm256_permute2f128_pd, _mm256_set1_pd, _mm256_shuffle_pd, _mm256_sub_pd,
@@ -94,15 +95,15 @@ mod avx2 {
             }
             first += 4;
         }
-        search::keep(first..range.end.max(first), item, positions, found, |other| {
-            search::length_squared(centre - other) < square
+        distance::keep(first..range.end.max(first), item, positions, found, |other| {
+            distance::length_squared(centre - other) < square
         });
     }
 
     #[cfg(test)]
     mod tests {
         use super::super::{Sphere, Wide};
-        use crate::kernel::search;
+        use crate::kernel::distance;
         use crate::random::philox;
         use xca_values::Vector3;
 
@@ -122,8 +123,8 @@ mod avx2 {
                         let sphere = Sphere { centre: positions[item], square: 0.5 };
                         let (mut fast, mut plain) = (vec![99], vec![99]);
                         wide.keep(start..end, item, &positions, sphere, &mut fast);
-                        search::keep(start..end, item, &positions, &mut plain, |other| {
-                            search::length_squared(sphere.centre - other) < sphere.square
+                        distance::keep(start..end, item, &positions, &mut plain, |other| {
+                            distance::length_squared(sphere.centre - other) < sphere.square
                         });
                         assert_eq!(fast, plain, "item {item} of {start}..{end}");
                         kept += plain.len() - 1;

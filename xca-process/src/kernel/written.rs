@@ -1,10 +1,10 @@
-//! Writing of the substates of a row's cells by kernels.
+//! Single values and arrays, and how a kernel writes those of a row's cells.
 //!
 //! A kernel works through a row in blocks. It writes single values directly to their plane. It writes arrays
 //! lane by lane to a stage on the stack, and each block is then copied to the planes. The compiler would not
 //! vectorize a loop that writes to many planes, which may overlap the input.
 
-use super::values::{KernelElement, KernelValue};
+use super::values::{ArrayValue, KernelElement, KernelValue, Lanes, Planes, Written};
 use bytemuck::{Pod, Zeroable};
 use std::fmt;
 use std::marker::PhantomData;
@@ -25,61 +25,6 @@ pub(super) const fn staged<M>() -> usize {
     let size = if size_of::<M>() == 0 { 1 } else { size_of::<M>() };
     let fitting = BLOCK_BYTES / size;
     if fitting > STAGED { STAGED } else { fitting }
-}
-
-/// The planes of a row's cells, as the engine describes them.
-#[derive(Debug, Clone, Copy)]
-pub struct Planes<M> {
-    pub(super) first: *mut M,
-    pub(super) stride: usize,
-    pub(super) cells: usize,
-}
-
-/// The values of a row's cells, for writing.
-pub trait Written<'r, T: KernelValue>: Sized {
-    /// Takes the planes of a row.
-    ///
-    /// # Safety
-    /// For `'r`, each plane is aligned and has `cells` cells from the first on. The planes are `stride`
-    /// elements apart. No one else reads or writes them.
-    #[allow(unsafe_code)]
-    unsafe fn new(planes: Planes<<T::Element as KernelElement>::Memory>) -> Self;
-
-    /// Creates a stage.
-    fn stage() -> T::Stage;
-
-    /// Fills the stage with the current values of a block.
-    fn load(&self, stage: &mut T::Stage, block: &Range<usize>);
-
-    /// The values of a block.
-    fn lanes<'b>(&'b mut self, stage: &'b mut T::Stage, block: &Range<usize>) -> T::Lanes<'b>;
-
-    /// Copies a block from the stage to the planes.
-    fn store(&mut self, stage: &T::Stage, block: &Range<usize>);
-}
-
-/// The largest number of cells in a block that suits all values that a kernel writes.
-pub const fn block(most: &[usize]) -> usize {
-    let (mut least, mut number) = (usize::MAX, 0);
-    while number < most.len() {
-        if most[number] < least {
-            least = most[number];
-        }
-        number += 1;
-    }
-    least
-}
-
-/// The values of a block of cells, for writing.
-pub trait Lanes<T: KernelValue> {
-    /// The first lanes only. If the compiler knows their number, it can remove checks.
-    fn first(self, lanes: usize) -> Self;
-
-    /// The value of a cell.
-    fn get(&self, lane: usize) -> T;
-
-    /// Replaces the value of a cell.
-    fn set(&mut self, lane: usize, value: T);
 }
 
 impl<'r, T: KernelElement> Written<'r, T> for &'r mut [T::Memory] {
@@ -246,5 +191,62 @@ impl<T: KernelElement, const N: usize> Lanes<[T; N]> for &mut Stage<T::Memory, N
         for (lanes, value) in self.elements_mut().zip(&value) {
             lanes[lane] = KernelElement::to_memory(*value);
         }
+    }
+}
+
+impl<T: KernelElement> KernelValue for T {
+    type Element = T;
+    const LENGTH: usize = 1;
+    type Memory = T::Memory;
+    type Written<'r> = &'r mut [T::Memory];
+    type Stage = ();
+    type Lanes<'b> = &'b mut [T::Memory];
+    const BLOCK: usize = usize::MAX;
+
+    #[inline(always)]
+    fn from_elements(mut element: impl FnMut(usize) -> T) -> T {
+        element(0)
+    }
+
+    #[inline(always)]
+    fn from_memory(memory: T::Memory) -> T {
+        T::from_memory(memory)
+    }
+
+    #[inline(always)]
+    fn to_memory(self) -> T::Memory {
+        KernelElement::to_memory(self)
+    }
+}
+
+impl<T: KernelElement, const N: usize> KernelValue for [T; N] {
+    type Element = T;
+    const LENGTH: usize = N;
+    type Memory = [T::Memory; N];
+    type Written<'r> = WrittenArrays<'r, T::Memory, N>;
+    type Stage = Stage<T::Memory, N>;
+    type Lanes<'b> = &'b mut Stage<T::Memory, N>;
+    const BLOCK: usize = staged::<T::Memory>();
+
+    #[inline(always)]
+    fn from_elements(element: impl FnMut(usize) -> T) -> Self {
+        std::array::from_fn(element)
+    }
+
+    #[inline(always)]
+    fn from_memory(memory: Self::Memory) -> Self {
+        memory.map(<T as KernelElement>::from_memory)
+    }
+
+    #[inline(always)]
+    fn to_memory(self) -> Self::Memory {
+        self.map(KernelElement::to_memory)
+    }
+}
+
+impl<T: KernelElement, const N: usize> ArrayValue for [T; N] {
+    #[inline(always)]
+    fn element_of(memory: &[T::Memory; N], element: usize) -> T {
+        <T as KernelElement>::from_memory(memory[element])
     }
 }

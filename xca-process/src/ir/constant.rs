@@ -1,8 +1,31 @@
 //! The values of a user's Rust constants as data.
 
-use crate::ir::Constant;
 use crate::states::States;
+use xca_values::StateNames;
 use xca_values::{Vector2, Vector3, Vector4};
+
+/// The value of a Rust constant.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Constant {
+    /// `bool`
+    Bool(bool),
+    /// `u8`
+    U8(u8),
+    /// `i32`
+    I32(i32),
+    /// `u32`
+    U32(u32),
+    /// `f32`
+    F32(f32),
+    /// `f64`, which is `Real` in a process.
+    Real(f64),
+    /// A state by its number.
+    State(u8, &'static StateNames),
+    /// A small vector.
+    Vector(Vec<Constant>),
+    /// An array.
+    Array(Vec<Constant>),
+}
 
 /// The type of a constant that a process can use.
 #[diagnostic::on_unimplemented(
@@ -60,8 +83,7 @@ impl<T: ConstantValue, const N: usize> ConstantValue for [T; N] {
 
 #[cfg(test)]
 mod tests {
-    use super::ConstantValue;
-    use crate::ir::Constant;
+    use super::{Constant, ConstantValue};
     use xca_values::Vector2;
 
     #[test]

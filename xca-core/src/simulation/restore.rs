@@ -1,0 +1,110 @@
+//! Takes the whole state out of a simulation, and puts it back into one.
+
+use super::snapshot::{GroupSnapshot, Snapshot, does_not_fit};
+use super::{RunError, RunOptions, Simulation};
+use crate::engine::{Engine, Fault, SubstateId};
+use crate::model::{Group, GroupKind, Model};
+
+impl Simulation {
+    /// The whole state, to compare or to save.
+    ///
+    /// # Errors
+    /// Returns an error if the engine lost its state.
+    pub fn snapshot(&self) -> Result<Snapshot, RunError> {
+        let execution = &self.execution;
+        let of_group = |(group, definition): (usize, &Group)| match definition.kind() {
+            GroupKind::Cells { .. } => {
+                let fields = 0..definition.schema().fields.len();
+                let read = fields.map(|field| execution.read(SubstateId { group, field }));
+                read.collect::<Result<_, _>>().map(GroupSnapshot::Cells)
+            }
+            GroupKind::Population { .. } => {
+                let left = self.left_before[group].wrapping_add(execution.left(group));
+                execution.population(group).map(|items| GroupSnapshot::Population(items, left))
+            }
+        };
+        Ok(Snapshot {
+            step: self.step,
+            groups: self.model.groups().iter().enumerate().map(of_group).collect::<Result<_, _>>()?,
+            parameters: self.parameters.bits(),
+            stop: self.stop.clone(),
+            broken: self.faulty.is_some_and(|step| step > self.step),
+        })
+    }
+
+    /// Starts a model on an engine in the state of a snapshot.
+    ///
+    /// With the same options the run continues with the same bits, on any engine.
+    ///
+    /// ```
+    /// use xca_core::prelude::*;
+    ///
+    /// #[derive(Substates, Clone, Copy)]
+    /// struct Counter {
+    ///     count: u32,
+    /// }
+    ///
+    /// #[elementary_process]
+    /// fn count(cell: &mut Cell<Counter>) {
+    ///     cell.count += 1;
+    /// }
+    ///
+    /// let builder = Model::builder("counters").extents([4, 1, 1]);
+    /// let model = builder.substates::<Counter>().process(count).build()?;
+    /// let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
+    /// simulation.run(3)?;
+    /// let snapshot = simulation.snapshot()?;
+    ///
+    /// // Later, perhaps in another process: a snapshot can be saved with any format of serde.
+    /// let mut resumed = Simulation::resume(&model, &Reference, RunOptions::default(), &snapshot)?;
+    /// resumed.run(2)?;
+    /// assert_eq!(resumed.step_number(), 5);
+    /// assert_eq!(resumed.state().get(Counter::COUNT, [0, 0, 0])?, 5);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Returns an error if the engine cannot run the model, or as [`Self::restore`].
+    pub fn resume(
+        model: &Model,
+        engine: &dyn Engine,
+        options: RunOptions,
+        snapshot: &Snapshot,
+    ) -> Result<Self, RunError> {
+        snapshot.check(model, options.precision)?;
+        let mut simulation = Self::empty(model, engine, options)?;
+        simulation.restore(snapshot)?;
+        Ok(simulation)
+    }
+
+    /// Replaces the state by that of a snapshot, also after a fault.
+    ///
+    /// # Errors
+    /// Returns [`RunError::Snapshot`] if the snapshot is from another model or another precision, or was
+    /// taken after a fault. The state then does not change.
+    pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), RunError> {
+        snapshot.check(&self.model, self.options.precision)?;
+        for (group, state) in snapshot.groups.iter().enumerate() {
+            match state {
+                GroupSnapshot::Cells(fields) => {
+                    for (field, values) in fields.iter().enumerate() {
+                        self.execution.write(SubstateId { group, field }, values)?;
+                    }
+                }
+                GroupSnapshot::Population(population, left) => {
+                    let set = self.execution.set_population(group, population);
+                    set.map_err(|fault| match fault {
+                        Fault::Engine(failure) => RunError::Engine(failure),
+                        other => does_not_fit(&self.model, other.to_string()).into(),
+                    })?;
+                    self.left_before[group] = left.wrapping_sub(self.execution.left(group));
+                }
+            }
+        }
+        self.parameters.set_bits(&snapshot.parameters);
+        self.step = snapshot.step;
+        self.stop.clone_from(&snapshot.stop);
+        self.faulty = None;
+        Ok(())
+    }
+}

@@ -1,0 +1,136 @@
+//! The near items of all items of a row, found in neighbour lists.
+
+use super::work::announce;
+use super::{NearLists, RowItems};
+use crate::float::Float;
+use xca_values::Vector3;
+
+/// The results of all searches of a row, for reuse by other processes of the pass.
+#[derive(Debug, Default)]
+pub(super) struct Walk {
+    pub(super) key: Option<Key>,
+    /// The start in `near` for each own item, then the length of `near`.
+    pub(super) starts: Vec<u32>,
+    /// The places of near items.
+    pub(super) near: Vec<u32>,
+    /// The index of the searching item among the row's own items.
+    pub(super) owners: Vec<u32>,
+    /// Whether the near items are sorted by neighbour index, not by place.
+    pub(super) ordered: bool,
+}
+
+/// The properties that determine the result of a search.
+#[derive(Debug, PartialEq)]
+pub(super) struct Key {
+    pub(super) positions: usize,
+    pub(super) own: (usize, usize),
+    pub(super) radius: u64,
+}
+
+impl Walk {
+    /// Finds the near items of each own item. Items with consecutive numbers have consecutive lists. One loop
+    /// goes through these, without a branch on the owner or on the result.
+    #[inline(always)]
+    pub(super) fn fill<R: Float>(
+        &mut self,
+        items: &RowItems<'_>,
+        lists: &NearLists<'_>,
+        positions: &[Vector3<R>],
+        is_near: impl Fn(Vector3<R>, Vector3<R>) -> bool,
+    ) {
+        let (first, end) = items.own;
+        let numbers = &lists.numbers[first..end];
+        let own = &positions[first..end];
+        let (mut length, mut start) = (0, 0);
+        while start < numbers.len() {
+            let base = numbers[start];
+            let run =
+                numbers[start..].iter().zip(base..).take_while(|(number, next)| *number == next).count();
+            let (from, to) =
+                (lists.starts[base as usize] as usize, lists.starts[base as usize + run] as usize);
+            self.near.resize(length + to - from, 0);
+            self.owners.resize(length + to - from, 0);
+            let pairs = Pairs {
+                candidates: &lists.candidates[from..to],
+                owners: &lists.owners[from..to],
+                base,
+                own: &own[start..start + run],
+                places: lists.places,
+                positions,
+            };
+            let (near, owners) = (&mut self.near[length..], &mut self.owners[length..]);
+            length += keep(pairs, start as u32, near, owners, &is_near);
+            start += run;
+        }
+        self.near.truncate(length);
+        self.owners.truncate(length);
+    }
+
+    /// Sorts the near items of each item by place. They are nearly sorted.
+    pub(super) fn sort(&mut self) {
+        let mut start = 0;
+        while start < self.owners.len() {
+            let owner = self.owners[start];
+            let count = self.owners[start..].iter().take_while(|other| **other == owner).count();
+            let near = &mut self.near[start..start + count];
+            if !near.is_sorted() {
+                near.sort_unstable();
+            }
+            start += count;
+        }
+    }
+
+    /// Stores the start of each item's results.
+    pub(super) fn count(&mut self, items: usize) {
+        self.starts.clear();
+        self.starts.resize(items + 1, 0);
+        for owner in &self.owners {
+            self.starts[*owner as usize + 1] += 1;
+        }
+        let mut sum = 0;
+        for start in &mut self.starts {
+            sum += *start;
+            *start = sum;
+        }
+    }
+}
+
+/// The lists of consecutive items of a row.
+struct Pairs<'a, R> {
+    candidates: &'a [u32],
+    owners: &'a [u32],
+    /// The number of the first item.
+    base: u32,
+    /// The positions of the items.
+    own: &'a [Vector3<R>],
+    places: &'a [u32],
+    positions: &'a [Vector3<R>],
+}
+
+/// Keeps the near pairs and returns their number. The output is an argument of its own, so that it does not
+/// overlap the input.
+#[inline(never)]
+fn keep<R: Float>(
+    Pairs { candidates, owners, base, own, places, positions }: Pairs<'_, R>,
+    first: u32,
+    near: &mut [u32],
+    near_owners: &mut [u32],
+    is_near: &impl Fn(Vector3<R>, Vector3<R>) -> bool,
+) -> usize {
+    // Look up all places first, so that the processor waits for many of them together.
+    for (place, candidate) in near.iter_mut().zip(candidates) {
+        *place = places[*candidate as usize];
+        announce(positions.as_ptr().wrapping_add(*place as usize).cast());
+    }
+    let mut count = 0;
+    for (number, owner) in owners.iter().enumerate() {
+        let place = near[number];
+        let owner = owner - base;
+        // An item that has left the space has no place.
+        let Some(other) = positions.get(place as usize) else { continue };
+        near[count] = place;
+        near_owners[count] = first + owner;
+        count += usize::from(is_near(own[owner as usize], *other));
+    }
+    count
+}
