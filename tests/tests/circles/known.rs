@@ -103,13 +103,6 @@ pub(crate) const KNOWN: &[Known] = &[
     },
     // The types of operators follow from those of their operands, and the other way round.
     Known { folder: "xca-wgsl/src", files: &["inference/mod.rs", "inference/operators.rs"] },
-    // Items, and the lists of what is near them.
-    Known {
-        folder: "xca-cpu/src",
-        files: &["blocks.rs", "listing.rs", "lists.rs", "motion.rs", "population.rs", "upkeep.rs"],
-    },
-    // A device, and the code that it compiles.
-    Known { folder: "xca-gpu/src", files: &["device/code.rs", "device.rs", "error.rs"] },
     // Formats write what a recorder shows them, and a recorder holds formats.
     Known {
         folder: "xca-record/src",
@@ -136,8 +129,6 @@ pub(crate) const KNOWN: &[Known] = &[
             "set_up.rs",
         ],
     },
-    // A screen, and the words on it.
-    Known { folder: "xca-watch/src", files: &["screen.rs", "words.rs"] },
     // `resume`, `render` and `inspect` read the command line of an earlier run as it was read then.
     Known {
         folder: "xca-run/src",
@@ -152,8 +143,4 @@ pub(crate) const KNOWN: &[Known] = &[
     },
     // The command `watch`, with the feature that it needs.
     Known { folder: "xca-run/src", files: &["command/watch/show.rs", "command/watch.rs"] },
-    // A site, and what it sees around.
-    Known { folder: "tests/src", files: &["suite/around.rs", "suite/site.rs"] },
-    // What is measured, and another program beside it.
-    Known { folder: "benchmarks/src", files: &["lammps.rs", "particles.rs"] },
 ];
