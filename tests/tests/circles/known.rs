@@ -80,29 +80,6 @@ pub(crate) const KNOWN: &[Known] = &[
     },
     // Signatures, and the functions that have them.
     Known { folder: "xca-macros/src", files: &["parse/signature.rs", "parse.rs"] },
-    // Statements hold expressions, which call routines, which are written like statements.
-    Known {
-        folder: "xca-wgsl/src",
-        files: &[
-            "buffer.rs",
-            "declarations.rs",
-            "entry.rs",
-            "glossary.rs",
-            "literal.rs",
-            "module.rs",
-            "print/constant.rs",
-            "print/element.rs",
-            "print/expression.rs",
-            "print/loops.rs",
-            "print/mod.rs",
-            "print/range.rs",
-            "print/statement.rs",
-            "routine.rs",
-            "shader.rs",
-        ],
-    },
-    // The types of operators follow from those of their operands, and the other way round.
-    Known { folder: "xca-wgsl/src", files: &["inference/mod.rs", "inference/operators.rs"] },
     // Formats write what a recorder shows them, and a recorder holds formats.
     Known {
         folder: "xca-record/src",
