@@ -4,8 +4,8 @@
 //! two items have approached by more than the skin, searches in lists and in cells give the same result
 //! ([`Lists::radius`]). Lists change the time of a search, but no result.
 //!
-//! In a part of a space, lists hold the part's own items alone. Ghosts, and items that have arrived from other
-//! parts since, are strangers. A row that sees a ghost or a stranger is searched in cells, all others in lists.
+//! In a part of a space, lists hold the part's own items alone. Ghosts are strangers, and so are items that
+//! have arrived from other parts since. A row that sees a stranger is searched in cells, all others in lists.
 
 use crate::arrays::Arrays;
 use crate::layout::Layout;
