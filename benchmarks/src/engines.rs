@@ -1,7 +1,7 @@
 //! The GPU engine against the CPU engine: set-up, transfer and steps apart.
 
 use crate::dense;
-use crate::particles::State;
+use crate::state::State;
 use crate::timing::{Times, interleaved};
 use std::error::Error;
 use std::time::Instant;

@@ -1,7 +1,7 @@
 //! LAMMPS on the same particles with the same law of contact: pair style `gran/hooke` without friction, which
 //! is CADEM's.
 
-use crate::particles::State;
+use crate::state::State;
 use std::error::Error;
 use std::fmt::Write as _;
 use std::fs;

@@ -9,10 +9,12 @@ mod lammps;
 mod mathematics;
 mod particles;
 mod quiet;
+mod state;
 mod timing;
 
 use clap::{Parser, Subcommand};
-use particles::{Rounds, Stage, State};
+use particles::Rounds;
+use state::{Stage, State};
 use std::error::Error;
 use std::io::{self, Write};
 use std::path::PathBuf;

@@ -131,8 +131,8 @@ const UNSAFE: [&str; 18] = [
     "xca-cpu/src/rows/pieces.rs",
     "xca-cpu/src/rows/prepared.rs",
     "xca-cpu/src/rows/search.rs",
-    "xca-gpu/src/device/code.rs",
     "xca-gpu/src/device/instance.rs",
+    "xca-gpu/src/device/passthrough.rs",
 ];
 
 fn root() -> PathBuf {

@@ -10,6 +10,7 @@
 //! - A substate that is read only at the centre is written in place. Any other is written to a second buffer.
 
 mod activity;
+mod arrays;
 mod blocks;
 mod choices;
 mod crossing;
@@ -21,12 +22,14 @@ mod group;
 mod layout;
 mod listing;
 mod lists;
+mod measurement;
 mod memory;
 mod migration;
 mod motion;
 mod pace;
 mod population;
 mod reductions;
+mod renewal;
 mod rows;
 mod stages;
 mod stride;

@@ -4,14 +4,12 @@
 //! two items have approached by more than the skin, searches in lists and in cells give the same result
 //! ([`Lists::radius`]). Lists change the time of a search, but no result.
 //!
-//! In a part of a space, lists hold the part's own items alone. Ghosts, and items that have arrived from other
-//! parts since, are strangers. A row that sees a ghost or a stranger is searched in cells, all others in lists.
+//! In a part of a space, lists hold the part's own items alone. Ghosts are strangers, and so are items that
+//! have arrived from other parts since. A row that sees a stranger is searched in cells, all others in lists.
 
-use crate::ghosts::faces;
+use crate::arrays::Arrays;
 use crate::layout::Layout;
-use crate::listing::Listed;
 use crate::motion::Motion;
-use crate::population::Population;
 use xca_core::Geometry;
 use xca_core::kernel::{NO_PLACE, NearLists};
 
@@ -21,14 +19,14 @@ pub(crate) const STRANGER: u32 = u32::MAX;
 /// The items that were near each item when the lists were made.
 pub(crate) struct Lists {
     /// The radius at that time, in metres.
-    made_within: f64,
+    pub(crate) made_within: f64,
     /// The place of the item with each number.
     pub(crate) places: Vec<u32>,
     pub(crate) starts: Vec<u32>,
     pub(crate) candidates: Vec<u32>,
     pub(crate) owners: Vec<u32>,
     /// Whether each row is searched in cells.
-    in_cells: Vec<bool>,
+    pub(crate) in_cells: Vec<bool>,
     /// The approximate common motion of all items since then.
     pub(crate) drift: [f64; 3],
 }
@@ -59,14 +57,14 @@ impl Lists {
     }
 
     /// The lists, for kernels.
-    pub(crate) fn view<'a>(&'a self, population: &'a Population, radius: f64) -> NearLists<'a> {
+    pub(crate) fn view<'a>(&'a self, items: &'a Arrays, radius: f64) -> NearLists<'a> {
         NearLists {
-            numbers: &population.items.numbers,
+            numbers: &items.numbers,
             places: &self.places,
             starts: &self.starts,
             candidates: &self.candidates,
             owners: &self.owners,
-            cells: &population.items.cells,
+            cells: &items.cells,
             radius,
         }
     }
@@ -104,64 +102,5 @@ impl Lists {
     /// Records a stranger in a row.
     pub(crate) fn met_stranger(&mut self, layout: &Layout, row: usize) {
         layout.rows_around(row).for_each(|row| self.in_cells[row] = true);
-    }
-}
-
-/// Whether each row sees another part of the space.
-fn rows_at_borders(layout: &Layout) -> Vec<bool> {
-    let mut at_border = vec![false; layout.rows()];
-    let lines =
-        [1, 2].into_iter().flat_map(|axis| faces(layout, axis)).flat_map(|face| layout.lines_at(face, true));
-    lines.flat_map(|line| layout.rows_that_see(line)).for_each(|row| at_border[row] = true);
-    at_border
-}
-
-impl Population {
-    /// Removes the lists.
-    pub(crate) fn forget_lists(&mut self) {
-        self.lists = None;
-        self.items.numbers = Vec::new();
-        self.items.references = Vec::new();
-    }
-
-    /// Stores lists of all rows in order. Returns `false` if there are too many entries.
-    pub(crate) fn keep_lists(&mut self, layout: &Layout, listed: &[Listed], made_within: f64) -> bool {
-        let places = self.own_places();
-        let total: usize = listed.iter().map(|listed| listed.list.len()).sum();
-        if u32::try_from(total).is_err() {
-            self.forget_lists();
-            return false;
-        }
-        // The current places become the numbers. A place without an item has an empty list.
-        let mut starts = Vec::with_capacity(places + 1);
-        let mut candidates = Vec::with_capacity(total);
-        let mut owners = Vec::with_capacity(total);
-        let mut end = 0;
-        let mut occupied = self.places().flatten();
-        for Listed { list, ends } in listed {
-            let before = candidates.len() as u32;
-            // The order matters: `zip` takes a place only if there is an end for it.
-            for (length, place) in ends.iter().zip(occupied.by_ref()) {
-                starts.resize(place + 1, end);
-                end = before + length;
-                owners.resize(end as usize, place as u32);
-            }
-            candidates.extend_from_slice(list);
-        }
-        drop(occupied);
-        starts.resize(places + 1, end);
-        self.items.numbers = (0..places as u32).collect();
-        self.items.numbers.resize(self.items.labels.len(), STRANGER);
-        self.items.references = self.references();
-        self.lists = Some(Lists {
-            made_within,
-            places: (0..places as u32).collect(),
-            starts,
-            candidates,
-            owners,
-            in_cells: rows_at_borders(layout),
-            drift: [0.0; 3],
-        });
-        true
     }
 }

@@ -4,10 +4,11 @@
 //! are merged by label, within the room of the row. The values of arriving items are copied out first. After
 //! that the rows are independent.
 
+use crate::arrays::{Arrays, Values};
 use crate::layout::Layout;
 use crate::lists::STRANGER;
 use crate::motion::{largest, outside};
-use crate::population::{Arrays, Population, Values};
+use crate::population::Population;
 use crate::rows::Mover;
 use rayon::prelude::*;
 use xca_core::engine::Fault;

@@ -4,16 +4,17 @@
 //! of two rows. If a row has no room left, all items are moved to make room again
 //! ([`Population::make_room`]).
 
+use crate::arrays::Arrays;
 use crate::layout::Layout;
 use crate::lists::{Lists, STRANGER};
-use crate::motion::{Motion, measure};
+use crate::motion::Motion;
 use crate::upkeep::Upkeep;
 use rayon::prelude::*;
 use std::ops::Range;
 use xca_core::engine::Population as Items;
 use xca_core::model::{Group as Definition, GroupKind};
 use xca_core::storage::Buffer;
-use xca_core::{Geometry, Precision, StoredScalar, StoredType};
+use xca_core::{Precision, StoredScalar, StoredType};
 
 /// The least room of a row for more items. Few items come and go at once, but among many rows some exceed the
 /// average.
@@ -52,60 +53,6 @@ pub(crate) struct Population {
     /// The neighbour lists.
     pub(crate) lists: Option<Lists>,
     pub(crate) upkeep: Upkeep,
-}
-
-/// The stored data of items, by place.
-#[derive(Default)]
-pub(crate) struct Arrays {
-    pub(crate) labels: Vec<u32>,
-    /// The linear indices of the items' cells.
-    pub(crate) cells: Vec<u32>,
-    /// The numbers of the items in neighbour lists. Empty without lists.
-    pub(crate) numbers: Vec<u32>,
-    /// The positions in metres when the lists were made. Empty without lists.
-    pub(crate) references: Vec<[f32; 3]>,
-    pub(crate) fields: Vec<Buffer>,
-}
-
-/// The values of an array as bytes, with the size of each.
-pub(crate) struct Values<'a> {
-    pub(crate) size: usize,
-    pub(crate) bytes: &'a mut [u8],
-}
-
-impl Arrays {
-    fn new(types: &[StoredType], places: usize) -> Self {
-        Self {
-            labels: vec![0; places],
-            cells: vec![0; places],
-            numbers: Vec::new(),
-            references: Vec::new(),
-            fields: types.iter().map(|stored| Buffer::zeroed(places * stored.size())).collect(),
-        }
-    }
-
-    /// The index of the labels in [`Self::values`].
-    pub(crate) const LABELS: usize = 0;
-    /// The index of the cells.
-    pub(crate) const CELLS: usize = 1;
-
-    /// All arrays, for moving items, always in the same order.
-    pub(crate) fn values<'a>(&'a mut self, types: &[StoredType]) -> Vec<Values<'a>> {
-        let numbers = [&mut self.labels, &mut self.cells, &mut self.numbers];
-        let numbers = numbers.map(|values| Values { size: 4, bytes: bytemuck::cast_slice_mut(values) });
-        let references =
-            Values { size: size_of::<[f32; 3]>(), bytes: bytemuck::cast_slice_mut(&mut self.references) };
-        let fields = self.fields.iter_mut().zip(types);
-        let fields = fields.map(|(field, stored)| Values { size: stored.size(), bytes: field.bytes_mut() });
-        let all = numbers.into_iter().chain([references]).chain(fields);
-        all.filter(|values| !values.bytes.is_empty()).collect()
-    }
-
-    fn memory(&self) -> usize {
-        let numbers = self.labels.capacity() + self.cells.capacity() + self.numbers.capacity();
-        let references = self.references.capacity() * size_of::<[f32; 3]>();
-        numbers * size_of::<u32>() + references + self.fields.iter().map(Buffer::capacity).sum::<usize>()
-    }
 }
 
 impl Population {
@@ -278,15 +225,6 @@ impl Population {
         if let Some(lists) = &mut self.lists {
             lists.moved(&self.items.numbers[first..end], first as u32);
         }
-    }
-
-    /// The largest distance in metres, along an axis, of an item from its cell. Measures the items if they
-    /// have changed. To be called before the population is searched.
-    pub(crate) fn slack(&mut self, layout: &Layout, geometry: &Geometry) -> f64 {
-        self.searched = true;
-        let motion = self.motion.unwrap_or_else(|| measure(self, layout, geometry));
-        self.motion = Some(motion);
-        motion.slack
     }
 
     /// The positions of all places, as references for lists.

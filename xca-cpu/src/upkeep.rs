@@ -1,12 +1,7 @@
 //! Whether and when neighbour lists are made. The times of passes decide, and change no result.
 
-use crate::layout::Layout;
-use crate::listing::make;
 use crate::lists::Room;
-use crate::motion::Motion;
-use crate::population::Population;
-use std::time::{Duration, Instant};
-use xca_core::Geometry;
+use std::time::Duration;
 use xca_core::engine::Figure;
 
 /// The least number of items for which lists pay.
@@ -106,8 +101,35 @@ impl Upkeep {
         }
     }
 
+    /// The largest search radius since lists were last made, in metres.
+    pub(crate) fn widest(&self) -> f64 {
+        self.widest
+    }
+
+    /// The radius of new lists for so many items, in metres. `None` if lists would not pay in the next pass.
+    pub(crate) fn next_radius(&mut self, items: usize, room: &Room) -> Option<f64> {
+        let within = (self.widest * (1.0 + self.skin)).min(room.widest);
+        let useful = within - room.rounding > self.widest;
+        let few = items < FEWEST_ITEMS && !self.fixed;
+        if self.pause > 0 || !useful || few {
+            self.pause = self.pause.saturating_sub(1);
+            return None;
+        }
+        Some(within)
+    }
+
+    /// Records lists of this radius in metres, the time of their construction and their entries.
+    pub(crate) fn made(&mut self, within: f64, spent: Duration, items: usize, candidates: usize) {
+        self.life = Life { passes: 0, spent };
+        self.figures.made += 1;
+        self.figures.items += items as u64;
+        self.figures.candidates += candidates as u64;
+        self.figures.skin = within - self.widest;
+        self.widest = 0.0;
+    }
+
     /// Learns from the cost of lists that have become too old.
-    fn learn(&mut self) {
+    pub(crate) fn learn(&mut self) {
         let Life { passes, spent } = std::mem::take(&mut self.life);
         if self.fixed {
             return;
@@ -146,49 +168,4 @@ impl Figures {
         let name = population.to_lowercase();
         all.into_iter().map(|(figure, value)| Figure { name: format!("{name}_{figure}"), value }).collect()
     }
-}
-
-/// Keeps the lists of a population usable for the next pass, or removes them. Returns the largest radius for
-/// which searches can use them.
-pub(crate) fn keep_lists(
-    population: &mut Population,
-    layout: &Layout,
-    geometry: &Geometry,
-    room: &Room,
-    motion: &mut Motion,
-) -> Option<f64> {
-    let widest = population.upkeep.widest;
-    if widest <= 0.0 {
-        return None;
-    }
-    if let Some(lists) = &population.lists {
-        let radius = lists.radius(motion, room);
-        if radius >= widest {
-            return Some(radius);
-        }
-        population.upkeep.learn();
-    }
-    let within = (widest * (1.0 + population.upkeep.skin)).min(room.widest);
-    let useful = within - room.rounding > widest;
-    let few = population.count() < FEWEST_ITEMS && !population.upkeep.fixed;
-    if population.upkeep.pause > 0 || !useful || few {
-        population.upkeep.pause = population.upkeep.pause.saturating_sub(1);
-        population.forget_lists();
-        return None;
-    }
-    let start = Instant::now();
-    population.lists = None;
-    let listed = make(population, layout, geometry, within + room.rounding);
-    let kept = population.keep_lists(layout, &listed, within);
-    *motion = Motion { square: 0.0, ..*motion };
-    let items = population.count() as u64;
-    let candidates = population.lists.as_ref().map_or(0, |lists| lists.candidates.len());
-    let upkeep = &mut population.upkeep;
-    upkeep.life = Life { passes: 0, spent: start.elapsed() };
-    upkeep.widest = 0.0;
-    upkeep.figures.made += 1;
-    upkeep.figures.items += items;
-    upkeep.figures.candidates += candidates as u64;
-    upkeep.figures.skin = within - widest;
-    kept.then_some(within - room.rounding)
 }

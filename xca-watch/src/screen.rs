@@ -1,15 +1,13 @@
 //! What is on the screen, and what keys do to it. Nothing here knows of a terminal, a clock or a simulation.
 
-use super::blocks;
+mod drawing;
+
 use super::colours::Colours;
 use super::pace::Pace;
-use super::pixels::{looked_along, pixels, plane};
+use super::pixels::{looked_along, plane};
 use super::window::{Place, Window};
-use super::words;
 use super::worker::{Advance, News, Order};
-use ratatui::buffer::Buffer;
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
-use ratatui::layout::Rect;
 use xca_picture::Palette;
 use xca_record::record::{Look, Subject};
 
@@ -248,17 +246,6 @@ impl Screen {
             (Colours::None, Subject::Layer { .. }) => Palette::shades(0.0, sight.kinds.len()),
             _ => Palette::coloured(sight.map, &sight.kinds),
         })
-    }
-
-    /// Draws the picture and the words around it.
-    pub(super) fn draw(&mut self, area: Rect, buffer: &mut Buffer) {
-        let area = area.intersection(buffer.area);
-        let picture = words::draw(self, area, buffer);
-        self.room = [usize::from(picture.width), 2 * usize::from(picture.height)];
-        if let (Some(news), Some(palette), Some(window)) = (&self.news, self.palette(), self.window()) {
-            let pixels = pixels(&news.sight, window, self.look.axis, &palette, self.colours);
-            blocks::draw(&pixels, picture, buffer, self.colours);
-        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! A substate in memory: how it is read and stored.
 
 use crate::access::Use;
-use crate::names::Names;
+use crate::names::{self, Names};
 use crate::program::{Roles, bare};
 use crate::routine;
 use crate::types::{self, Type};
@@ -115,7 +115,7 @@ impl Buffer {
 
     /// The routines that read it, those of them that the text uses.
     pub(crate) fn readers(&self, used_in: &str) -> Vec<String> {
-        let uses = |name: &&String, text: &str| crate::module::mentions(text, name);
+        let uses = |name: &&String, text: &str| names::mentions(text, name);
         let mut texts = Vec::new();
         if let Some(reader) = self.reader.as_ref().filter(|name| uses(name, used_in)) {
             texts.push(self.reader_text(reader));

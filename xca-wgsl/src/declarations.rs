@@ -3,8 +3,7 @@
 use crate::access::Uses;
 use crate::glossary::Glossary;
 use crate::layout::{FAULT, Layout, MOMENT, SPACE};
-use crate::module::{mentions, real};
-use crate::names::{self, Names};
+use crate::names::{self, Names, mentions};
 use crate::program::{Program, Roles};
 use crate::shader::{Binding, BindingAccess, Content, Options, State};
 use crate::types::{self, Type};
@@ -219,7 +218,7 @@ impl Writer<'_> {
         let mut text = String::new();
         let known = [self.body, &self.structs, &self.buffers].concat();
         if mentions(&known, "Real") {
-            let _ = writeln!(text, "alias Real = {};", real(self.options.precision));
+            let _ = writeln!(text, "alias Real = {};", types::real(self.options.precision));
         }
         if mentions(&known, "Destination") {
             text.push_str("alias Destination = u32;\n");

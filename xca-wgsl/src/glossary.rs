@@ -2,10 +2,10 @@
 
 use crate::access::Uses;
 use crate::buffer::Buffer;
+use crate::constant::constant_text;
 use crate::error::{Error, Problem};
 use crate::inference::constant_type;
 use crate::names::Names;
-use crate::print::constant_text;
 use crate::program::{Program, Roles, bare};
 use crate::shader::Options;
 use crate::types::Type;

@@ -35,6 +35,7 @@
 
 mod access;
 mod buffer;
+mod constant;
 mod declarations;
 mod entry;
 mod error;
@@ -57,6 +58,7 @@ mod visit;
 pub use error::{Error, Problem};
 pub use fault::FaultKind;
 pub use layout::{FieldLayout, Layout};
+pub use module::shader;
 pub use shader::{
-    ACTIVITY_HEAD, Binding, BindingAccess, Content, Dispatch, Numbering, Options, Shader, State, shader,
+    ACTIVITY_HEAD, Binding, BindingAccess, Content, Dispatch, Numbering, Options, Shader, State,
 };

@@ -6,18 +6,28 @@ use crate::entry::Entry;
 use crate::error::{Error, Problem};
 use crate::fault;
 use crate::glossary::Glossary;
-use crate::names::Names;
+use crate::names::{Names, mentions};
 use crate::print::{self, Shared};
 use crate::program::Program;
 use crate::routine::{self, Routines};
 use crate::shader::{Dispatch, Options, Shader};
 use crate::space;
 use std::fmt::Write as _;
-use xca_core::ir::FunctionKind;
-use xca_core::{Parity, Precision};
+use xca_core::Parity;
+use xca_core::ir::{self, FunctionKind};
+
+/// Writes a process as WGSL.
+///
+/// # Errors
+/// Where something in the process, or in a helper that it calls, cannot be written in WGSL; the error names
+/// it.
+pub fn shader(process: &ir::Function, options: &Options) -> Result<Shader, Error> {
+    let program = Program::collect(process)?;
+    write(&program, options)
+}
 
 /// Writes the module.
-pub(crate) fn write(program: &Program, options: &Options) -> Result<Shader, Error> {
+fn write(program: &Program, options: &Options) -> Result<Shader, Error> {
     check(options).map_err(|problem| program.error(0, problem))?;
     let mut uses = Uses::of(program).map_err(|problem| program.error(0, problem))?;
     let mut names = Names::default();
@@ -138,22 +148,4 @@ fn provided(
         texts.push(space::cell_containing());
     }
     texts
-}
-
-/// Whether the text contains the word.
-pub(crate) fn mentions(text: &str, word: &str) -> bool {
-    let is_part = |c: char| c == '_' || c.is_alphanumeric();
-    text.match_indices(word).any(|(start, _)| {
-        let before = text[..start].chars().next_back();
-        let after = text[start + word.len()..].chars().next();
-        !before.is_some_and(is_part) && !after.is_some_and(is_part)
-    })
-}
-
-/// The precision that `Real` has, as WGSL calls it.
-pub(crate) fn real(precision: Precision) -> &'static str {
-    match precision {
-        Precision::F32 => "f32",
-        Precision::F64 => "f64",
-    }
 }

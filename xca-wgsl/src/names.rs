@@ -162,6 +162,16 @@ fn cleaned(name: &str) -> String {
     }
 }
 
+/// Whether the text contains the word.
+pub(crate) fn mentions(text: &str, word: &str) -> bool {
+    let is_part = |c: char| c == '_' || c.is_alphanumeric();
+    text.match_indices(word).any(|(start, _)| {
+        let before = text[..start].chars().next_back();
+        let after = text[start + word.len()..].chars().next();
+        !before.is_some_and(is_part) && !after.is_some_and(is_part)
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::{Names, field};

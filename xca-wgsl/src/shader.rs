@@ -1,10 +1,7 @@
 //! What the user of this crate gives and gets.
 
-use crate::error::Error;
 use crate::layout::Layout;
-use crate::module;
-use crate::program::Program;
-use xca_core::{Boundary, Faces, Parity, Precision, ValueType, ir};
+use xca_core::{Boundary, Faces, Parity, Precision, ValueType};
 
 /// What a shader is written for.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -188,14 +185,4 @@ pub enum State {
     After,
     /// Both: written in place.
     Both,
-}
-
-/// Writes a process as WGSL.
-///
-/// # Errors
-/// Where something in the process, or in a helper that it calls, cannot be written in WGSL; the error names
-/// it.
-pub fn shader(process: &ir::Function, options: &Options) -> Result<Shader, Error> {
-    let program = Program::collect(process)?;
-    module::write(&program, options)
 }

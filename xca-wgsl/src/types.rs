@@ -134,6 +134,14 @@ pub(crate) fn scalar_name(scalar: ScalarType) -> &'static str {
     }
 }
 
+/// The precision that `Real` has, as WGSL calls it.
+pub(crate) fn real(precision: Precision) -> &'static str {
+    match precision {
+        Precision::F32 => "f32",
+        Precision::F64 => "f64",
+    }
+}
+
 /// What WGSL calls the type of a value where it lies in a buffer that the host fills.
 pub(crate) fn in_memory(value_type: ValueType) -> String {
     match (Type::of_value(value_type), value_type.scalar) {

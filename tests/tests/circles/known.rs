@@ -26,40 +26,4 @@ pub(crate) const KNOWN: &[Known] = &[
         folder: "xca-macros/src",
         files: &["parse/calls.rs", "parse/expressions.rs", "parse/places.rs", "parse/statements.rs"],
     },
-    // Statements hold expressions, which call routines, which are written like statements.
-    Known {
-        folder: "xca-wgsl/src",
-        files: &[
-            "buffer.rs",
-            "declarations.rs",
-            "entry.rs",
-            "glossary.rs",
-            "literal.rs",
-            "module.rs",
-            "print/constant.rs",
-            "print/element.rs",
-            "print/expression.rs",
-            "print/loops.rs",
-            "print/mod.rs",
-            "print/range.rs",
-            "print/statement.rs",
-            "routine.rs",
-            "shader.rs",
-        ],
-    },
-    // The types of operators follow from those of their operands, and the other way round.
-    Known { folder: "xca-wgsl/src", files: &["inference/mod.rs", "inference/operators.rs"] },
-    // Items, and the lists of what is near them.
-    Known {
-        folder: "xca-cpu/src",
-        files: &["blocks.rs", "listing.rs", "lists.rs", "motion.rs", "population.rs", "upkeep.rs"],
-    },
-    // A device, and the code that it compiles.
-    Known { folder: "xca-gpu/src", files: &["device/code.rs", "device.rs", "error.rs"] },
-    // A screen, and the words on it.
-    Known { folder: "xca-watch/src", files: &["screen.rs", "words.rs"] },
-    // A site, and what it sees around.
-    Known { folder: "tests/src", files: &["suite/around.rs", "suite/site.rs"] },
-    // What is measured, and another program beside it.
-    Known { folder: "benchmarks/src", files: &["lammps.rs", "particles.rs"] },
 ];

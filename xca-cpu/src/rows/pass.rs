@@ -230,7 +230,7 @@ impl<'a> Pass<'a> {
         let near = population.and_then(|population| {
             let radius = self.searches.listed[prepared.population?]?;
             let lists = population.lists.as_ref().filter(|lists| lists.are_whole(cells.row))?;
-            Some(lists.view(population, radius))
+            Some(lists.view(&population.items, radius))
         });
         let items = population.map(|population| RowItems {
             // Not a slice of the array, because neighbours also lie before the row.

@@ -4,8 +4,9 @@
 use crate::group::{Group, population};
 use crate::layout::Layout;
 use crate::lists::Room;
-use crate::motion::largest;
-use crate::upkeep::keep_lists;
+use crate::measurement;
+use crate::motion::{Motion, largest};
+use crate::renewal::keep_lists;
 use xca_core::kernel::CellFilter;
 use xca_core::{Model, Precision, Process, ProcessKind};
 
@@ -128,9 +129,9 @@ impl Measured {
         groups: &[Group],
         row: usize,
         answers: &[u32],
-    ) -> crate::motion::Motion {
+    ) -> Motion {
         let Some(population) = population(&groups[self.population]) else {
-            return crate::motion::Motion::NONE;
+            return Motion::NONE;
         };
         let (first, end) = population.row(row);
         // SAFETY: the row's own items, which this thread alone has; the kernels of the row have ended.
@@ -138,6 +139,6 @@ impl Measured {
             std::slice::from_raw_parts(self.positions.add(first * self.size), (end - first) * self.size)
         };
         let answers = self.migrates.then_some(answers);
-        crate::motion::measure_row(population, layout, model.geometry(), row, positions, answers)
+        measurement::measure_row(population, layout, model.geometry(), row, positions, answers)
     }
 }

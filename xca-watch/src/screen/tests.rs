@@ -8,6 +8,8 @@ use super::*;
 use crate::worker::{Shared, Worker};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
 use ratatui::style::Color;
 use std::sync::atomic::Ordering;
 use std::sync::mpsc;

@@ -8,14 +8,15 @@ mod expressions;
 mod operators;
 mod statements;
 mod table;
+mod waiting;
 
 use crate::error::Problem;
 use crate::program::{Program, Roles, field_number};
 use crate::types::Type;
 pub(crate) use expressions::{constant as constant_type, definition};
-use operators::Waiting;
 use std::collections::HashMap;
 use table::{Table, Term, Variable};
+use waiting::Waiting;
 use xca_core::ir::{Block, Expression, Function, Place, Role, Statement, TuplePart};
 use xca_core::{ScalarType, Schema};
 

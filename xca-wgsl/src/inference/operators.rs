@@ -2,32 +2,10 @@
 
 use super::Inference;
 use super::table::{Term, Variable};
+use super::waiting::Waiting;
 use crate::error::Problem;
 use xca_core::ScalarType;
 use xca_core::ir::BinaryOperator;
-
-/// A demand that waits until a type is known.
-pub(super) enum Waiting {
-    Arithmetic {
-        left: Variable,
-        right: Variable,
-        result: Variable,
-    },
-    Component {
-        of: Variable,
-        lane: u8,
-        result: Variable,
-    },
-    Element {
-        of: Variable,
-        result: Variable,
-    },
-    /// The scalar of a number or vector.
-    ScalarOf {
-        of: Variable,
-        result: Variable,
-    },
-}
 
 impl Inference<'_> {
     /// The type of `left operator right`.

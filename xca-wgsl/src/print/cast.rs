@@ -1,8 +1,8 @@
 //! `as`, with Rust's results: integers wrap, floats saturate.
 
-use super::Writer;
 use super::operator::is_constant;
 use super::text::{Level, Text};
+use super::writer::Writer;
 use crate::error::Problem;
 use crate::literal;
 use crate::types::{self, Type};

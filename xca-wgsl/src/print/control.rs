@@ -2,7 +2,7 @@
 
 use super::expression::is_simple;
 use super::text::{Level, Text};
-use super::{Target, Writer};
+use super::writer::{Target, Writer};
 use crate::error::Problem;
 use xca_core::ir::{Arm, Block, Expression, Literal, Pattern, Statement};
 

@@ -1,8 +1,8 @@
 //! Elements of arrays, and divisions: what Rust stops a process for where it has no result.
 
-use super::Writer;
 use super::range::Range;
 use super::text::{Level, Text};
+use super::writer::Writer;
 use crate::error::Problem;
 use crate::types::{self, Type};
 use crate::visit;

@@ -2,13 +2,14 @@
 //! before.
 
 use super::text::{Level, Text};
-use super::{Target, Writer};
+use super::writer::{Target, Writer, zero};
+use crate::constant::constant_text;
 use crate::error::Problem;
 use crate::types::{self, Type};
 use crate::visit::{self, Node};
 use crate::{literal, names};
 use xca_core::ScalarType;
-use xca_core::ir::{BinaryOperator, Block, Builtin, Expression, Role, UnaryOperator};
+use xca_core::ir::{BinaryOperator, Block, Builtin, Constant, Expression, Role, UnaryOperator};
 use xca_core::kernel::{OUTSIDE, STAY};
 
 const LANES: [&str; 4] = ["x", "y", "z", "w"];
@@ -194,6 +195,13 @@ impl Writer<'_, '_> {
         Some((simple(then)?, simple(otherwise)?))
     }
 
+    fn constant(&self, name: &str, value: &Constant) -> Result<String, Problem> {
+        match self.shared.glossary.constant(name, value) {
+            Some(known) => Ok(known.to_owned()),
+            None => constant_text(name, value, self.shared.options),
+        }
+    }
+
     fn number(&mut self, text: String) -> Text {
         self.shared.routines.need_infinities(&text);
         Text::number(text)
@@ -279,7 +287,7 @@ impl Writer<'_, '_> {
         self.check_type(&type_)?;
         let text = self.expression(element)?;
         if matches!(text.plain(), "false" | "0u" | "0i" | "0.0f" | "0.0lf") {
-            return Ok(Text::primary(super::zero(&type_)));
+            return Ok(Text::primary(zero(&type_)));
         }
         let routine = self.shared.routines.need_repeat(&self.type_of(element), length);
         Ok(Text::primary(format!("{routine}({})", text.plain())))

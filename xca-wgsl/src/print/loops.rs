@@ -2,9 +2,10 @@
 //! one.
 
 use super::expression::is_simple;
+use super::frame::Frame;
 use super::range::Range as Numbers;
 use super::text::Text;
-use super::{Target, Writer};
+use super::writer::{Target, Writer};
 use crate::error::Problem;
 use crate::types::Type;
 use crate::visit::{self, Jump};
@@ -13,28 +14,6 @@ use xca_core::ir::{Builtin, Expression, Literal, Loop, LoopKind, Range, Statemen
 
 /// The largest neighbourhood over which loops are written out.
 const MOST_WRITTEN_OUT: usize = 32;
-
-/// A loop around the present place.
-#[derive(Debug, Default)]
-pub(super) struct Frame {
-    label: Option<&'static str>,
-    /// Of a search in several cells: the flag that ends it.
-    ended: Option<String>,
-    /// The flags by which loops within end this one, and go on with its next turn.
-    left: Option<String>,
-    continued: Option<String>,
-}
-
-impl Frame {
-    pub(super) fn new(loop_: &Loop, ended: Option<String>) -> Self {
-        Self { label: loop_.label, ended, ..Self::default() }
-    }
-
-    fn flag(&self, jump: Jump) -> Option<&String> {
-        let flag = if jump.is_break { &self.left } else { &self.continued };
-        flag.as_ref().filter(|_| self.label == Some(jump.label))
-    }
-}
 
 impl Writer<'_, '_> {
     pub(super) fn loop_(&mut self, statement: &Statement, loop_: &Loop) -> Result<(), Problem> {

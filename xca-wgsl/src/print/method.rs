@@ -1,9 +1,9 @@
 //! Methods of numbers, vectors and arrays.
 
-use super::Writer;
 use super::expression::list;
 use super::operator::is_constant;
 use super::text::{Level, Text};
+use super::writer::Writer;
 use crate::error::Problem;
 use crate::inference::definition;
 use crate::types::{self, Type};

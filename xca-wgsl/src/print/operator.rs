@@ -1,8 +1,8 @@
 //! Operators, with the results that Rust gives.
 
-use super::Writer;
 use super::element::is_division;
 use super::text::{Level, Text};
+use super::writer::Writer;
 use crate::error::Problem;
 use crate::types::{self, Type};
 use crate::visit::{self, Node};

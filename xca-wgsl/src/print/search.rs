@@ -1,7 +1,7 @@
 //! Loops over items.
 
-use super::Writer;
-use super::loops::Frame;
+use super::frame::Frame;
+use super::writer::Writer;
 use crate::access;
 use crate::error::Problem;
 use crate::visit;

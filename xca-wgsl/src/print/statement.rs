@@ -1,10 +1,10 @@
 //! Statements.
 
 use super::element::is_division;
-use super::expression::is_simple;
+use super::expression::{is_simple, list};
 use super::range::Range;
 use super::text::{Level, Text};
-use super::{Target, Writer};
+use super::writer::{Target, Writer};
 use crate::error::Problem;
 use crate::types::Type;
 use crate::visit;
@@ -84,7 +84,7 @@ impl Writer<'_, '_> {
             Statement::Return(Some(value)) => self.value_into(value, Target::Return),
             Statement::Fault { code, value } => {
                 let texts = self.operands(&[code, value])?;
-                self.line(&format!("report_fault({});", super::expression::list(&texts)));
+                self.line(&format!("report_fault({});", list(&texts)));
                 Ok(())
             }
         }

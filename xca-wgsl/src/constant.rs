@@ -1,6 +1,5 @@
 //! Constants of the surrounding Rust code.
 
-use super::Writer;
 use crate::error::Problem;
 use crate::inference::constant_type;
 use crate::literal;
@@ -8,15 +7,6 @@ use crate::shader::Options;
 use crate::types;
 use xca_core::ScalarType;
 use xca_core::ir::Constant;
-
-impl Writer<'_, '_> {
-    pub(super) fn constant(&self, name: &str, value: &Constant) -> Result<String, Problem> {
-        match self.shared.glossary.constant(name, value) {
-            Some(known) => Ok(known.to_owned()),
-            None => constant_text(name, value, self.shared.options),
-        }
-    }
-}
 
 /// The value of a constant, written out.
 pub(crate) fn constant_text(name: &str, value: &Constant, options: &Options) -> Result<String, Problem> {
