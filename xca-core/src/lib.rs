@@ -106,6 +106,7 @@ mod simulation;
 mod site;
 mod state;
 mod steering;
+pub mod storage;
 
 pub use engine::{Engine, EngineFailure, Fault, StartError};
 pub use model::{InitialError, Model, ModelBuilder, ModelError};
@@ -122,7 +123,7 @@ pub use xca_process::{
     Geometry, HasSubstate, Hexagons, Holds, HostScalar, HostValue, Neighbourhood, NeighbourhoodError, Other,
     Others, ParameterError, ParameterValue, Parameters, ParametersArgument, Parity, Process, ProcessKind,
     Processes, Reached, Slot, Slots, Space, States, Stream, Substate, Substates, directions, ir, kernel,
-    math, philox, storage,
+    math, philox,
 };
 #[doc(hidden)]
 pub use xca_process::{checks, field_type};

@@ -10,7 +10,7 @@ mod pass;
 
 use crate::engine::{Engine, Execution, StartError};
 use crate::model::{GroupKind, Model};
-use xca_process::storage::Buffer;
+use crate::storage::Buffer;
 use xca_process::{Face, Faces, Geometry, Reached};
 use xca_values::{Precision, StoredType};
 

@@ -1,8 +1,8 @@
 //! Elementary processes for engines: the vocabulary of their source, their kernels and bodies, and their
 //! space.
 //!
-//! Models import these items from `xca_core`. The modules [`ir`], [`kernel`] and [`storage`] are for engines
-//! and generated code. They can change in any version.
+//! Models import these items from `xca_core`. The modules [`ir`] and [`kernel`] are for engines and generated
+//! code. They can change in any version.
 
 // The macros name `xca_core`, also for the helpers of this crate.
 extern crate self as xca_core;
@@ -23,7 +23,6 @@ mod parameters;
 mod process;
 mod random;
 mod states;
-pub mod storage;
 mod substates;
 mod vocabulary;
 

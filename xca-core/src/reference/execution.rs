@@ -144,7 +144,7 @@ impl GroupState {
     }
 
     fn memory(&self) -> usize {
-        let planes: usize = self.planes.iter().map(xca_process::storage::Buffer::capacity).sum();
+        let planes: usize = self.planes.iter().map(crate::storage::Buffer::capacity).sum();
         planes + (self.counts.capacity() + self.labels.capacity()) * size_of::<u32>()
     }
 }

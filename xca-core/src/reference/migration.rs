@@ -3,9 +3,9 @@
 use super::{GroupState, Neighbour, ReferenceExecution, neighbourhood};
 use crate::engine::Fault;
 use crate::model::GroupKind;
+use crate::storage::Buffer;
 use xca_process::Process;
 use xca_process::kernel::{NOWHERE, OUTSIDE, STAY};
-use xca_process::storage::Buffer;
 
 impl ReferenceExecution {
     /// Moves the items of a population as the answers, one for each place, say.

@@ -5,10 +5,10 @@
 
 use super::{GroupState, Neighbour, ReferenceExecution, neighbourhood};
 use crate::engine::{Fault, StepContext, SubstateId};
+use crate::storage::Buffer;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use xca_process::Stream;
 use xca_process::kernel::{Access, Entry, Frame, Memory, MemoryOf, Row, RowItems, Scratch};
-use xca_process::storage::Buffer;
 use xca_process::{Process, ProcessKind};
 use xca_values::StoredType;
 
