@@ -37,6 +37,23 @@ pub struct State<'a> {
 }
 
 /// An item of a population, as [`State::items`] returns it.
+///
+/// ```
+/// use xca_core::prelude::*;
+///
+/// #[derive(Substates, Clone, Debug, PartialEq)]
+/// struct Grain {
+///     mass: Real,
+/// }
+///
+/// let item = Item { label: 7, cell: [1, 0, 0], state: Grain { mass: 0.5 } };
+/// let builder = Model::builder("grains").extents([3, 1, 1]).population::<Grain>(4);
+/// let given = item.clone();
+/// let model = builder.initialise(move |state| Ok(state.set_items(vec![given.clone()])?)).build()?;
+/// let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
+/// assert_eq!(simulation.state().items::<Grain>()?, [item]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Item<S> {
     /// Its label.

@@ -88,6 +88,23 @@ pub enum Reached {
 }
 
 /// The cellular space: extents, cell side, boundaries and neighbourhood.
+///
+/// ```
+/// use xca_core::prelude::*;
+///
+/// #[derive(Substates, Clone)]
+/// struct Site {
+///     height: Real,
+/// }
+///
+/// let builder = Model::builder("site").extents([4, 3, 1]).cell_side(0.5).substates::<Site>();
+/// let model = builder.boundary(Boundary::Toroidal).build()?;
+/// let geometry = model.geometry();
+/// assert_eq!(geometry.cell_containing([0.6, 1.4, 0.1]), Some([1, 2, 0]));
+/// assert_eq!(geometry.linear([1, 2, 0]), 9);
+/// assert_eq!(geometry.at([3, 2, 0], [1, 1, 0]), Some([0, 0, 0]));
+/// # Ok::<(), ModelError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Geometry {
     extents: [usize; 3],

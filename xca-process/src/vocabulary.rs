@@ -271,6 +271,29 @@ impl<S: 'static> IntoIterator for &Slots<S> {
 }
 
 /// Another item. Its substates are its fields, for reading only.
+///
+/// ```
+/// use xca_core::prelude::*;
+///
+/// #[derive(Substates, Clone, Copy)]
+/// struct Ant {
+///     #[position]
+///     position: Vector3<Real>,
+///     load: Real,
+///     rank: u32,
+/// }
+///
+/// /// The number of heavier ants within 2 cm. Among equals the label decides.
+/// #[elementary_process]
+/// fn compare(me: &mut Slot<Ant>) {
+///     me.rank = 0;
+///     for other in me.others_within(0.02) {
+///         if other.load > me.load || (other.load == me.load && other.label() < me.label()) {
+///             me.rank += 1;
+///         }
+///     }
+/// }
+/// ```
 #[derive(Debug)]
 pub struct Other<S> {
     never: Infallible,
@@ -308,6 +331,26 @@ impl<S: 'static> Iterator for Others<S> {
 }
 
 /// The cellular space.
+///
+/// ```
+/// use xca_core::prelude::*;
+///
+/// #[derive(Substates, Clone, Copy)]
+/// struct Grain {
+///     #[position]
+///     position: Vector3<Real>,
+///     velocity: Vector3<Real>,
+/// }
+///
+/// /// Moves a grain by at most half a cell, round toroidal axes.
+/// #[elementary_process]
+/// fn fly(me: &mut Slot<Grain>, space: &Space) {
+///     let limit = 0.5 * space.side();
+///     let step = me.velocity.length();
+///     let share = if step > limit { limit / step } else { 1.0 };
+///     me.position = space.wrapped(me.position + share * me.velocity);
+/// }
+/// ```
 #[derive(Debug)]
 pub struct Space {
     never: Infallible,
@@ -348,7 +391,30 @@ impl Space {
     }
 }
 
-/// The place to which a migration sends an item. See `#[migration]` for an example.
+/// The place to which a migration sends an item.
+///
+/// ```
+/// use xca_core::prelude::*;
+///
+/// #[derive(Substates, Clone, Copy)]
+/// struct Leaf {
+///     #[position]
+///     position: Vector3<Real>,
+///     is_rotten: bool,
+///     lies: bool,
+/// }
+///
+/// #[migration]
+/// fn drift(me: &Slot<Leaf>, space: &Space) -> Destination {
+///     if me.is_rotten {
+///         Destination::Outside
+///     } else if me.lies {
+///         Destination::Stay
+///     } else {
+///         space.cell_containing(me.position)
+///     }
+/// }
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Destination {
     /// The item's own cell.

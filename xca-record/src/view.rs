@@ -21,8 +21,7 @@ use xca_picture::{Category, ColourMap};
 ///
 /// ```
 /// # use xca_core::prelude::*;
-/// # #[derive(Substates, Clone)]
-/// # struct Fish { age: u32, speed: Real }
+/// # #[derive(Substates, Clone)] struct Fish { age: u32, speed: Real }
 /// use xca_record::ItemView;
 ///
 /// let view = ItemView::<Fish>::named("fish").radius(0.2).colour(Fish::SPEED, "speed (m/s)");
@@ -37,6 +36,13 @@ pub struct ItemView<S> {
 }
 
 /// Sets how the substates of cells are saved and drawn.
+///
+/// ```
+/// # use xca_core::prelude::*;
+/// # #[derive(Substates, Clone)] struct Plate { temperature: Real }
+/// use xca_record::CellView;
+/// let view = CellView::<Plate>::named("plate").draw(Plate::TEMPERATURE, "temperature (K)").axes(true);
+/// ```
 ///
 /// Default: all substates are saved, and the first is drawn, in the middle layer. `bool` and states have one
 /// colour for each value, and a legend.

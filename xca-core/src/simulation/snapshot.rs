@@ -8,6 +8,30 @@ use xca_values::{Field, Precision};
 
 /// The whole state of a run between two steps. Equal snapshots are equal to the last bit.
 ///
+/// ```
+/// use xca_core::prelude::*;
+///
+/// #[derive(Substates, Clone)]
+/// struct Site {
+///     age: u32,
+/// }
+///
+/// #[elementary_process]
+/// fn grow(cell: &mut Cell<Site>) {
+///     cell.age += 1;
+/// }
+///
+/// let builder = Model::builder("site").extents([8, 8, 1]).substates::<Site>();
+/// let model = builder.process(grow).build()?;
+/// let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
+/// simulation.run(3)?;
+/// let third = simulation.snapshot()?;
+/// simulation.run(2)?;
+/// simulation.restore(&third)?;
+/// assert_eq!(simulation.snapshot()?, third);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// With the model and the [`crate::RunOptions`] it determines the rest of the run, on any engine. Variables
 /// that a steering operation keeps to itself, in a `Mutex` for example, are not part of it.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
