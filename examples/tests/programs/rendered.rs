@@ -212,7 +212,8 @@ fn grids_are_drawn_as_the_state_that_they_are_of() {
                 if place.path("run").exists() {
                     fs::remove_dir_all(place.path("run")).unwrap();
                 }
-                said(&place, program, &format!("run {options} --formats {format},png --quiet --out run"));
+                // The landslide warns that the island is small.
+                place.succeed(program, &format!("{options} --formats {format},png --quiet --out run"));
                 assert!(all(&place.path("run")).iter().any(|(name, _)| name.ends_with(extension)));
                 for (_, _, look) in cases.iter().chain(&pond).filter(|(other, ..)| *other == program) {
                     let step = if program == POND { "00000008" } else { "00000007" };
@@ -228,7 +229,7 @@ fn grids_are_drawn_as_the_state_that_they_are_of() {
         }
     }
     // The run's own picture, of a state that has the scale of the first one.
-    said(&place, LANDSLIDE, "run --dem g.asc --debris d.asc --steps 0 --formats tif,png --quiet --out first");
+    place.succeed(LANDSLIDE, "--dem g.asc --debris d.asc --steps 0 --formats tif,png --quiet --out first");
     said(&place, LANDSLIDE, "render first --out of_first");
     let picture = fs::read(place.path("of_first/frames/frame_00000000.png")).unwrap();
     assert!(picture == fs::read(place.path("first/final.png")).unwrap());
