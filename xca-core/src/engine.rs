@@ -92,7 +92,14 @@ pub trait Border: Send {
     /// As [`Self::send`].
     fn receive(&mut self, face: Face) -> Result<Vec<u8>, EngineFailure>;
 
-    /// The minimum of the numbers of all parts.
+    /// Tells the parts beyond all faces that this part sends nothing more before all parts call
+    /// [`Self::least`]. Those that wait for it get [`EngineFailure::Elsewhere`].
+    ///
+    /// # Errors
+    /// As [`Self::send`].
+    fn give_up(&mut self) -> Result<(), EngineFailure>;
+
+    /// The minimum of the numbers of all parts. Messages that were sent before and not received are dropped.
     ///
     /// # Errors
     /// As [`Self::send`].

@@ -1,11 +1,11 @@
 //! Migration between the parts of a space: items that leave this part, and items that arrive.
 
-use crate::edges::Edges;
+use crate::edges::{Edges, Phase, Stopped};
 use crate::ghosts::{faces, mismatch, number, pack_item, take, unpack_item};
 use crate::layout::Layout;
 use crate::migration::{Arrival, arrivals, check_slots, settle};
 use crate::population::Population;
-use crate::rows::{FirstFault, Mover};
+use crate::rows::Mover;
 use crate::threads::Threads;
 use xca_core::engine::{EngineFailure, Fault};
 use xca_core::{Face, Geometry, Process};
@@ -33,10 +33,11 @@ pub(crate) fn migrate(
     layout: &Layout,
     (edges, threads): (&mut Edges, &Threads),
     movers: &mut [Mover],
-) -> Result<(), Fault> {
+) -> Result<(), Stopped> {
     let Migration { geometry, process, number } = migration;
-    let first = |fault: Fault| FirstFault { pass: 0, process: number, cell: cell(&fault, geometry), fault };
-    let (all, left) = edges.agree(arrivals(population, geometry, process, movers).map_err(first))?;
+    let stopped = |phase: Phase, fault: Fault| Stopped::new(number, phase, cell(&fault, geometry), fault);
+    let destinations = arrivals(population, geometry, process, movers);
+    let (all, left) = destinations.map_err(|fault| stopped(Phase::Destinations, fault))?;
     let is_own = |arrival: &Arrival| edges.part.holds(geometry, arrival.cell as usize);
     let (mut own, leaving): (Vec<Arrival>, Vec<Arrival>) = all.into_iter().partition(is_own);
     let travellers = leaving.iter().map(|arrival| {
@@ -46,8 +47,8 @@ pub(crate) fn migrate(
     });
     own.extend(exchange(migration, population, layout, edges, travellers.collect())?);
     own.sort_unstable();
-    let full = check_slots(population, layout, geometry, process, movers, &own);
-    edges.agree(full.map_err(first))?;
+    let slots = check_slots(population, layout, geometry, process, movers, &own);
+    slots.map_err(|fault| stopped(Phase::Slots, fault))?;
     population.left += left;
     if let Some(lists) = &mut population.lists {
         leaving.iter().for_each(|arrival| lists.left(population.items.numbers[arrival.item as usize]));

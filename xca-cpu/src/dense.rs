@@ -108,12 +108,16 @@ impl Dense {
         }
     }
 
-    /// Fills the halo along z, except for cells of other parts. After their messages the halo is up to date.
+    /// Fills the halo along z, except for cells of other parts.
     pub(crate) fn fill_layers(&mut self, layout: &Layout) {
         let element = self.stored.element_size();
         for plane in self.current.bytes_mut().chunks_exact_mut(layout.cells() * element) {
             layout.fill_layers(plane, element, None);
         }
+    }
+
+    /// Records that the halo is up to date, also beyond the borders of the part.
+    pub(crate) fn complete(&mut self) {
         self.halo = Halo::Whole;
     }
 

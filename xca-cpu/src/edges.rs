@@ -1,101 +1,174 @@
 //! Communication between the parts of a space: the edges of planes, and the first fault.
 //!
-//! All parts run the same stages at the same time. The same halos are stale in all parts, so each part knows
-//! the next message of its neighbours. Nothing here waits on a thread of the engine, because parts that share
-//! threads would block each other.
+//! All parts run the same stages. The same halos are stale in all parts, so each part knows the next message
+//! of its neighbours. Nothing here waits on a thread of the engine, because parts that share threads would
+//! block each other.
+//!
+//! A part sends its edges, runs the rows that see no other part, and only then waits for the edges of others.
+//!
+//! A part with a fault gives up: it tells its neighbours, which then give up too, and so on. All parts meet at
+//! the next agreement and compare their faults. A part gives up only because of faults of earlier stages, or
+//! of earlier phases of the stage. The first fault is therefore among those compared.
 
 use crate::activity::Activity;
 use crate::dense::Dense;
-use crate::ghosts::{self, faces, mismatch};
+use crate::ghosts::{self, faces, mismatch, rows_at_borders};
 use crate::group::Group;
 use crate::layout::Layout;
 use crate::rows::{FirstFault, searched};
 use crate::threads::Threads;
-use xca_core::engine::{Border, EngineFailure, Fault, Part, SubstateId};
+use std::sync::Arc;
+use xca_core::engine::{Border, EngineFailure, Fault, Interruption, Part, SubstateId};
 use xca_core::{Face, Faces, Model};
 
 /// No fault. The value is larger than that of any fault.
 const NO_FAULT: u64 = u64::MAX;
 
+/// The number of steps after which the parts compare their faults.
+pub(crate) const STEPS_TO_AGREE: u64 = 16;
+
 /// A part of a space, and its connection to the others.
 pub(crate) struct Edges {
     pub(crate) part: Part,
     pub(crate) border: Box<dyn Border>,
+    /// Whether each row sees another part.
+    pub(crate) at_border: Arc<[bool]>,
     /// The last message across each face, by group and field. The halo does not show what has changed,
     /// because planes with a second buffer have two halos.
     received: Vec<Vec<Faces<Vec<u8>>>>,
 }
 
+/// An exchange under way: this part has sent its edges along the first axis.
+pub(crate) struct Exchange {
+    /// The populations that are visible from other parts, each with the slack of its items.
+    populations: Vec<(usize, f64)>,
+    /// The planes whose halos are stale.
+    planes: Vec<SubstateId>,
+    /// The axes with borders.
+    axes: Vec<usize>,
+}
+
 impl Edges {
-    pub(crate) fn new(model: &Model, part: Part, border: Box<dyn Border>) -> Self {
+    pub(crate) fn new(model: &Model, layout: &Layout, part: Part, border: Box<dyn Border>) -> Self {
         let fields = model.groups().iter().map(|group| group.schema().fields.len());
         let received = fields.map(|fields| vec![Faces::default(); fields]).collect();
-        Self { part, border, received }
+        Self { part, border, at_border: rows_at_borders(layout).into(), received }
     }
 
-    /// Fills the halos that processes read. Processes become due where the halo has changed. For populations,
-    /// receives the items that are visible from here.
-    pub(crate) fn exchange(
+    /// Sends what other parts see along the first axis. The halo is then complete for rows that see no other
+    /// part. `None` if processes need nothing of other parts.
+    pub(crate) fn begin(
         &mut self,
         (model, processes): (&Model, &[usize]),
         layout: &Layout,
         threads: &Threads,
         groups: &mut [Group],
-        activity: Option<&Activity>,
-    ) -> Result<(), EngineFailure> {
+    ) -> Result<Option<Exchange>, EngineFailure> {
         let searched = searched(model, processes);
+        let mut populations = Vec::new();
         for group in seen(model, processes) {
             if let Group::Population(population) = &mut groups[group] {
-                let slack = if searched.contains(&group) {
-                    threads.run(|| population.slack(layout, model.geometry()))
-                } else {
-                    0.0
-                };
-                ghosts::exchange(population, layout, threads, &mut *self.border, slack)?;
+                population.slack_of_ghosts = 0.0;
+                let is_searched = searched.contains(&group);
+                let mut slack = || threads.run(|| population.slack(layout, model.geometry()));
+                populations.push((group, if is_searched { slack() } else { 0.0 }));
             }
         }
-        let stale = stale(model, groups, processes);
-        if stale.is_empty() {
-            return Ok(());
+        let planes = stale(model, groups, processes);
+        if populations.is_empty() && planes.is_empty() {
+            return Ok(None);
         }
-        let each = |groups: &mut [Group], fill: fn(&mut Dense, &Layout)| {
-            threads.run(|| {
-                for substate in &stale {
-                    if let Group::Cells(planes) = &mut groups[substate.group] {
-                        fill(&mut planes[substate.field], layout);
-                    }
-                }
-            });
-        };
+        let axes = [1, 2].into_iter().filter(|axis| !faces(layout, *axis).is_empty()).collect();
+        let exchange = Exchange { populations, planes, axes };
         // Each axis includes the halo of the earlier axes, so corners need no messages of their own.
-        each(groups, Dense::fill_rows);
-        self.exchange_along(1, layout, groups, &stale, activity)?;
-        each(groups, Dense::fill_layers);
-        self.exchange_along(2, layout, groups, &stale, activity)
+        exchange.fill(groups, threads, |plane| plane.fill_rows(layout));
+        if let Some(first) = exchange.axes.first() {
+            self.send(&exchange, *first, layout, groups)?;
+        }
+        exchange.fill(groups, threads, |plane| plane.fill_layers(layout));
+        Ok(Some(exchange))
     }
 
-    fn exchange_along(
+    /// Fills the halos with what other parts have sent. Processes become due where the halo has changed. For
+    /// populations, receives the items that are visible from here.
+    pub(crate) fn finish(
         &mut self,
-        axis: usize,
+        exchange: &Exchange,
         layout: &Layout,
+        threads: &Threads,
         groups: &mut [Group],
-        stale: &[SubstateId],
         activity: Option<&Activity>,
     ) -> Result<(), EngineFailure> {
-        let faces = faces(layout, axis);
-        for &face in &faces {
+        for (place, axis) in exchange.axes.iter().enumerate() {
+            if place > 0 {
+                self.send(exchange, *axis, layout, groups)?;
+            }
+            self.receive(exchange, *axis, layout, groups, activity)?;
+            if *axis == 1 {
+                // Layers beyond the faces along z continue the lines that have arrived along y.
+                exchange.fill(groups, threads, |plane| plane.fill_layers(layout));
+                for (group, _) in &exchange.populations {
+                    if let Group::Population(population) = &mut groups[*group] {
+                        threads.run(|| population.fill_layers(layout));
+                    }
+                }
+            }
+        }
+        for substate in &exchange.planes {
+            if let Group::Cells(planes) = &mut groups[substate.group] {
+                planes[substate.field].complete();
+            }
+        }
+        Ok(())
+    }
+
+    fn send(
+        &mut self,
+        exchange: &Exchange,
+        axis: usize,
+        layout: &Layout,
+        groups: &[Group],
+    ) -> Result<(), EngineFailure> {
+        for (group, slack) in &exchange.populations {
+            if let Group::Population(population) = &groups[*group] {
+                ghosts::send(population, layout, axis, &mut *self.border, *slack)?;
+            }
+        }
+        if exchange.planes.is_empty() {
+            return Ok(());
+        }
+        for face in faces(layout, axis) {
             let mut bytes = Vec::new();
-            for substate in stale {
+            for substate in &exchange.planes {
                 if let Group::Cells(planes) = &groups[substate.group] {
                     planes[substate.field].pack(layout, face, &mut bytes);
                 }
             }
             self.border.send(face, bytes)?;
         }
-        for face in faces {
+        Ok(())
+    }
+
+    fn receive(
+        &mut self,
+        exchange: &Exchange,
+        axis: usize,
+        layout: &Layout,
+        groups: &mut [Group],
+        activity: Option<&Activity>,
+    ) -> Result<(), EngineFailure> {
+        for (group, _) in &exchange.populations {
+            if let Group::Population(population) = &mut groups[*group] {
+                ghosts::receive(population, layout, axis, &mut *self.border)?;
+            }
+        }
+        if exchange.planes.is_empty() {
+            return Ok(());
+        }
+        for face in faces(layout, axis) {
             let bytes = self.border.receive(face)?;
             let mut rest = &bytes[..];
-            for substate in stale {
+            for substate in &exchange.planes {
                 if let Group::Cells(planes) = &mut groups[substate.group] {
                     let plane = &mut planes[substate.field];
                     let (edge, others) =
@@ -119,16 +192,98 @@ impl Edges {
         Ok(())
     }
 
-    /// Exchanges the results of a stage with all parts. Returns the common result.
-    pub(crate) fn agree<T>(&mut self, result: Result<T, FirstFault>) -> Result<T, Fault> {
-        let key = |first: &FirstFault| (first.process as u64) << 32 | u64::from(first.cell);
-        let own = result.as_ref().err().map_or(NO_FAULT, key);
-        let least = self.border.least(own)?;
-        match result {
-            Err(first) if own == least => Err(first.fault),
-            Ok(value) if least == NO_FAULT => Ok(value),
-            _ => Err(EngineFailure::Elsewhere.into()),
+    /// Compares the faults of all parts since the last agreement. `stopped` is the reason why this part has
+    /// stopped before, and the number of steps since then. Returns the first fault of all.
+    pub(crate) fn agree(&mut self, stopped: Option<(u64, Stopped)>) -> Result<(), Interruption> {
+        let lost = |failure: EngineFailure| Interruption { done: 0, fault: failure.into() };
+        let own = match &stopped {
+            None => NO_FAULT,
+            Some((done, stopped)) => match &stopped.fault {
+                Fault::Engine(failure) if *failure != EngineFailure::Elsewhere => {
+                    return Err(lost(failure.clone()));
+                }
+                _ => {
+                    self.border.give_up().map_err(lost)?;
+                    stopped.key(*done)
+                }
+            },
+        };
+        let least = self.border.least(own).map_err(lost)?;
+        match stopped {
+            None if least == NO_FAULT => Ok(()),
+            Some((done, stopped)) if own == least => Err(Interruption { done, fault: stopped.fault }),
+            _ => Err(Interruption { done: least >> STEP, ..lost(EngineFailure::Elsewhere) }),
         }
+    }
+}
+
+impl Exchange {
+    /// Changes all planes of the exchange, in parallel.
+    fn fill(&self, groups: &mut [Group], threads: &Threads, change: impl Fn(&mut Dense) + Sync) {
+        if self.planes.is_empty() {
+            return;
+        }
+        threads.run(|| {
+            for substate in &self.planes {
+                if let Group::Cells(planes) = &mut groups[substate.group] {
+                    change(&mut planes[substate.field]);
+                }
+            }
+        });
+    }
+}
+
+/// The reason why a part has stopped before the next agreement.
+#[derive(Debug)]
+pub(crate) struct Stopped {
+    process: usize,
+    phase: Phase,
+    /// The linear index of the cell.
+    cell: u32,
+    pub(crate) fault: Fault,
+}
+
+/// The phases of a stage, in the order of their faults.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Phase {
+    /// The processes, row by row.
+    Rows,
+    /// The destinations of items.
+    Destinations,
+    /// The room for items in their new cells.
+    Slots,
+}
+
+/// The place of the step in the key of a fault, then those of the process and of the phase. The cell comes
+/// last.
+const STEP: u32 = 56;
+const PROCESS: u32 = 34;
+const PHASE: u32 = 32;
+
+impl Stopped {
+    pub(crate) fn new(process: usize, phase: Phase, cell: u32, fault: Fault) -> Self {
+        Self { process, phase, cell, fault }
+    }
+
+    /// Orders faults as they come first. `done` is the number of steps since the last agreement.
+    fn key(&self, done: u64) -> u64 {
+        if matches!(self.fault, Fault::Engine(_)) {
+            return NO_FAULT;
+        }
+        done << STEP | (self.process as u64) << PROCESS | (self.phase as u64) << PHASE | u64::from(self.cell)
+    }
+}
+
+impl From<FirstFault> for Stopped {
+    fn from(FirstFault { process, cell, fault, .. }: FirstFault) -> Self {
+        Self { process, phase: Phase::Rows, cell, fault }
+    }
+}
+
+/// A part without a fault of its own cannot go on.
+impl From<EngineFailure> for Stopped {
+    fn from(failure: EngineFailure) -> Self {
+        Self { process: 0, phase: Phase::Rows, cell: 0, fault: failure.into() }
     }
 }
 

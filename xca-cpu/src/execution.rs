@@ -3,10 +3,8 @@
 use crate::activity::Activity;
 use crate::blocks::blocks;
 use crate::choices::Choices;
-use crate::crossing::{self, Migration};
 use crate::dense::Dense;
-use crate::edges::{Edges, seen};
-use crate::ghosts;
+use crate::edges::Edges;
 use crate::group::{Group, groups};
 use crate::layout::Layout;
 use crate::memory::check_size;
@@ -22,8 +20,8 @@ use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use xca_core::engine::{
-    EngineFailure, Execution, Fault, Figure, InputError, Interruption, Part, Population as Items, StartError,
-    StepContext, SubstateId, Workers, check_cells, check_cells_of_part, check_population_of_part,
+    Border, EngineFailure, Execution, Fault, Figure, InputError, Interruption, Part, Population as Items,
+    StartError, StepContext, SubstateId, Workers, check_cells, check_cells_of_part, check_population_of_part,
     check_substate, check_values, check_values_of_cells, check_values_of_part,
 };
 use xca_core::reduction::{Reduced, ReducedRows, Reduction, append_row};
@@ -31,15 +29,15 @@ use xca_core::{Model, Precision, ProcessKind};
 
 /// A running model.
 pub(crate) struct CpuExecution {
-    model: Model,
-    precision: Precision,
-    threads: Threads,
-    layout: Layout,
+    pub(crate) model: Model,
+    pub(crate) precision: Precision,
+    pub(crate) threads: Threads,
+    pub(crate) layout: Layout,
     /// The own part of the space. `None` for the whole space.
-    edges: Option<Edges>,
-    groups: Vec<Group>,
+    pub(crate) edges: Option<Edges>,
+    pub(crate) groups: Vec<Group>,
     /// The tiles in which processes over cells are due. `None` for a model without such processes.
-    activity: Option<Activity>,
+    pub(crate) activity: Option<Activity>,
     stride: Stride,
     reductions: Mutex<Reductions>,
     /// The stages of a step in which all processes run.
@@ -52,13 +50,14 @@ impl CpuExecution {
         precision: Precision,
         threads: Threads,
         choices: Choices,
-        edges: Option<Edges>,
+        shared: Option<(Part, Box<dyn Border>)>,
     ) -> Result<Self, StartError> {
         let geometry = model.geometry();
-        let layout = edges
+        let layout = shared
             .as_ref()
-            .map_or_else(|| Layout::new(geometry), |edges| Layout::of_part(geometry, &edges.part));
+            .map_or_else(|| Layout::new(geometry), |(part, _)| Layout::of_part(geometry, part));
         check_size(model, &layout, precision)?;
+        let edges = shared.map(|(part, border)| Edges::new(model, &layout, part, border));
         let groups = threads.run(|| groups(model, &layout, precision, choices.skin));
         let stages = stages(model, 0..model.processes().len());
         let stride = Stride::new((model, &layout, precision), stages.len(), threads.count(), choices);
@@ -79,21 +78,22 @@ impl CpuExecution {
 
     /// Runs those of these processes that are due in the step, with the parameters that the engine has.
     fn run_step(&mut self, processes: Range<usize>, context: &StepContext<'_>) -> Result<(), Fault> {
+        let stages = self.due_stages(processes, context);
+        let threads = self.threads.clone();
+        let leaves_out = self.leaves_out();
+        threads.run(|| stages.iter().try_for_each(|stage| self.run_stage(stage, leaves_out, context)))
+    }
+
+    /// The stages of those of these processes that are due in the step.
+    pub(crate) fn due_stages(&self, processes: Range<usize>, context: &StepContext<'_>) -> Vec<Stage> {
         let all = self.model.processes();
         let whole = processes == (0..all.len()) && all.iter().all(|process| process.is_due(context.step));
         let due = processes.filter(|number| all[*number].is_due(context.step));
-        let stages = if whole { self.stages.clone() } else { stages(&self.model, due) };
-        let threads = self.threads.clone();
-        let leaves_out = self.leaves_out();
-        if self.edges.is_some() {
-            stages.iter().try_for_each(|stage| self.run_stage_of_part(stage, leaves_out, context))
-        } else {
-            threads.run(|| stages.iter().try_for_each(|stage| self.run_stage(stage, leaves_out, context)))
-        }
+        if whole { self.stages.clone() } else { stages(&self.model, due) }
     }
 
     /// Ends steps, the last of which may have a fault.
-    fn end_steps(&mut self, steps: u64, time: Duration, is_faulty: bool) {
+    pub(crate) fn end_steps(&mut self, steps: u64, time: Duration, is_faulty: bool) {
         if let Some(activity) = &mut self.activity {
             activity.end_steps(steps, time);
             if is_faulty {
@@ -103,7 +103,7 @@ impl CpuExecution {
     }
 
     /// Whether processes run only where they are due.
-    fn leaves_out(&self) -> bool {
+    pub(crate) fn leaves_out(&self) -> bool {
         self.activity.as_ref().is_some_and(Activity::is_on)
     }
 
@@ -117,55 +117,13 @@ impl CpuExecution {
         }
     }
 
-    /// Runs a stage in this part. All other parts do the same at the same time.
-    fn run_stage_of_part(
-        &mut self,
-        stage: &[usize],
-        leaves_out: bool,
-        context: &StepContext<'_>,
-    ) -> Result<(), Fault> {
-        let threads = self.threads.clone();
-        if let Some(edges) = &mut self.edges {
-            let activity = self.activity.as_ref().filter(|_| leaves_out);
-            edges.exchange((&self.model, stage), &self.layout, &threads, &mut self.groups, activity)?;
-        }
-        let result = threads.run(|| self.run_rows(stage, leaves_out, context));
-        for group in seen(&self.model, stage) {
-            if let Group::Population(population) = &mut self.groups[group] {
-                threads.run(|| ghosts::clear(population, &self.layout));
-            }
-        }
-        for found in stage.iter().flat_map(|&number| &self.model.plan().process(number).uses) {
-            if found.written
-                && let Group::Cells(planes) = &mut self.groups[found.substate.group]
-            {
-                planes[found.substate.field].others_wrote();
-            }
-        }
-        let migration = self.migration(stage);
-        let Some(edges) = &mut self.edges else { return result.map(drop).map_err(|first| first.fault) };
-        let mut movers = edges.agree(result)?;
-        if let Some((number, group)) = migration
-            && let Group::Population(population) = &mut self.groups[group]
-        {
-            let process = &self.model.processes()[number];
-            let migration = Migration { geometry: self.model.geometry(), process, number };
-            crossing::migrate(migration, population, &self.layout, (edges, &threads), &mut movers)?;
-        }
-        Ok(())
-    }
-
     fn run_stage(
         &mut self,
         stage: &[usize],
         leaves_out: bool,
         context: &StepContext<'_>,
     ) -> Result<(), Fault> {
-        let movers = self.run_rows(stage, leaves_out, context).map_err(|first| first.fault)?;
-        self.migrate(stage, movers)
-    }
-
-    fn migrate(&mut self, stage: &[usize], mut movers: Vec<Mover>) -> Result<(), Fault> {
+        let mut movers = self.run_rows(stage, leaves_out, context).map_err(|first| first.fault)?;
         if let Some((number, group)) = self.migration(stage)
             && let Group::Population(population) = &mut self.groups[group]
         {
@@ -176,7 +134,7 @@ impl CpuExecution {
     }
 
     /// The migration of a stage, which is its last process, and the index of its population.
-    fn migration(&self, stage: &[usize]) -> Option<(usize, usize)> {
+    pub(crate) fn migration(&self, stage: &[usize]) -> Option<(usize, usize)> {
         let &last = stage.last()?;
         let migrates = self.model.processes()[last].kind == ProcessKind::Migration;
         Some((last, self.model.plan().process(last).population?)).filter(|_| migrates)
@@ -197,7 +155,7 @@ impl CpuExecution {
         let activity = self.activity.as_mut().filter(|_| leaves_out);
         let ground = Ground { model: &self.model, layout: &self.layout, precision: self.precision };
         let stage = StageOfStep { processes: stage, context: *context };
-        rows::run(ground, &mut self.groups, stage, activity)
+        rows::run(ground, &mut self.groups, stage, activity, None)
     }
 
     /// The number of steps to do together next, out of `left`.
@@ -234,6 +192,9 @@ impl CpuExecution {
 impl Execution for CpuExecution {
     fn run(&mut self, processes: Range<usize>, context: &StepContext<'_>) -> Result<(), Fault> {
         self.take_parameters(context);
+        if self.edges.is_some() {
+            return self.run_in_part(processes, 1, context).map_err(|stopped| stopped.fault);
+        }
         let start = Instant::now();
         let result = self.run_step(processes, context);
         self.end_steps(1, start.elapsed(), result.is_err());
@@ -243,6 +204,9 @@ impl Execution for CpuExecution {
     fn run_steps(&mut self, steps: u64, context: &StepContext<'_>) -> Result<(), Interruption> {
         let processes = self.model.processes().len();
         self.take_parameters(context);
+        if self.edges.is_some() {
+            return self.run_in_part(0..processes, steps, context);
+        }
         let mut done = 0;
         while done < steps {
             let context = StepContext { step: context.step + done, ..*context };

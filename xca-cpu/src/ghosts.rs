@@ -4,40 +4,32 @@
 use crate::layout::Layout;
 use crate::motion::largest;
 use crate::population::Population;
-use crate::threads::Threads;
 use xca_core::Face;
 use xca_core::engine::{Border, EngineFailure};
 
-/// Receives the items that are visible across the borders of the part, and how far they are outside their
+/// Sends the items that are visible across the borders along an axis, and how far they are outside their
 /// cells. `slack` is the largest distance in metres of an own item from its cell.
-pub(crate) fn exchange(
-    population: &mut Population,
+pub(crate) fn send(
+    population: &Population,
     layout: &Layout,
-    threads: &Threads,
+    axis: usize,
     border: &mut dyn Border,
     slack: f64,
 ) -> Result<(), EngineFailure> {
-    population.slack_of_ghosts = 0.0;
-    exchange_along(1, population, layout, border, slack)?;
-    // Layers include the ghosts along y, so corners need no messages of their own.
-    threads.run(|| population.fill_layers(layout));
-    exchange_along(2, population, layout, border, slack)
+    // What is sent along z includes the ghosts along y, so corners need no messages of their own.
+    let slack = largest(slack, population.slack_of_ghosts);
+    let pack = |face: Face| pack(population, layout, face, slack);
+    faces(layout, axis).into_iter().try_for_each(|face| border.send(face, pack(face)))
 }
 
-fn exchange_along(
-    axis: usize,
+/// Receives the items that are visible across the borders along an axis.
+pub(crate) fn receive(
     population: &mut Population,
     layout: &Layout,
+    axis: usize,
     border: &mut dyn Border,
-    slack: f64,
 ) -> Result<(), EngineFailure> {
-    let faces = faces(layout, axis);
-    // What is sent along z includes the ghosts along y.
-    let slack = largest(slack, population.slack_of_ghosts);
-    for &face in &faces {
-        border.send(face, pack(population, layout, face, slack))?;
-    }
-    for &face in &faces {
+    for face in faces(layout, axis) {
         let bytes = border.receive(face)?;
         unpack(population, layout, face, &bytes)?;
     }
@@ -49,6 +41,15 @@ pub(crate) fn faces(layout: &Layout, axis: usize) -> Vec<Face> {
     let borders = layout.borders();
     let seen = |face: &Face| borders[*face] && layout.reach()[axis] > 0;
     Face::ALONG[axis].into_iter().filter(seen).collect()
+}
+
+/// Whether each row sees another part of the space.
+pub(crate) fn rows_at_borders(layout: &Layout) -> Vec<bool> {
+    let mut at_border = vec![false; layout.rows()];
+    let lines =
+        [1, 2].into_iter().flat_map(|axis| faces(layout, axis)).flat_map(|face| layout.lines_at(face, true));
+    lines.flat_map(|line| layout.rows_that_see(line)).for_each(|row| at_border[row] = true);
+    at_border
 }
 
 /// The message for another part: the slack, then for each visible cell the number of items, and for each item

@@ -27,6 +27,7 @@ mod memory;
 mod migration;
 mod motion;
 mod pace;
+mod part;
 mod population;
 mod reductions;
 mod renewal;
@@ -39,7 +40,6 @@ mod upkeep;
 mod wavefront;
 
 use choices::{Choices, LeaveOut};
-use edges::Edges;
 use execution::CpuExecution;
 use layout::Layout;
 use std::fmt;
@@ -187,8 +187,9 @@ impl Engine for Cpu {
         border: Box<dyn Border>,
     ) -> Result<Box<dyn Execution>, StartError> {
         part.check(model.geometry())?;
-        let edges = Some(Edges::new(model, part.clone(), border));
-        Ok(Box::new(CpuExecution::new(model, precision, self.own.clone(), self.choices, edges)?))
+        let shares = *part != Part::whole(model.geometry());
+        let shared = shares.then(|| (part.clone(), border));
+        Ok(Box::new(CpuExecution::new(model, precision, self.own.clone(), self.choices, shared)?))
     }
 }
 

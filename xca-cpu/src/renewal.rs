@@ -1,6 +1,6 @@
 //! Renewal of the neighbour lists of a population.
 
-use crate::ghosts::faces;
+use crate::ghosts::rows_at_borders;
 use crate::layout::Layout;
 use crate::listing::{Listed, make};
 use crate::lists::{Lists, Room, STRANGER};
@@ -42,15 +42,6 @@ pub(crate) fn keep_lists(
     let candidates = population.lists.as_ref().map_or(0, |lists| lists.candidates.len());
     population.upkeep.made(within, start.elapsed(), items, candidates);
     kept.then_some(within - room.rounding)
-}
-
-/// Whether each row sees another part of the space.
-fn rows_at_borders(layout: &Layout) -> Vec<bool> {
-    let mut at_border = vec![false; layout.rows()];
-    let lines =
-        [1, 2].into_iter().flat_map(|axis| faces(layout, axis)).flat_map(|face| layout.lines_at(face, true));
-    lines.flat_map(|line| layout.rows_that_see(line)).for_each(|row| at_border[row] = true);
-    at_border
 }
 
 impl Population {

@@ -15,7 +15,7 @@ mod prepared;
 mod search;
 mod tools;
 
-use crate::activity::Activity;
+use crate::activity::{Activity, DueRow};
 use crate::blocks::{blocks, blocks_of_due, long_blocks};
 use crate::group::{Group, population};
 use crate::population::Population;
@@ -23,48 +23,89 @@ use crate::wavefront::{Depth, Piece, Wavefront};
 use found::Found;
 pub(crate) use found::{FirstFault, Mover};
 pub(crate) use ground::{Ground, StageOfStep};
-use pass::{Followed, Pass};
+use pass::{Followed, Only, Pass, Selection};
 use prepare::Ready;
 use rayon::prelude::*;
+use search::Searches;
 pub(crate) use search::searched;
 use std::ops::Range;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 use xca_core::Model;
 
-/// Runs a pass over the rows. With `activity`, its processes run only where they are due. Returns the items
-/// that its migration moves, in the order of items.
+/// A pass that has done the rows that see no other part of the space.
+pub(crate) struct Begun {
+    /// Whether each row sees another part.
+    at_border: Arc<[bool]>,
+    searches: Searches,
+    /// The rows in which something was due. `None` if all rows are needed.
+    due: Option<Vec<DueRow>>,
+    found: Found,
+}
+
+/// Begins a pass in a part of a space: runs the rows that see no other part. [`run`] ends it.
+pub(crate) fn begin(
+    ground: Ground<'_>,
+    groups: &mut [Group],
+    stage: StageOfStep<'_>,
+    activity: Option<&Activity>,
+    at_border: Arc<[bool]>,
+) -> Begun {
+    let due = activity.and_then(|activity| activity.rows(stage.processes));
+    let ready = [Ready::of_inner_rows(ground, groups, stage)];
+    let order = Wavefront::of_one_pass(blocks_of(ground, groups, stage.processes, due.as_deref()));
+    let selection = Selection {
+        followed: activity.map(|activity| Followed { activity, due: due.as_deref() }),
+        only: Some(Only { at_border: &at_border, wanted: false }),
+    };
+    let found = work(ground, groups, &ready, &order, selection).into_iter().next().unwrap_or_default();
+    let [Ready { searches, .. }] = ready;
+    Begun { at_border, searches, due, found }
+}
+
+/// Runs a pass over the rows, or over those that are left of a pass that has begun. With `activity`, its
+/// processes run only where they are due. Returns the items that its migration moves, in the order of items.
 pub(crate) fn run(
     ground: Ground<'_>,
     groups: &mut [Group],
     stage: StageOfStep<'_>,
     activity: Option<&mut Activity>,
+    begun: Option<Begun>,
 ) -> Result<Vec<Mover>, FirstFault> {
-    let Some(activity) = activity else {
-        let ready = [Ready::new(ground, groups, stage, false)];
-        let order = Wavefront::of_one_pass(blocks_of_all(ground, groups, stage.processes));
-        let found = work(ground, groups, &ready, &order, None);
-        return conclude(groups, &ready, found);
-    };
-    let due = activity.rows(stage.processes);
-    if let Some([]) = due.as_deref() {
-        activity.worked(stage.processes, 0);
+    let due = activity.as_ref().and_then(|activity| activity.rows(stage.processes));
+    let is_quiet = |due: &Option<Vec<DueRow>>| due.as_ref().is_some_and(Vec::is_empty);
+    if is_quiet(&due) && begun.as_ref().is_none_or(|begun| is_quiet(&begun.due)) {
+        if let Some(activity) = activity {
+            activity.worked(stage.processes, 0);
+        }
         return Ok(Vec::new());
     }
-    let ready = [Ready::new(ground, groups, stage, false)];
-    let blocks = match &due {
-        Some(due) => blocks_of_due(due, rayon::current_num_threads()),
-        None => blocks_of_all(ground, groups, stage.processes),
+    let (at_border, searches, due_before, found_before) = match begun {
+        Some(Begun { at_border, searches, due, found }) => {
+            (Some(at_border), Some(searches), due, Some(found))
+        }
+        None => (None, None, None, None),
     };
-    let followed = Followed { activity, due: due.as_deref() };
-    let found = work(ground, groups, &ready, &Wavefront::of_one_pass(blocks), Some(followed));
+    let ready = [Ready::new(ground, groups, stage, searches)];
+    let order = Wavefront::of_one_pass(blocks_of(ground, groups, stage.processes, due.as_deref()));
+    let followed = activity.as_deref().map(|activity| Followed { activity, due: due.as_deref() });
+    let only = at_border.as_deref().map(|at_border| Only { at_border, wanted: true });
+    let mut found = work(ground, groups, &ready, &order, Selection { followed, only });
+    if let (Some(found), Some(before)) = (found.first_mut(), found_before) {
+        found.join(before);
+    }
     let worked = found.iter().map(|found| found.worked).sum();
     let movers = conclude(groups, &ready, found)?;
+    let Some(activity) = activity else { return Ok(movers) };
     activity.worked(stage.processes, worked);
     let written = ready.iter().flat_map(|ready| &ready.written);
     for (substate, _) in written.filter(|(one, _)| matches!(groups[one.group], Group::Cells(_))) {
         match &due {
-            Some(due) => activity.spread(*substate, stage.processes, due.iter().map(|due| due.row)),
+            Some(due) => {
+                let due = due_before.iter().flatten().chain(due);
+                activity.spread(*substate, stage.processes, due.map(|due| due.row));
+            }
             None => activity.spread(*substate, stage.processes, 0..ground.layout.rows()),
         }
     }
@@ -78,14 +119,22 @@ pub(crate) fn run_in_wake(
     stages: &[StageOfStep<'_>],
     depth: Depth,
 ) -> Result<(), FirstFault> {
-    let ready: Vec<Ready<'_>> = stages.iter().map(|stage| Ready::new(ground, groups, *stage, true)).collect();
+    let ready: Vec<Ready<'_>> = stages.iter().map(|stage| Ready::in_wake(ground, groups, *stage)).collect();
     let blocks = long_blocks(ground.layout, rayon::current_num_threads(), depth);
-    let found = work(ground, groups, &ready, &Wavefront::new(depth, blocks), None);
+    let found = work(ground, groups, &ready, &Wavefront::new(depth, blocks), Selection::default());
     conclude(groups, &ready, found).map(drop)
 }
 
-/// The blocks of all rows for the threads.
-fn blocks_of_all(ground: Ground<'_>, groups: &[Group], processes: &[usize]) -> Vec<Range<usize>> {
+/// The blocks of rows for the threads: those of the due rows, or of all.
+fn blocks_of(
+    ground: Ground<'_>,
+    groups: &[Group],
+    processes: &[usize],
+    due: Option<&[DueRow]>,
+) -> Vec<Range<usize>> {
+    if let Some(due) = due {
+        return blocks_of_due(due, rayon::current_num_threads());
+    }
     let populations = populations(ground.model, groups, processes);
     blocks(ground.layout, &populations, rayon::current_num_threads())
 }
@@ -105,11 +154,11 @@ fn work(
     groups: &[Group],
     ready: &[Ready<'_>],
     order: &Wavefront,
-    followed: Option<Followed<'_>>,
+    selection: Selection<'_>,
 ) -> Vec<Found> {
     let offsets = ground.layout.offsets(ground.model.geometry());
     let passes: Vec<Pass<'_>> =
-        ready.iter().map(|ready| Pass::new(ground, groups, ready, &offsets, followed)).collect();
+        ready.iter().map(|ready| Pass::new(ground, groups, ready, &offsets, selection)).collect();
     // Later passes do not count after a fault, and their input may be invalid.
     let faulty = AtomicUsize::new(usize::MAX);
     let piece = |piece: Piece| {

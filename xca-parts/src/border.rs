@@ -31,6 +31,8 @@ pub(crate) struct PartBorder {
     /// The number of the part beyond each face. `None` if no part lies beyond it.
     beyond: Faces<Option<usize>>,
     traffic: Traffic,
+    /// The number of agreements so far. Messages from before the last one are out of date.
+    agreements: u64,
 }
 
 impl PartBorder {
@@ -38,7 +40,7 @@ impl PartBorder {
         let number = link.lock().number();
         let borders = cut.part(geometry, number).borders(geometry);
         let beyond = Faces::from_fn(|face| borders[face].then(|| cut.beyond(number, face)));
-        Self { link, beyond, traffic }
+        Self { link, beyond, traffic, agreements: 0 }
     }
 
     fn beyond(&self, face: Face) -> Result<usize, EngineFailure> {
@@ -65,17 +67,63 @@ impl Border for PartBorder {
     fn send(&mut self, face: Face, bytes: Vec<u8>) -> Result<(), EngineFailure> {
         let to = self.beyond(face)?;
         self.traffic.sent(bytes.len());
+        let bytes = Stamp { agreements: self.agreements, has_given_up: false }.put_on(bytes);
         self.with(|transport| transport.send(to, Tag::Edge(face), bytes))
     }
 
     fn receive(&mut self, face: Face) -> Result<Vec<u8>, EngineFailure> {
         let from = self.beyond(face)?;
-        self.traffic.timed(|| self.with(|transport| transport.receive(from, Tag::Edge(face.opposite()))))
+        let next = |transport: &mut dyn Transport| transport.receive(from, Tag::Edge(face.opposite()));
+        loop {
+            let mut bytes = self.traffic.timed(|| self.with(next))?;
+            let stamp = Stamp::take_from(&mut bytes)
+                .ok_or_else(|| broken(TransportError::Garbled { part: from }.to_string()))?;
+            match stamp {
+                // The part gave up waiting for this one before the last agreement.
+                Stamp { agreements, .. } if agreements < self.agreements => {}
+                Stamp { has_given_up: true, .. } => return Err(EngineFailure::Elsewhere),
+                Stamp { .. } => return Ok(bytes),
+            }
+        }
+    }
+
+    fn give_up(&mut self) -> Result<(), EngineFailure> {
+        let stamp = Stamp { agreements: self.agreements, has_given_up: true };
+        for face in Face::ALL {
+            if let Some(to) = self.beyond[face] {
+                self.with(|transport| transport.send(to, Tag::Edge(face), stamp.put_on(Vec::new())))?;
+            }
+        }
+        Ok(())
     }
 
     fn least(&mut self, number: u64) -> Result<u64, EngineFailure> {
         self.traffic.agreed();
+        self.agreements += 1;
         self.traffic.timed(|| self.with(|transport| transport.least(number)))
+    }
+}
+
+/// The end of a message between neighbours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Stamp {
+    /// The number of agreements before the message.
+    agreements: u64,
+    /// Whether the part sends nothing more before the next agreement.
+    has_given_up: bool,
+}
+
+impl Stamp {
+    fn put_on(self, mut bytes: Vec<u8>) -> Vec<u8> {
+        bytes.extend_from_slice(&(self.agreements << 1 | u64::from(self.has_given_up)).to_le_bytes());
+        bytes
+    }
+
+    /// `None` if the message is too short.
+    fn take_from(bytes: &mut Vec<u8>) -> Option<Self> {
+        let number = u64::from_le_bytes(*bytes.last_chunk()?);
+        bytes.truncate(bytes.len() - size_of::<u64>());
+        Some(Self { agreements: number >> 1, has_given_up: number & 1 == 1 })
     }
 }
 

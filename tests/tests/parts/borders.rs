@@ -85,6 +85,10 @@ impl Border for Unreliable {
         self.border.receive(face)
     }
 
+    fn give_up(&mut self) -> Result<(), EngineFailure> {
+        self.border.give_up()
+    }
+
     fn least(&mut self, number: u64) -> Result<u64, EngineFailure> {
         self.pass()?;
         self.border.least(number)

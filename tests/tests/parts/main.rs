@@ -317,6 +317,10 @@ impl xca_core::engine::Border for NoBorder {
         Ok(vec![0; 3])
     }
 
+    fn give_up(&mut self) -> Result<(), EngineFailure> {
+        Ok(())
+    }
+
     fn least(&mut self, number: u64) -> Result<u64, EngineFailure> {
         Ok(number)
     }

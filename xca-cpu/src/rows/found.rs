@@ -52,6 +52,14 @@ impl Found {
         }
     }
 
+    /// Adds the findings of the same pass in rows before, after and between these, at another time.
+    pub(super) fn join(&mut self, other: Self) {
+        let time = self.time + other.time;
+        self.add(other);
+        self.time = time;
+        self.movers.sort_unstable_by_key(|mover| mover.item);
+    }
+
     pub(super) fn keep(&mut self, process: usize, cell: u32, fault: Fault) {
         if self.fault.as_ref().is_none_or(|first| (process, cell) < (first.process, first.cell)) {
             self.fault = Some(FirstFault { pass: 0, process, cell, fault });

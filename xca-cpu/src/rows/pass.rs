@@ -27,6 +27,28 @@ pub(super) struct Followed<'a> {
     pub(super) due: Option<&'a [DueRow]>,
 }
 
+/// The rows at the borders of a part of the space, or all others.
+#[derive(Clone, Copy)]
+pub(super) struct Only<'a> {
+    /// Whether each row sees another part.
+    pub(super) at_border: &'a [bool],
+    /// The value of the rows that are meant.
+    pub(super) wanted: bool,
+}
+
+/// The rows and tiles that a pass updates. By default all.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Selection<'a> {
+    pub(super) followed: Option<Followed<'a>>,
+    pub(super) only: Option<Only<'a>>,
+}
+
+impl Only<'_> {
+    fn means(self, row: usize) -> bool {
+        self.at_border[row] == self.wanted
+    }
+}
+
 /// The data that the rows of a pass share.
 pub(super) struct Pass<'a> {
     pub(super) model: &'a Model,
@@ -42,8 +64,7 @@ pub(super) struct Pass<'a> {
     groups: &'a [Group],
     searches: &'a Searches,
     measured: &'a [Measured],
-    /// `None` if the pass updates all rows.
-    followed: Option<Followed<'a>>,
+    selection: Selection<'a>,
 }
 
 impl<'a> Pass<'a> {
@@ -52,7 +73,7 @@ impl<'a> Pass<'a> {
         groups: &'a [Group],
         ready: &'a Ready<'a>,
         offsets: &'a [Vec<isize>; 2],
-        followed: Option<Followed<'a>>,
+        selection: Selection<'a>,
     ) -> Self {
         let geometry = model.geometry();
         let frame = |index: usize, odd: usize| Frame {
@@ -79,7 +100,7 @@ impl<'a> Pass<'a> {
             groups,
             searches: &ready.searches,
             measured: &ready.measured,
-            followed,
+            selection,
         }
     }
 
@@ -132,9 +153,13 @@ impl<'a> Pass<'a> {
         };
         let populations: Vec<Option<&Population>> =
             self.prepared.iter().map(|prepared| self.population(prepared)).collect();
-        let due = self.followed.and_then(|followed| followed.due);
+        let Selection { followed, only } = self.selection;
+        let due = followed.and_then(|followed| followed.due);
         for place in rows {
             let row = due.map_or(place, |due| due[place].row);
+            if only.is_some_and(|only| !only.means(row)) {
+                continue;
+            }
             let first = self.layout.first(row);
             let origin = self.layout.origin(row).map(|index| index as u32);
             let those = self.prepared[..processes].iter().zip(&populations);
@@ -149,7 +174,7 @@ impl<'a> Pass<'a> {
                     work.answers.resize(own.1 - own.0, STAY);
                 }
                 let cells = Cells { row, first, origin, length: self.layout.width(), own };
-                let widest = match self.followed {
+                let widest = match followed {
                     Some(Followed { activity, .. }) if prepared.process.kind == ProcessKind::Cells => {
                         let done = self.run_pieces(activity, prepared, (row, &cells), *population, &mut work);
                         found.worked += done.cells as u64;

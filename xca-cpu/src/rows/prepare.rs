@@ -21,22 +21,62 @@ pub(super) struct Ready<'a> {
 }
 
 impl<'a> Ready<'a> {
-    /// Prepares a pass, and leaves the groups in their state after it. Passes prepared later read the second
-    /// buffers that this one writes. `in_wake` is set if there are such passes.
+    /// Prepares a pass, and leaves the groups in their state after it. `searches` are those of the rows that
+    /// the pass has done already, if there are any.
     pub(super) fn new(
+        ground: Ground<'a>,
+        groups: &mut [Group],
+        stage: StageOfStep<'a>,
+        searches: Option<Searches>,
+    ) -> Self {
+        let Ground { model, layout, precision } = ground;
+        refresh(model, layout, groups, stage.processes);
+        let searches = match searches {
+            Some(searches) => searches.with_ghosts(model, layout, precision, groups),
+            None => search::prepare(model, layout, precision, groups, stage.processes),
+        };
+        let ready = Self::prepare(ground, groups, stage, searches);
+        ready.settle(groups, false);
+        ready
+    }
+
+    /// Prepares a pass over the rows that see no other part of the space. The halos may be stale beyond the
+    /// borders. The groups stay in their state before the pass.
+    pub(super) fn of_inner_rows(ground: Ground<'a>, groups: &mut [Group], stage: StageOfStep<'a>) -> Self {
+        let Ground { model, layout, precision } = ground;
+        let searches = search::prepare(model, layout, precision, groups, stage.processes);
+        Self::prepare(ground, groups, stage, searches)
+    }
+
+    /// Prepares a pass that others follow in its wake. They are prepared later, and read the second buffers
+    /// that this one writes.
+    pub(super) fn in_wake(ground: Ground<'a>, groups: &mut [Group], stage: StageOfStep<'a>) -> Self {
+        let Ground { model, layout, precision } = ground;
+        refresh(model, layout, groups, stage.processes);
+        let searches = search::prepare(model, layout, precision, groups, stage.processes);
+        let ready = Self::prepare(ground, groups, stage, searches);
+        ready.settle(groups, true);
+        Self { continues_lines: layout.halo_follows()[1], ..ready }
+    }
+
+    fn prepare(
         Ground { model, layout, precision }: Ground<'a>,
         groups: &mut [Group],
         stage: StageOfStep<'a>,
-        in_wake: bool,
+        searches: Searches,
     ) -> Self {
-        let written = prepare_buffers(model, layout, groups, stage.processes);
-        let searches = search::prepare(model, layout, precision, groups, stage.processes);
+        let written = prepare_buffers(model, groups, stage.processes);
         let processes = stage.processes.iter().enumerate();
         let processes = processes
             .map(|(number, &index)| prepare(model, layout, groups, (number, index), precision, &written))
             .collect();
         let measured = Measured::all(model, groups, stage.processes, &written);
-        for &(substate, second) in &written {
+        Self { processes, context: stage.context, written, searches, measured, continues_lines: false }
+    }
+
+    /// Leaves the groups in their state after the pass.
+    fn settle(&self, groups: &mut [Group], in_wake: bool) {
+        for &(substate, second) in &self.written {
             match &mut groups[substate.group] {
                 Group::Cells(planes) => planes[substate.field].written(second, in_wake),
                 Group::Population(population) if second => {
@@ -48,36 +88,30 @@ impl<'a> Ready<'a> {
                 Group::Population(_) => {}
             }
         }
-        Self {
-            processes,
-            context: stage.context,
-            written,
-            searches,
-            measured,
-            continues_lines: in_wake && layout.halo_follows()[1],
+    }
+}
+
+/// Fills the halos that processes read.
+fn refresh(model: &Model, layout: &Layout, groups: &mut [Group], processes: &[usize]) {
+    let uses = processes.iter().flat_map(|&number| &model.plan().process(number).uses);
+    for found in uses.filter(|found| found.elsewhere) {
+        if let Group::Cells(planes) = &mut groups[found.substate.group] {
+            planes[found.substate.field].refresh(layout);
         }
     }
 }
 
-/// Fills the halos that will be read, and makes second buffers. Returns the substates that the pass writes,
-/// and for each whether it uses the second buffer.
-fn prepare_buffers(
-    model: &Model,
-    layout: &Layout,
-    groups: &mut [Group],
-    processes: &[usize],
-) -> Vec<(SubstateId, bool)> {
+/// Makes second buffers. Returns the substates that the pass writes, and for each whether it uses the second
+/// buffer.
+fn prepare_buffers(model: &Model, groups: &mut [Group], processes: &[usize]) -> Vec<(SubstateId, bool)> {
     let mut written: Vec<(SubstateId, bool)> = Vec::new();
     for found in processes.iter().flat_map(|&number| &model.plan().process(number).uses) {
         let substate = found.substate;
-        match &mut groups[substate.group] {
-            Group::Cells(planes) if found.elsewhere => planes[substate.field].refresh(layout),
-            Group::Cells(_) => {}
-            Group::Population(population) if found.is_doubled() => {
-                let bytes = population.items.fields[substate.field].len();
-                population.next[substate.field].resize(bytes);
-            }
-            Group::Population(_) => {}
+        if let Group::Population(population) = &mut groups[substate.group]
+            && found.is_doubled()
+        {
+            let bytes = population.items.fields[substate.field].len();
+            population.next[substate.field].resize(bytes);
         }
         if found.written {
             match written.iter_mut().find(|(known, _)| *known == substate) {

@@ -14,9 +14,30 @@ use xca_core::{Model, Precision, Process, ProcessKind};
 pub(super) struct Searches {
     /// The populations that are searched.
     pub(super) populations: Vec<usize>,
+    /// The largest distance in metres, along an axis, of one of their items from its cell.
+    slack: f64,
     pub(super) filter: Option<CellFilter>,
     /// The largest radius in metres for which searches can use lists, by group.
     pub(super) listed: Vec<Option<f64>>,
+}
+
+impl Searches {
+    /// The same searches, with the items of other parts that are visible now.
+    pub(super) fn with_ghosts(
+        self,
+        model: &Model,
+        layout: &Layout,
+        precision: Precision,
+        groups: &[Group],
+    ) -> Self {
+        if self.populations.is_empty() {
+            return self;
+        }
+        let searched = self.populations.iter().filter_map(|number| population(&groups[*number]));
+        let slack = searched.fold(self.slack, |slack, population| largest(slack, population.slack_of_ghosts));
+        let filter = CellFilter::new(model.geometry(), precision, layout.steps(), slack);
+        Self { filter, ..self }
+    }
 }
 
 /// The populations that processes search.
@@ -45,19 +66,19 @@ pub(super) fn prepare(
     processes: &[usize],
 ) -> Searches {
     let populations = searched(model, processes);
-    let mut searches = Searches { populations, filter: None, listed: vec![None; groups.len()] };
+    let listed = vec![None; groups.len()];
+    let mut searches = Searches { populations, slack: 0.0, filter: None, listed };
     if searches.populations.is_empty() {
         return searches;
     }
     let geometry = model.geometry();
-    let mut slack = 0.0;
     for &number in &searches.populations {
         if let Group::Population(population) = &mut groups[number] {
             let own = population.slack(layout, geometry);
-            slack = largest(slack, largest(own, population.slack_of_ghosts));
+            searches.slack = largest(searches.slack, own);
         }
     }
-    searches.filter = CellFilter::new(geometry, precision, layout.steps(), slack);
+    searches = searches.with_ghosts(model, layout, precision, groups);
     let Some(filter) = &searches.filter else { return searches };
     let Some(widest) = filter.room(geometry.covered_radius(precision)) else { return searches };
     for &number in &searches.populations {

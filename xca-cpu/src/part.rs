@@ -1,0 +1,122 @@
+//! Steps in a part of a space.
+
+use crate::crossing::{self, Migration};
+use crate::dense::Dense;
+use crate::edges::{STEPS_TO_AGREE, Stopped, seen};
+use crate::execution::CpuExecution;
+use crate::ghosts;
+use crate::group::Group;
+use crate::rows::{self, Ground, StageOfStep};
+use std::ops::Range;
+use std::sync::Arc;
+use std::time::Instant;
+use xca_core::engine::{Interruption, StepContext};
+
+impl CpuExecution {
+    /// Runs processes in some steps. All other parts do the same. They compare their faults now and then, and
+    /// at the end.
+    pub(crate) fn run_in_part(
+        &mut self,
+        processes: Range<usize>,
+        steps: u64,
+        context: &StepContext<'_>,
+    ) -> Result<(), Interruption> {
+        let mut done = 0;
+        while done < steps {
+            let first = StepContext { step: context.step + done, ..*context };
+            let now = STEPS_TO_AGREE.min(steps - done);
+            let stopped = (0..now).find_map(|step| {
+                let context = StepContext { step: first.step + step, ..first };
+                Some((step, self.run_step_of_part(processes.clone(), &context).err()?))
+            });
+            if let Some(edges) = &mut self.edges {
+                let agreed = edges.agree(stopped);
+                agreed.map_err(|stopped| {
+                    self.give_up();
+                    Interruption { done: done + stopped.done, ..stopped }
+                })?;
+            }
+            done += now;
+        }
+        Ok(())
+    }
+
+    /// Runs those of these processes that are due in the step.
+    fn run_step_of_part(
+        &mut self,
+        processes: Range<usize>,
+        context: &StepContext<'_>,
+    ) -> Result<(), Stopped> {
+        let start = Instant::now();
+        let stages = self.due_stages(processes, context);
+        let leaves_out = self.leaves_out();
+        let result = stages.iter().try_for_each(|stage| self.run_stage_of_part(stage, leaves_out, context));
+        self.end_steps(1, start.elapsed(), false);
+        result
+    }
+
+    fn run_stage_of_part(
+        &mut self,
+        stage: &[usize],
+        leaves_out: bool,
+        context: &StepContext<'_>,
+    ) -> Result<(), Stopped> {
+        let migration = self.migration(stage);
+        let Self { model, precision, threads, layout, edges, groups, activity, .. } = self;
+        let Some(edges) = edges else { return Ok(()) };
+        let ground = Ground { model, layout, precision: *precision };
+        let of_step = StageOfStep { processes: stage, context: *context };
+        let exchange = edges.begin((model, stage), layout, threads, groups)?;
+        let mut begun = None;
+        if let Some(exchange) = exchange {
+            let at_border = Arc::clone(&edges.at_border);
+            let followed = activity.as_ref().filter(|_| leaves_out);
+            if at_border.contains(&false) {
+                begun = Some(threads.run(|| rows::begin(ground, groups, of_step, followed, at_border)));
+            }
+            edges.finish(&exchange, layout, threads, groups, followed)?;
+        }
+        if let Some(activity) = activity
+            && !leaves_out
+        {
+            activity.worked_on_all(stage);
+        }
+        let followed = activity.as_mut().filter(|_| leaves_out);
+        let result = threads.run(|| rows::run(ground, groups, of_step, followed, begun));
+        for group in seen(model, stage) {
+            if let Group::Population(population) = &mut groups[group] {
+                threads.run(|| ghosts::clear(population, layout));
+            }
+        }
+        for found in stage.iter().flat_map(|&number| &model.plan().process(number).uses) {
+            if found.written
+                && let Group::Cells(planes) = &mut groups[found.substate.group]
+            {
+                planes[found.substate.field].others_wrote();
+            }
+        }
+        let mut movers = result?;
+        if let Some((number, group)) = migration
+            && let Group::Population(population) = &mut groups[group]
+        {
+            let process = &model.processes()[number];
+            let migration = Migration { geometry: model.geometry(), process, number };
+            crossing::migrate(migration, population, layout, (edges, threads), &mut movers)?;
+        }
+        Ok(())
+    }
+
+    /// Leaves the state of an unfinished step, without what has come from other parts. Any state can be
+    /// written over it.
+    fn give_up(&mut self) {
+        for group in &mut self.groups {
+            match group {
+                Group::Cells(planes) => planes.iter_mut().for_each(Dense::touch),
+                Group::Population(population) => ghosts::clear(population, &self.layout),
+            }
+        }
+        if let Some(activity) = &mut self.activity {
+            activity.wake();
+        }
+    }
+}
