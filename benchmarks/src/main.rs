@@ -8,6 +8,7 @@ mod engines;
 mod lammps;
 mod mathematics;
 mod particles;
+mod parts;
 mod quiet;
 mod state;
 mod timing;
@@ -19,6 +20,7 @@ use std::error::Error;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::time::Duration;
 use xca_core::Precision;
 
 /// Prints a line; that it is lost is an error.
@@ -80,6 +82,15 @@ enum Benchmark {
         /// Where states are kept.
         #[arg(long, default_value = "target/benchmarks")]
         folder: PathBuf,
+    },
+    /// Two parts of a space, with one thread each, whose messages are late: heat 256^3 and CADEM.
+    Parts {
+        /// The delays in milliseconds. The first should be 0.
+        #[arg(long, value_delimiter = ',', default_values_t = [0.0, 1.0, 4.0])]
+        delays: Vec<f64>,
+        /// How many steps make a round.
+        #[arg(long, default_value_t = 20)]
+        steps: u64,
     },
     /// Models that are quiet nearly everywhere: the CPU engine as it is against itself where it works on all
     /// cells.
@@ -159,6 +170,15 @@ fn run(arguments: Arguments) -> Result<(), Box<dyn Error>> {
             for cells in cells {
                 let state = State::start(cells)?;
                 say!("{}", particles::cost(&format!("start, {cells}^3 cells"), &state, rounds, None)?)?;
+            }
+        }
+        Benchmark::Parts { delays, steps } => {
+            let delay = |milliseconds: f64| Duration::try_from_secs_f64(milliseconds / 1e3);
+            let delays: Vec<Duration> = delays.into_iter().map(delay).collect::<Result<_, _>>()?;
+            let heat = dense::heat_model(256)?;
+            let particles = State::start(100)?.model()?;
+            for (name, model) in [("heat 256^3", &heat), ("CADEM, 315,979 particles", &particles)] {
+                say!("{}", parts::cost(name, model, &delays, arguments.rounds, steps)?)?;
             }
         }
         Benchmark::Quiet => {

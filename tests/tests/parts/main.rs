@@ -1,6 +1,7 @@
 //! Models in parts of their space: the same bits, the same faults, and an end where a part cannot go on.
 
 mod borders;
+mod faults;
 mod greetings;
 mod items;
 mod lists;
