@@ -1,7 +1,6 @@
 //! Steps in a part of a space.
 
 use crate::crossing::{self, Migration};
-use crate::dense::Dense;
 use crate::edges::{STEPS_TO_AGREE, Stopped, seen};
 use crate::execution::CpuExecution;
 use crate::ghosts;
@@ -31,10 +30,7 @@ impl CpuExecution {
             });
             if let Some(edges) = &mut self.edges {
                 let agreed = edges.agree(stopped);
-                agreed.map_err(|stopped| {
-                    self.give_up();
-                    Interruption { done: done + stopped.done, ..stopped }
-                })?;
+                agreed.map_err(|stopped| Interruption { done: done + stopped.done, ..stopped })?;
             }
             done += now;
         }
@@ -104,19 +100,5 @@ impl CpuExecution {
             crossing::migrate(migration, population, layout, (edges, threads), &mut movers)?;
         }
         Ok(())
-    }
-
-    /// Leaves the state of an unfinished step, without what has come from other parts. Any state can be
-    /// written over it.
-    fn give_up(&mut self) {
-        for group in &mut self.groups {
-            match group {
-                Group::Cells(planes) => planes.iter_mut().for_each(Dense::touch),
-                Group::Population(population) => ghosts::clear(population, &self.layout),
-            }
-        }
-        if let Some(activity) = &mut self.activity {
-            activity.wake();
-        }
     }
 }
