@@ -1,7 +1,7 @@
 //! Migration between the parts of a space: items that leave this part, and items that arrive.
 
 use crate::edges::{Edges, Phase, Stopped};
-use crate::ghosts::{faces, mismatch, number, pack_item, take, unpack_item};
+use crate::ghosts::{axes, faces, mismatch, number, pack_item, take, unpack_item};
 use crate::layout::Layout;
 use crate::migration::{Arrival, arrivals, check_slots, settle};
 use crate::population::Population;
@@ -26,13 +26,37 @@ struct Traveller {
     item: Vec<u8>,
 }
 
-/// Moves items in this part. All other parts do the same at the same time.
+/// Items that are under way before all rows have run.
+pub(crate) struct Departure {
+    /// Those that have not been sent yet, because they cross another axis only.
+    rest: Vec<Traveller>,
+}
+
+/// Sends the items that leave this part along the first axis. `movers` are those of the rows that see another
+/// part; no others can leave. `None` if a mover has no valid destination.
+pub(crate) fn depart(
+    Migration { geometry, process, .. }: Migration<'_>,
+    population: &Population,
+    layout: &Layout,
+    edges: &mut Edges,
+    movers: &[Mover],
+) -> Result<Option<Departure>, EngineFailure> {
+    let Ok((mut leaving, _)) = arrivals(population, geometry, process, movers) else { return Ok(None) };
+    leaving.retain(|arrival| !edges.part.holds(geometry, arrival.cell as usize));
+    let travellers = travellers(population, &leaving);
+    let first = axes(layout).next();
+    let rest = first.map(|axis| send(axis, geometry, layout, edges, travellers)).transpose()?;
+    Ok(rest.map(|rest| Departure { rest }))
+}
+
+/// Moves items in this part. All other parts do the same. `departure` has those that left before.
 pub(crate) fn migrate(
     migration: Migration<'_>,
     population: &mut Population,
     layout: &Layout,
     (edges, threads): (&mut Edges, &Threads),
     movers: &mut [Mover],
+    departure: Option<Departure>,
 ) -> Result<(), Stopped> {
     let Migration { geometry, process, number } = migration;
     let stopped = |phase: Phase, fault: Fault| Stopped::new(number, phase, cell(&fault, geometry), fault);
@@ -40,12 +64,18 @@ pub(crate) fn migrate(
     let (all, left) = destinations.map_err(|fault| stopped(Phase::Destinations, fault))?;
     let is_own = |arrival: &Arrival| edges.part.holds(geometry, arrival.cell as usize);
     let (mut own, leaving): (Vec<Arrival>, Vec<Arrival>) = all.into_iter().partition(is_own);
-    let travellers = leaving.iter().map(|arrival| {
-        let mut item = Vec::new();
-        pack_item(population, arrival.item as usize, &mut item);
-        Traveller { cell: arrival.cell, from: arrival.from, item }
-    });
-    own.extend(exchange(migration, population, layout, edges, travellers.collect())?);
+    let has_departed = departure.is_some();
+    let mut under_way =
+        departure.map_or_else(|| travellers(population, &leaving), |departure| departure.rest);
+    for (place, axis) in axes(layout).enumerate() {
+        if place > 0 || !has_departed {
+            under_way = send(axis, geometry, layout, edges, under_way)?;
+        }
+        receive(axis, geometry, population, layout, edges, (&mut under_way, &mut own))?;
+    }
+    if !under_way.is_empty() {
+        return Err(mismatch().into());
+    }
     own.sort_unstable();
     let slots = check_slots(population, layout, geometry, process, movers, &own);
     slots.map_err(|fault| stopped(Phase::Slots, fault))?;
@@ -59,46 +89,64 @@ pub(crate) fn migrate(
     Ok(())
 }
 
-/// Sends travellers along y, then along z. Returns those that arrive here. They are stored after all places.
-fn exchange(
-    Migration { geometry, .. }: Migration<'_>,
-    population: &mut Population,
+fn travellers(population: &Population, leaving: &[Arrival]) -> Vec<Traveller> {
+    let traveller = |arrival: &Arrival| {
+        let mut item = Vec::new();
+        pack_item(population, arrival.item as usize, &mut item);
+        Traveller { cell: arrival.cell, from: arrival.from, item }
+    };
+    leaving.iter().map(traveller).collect()
+}
+
+/// Sends travellers along an axis. Returns those that cross no face along it.
+fn send(
+    axis: usize,
+    geometry: &Geometry,
     layout: &Layout,
     edges: &mut Edges,
     mut travellers: Vec<Traveller>,
-) -> Result<Vec<Arrival>, EngineFailure> {
-    let mut arrived = Vec::new();
-    for axis in [1, 2] {
-        let faces = faces(layout, axis);
-        for &face in &faces {
-            let goes = |one: &Traveller| beyond(edges, geometry, axis, one) == Some(face);
-            let (going, staying): (Vec<_>, Vec<_>) = travellers.into_iter().partition(goes);
-            travellers = staying;
-            let mut bytes = Vec::new();
-            for Traveller { cell, from, item } in going {
-                bytes.extend_from_slice(&cell.to_ne_bytes());
-                bytes.extend_from_slice(&from.to_ne_bytes());
-                bytes.extend_from_slice(&item);
-            }
-            edges.border.send(face, bytes)?;
+) -> Result<Vec<Traveller>, EngineFailure> {
+    for face in faces(layout, axis) {
+        let goes = |one: &Traveller| beyond(edges, geometry, axis, one) == Some(face);
+        let (going, staying): (Vec<_>, Vec<_>) = travellers.into_iter().partition(goes);
+        travellers = staying;
+        let mut bytes = Vec::new();
+        for Traveller { cell, from, item } in going {
+            bytes.extend_from_slice(&cell.to_ne_bytes());
+            bytes.extend_from_slice(&from.to_ne_bytes());
+            bytes.extend_from_slice(&item);
         }
-        for &face in &faces {
-            let bytes = edges.border.receive(face)?;
-            let mut rest = &bytes[..];
-            while !rest.is_empty() {
-                let (cell, from) = (number(&mut rest)?, number(&mut rest)?);
-                if edges.part.holds(geometry, cell as usize) {
-                    let (item, label) = unpack_item(population, &mut rest)?;
-                    arrived.push(Arrival { cell, label, item, from });
-                } else {
-                    let size = population.types.iter().map(|stored| stored.size()).sum::<usize>();
-                    let item = take(&mut rest, size_of::<u32>() + size)?.to_vec();
-                    travellers.push(Traveller { cell, from, item });
-                }
+        edges.border.send(face, bytes)?;
+    }
+    Ok(travellers)
+}
+
+/// Receives travellers along an axis. Those that stay here are stored after all places, and become arrivals.
+/// The others travel on.
+fn receive(
+    axis: usize,
+    geometry: &Geometry,
+    population: &mut Population,
+    layout: &Layout,
+    edges: &mut Edges,
+    (under_way, arrived): (&mut Vec<Traveller>, &mut Vec<Arrival>),
+) -> Result<(), EngineFailure> {
+    for face in faces(layout, axis) {
+        let bytes = edges.border.receive(face)?;
+        let mut rest = &bytes[..];
+        while !rest.is_empty() {
+            let (cell, from) = (number(&mut rest)?, number(&mut rest)?);
+            if edges.part.holds(geometry, cell as usize) {
+                let (item, label) = unpack_item(population, &mut rest)?;
+                arrived.push(Arrival { cell, label, item, from });
+            } else {
+                let size = population.types.iter().map(|stored| stored.size()).sum::<usize>();
+                let item = take(&mut rest, size_of::<u32>() + size)?.to_vec();
+                under_way.push(Traveller { cell, from, item });
             }
         }
     }
-    if travellers.is_empty() { Ok(arrived) } else { Err(mismatch()) }
+    Ok(())
 }
 
 /// The face of the part that a traveller crosses along an axis. It moves no farther than the reach of the

@@ -5,6 +5,8 @@
 //! block each other.
 //!
 //! A part sends its edges, runs the rows that see no other part, and only then waits for the edges of others.
+//! Where items migrate, it runs the rows at its borders first, sends the items that leave, and runs the other
+//! rows before it waits for those that arrive.
 //!
 //! A part with a fault gives up: it tells its neighbours, which then give up too, and so on. All parts meet at
 //! the next agreement and compare their faults. A part gives up only because of faults of earlier stages, or
@@ -12,7 +14,7 @@
 
 use crate::activity::Activity;
 use crate::dense::Dense;
-use crate::ghosts::{self, faces, mismatch, rows_at_borders};
+use crate::ghosts::{self, axes, faces, mismatch, rows_at_borders};
 use crate::group::Group;
 use crate::layout::Layout;
 use crate::rows::{FirstFault, searched};
@@ -78,8 +80,7 @@ impl Edges {
         if populations.is_empty() && planes.is_empty() {
             return Ok(None);
         }
-        let axes = [1, 2].into_iter().filter(|axis| !faces(layout, *axis).is_empty()).collect();
-        let exchange = Exchange { populations, planes, axes };
+        let exchange = Exchange { populations, planes, axes: axes(layout).collect() };
         // Each axis includes the halo of the earlier axes, so corners need no messages of their own.
         exchange.fill(groups, threads, |plane| plane.fill_rows(layout));
         if let Some(first) = exchange.axes.first() {

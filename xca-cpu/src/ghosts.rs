@@ -43,11 +43,16 @@ pub(crate) fn faces(layout: &Layout, axis: usize) -> Vec<Face> {
     Face::ALONG[axis].into_iter().filter(seen).collect()
 }
 
+/// The axes across which this part sees others.
+pub(crate) fn axes(layout: &Layout) -> impl Iterator<Item = usize> {
+    [1, 2].into_iter().filter(|axis| !faces(layout, *axis).is_empty())
+}
+
 /// Whether each row sees another part of the space.
 pub(crate) fn rows_at_borders(layout: &Layout) -> Vec<bool> {
     let mut at_border = vec![false; layout.rows()];
     let lines =
-        [1, 2].into_iter().flat_map(|axis| faces(layout, axis)).flat_map(|face| layout.lines_at(face, true));
+        axes(layout).flat_map(|axis| faces(layout, axis)).flat_map(|face| layout.lines_at(face, true));
     lines.flat_map(|line| layout.rows_that_see(line)).for_each(|row| at_border[row] = true);
     at_border
 }
@@ -92,7 +97,7 @@ fn unpack(
 /// Removes the ghosts. Code that moves items never meets them.
 pub(crate) fn clear(population: &mut Population, layout: &Layout) {
     population.truncate();
-    for face in [1, 2].into_iter().flat_map(|axis| faces(layout, axis)) {
+    for face in axes(layout).flat_map(|axis| faces(layout, axis)) {
         for line in layout.lines_at(face, true) {
             population.starts[layout.line(line)].fill(0);
             population.ends[layout.line(line)].fill(0);

@@ -1,11 +1,11 @@
 //! Steps in a part of a space.
 
-use crate::crossing::{self, Migration};
+use crate::crossing::{self, Departure, Migration};
 use crate::edges::{STEPS_TO_AGREE, Stopped, seen};
 use crate::execution::CpuExecution;
 use crate::ghosts;
 use crate::group::Group;
-use crate::rows::{self, Ground, StageOfStep};
+use crate::rows::{self, Begun, Ground, Rows, StageOfStep};
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
@@ -57,26 +57,16 @@ impl CpuExecution {
         leaves_out: bool,
         context: &StepContext<'_>,
     ) -> Result<(), Stopped> {
+        let Overlap { begun, departure } = self.overlap(stage, leaves_out, context)?;
         let migration = self.migration(stage);
         let Self { model, precision, threads, layout, edges, groups, activity, .. } = self;
-        let Some(edges) = edges else { return Ok(()) };
-        let ground = Ground { model, layout, precision: *precision };
-        let of_step = StageOfStep { processes: stage, context: *context };
-        let exchange = edges.begin((model, stage), layout, threads, groups)?;
-        let mut begun = None;
-        if let Some(exchange) = exchange {
-            let at_border = Arc::clone(&edges.at_border);
-            let followed = activity.as_ref().filter(|_| leaves_out);
-            if at_border.contains(&false) {
-                begun = Some(threads.run(|| rows::begin(ground, groups, of_step, followed, at_border)));
-            }
-            edges.finish(&exchange, layout, threads, groups, followed)?;
-        }
         if let Some(activity) = activity
             && !leaves_out
         {
             activity.worked_on_all(stage);
         }
+        let ground = Ground { model, layout, precision: *precision };
+        let of_step = StageOfStep { processes: stage, context: *context };
         let followed = activity.as_mut().filter(|_| leaves_out);
         let result = threads.run(|| rows::run(ground, groups, of_step, followed, begun));
         for group in seen(model, stage) {
@@ -92,13 +82,57 @@ impl CpuExecution {
             }
         }
         let mut movers = result?;
-        if let Some((number, group)) = migration
+        if let (Some((number, group)), Some(edges)) = (migration, edges)
             && let Group::Population(population) = &mut groups[group]
         {
             let process = &model.processes()[number];
             let migration = Migration { geometry: model.geometry(), process, number };
-            crossing::migrate(migration, population, layout, (edges, threads), &mut movers)?;
+            crossing::migrate(migration, population, layout, (edges, threads), &mut movers, departure)?;
         }
         Ok(())
     }
+
+    /// Runs those rows of a stage that can run while messages travel, and receives the edges of other parts.
+    fn overlap(
+        &mut self,
+        stage: &[usize],
+        leaves_out: bool,
+        context: &StepContext<'_>,
+    ) -> Result<Overlap, Stopped> {
+        let migration = self.migration(stage);
+        let Self { model, precision, threads, layout, edges, groups, activity, .. } = self;
+        let Some(edges) = edges else { return Ok(Overlap::default()) };
+        let ground = Ground { model, layout, precision: *precision };
+        let of_step = StageOfStep { processes: stage, context: *context };
+        let activity = activity.as_ref().filter(|_| leaves_out);
+        let at_border = Arc::clone(&edges.at_border);
+        let [has_outer, has_inner] = [true, false].map(|wanted| at_border.contains(&wanted));
+        let begin = |groups: &mut [Group], wanted: bool| {
+            let first = Rows { at_border, wanted };
+            threads.run(|| rows::begin(ground, groups, of_step, activity, first))
+        };
+        if let Some(exchange) = edges.begin((model, stage), layout, threads, groups)? {
+            let begun = has_inner.then(|| begin(groups, false));
+            edges.finish(&exchange, layout, threads, groups, activity)?;
+            return Ok(Overlap { begun, departure: None });
+        }
+        let Some((number, group)) = migration.filter(|_| has_inner && has_outer) else {
+            return Ok(Overlap::default());
+        };
+        let begun = begin(groups, true);
+        let mut departure = None;
+        if let (Some(movers), Group::Population(population)) = (begun.movers(), &groups[group]) {
+            let process = &model.processes()[number];
+            let migration = Migration { geometry: model.geometry(), process, number };
+            departure = crossing::depart(migration, population, layout, edges, movers)?;
+        }
+        Ok(Overlap { begun: Some(begun), departure })
+    }
+}
+
+/// What a stage has done while messages travel.
+#[derive(Default)]
+struct Overlap {
+    begun: Option<Begun>,
+    departure: Option<Departure>,
 }

@@ -34,34 +34,62 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 use xca_core::Model;
 
-/// A pass that has done the rows that see no other part of the space.
+/// A pass that has done its first rows.
 pub(crate) struct Begun {
-    /// Whether each row sees another part.
-    at_border: Arc<[bool]>,
+    first: Rows,
     searches: Searches,
     /// The rows in which something was due. `None` if all rows are needed.
     due: Option<Vec<DueRow>>,
     found: Found,
 }
 
-/// Begins a pass in a part of a space: runs the rows that see no other part. [`run`] ends it.
+/// Some rows of a part of a space: those that see another part, or all others.
+#[derive(Debug, Clone)]
+pub(crate) struct Rows {
+    /// Whether each row sees another part.
+    pub(crate) at_border: Arc<[bool]>,
+    /// The value of these rows.
+    pub(crate) wanted: bool,
+}
+
+impl Rows {
+    /// The selection of these rows.
+    fn only(&self) -> Only<'_> {
+        Only { at_border: &self.at_border, wanted: self.wanted }
+    }
+
+    /// All other rows.
+    fn others(self) -> Self {
+        Self { wanted: !self.wanted, ..self }
+    }
+}
+
+impl Begun {
+    /// The items that the migration moves in these rows. `None` after a fault.
+    pub(crate) fn movers(&self) -> Option<&[Mover]> {
+        self.found.fault.is_none().then_some(&self.found.movers)
+    }
+}
+
+/// Begins a pass in a part of a space: runs some rows. [`run`] ends it. Rows that see another part need its
+/// edges.
 pub(crate) fn begin(
     ground: Ground<'_>,
     groups: &mut [Group],
     stage: StageOfStep<'_>,
     activity: Option<&Activity>,
-    at_border: Arc<[bool]>,
+    first: Rows,
 ) -> Begun {
     let due = activity.and_then(|activity| activity.rows(stage.processes));
-    let ready = [Ready::of_inner_rows(ground, groups, stage)];
+    let ready = [Ready::of_first_rows(ground, groups, stage)];
     let order = Wavefront::of_one_pass(blocks_of(ground, groups, stage.processes, due.as_deref()));
     let selection = Selection {
         followed: activity.map(|activity| Followed { activity, due: due.as_deref() }),
-        only: Some(Only { at_border: &at_border, wanted: false }),
+        only: Some(first.only()),
     };
     let found = work(ground, groups, &ready, &order, selection).into_iter().next().unwrap_or_default();
     let [Ready { searches, .. }] = ready;
-    Begun { at_border, searches, due, found }
+    Begun { first, searches, due, found }
 }
 
 /// Runs a pass over the rows, or over those that are left of a pass that has begun. With `activity`, its
@@ -81,16 +109,16 @@ pub(crate) fn run(
         }
         return Ok(Vec::new());
     }
-    let (at_border, searches, due_before, found_before) = match begun {
-        Some(Begun { at_border, searches, due, found }) => {
-            (Some(at_border), Some(searches), due, Some(found))
+    let (rest, searches, due_before, found_before) = match begun {
+        Some(Begun { first, searches, due, found }) => {
+            (Some(first.others()), Some(searches), due, Some(found))
         }
         None => (None, None, None, None),
     };
     let ready = [Ready::new(ground, groups, stage, searches)];
     let order = Wavefront::of_one_pass(blocks_of(ground, groups, stage.processes, due.as_deref()));
     let followed = activity.as_deref().map(|activity| Followed { activity, due: due.as_deref() });
-    let only = at_border.as_deref().map(|at_border| Only { at_border, wanted: true });
+    let only = rest.as_ref().map(Rows::only);
     let mut found = work(ground, groups, &ready, &order, Selection { followed, only });
     if let (Some(found), Some(before)) = (found.first_mut(), found_before) {
         found.join(before);

@@ -40,9 +40,9 @@ impl<'a> Ready<'a> {
         ready
     }
 
-    /// Prepares a pass over the rows that see no other part of the space. The halos may be stale beyond the
-    /// borders. The groups stay in their state before the pass.
-    pub(super) fn of_inner_rows(ground: Ground<'a>, groups: &mut [Group], stage: StageOfStep<'a>) -> Self {
+    /// Prepares a pass over some rows of a part of the space, before the others. The halos must be up to date
+    /// where these rows see them. The groups stay in their state before the pass.
+    pub(super) fn of_first_rows(ground: Ground<'a>, groups: &mut [Group], stage: StageOfStep<'a>) -> Self {
         let Ground { model, layout, precision } = ground;
         let searches = search::prepare(model, layout, precision, groups, stage.processes);
         Self::prepare(ground, groups, stage, searches)
