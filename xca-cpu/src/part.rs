@@ -121,10 +121,10 @@ impl CpuExecution {
         };
         let begun = begin(groups, true);
         let mut departure = None;
-        if let (Some(movers), Group::Population(population)) = (begun.movers(), &groups[group]) {
+        if let Group::Population(population) = &groups[group] {
             let process = &model.processes()[number];
             let migration = Migration { geometry: model.geometry(), process, number };
-            departure = crossing::depart(migration, population, layout, edges, movers)?;
+            departure = crossing::depart(migration, population, layout, edges, begun.movers())?;
         }
         Ok(Overlap { begun: Some(begun), departure })
     }

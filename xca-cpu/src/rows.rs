@@ -65,9 +65,9 @@ impl Rows {
 }
 
 impl Begun {
-    /// The items that the migration moves in these rows. `None` after a fault.
-    pub(crate) fn movers(&self) -> Option<&[Mover]> {
-        self.found.fault.is_none().then_some(&self.found.movers)
+    /// The items that the migration moves in these rows.
+    pub(crate) fn movers(&self) -> &[Mover] {
+        &self.found.movers
     }
 }
 
