@@ -1,5 +1,6 @@
 //! The processes of a job: the host, and those that do what it says.
 
+use crate::attendant::Attendant;
 use crate::mailbox::Mailbox;
 use crate::order::{Beginning, Order};
 use crate::place::Place;
@@ -23,6 +24,8 @@ pub struct Job(Arc<Inner>);
 #[derive(Debug)]
 struct Inner {
     mailbox: Shared,
+    /// Takes messages in while the process computes. `None` in a job of one process, and after its end.
+    attendant: Option<Attendant>,
     rank: usize,
     size: usize,
     /// Of each process; only the host knows others than itself.
@@ -60,8 +63,9 @@ impl Job {
             mailbox.lock().send(0, number(0, Kind::Place), &places[0].bytes());
         }
         let stopped = AtomicBool::new(rank == 0);
+        let attendant = (size > 1).then(|| Attendant::start(mailbox.clone()));
         // The number 0 is that of the job itself.
-        Self(Arc::new(Inner { mailbox, rank, size, places, next: AtomicU32::new(1), stopped }))
+        Self(Arc::new(Inner { mailbox, attendant, rank, size, places, next: AtomicU32::new(1), stopped }))
     }
 
     /// The rank of this process.
@@ -142,6 +146,7 @@ impl Inner {
 
 impl Drop for Inner {
     fn drop(&mut self) {
+        self.attendant = None;
         if self.rank == 0 {
             self.order(&Order::Stop);
         } else if !self.stopped.load(Ordering::Relaxed) {

@@ -9,6 +9,7 @@
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
+mod attendant;
 mod engine;
 mod job;
 #[cfg(feature = "mpi")]

@@ -83,11 +83,19 @@ impl Mailbox {
         self.arrived.whole.retain(|(_, tag), _| !is_meant(*tag));
     }
 
-    /// The first message from a process with a tag, if it has arrived.
-    pub(crate) fn take(&mut self, from: usize, tag: i32) -> Option<Vec<u8>> {
+    /// Takes in what has arrived. Returns whether there was anything.
+    pub(crate) fn take_in(&mut self) -> bool {
+        let mut any = false;
         while let Some(piece) = self.wire.poll() {
             self.arrived.take_in(piece);
+            any = true;
         }
+        any
+    }
+
+    /// The first message from a process with a tag, if it has arrived.
+    pub(crate) fn take(&mut self, from: usize, tag: i32) -> Option<Vec<u8>> {
+        self.take_in();
         self.arrived.whole.get_mut(&(from, tag))?.pop_front()
     }
 }
