@@ -14,7 +14,7 @@
 
 use crate::activity::Activity;
 use crate::dense::Dense;
-use crate::ghosts::{self, axes, faces, mismatch, rows_at_borders};
+use crate::ghosts::{self, Visible, axes, faces, mismatch, rows_at_borders};
 use crate::group::Group;
 use crate::layout::Layout;
 use crate::rows::{FirstFault, searched};
@@ -42,8 +42,7 @@ pub(crate) struct Edges {
 
 /// An exchange under way: this part has sent its edges along the first axis.
 pub(crate) struct Exchange {
-    /// The populations that are visible from other parts, each with the slack of its items.
-    populations: Vec<(usize, f64)>,
+    populations: Vec<Visible>,
     /// The planes whose halos are stale.
     planes: Vec<SubstateId>,
     /// The axes with borders.
@@ -73,7 +72,8 @@ impl Edges {
                 population.slack_of_ghosts = 0.0;
                 let is_searched = searched.contains(&group);
                 let mut slack = || threads.run(|| population.slack(layout, model.geometry()));
-                populations.push((group, if is_searched { slack() } else { 0.0 }));
+                let slack = if is_searched { slack() } else { 0.0 };
+                populations.push(Visible { group, fields: seen_fields(model, processes, group), slack });
             }
         }
         let planes = stale(model, groups, processes);
@@ -108,8 +108,8 @@ impl Edges {
             if *axis == 1 {
                 // Layers beyond the faces along z continue the lines that have arrived along y.
                 exchange.fill(groups, threads, |plane| plane.fill_layers(layout));
-                for (group, _) in &exchange.populations {
-                    if let Group::Population(population) = &mut groups[*group] {
+                for visible in &exchange.populations {
+                    if let Group::Population(population) = &mut groups[visible.group] {
                         threads.run(|| population.fill_layers(layout));
                     }
                 }
@@ -130,9 +130,9 @@ impl Edges {
         layout: &Layout,
         groups: &[Group],
     ) -> Result<(), EngineFailure> {
-        for (group, slack) in &exchange.populations {
-            if let Group::Population(population) = &groups[*group] {
-                ghosts::send(population, layout, axis, &mut *self.border, *slack)?;
+        for visible in &exchange.populations {
+            if let Group::Population(population) = &groups[visible.group] {
+                ghosts::send(population, visible, layout, axis, &mut *self.border)?;
             }
         }
         if exchange.planes.is_empty() {
@@ -158,9 +158,9 @@ impl Edges {
         groups: &mut [Group],
         activity: Option<&Activity>,
     ) -> Result<(), EngineFailure> {
-        for (group, _) in &exchange.populations {
-            if let Group::Population(population) = &mut groups[*group] {
-                ghosts::receive(population, layout, axis, &mut *self.border)?;
+        for visible in &exchange.populations {
+            if let Group::Population(population) = &mut groups[visible.group] {
+                ghosts::receive(population, visible, layout, axis, &mut *self.border)?;
             }
         }
         if exchange.planes.is_empty() {
@@ -296,6 +296,16 @@ pub(crate) fn seen(model: &Model, processes: &[usize]) -> Vec<usize> {
     groups.sort_unstable();
     groups.dedup();
     groups
+}
+
+/// The fields of a group that processes read elsewhere, sorted, each once.
+fn seen_fields(model: &Model, processes: &[usize], group: usize) -> Vec<usize> {
+    let uses = processes.iter().flat_map(|&number| &model.plan().process(number).uses);
+    let of_group = uses.filter(|found| found.elsewhere && found.substate.group == group);
+    let mut fields: Vec<usize> = of_group.map(|found| found.substate.field).collect();
+    fields.sort_unstable();
+    fields.dedup();
+    fields
 }
 
 /// The planes that processes read elsewhere and whose halos are stale. They are the same in all parts.

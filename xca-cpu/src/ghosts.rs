@@ -4,34 +4,45 @@
 use crate::layout::Layout;
 use crate::motion::largest;
 use crate::population::Population;
+use std::ops::Range;
 use xca_core::Face;
 use xca_core::engine::{Border, EngineFailure};
 
+/// What other parts see of a population.
+#[derive(Debug)]
+pub(crate) struct Visible {
+    /// The index of its group.
+    pub(crate) group: usize,
+    /// The fields that processes read from other items, sorted.
+    pub(crate) fields: Vec<usize>,
+    /// The largest distance in metres of an own item from its cell, along an axis.
+    pub(crate) slack: f64,
+}
+
 /// Sends the items that are visible across the borders along an axis, and how far they are outside their
-/// cells. `slack` is the largest distance in metres of an own item from its cell.
+/// cells.
 pub(crate) fn send(
     population: &Population,
+    visible: &Visible,
     layout: &Layout,
     axis: usize,
     border: &mut dyn Border,
-    slack: f64,
 ) -> Result<(), EngineFailure> {
-    // What is sent along z includes the ghosts along y, so corners need no messages of their own.
-    let slack = largest(slack, population.slack_of_ghosts);
-    let pack = |face: Face| pack(population, layout, face, slack);
+    let pack = |face: Face| pack(population, visible, layout, face);
     faces(layout, axis).into_iter().try_for_each(|face| border.send(face, pack(face)))
 }
 
 /// Receives the items that are visible across the borders along an axis.
 pub(crate) fn receive(
     population: &mut Population,
+    visible: &Visible,
     layout: &Layout,
     axis: usize,
     border: &mut dyn Border,
 ) -> Result<(), EngineFailure> {
     for face in faces(layout, axis) {
         let bytes = border.receive(face)?;
-        unpack(population, layout, face, &bytes)?;
+        unpack(population, visible, layout, face, &bytes)?;
     }
     Ok(())
 }
@@ -57,20 +68,37 @@ pub(crate) fn rows_at_borders(layout: &Layout) -> Vec<bool> {
     at_border
 }
 
-/// The message for another part: the slack, then for each visible cell the number of items, and for each item
-/// the label and the fields.
-fn pack(population: &Population, layout: &Layout, face: Face, slack: f64) -> Vec<u8> {
+/// The message for another part: the slack, the number of items in each visible cell, the labels of all these
+/// items, and each field of them.
+fn pack(population: &Population, visible: &Visible, layout: &Layout, face: Face) -> Vec<u8> {
+    // What is sent along z includes the ghosts along y, so corners need no messages of their own.
+    let slack = largest(visible.slack, population.slack_of_ghosts);
     let mut bytes = slack.to_ne_bytes().to_vec();
+    // The items of a row follow each other.
+    let mut runs: Vec<Range<usize>> = Vec::new();
     for cell in layout.lines_at(face, false).flat_map(|line| layout.cells_of_line(line)) {
-        let places = population.starts[cell]..population.ends[cell];
+        let places = population.starts[cell] as usize..population.ends[cell] as usize;
         bytes.extend_from_slice(&(places.len() as u32).to_ne_bytes());
-        places.for_each(|place| pack_item(population, place as usize, &mut bytes));
+        match runs.last_mut() {
+            _ if places.is_empty() => {}
+            Some(run) if run.end == places.start => run.end = places.end,
+            _ => runs.push(places),
+        }
+    }
+    let labels: &[u8] = bytemuck::cast_slice(&population.items.labels);
+    let fields = visible
+        .fields
+        .iter()
+        .map(|field| (population.types[*field].size(), population.items.fields[*field].bytes()));
+    for (size, values) in std::iter::once((size_of::<u32>(), labels)).chain(fields) {
+        runs.iter().for_each(|run| bytes.extend_from_slice(&values[run.start * size..run.end * size]));
     }
     bytes
 }
 
 fn unpack(
     population: &mut Population,
+    visible: &Visible,
     layout: &Layout,
     face: Face,
     bytes: &[u8],
@@ -78,19 +106,24 @@ fn unpack(
     let mut rest = bytes;
     let slack = bytemuck::pod_read_unaligned(take(&mut rest, size_of::<f64>())?);
     population.slack_of_ghosts = largest(population.slack_of_ghosts, slack);
+    let first = population.items.labels.len() as u32;
+    let mut place = first;
     for line in layout.lines_at(face, true) {
         for cell in layout.cells_of_line(line) {
-            let first = population.items.labels.len() as u32;
-            let count = number(&mut rest)?;
-            for _ in 0..count {
-                unpack_item(population, &mut rest)?;
-            }
-            population.starts[cell] = first;
-            population.ends[cell] = first + count;
+            population.starts[cell] = place;
+            place = place.checked_add(number(&mut rest)?).ok_or_else(mismatch)?;
+            population.ends[cell] = place;
         }
         layout.fill_line(&mut population.starts, line);
         layout.fill_line(&mut population.ends, line);
     }
+    let count = (place - first) as usize;
+    let labels = take(&mut rest, count * size_of::<u32>())?;
+    let mut fields = Vec::with_capacity(visible.fields.len());
+    for field in &visible.fields {
+        fields.push((*field, take(&mut rest, count * population.types[*field].size())?));
+    }
+    population.add_ghosts(labels, &fields);
     if rest.is_empty() { Ok(()) } else { Err(mismatch()) }
 }
 

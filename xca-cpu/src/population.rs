@@ -276,6 +276,28 @@ impl Population {
         place as u32
     }
 
+    /// Adds ghosts after all places, with the bytes of their labels and of some fields. Other fields are zero.
+    pub(crate) fn add_ghosts(&mut self, labels: &[u8], fields: &[(usize, &[u8])]) {
+        let first = self.items.labels.len();
+        self.items
+            .labels
+            .extend(labels.chunks_exact(size_of::<u32>()).map(bytemuck::pod_read_unaligned::<u32>));
+        let end = self.items.labels.len();
+        self.items.cells.resize(end, 0);
+        if self.lists.is_some() {
+            self.items.numbers.resize(end, STRANGER);
+            // Only own items are compared with their references.
+            self.items.references.resize(end, [0.0; 3]);
+        }
+        for (field, stored) in self.items.fields.iter_mut().zip(&self.types) {
+            field.resize(end * stored.size());
+        }
+        for (field, values) in fields {
+            let size = self.types[*field].size();
+            self.items.fields[*field].bytes_mut()[first * size..].copy_from_slice(values);
+        }
+    }
+
     /// Removes the items after all places.
     pub(crate) fn truncate(&mut self) {
         let places = self.own_places();
