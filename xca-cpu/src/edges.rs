@@ -5,8 +5,8 @@
 //! block each other.
 //!
 //! A part sends its edges, runs the rows that see no other part, and only then waits for the edges of others.
-//! Where items migrate, it runs the rows at its borders first, sends the items that leave, and runs the other
-//! rows before it waits for those that arrive.
+//! Where items migrate, it runs the rows at its borders first, sends the items that leave, and runs the
+//! other rows before it waits for those that arrive.
 //!
 //! A part with a fault gives up: it tells its neighbours, which then give up too, and so on. All parts meet at
 //! the next agreement and compare their faults. A part gives up only because of faults of earlier stages, or
