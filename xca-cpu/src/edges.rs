@@ -8,9 +8,9 @@
 //! Where items migrate, it runs the rows at its borders first, sends the items that leave, and runs the
 //! other rows before it waits for those that arrive.
 //!
-//! A part with a fault gives up: it tells its neighbours, which then give up too, and so on. All parts meet at
-//! the next agreement and compare their faults. A part gives up only because of faults of earlier stages, or
-//! of earlier phases of the stage. The first fault is therefore among those compared.
+//! A part with a fault gives up: it tells its neighbours, which then give up too, and so on. All parts meet
+//! at the next agreement and compare their faults. A part gives up only because of faults of earlier stages,
+//! or of earlier phases of the stage. The first fault is therefore among those compared.
 
 use crate::activity::Activity;
 use crate::dense::Dense;

@@ -276,12 +276,11 @@ impl Population {
         place as u32
     }
 
-    /// Adds ghosts after all places, with the bytes of their labels and of some fields. Other fields are zero.
+    /// Adds ghosts after all places, with the bytes of their labels and of some fields. Other fields are 0.
     pub(crate) fn add_ghosts(&mut self, labels: &[u8], fields: &[(usize, &[u8])]) {
         let first = self.items.labels.len();
-        self.items
-            .labels
-            .extend(labels.chunks_exact(size_of::<u32>()).map(bytemuck::pod_read_unaligned::<u32>));
+        let labels = labels.chunks_exact(size_of::<u32>());
+        self.items.labels.extend(labels.map(bytemuck::pod_read_unaligned::<u32>));
         let end = self.items.labels.len();
         self.items.cells.resize(end, 0);
         if self.lists.is_some() {
