@@ -30,6 +30,7 @@ mod pace;
 mod population;
 mod reductions;
 mod renewal;
+mod row_counts;
 mod rows;
 mod stages;
 mod stride;

@@ -34,9 +34,9 @@ pub(crate) struct PartBorder {
 }
 
 impl PartBorder {
-    pub(crate) fn new(link: Link, geometry: &Geometry, cut: Cut, traffic: Traffic) -> Self {
+    pub(crate) fn new(link: Link, geometry: &Geometry, cut: &Cut, traffic: Traffic) -> Self {
         let number = link.lock().number();
-        let borders = cut.part(geometry, number).borders(geometry);
+        let borders = cut.part(number).borders(geometry);
         let beyond = Faces::from_fn(|face| borders[face].then(|| cut.beyond(number, face)));
         Self { link, beyond, traffic }
     }
