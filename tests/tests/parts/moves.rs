@@ -173,7 +173,7 @@ fn bounds_that_follow_items_change_no_bit() -> TestResult {
         }
         let mut simulation = Simulation::new(&model, &Reference, RunOptions::default())?;
         simulation.run(items::STEPS)?;
-        assert!(simulation.state().left::<Walker>()? > 0, "{extents:?}");
+        assert!(simulation.state().count_left::<Walker>()? > 0, "{extents:?}");
     }
     Ok(())
 }
@@ -186,7 +186,7 @@ fn bounds_move_to_items_that_are_set() -> TestResult {
         cell: [label as usize % 5, label as usize / 40, 0],
         state: Walker {
             position: Vector3::new(0.5, 0.5, 0.5),
-            velocity: Vector3::ZERO,
+            velocity: Vector3::new(0.0, 0.0, 0.0),
             met: 0,
             heard: [0.0; 2],
         },
