@@ -3,12 +3,13 @@
 use crate::timing::{Times, interleaved};
 use std::error::Error;
 use std::fmt;
+use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
 use xca_core::engine::{Execution, StartError};
 use xca_core::prelude::*;
 use xca_cpu::Cpu;
-use xca_parts::{Channels, Cut, Tag, Transport, TransportError, host, serve};
+use xca_parts::{Balance, Channels, Grid, Tag, Transport, TransportError, host, serve};
 
 /// Two parts with one thread each, whose messages about edges arrive after a delay.
 #[derive(Debug)]
@@ -73,18 +74,16 @@ impl Engine for Late {
             engine: self.name().to_owned(),
             reason: error.to_string(),
         };
-        let cut = Cut::into_parts(model.geometry(), 2, self.name())?;
+        let grid = Grid::into_parts(model.geometry(), 2, self.name())?;
         let start = Instant::now();
         let late = |channels| Box::new(Delayed { channels, delay: self.delay, start });
         let [own, second] = <[Channels; 2]>::try_from(Channels::connect(2))
             .map_err(|ends| other(&format!("{} ends", ends.len())))?
             .map(late);
-        let [engine, beside] = [Cpu::with_threads(1), Cpu::with_threads(1)];
-        let (engine, beside) =
-            (engine.map_err(|error| other(&error))?, beside.map_err(|error| other(&error))?);
-        let of_second = model.clone();
-        thread::spawn(move || serve(&beside, &of_second, precision, cut, second));
-        host(&engine, model, precision, cut, own)
+        let engine = || Cpu::with_threads(1).map(Arc::new).map_err(|error| other(&error));
+        let (beside, of_second) = (engine()?, model.clone());
+        thread::spawn(move || serve(beside, &of_second, precision, grid, second));
+        host(engine()?, model, precision, grid, Balance::NEVER, own)
     }
 }
 

@@ -6,6 +6,7 @@ pub(crate) mod input;
 mod input_error;
 mod part;
 mod population;
+mod row_work;
 mod substate_id;
 
 pub use execution::{Execution, Figure, Interruption, StepContext, Workers, step_by_step};
@@ -17,6 +18,7 @@ pub use input::{
 pub use input_error::InputError;
 pub use part::{Part, PartError};
 pub use population::Population;
+pub use row_work::RowWork;
 pub use substate_id::SubstateId;
 
 use crate::model::Model;

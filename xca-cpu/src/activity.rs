@@ -14,6 +14,7 @@ use crate::layout::Layout;
 use crate::pace::{Pace, Step};
 use crate::tiles::{Marks, Tiles};
 use std::ops::Range;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 use xca_core::engine::{Figure, SubstateId};
 use xca_core::{Model, ParameterSet, ProcessKind};
@@ -37,6 +38,8 @@ pub(crate) struct Activity {
     work: Work,
     /// The work of earlier steps.
     past: Work,
+    /// The updated cells of each row, in passes that skipped some. Each row belongs to one thread at a time.
+    of_rows: Vec<AtomicU64>,
 }
 
 /// A process, and its due tiles.
@@ -131,8 +134,9 @@ impl Activity {
         let parameters = Vec::new();
         let (work, past) = (Work::default(), Work::default());
         let layout = layout.clone();
+        let of_rows = (0..rows).map(|_| AtomicU64::new(0)).collect();
         let mut activity =
-            Self { tiles, layout, processes, substates, parameters, pace, time: 0, work, past };
+            Self { tiles, layout, processes, substates, parameters, pace, time: 0, work, past, of_rows };
         activity.wake();
         Some(activity)
     }
@@ -227,6 +231,17 @@ impl Activity {
     /// Counts all cells as updated by the processes.
     pub(crate) fn worked_on_all(&mut self, processes: &[usize]) {
         self.worked(processes, self.cells(processes));
+    }
+
+    /// Counts updated cells of a row, in a pass that skips some.
+    pub(crate) fn worked_in(&self, row: usize, cells: usize) {
+        let of_row = &self.of_rows[row];
+        of_row.store(of_row.load(Ordering::Relaxed) + cells as u64, Ordering::Relaxed);
+    }
+
+    /// The updated cells of each row since the start, counted for each process, in passes that skip some.
+    pub(crate) fn work_of_rows(&self) -> impl Iterator<Item = u64> + '_ {
+        self.of_rows.iter().map(|of_row| of_row.load(Ordering::Relaxed))
     }
 
     fn cells(&self, processes: &[usize]) -> u64 {

@@ -11,6 +11,7 @@ use crate::memory::check_size;
 use crate::migration;
 use crate::population::Population;
 use crate::reductions::{Reductions, reduce_row};
+use crate::row_counts::RowCounts;
 use crate::rows::{self, FirstFault, Ground, Mover, StageOfStep};
 use crate::stages::{Stage, stages};
 use crate::stride::Stride;
@@ -21,8 +22,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use xca_core::engine::{
     Border, EngineFailure, Execution, Fault, Figure, InputError, Interruption, Part, Population as Items,
-    StartError, StepContext, SubstateId, Workers, check_cells, check_cells_of_part, check_population_of_part,
-    check_substate, check_values, check_values_of_cells, check_values_of_part,
+    RowWork, StartError, StepContext, SubstateId, Workers, check_cells, check_cells_of_part,
+    check_population_of_part, check_substate, check_values, check_values_of_cells, check_values_of_part,
 };
 use xca_core::reduction::{Reduced, ReducedRows, Reduction, append_row};
 use xca_core::{Model, Precision, ProcessKind};
@@ -42,6 +43,8 @@ pub(crate) struct CpuExecution {
     reductions: Mutex<Reductions>,
     /// The stages of a step in which all processes run.
     stages: Vec<Stage>,
+    /// The work of each row. `None` for the whole space.
+    pub(crate) counts: Option<RowCounts>,
 }
 
 impl CpuExecution {
@@ -62,6 +65,7 @@ impl CpuExecution {
         let stages = stages(model, 0..model.processes().len());
         let stride = Stride::new((model, &layout, precision), stages.len(), threads.count(), choices);
         let activity = Activity::new(model, &layout, choices.leave_out);
+        let counts = edges.as_ref().map(|_| RowCounts::new(layout.rows(), layout.width()));
         Ok(Self {
             model: model.clone(),
             precision,
@@ -73,6 +77,7 @@ impl CpuExecution {
             stride,
             reductions: Mutex::default(),
             stages,
+            counts,
         })
     }
 
@@ -373,6 +378,10 @@ impl Execution for CpuExecution {
         let of_cells =
             self.activity.as_ref().and_then(Activity::figure).into_iter().chain(self.stride.figure());
         figures.flatten().chain(of_cells).collect()
+    }
+
+    fn work(&self) -> RowWork {
+        self.counts.as_ref().map_or_else(RowWork::default, |counts| counts.work(self.activity.as_ref()))
     }
 
     fn workers(&self) -> Option<Arc<dyn Workers>> {

@@ -31,6 +31,7 @@ mod part;
 mod population;
 mod reductions;
 mod renewal;
+mod row_counts;
 mod rows;
 mod stages;
 mod stride;

@@ -59,7 +59,7 @@ impl CpuExecution {
     ) -> Result<(), Stopped> {
         let Overlap { begun, departure } = self.overlap(stage, leaves_out, context)?;
         let migration = self.migration(stage);
-        let Self { model, precision, threads, layout, edges, groups, activity, .. } = self;
+        let Self { model, precision, threads, layout, edges, groups, activity, counts, .. } = self;
         if let Some(activity) = activity
             && !leaves_out
         {
@@ -69,6 +69,9 @@ impl CpuExecution {
         let of_step = StageOfStep { processes: stage, context: *context };
         let followed = activity.as_mut().filter(|_| leaves_out);
         let result = threads.run(|| rows::run(ground, groups, of_step, followed, begun));
+        if let Some(counts) = counts {
+            counts.ran(model, stage, groups, leaves_out);
+        }
         for group in seen(model, stage) {
             if let Group::Population(population) = &mut groups[group] {
                 threads.run(|| ghosts::clear(population, layout));

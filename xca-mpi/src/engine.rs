@@ -4,7 +4,7 @@ use crate::job::{Job, PartEngine};
 use std::sync::Arc;
 use xca_core::engine::{Engine, Execution, StartError};
 use xca_core::{Model, Precision};
-use xca_parts::{Cut, host};
+use xca_parts::{Balance, Grid, host};
 
 /// The name of the engine.
 const NAME: &str = "mpi";
@@ -16,6 +16,9 @@ pub struct Mpi {
     /// What runs the part of this process.
     own: Arc<dyn Engine>,
     threads: Option<usize>,
+    /// The parts along the axes, where they are chosen.
+    grid: Option<Grid>,
+    balance: Balance,
 }
 
 impl Mpi {
@@ -25,7 +28,17 @@ impl Mpi {
     /// Where the engine of the own part cannot be made.
     pub fn new(job: Job, engine: &PartEngine<'_>, threads: Option<usize>) -> Result<Self, String> {
         let own = threads.or(job.places().first().map(|place| place.threads)).unwrap_or(1);
-        Ok(Self { own: Arc::from(engine(own)?), job, threads })
+        Ok(Self { own: Arc::from(engine(own)?), job, threads, grid: None, balance: Balance::default() })
+    }
+
+    /// The same engine with these numbers of parts along y and z, one part for each process.
+    pub fn in_grid(self, grid: Grid) -> Self {
+        Self { grid: Some(grid), ..self }
+    }
+
+    /// The same engine with another rule when the bounds of parts follow the work.
+    pub fn with_balance(self, balance: Balance) -> Self {
+        Self { balance, ..self }
     }
 
     fn threads_of_parts(&self) -> impl Iterator<Item = usize> {
@@ -52,7 +65,7 @@ impl Engine for Mpi {
         };
         let ranks = self.job.places().iter().zip(self.threads_of_parts()).enumerate().map(rank);
         let mut facts = vec![
-            ("parts", self.job.size().to_string()),
+            ("parts", self.grid.map_or_else(|| self.job.size().to_string(), |grid| grid.to_string())),
             ("part_engine", self.own.name().to_owned()),
             ("ranks", ranks.collect::<Vec<_>>().join("; ")),
         ];
@@ -74,8 +87,16 @@ impl Engine for Mpi {
     }
 
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {
-        let cut = Cut::into_parts(model.geometry(), self.job.size(), NAME)?;
-        let ranks = self.job.start(precision, cut, self.threads);
-        host(&*self.own, model, precision, cut, Box::new(ranks))
+        let (geometry, size) = (model.geometry(), self.job.size());
+        let grid = match self.grid {
+            None => Grid::into_parts(geometry, size, NAME)?,
+            Some(grid) => grid.check(geometry, NAME).map(|()| grid)?,
+        };
+        if grid.count() != size {
+            let reason = format!("{grid} are {} parts, but the job has {size} processes", grid.count());
+            return Err(StartError::NoParts { engine: NAME.to_owned(), reason });
+        }
+        let ranks = self.job.start(precision, grid, self.threads);
+        host(Arc::clone(&self.own), model, precision, grid, self.balance, Box::new(ranks))
     }
 }

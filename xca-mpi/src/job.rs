@@ -12,7 +12,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::thread;
 use xca_core::{Engine, Model, Precision};
-use xca_parts::{Cut, decline};
+use xca_parts::{Grid, decline};
 
 /// Makes the engine of a part, with so many threads.
 pub type PartEngine<'a> = dyn Fn(usize) -> Result<Box<dyn Engine>, String> + 'a;
@@ -84,9 +84,9 @@ impl Job {
     }
 
     /// Has all others start their parts of a model; gives the way to them.
-    pub(crate) fn start(&self, precision: Precision, cut: Cut, threads: Option<usize>) -> Ranks {
+    pub(crate) fn start(&self, precision: Precision, grid: Grid, threads: Option<usize>) -> Ranks {
         let execution = self.0.next.fetch_add(1, Ordering::Relaxed);
-        self.0.order(&Order::Start(Beginning { execution, precision, cut, threads }));
+        self.0.order(&Order::Start(Beginning { execution, precision, grid, threads }));
         Ranks::new(self.0.mailbox.clone(), execution)
     }
 
@@ -120,7 +120,7 @@ impl Job {
                     self.0.stopped.store(true, Ordering::Relaxed);
                     return Ok(());
                 };
-                let Beginning { execution, precision, cut, threads } = beginning;
+                let Beginning { execution, precision, grid, threads } = beginning;
                 let ranks = Ranks::new(self.0.mailbox.clone(), execution);
                 let threads = threads.or(self.places().first().map(|place| place.threads)).unwrap_or(1);
                 match engine(threads).and_then(|engine| Ok((engine, model(precision)?))) {
@@ -128,7 +128,7 @@ impl Job {
                     // Several executions can be there at the same time.
                     Ok((engine, model)) => {
                         scope.spawn(move || {
-                            xca_parts::serve(&*engine, &model, precision, cut, Box::new(ranks));
+                            xca_parts::serve(Arc::from(engine), &model, precision, grid, Box::new(ranks));
                         });
                     }
                 }

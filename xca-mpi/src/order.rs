@@ -1,7 +1,7 @@
 //! What the host says to all other processes of a job. The bytes are the same in all builds.
 
 use xca_core::Precision;
-use xca_parts::Cut;
+use xca_parts::Grid;
 
 /// What the others are to do.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,7 +18,7 @@ pub(crate) struct Beginning {
     /// The number of the execution, which all its messages have.
     pub(crate) execution: u32,
     pub(crate) precision: Precision,
-    pub(crate) cut: Cut,
+    pub(crate) grid: Grid,
     /// The threads of each part, where they are chosen.
     pub(crate) threads: Option<usize>,
 }
@@ -26,12 +26,13 @@ pub(crate) struct Beginning {
 impl Order {
     pub(crate) fn bytes(&self) -> Vec<u8> {
         let Self::Start(beginning) = self else { return Vec::new() };
-        let Beginning { execution, precision, cut, threads } = beginning;
+        let Beginning { execution, precision, grid, threads } = beginning;
         let bits = match precision {
             Precision::F32 => 32,
             Precision::F64 => 64,
         };
-        let numbers = [u64::from(*execution), bits, cut.y as u64, cut.z as u64, threads.unwrap_or(0) as u64];
+        let numbers =
+            [u64::from(*execution), bits, grid.y as u64, grid.z as u64, threads.unwrap_or(0) as u64];
         numbers.into_iter().flat_map(u64::to_le_bytes).collect()
     }
 
@@ -53,7 +54,7 @@ impl Order {
         };
         let execution = u32::try_from(execution).ok()?;
         let threads = (threads > 0).then_some(threads);
-        Some(Self::Start(Beginning { execution, precision, cut: Cut { y, z }, threads }))
+        Some(Self::Start(Beginning { execution, precision, grid: Grid { y, z }, threads }))
     }
 }
 
@@ -61,13 +62,13 @@ impl Order {
 mod tests {
     use super::{Beginning, Order};
     use xca_core::Precision;
-    use xca_parts::Cut;
+    use xca_parts::Grid;
 
     #[test]
     fn orders_arrive_as_they_were_sent() {
-        let cut = Cut { y: 3, z: 5 };
+        let grid = Grid { y: 3, z: 5 };
         for (precision, threads) in [(Precision::F32, None), (Precision::F64, Some(7))] {
-            let order = Order::Start(Beginning { execution: 9, precision, cut, threads });
+            let order = Order::Start(Beginning { execution: 9, precision, grid, threads });
             assert_eq!(Order::from_bytes(&order.bytes()), Some(order));
         }
         assert_eq!(Order::from_bytes(&Order::Stop.bytes()), Some(Order::Stop));

@@ -30,17 +30,16 @@ pub(crate) struct PartBorder {
     link: Link,
     /// The number of the part beyond each face. `None` if no part lies beyond it.
     beyond: Faces<Option<usize>>,
+    /// Messages from before the last agreement are out of date.
     traffic: Traffic,
-    /// The number of agreements so far. Messages from before the last one are out of date.
-    agreements: u64,
 }
 
 impl PartBorder {
-    pub(crate) fn new(link: Link, geometry: &Geometry, cut: Cut, traffic: Traffic) -> Self {
+    pub(crate) fn new(link: Link, geometry: &Geometry, cut: &Cut, traffic: Traffic) -> Self {
         let number = link.lock().number();
-        let borders = cut.part(geometry, number).borders(geometry);
+        let borders = cut.part(number).borders(geometry);
         let beyond = Faces::from_fn(|face| borders[face].then(|| cut.beyond(number, face)));
-        Self { link, beyond, traffic, agreements: 0 }
+        Self { link, beyond, traffic }
     }
 
     fn beyond(&self, face: Face) -> Result<usize, EngineFailure> {
@@ -67,7 +66,7 @@ impl Border for PartBorder {
     fn send(&mut self, face: Face, bytes: Vec<u8>) -> Result<(), EngineFailure> {
         let to = self.beyond(face)?;
         self.traffic.sent(bytes.len());
-        let bytes = Stamp { agreements: self.agreements, has_given_up: false }.put_on(bytes);
+        let bytes = Stamp { agreements: self.traffic.agreements(), has_given_up: false }.put_on(bytes);
         self.with(|transport| transport.send(to, Tag::Edge(face), bytes))
     }
 
@@ -80,7 +79,7 @@ impl Border for PartBorder {
                 .ok_or_else(|| broken(TransportError::Garbled { part: from }.to_string()))?;
             match stamp {
                 // The part gave up waiting for this one before the last agreement.
-                Stamp { agreements, .. } if agreements < self.agreements => {}
+                Stamp { agreements, .. } if agreements < self.traffic.agreements() => {}
                 Stamp { has_given_up: true, .. } => return Err(EngineFailure::Elsewhere),
                 Stamp { .. } => return Ok(bytes),
             }
@@ -88,7 +87,7 @@ impl Border for PartBorder {
     }
 
     fn give_up(&mut self) -> Result<(), EngineFailure> {
-        let stamp = Stamp { agreements: self.agreements, has_given_up: true };
+        let stamp = Stamp { agreements: self.traffic.agreements(), has_given_up: true };
         for face in Face::ALL {
             if let Some(to) = self.beyond[face] {
                 self.with(|transport| transport.send(to, Tag::Edge(face), stamp.put_on(Vec::new())))?;
@@ -99,7 +98,6 @@ impl Border for PartBorder {
 
     fn least(&mut self, number: u64) -> Result<u64, EngineFailure> {
         self.traffic.agreed();
-        self.agreements += 1;
         self.traffic.timed(|| self.with(|transport| transport.least(number)))
     }
 }

@@ -1,80 +1,84 @@
 //! Cuts of a space into parts.
 
-use std::ops::Range;
-use xca_core::engine::{Part, StartError};
+use crate::bounds;
+use crate::grid::{Grid, thinnest};
+use serde::{Deserialize, Serialize};
+use xca_core::engine::Part;
 use xca_core::{Face, Geometry};
 
-/// A cut of a space into parts along y and along z. The rows are distributed evenly.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Cut {
-    /// The number of parts along y, at least one.
-    pub y: usize,
-    /// The number of parts along z, at least one.
-    pub z: usize,
+/// A cut of a space into parts: the bounds of their rows along y and along z.
+///
+/// The bounds along y are the same for all parts along z. A part therefore has one other part beyond each
+/// face, and the parts at its corners are reached through these.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Cut {
+    y: Vec<usize>,
+    z: Vec<usize>,
 }
 
+/// In the work by which bounds are chosen, a row without work counts as this part of the mean work. Such rows
+/// are then shared too: they may come to work, and they take memory.
+const IDLE_ROW: u64 = 64;
+
+/// How often the bounds along one axis are chosen anew for those along the other.
+const ROUNDS: usize = 3;
+
 impl Cut {
-    /// The even cut into `parts` parts, none thinner than the reach of the model. It cuts along the longer of
-    /// y and z, or along y if they are equal. Without room for this, it cuts along the other axis, or along
-    /// both. `None` if there is no such cut.
-    pub fn even(geometry: &Geometry, parts: usize) -> Option<Self> {
+    /// The cut that distributes the rows evenly.
+    pub(crate) fn even(geometry: &Geometry, grid: Grid) -> Self {
         let [_, height, depth] = geometry.extents();
-        let along_longer = |along: usize| {
-            let across = parts / along;
-            if height >= depth { Self { y: along, z: across } } else { Self { y: across, z: along } }
-        };
-        let both = (2..parts).rev().filter(|along| parts.is_multiple_of(*along));
-        [parts, 1].into_iter().chain(both).map(along_longer).find(|cut| cut.fits(geometry))
+        Self { y: bounds::even(height, grid.y), z: bounds::even(depth, grid.z) }
     }
 
-    /// The even cut into `parts` parts. `engine` is the name in the error message.
-    ///
-    /// # Errors
-    /// [`StartError::NoParts`] if there is no such cut.
-    pub fn into_parts(geometry: &Geometry, parts: usize, engine: &str) -> Result<Self, StartError> {
-        Self::even(geometry, parts).ok_or_else(|| {
-            let ([_, y, z], most) = (geometry.extents(), Self::most(geometry));
-            let reason = format!(
-                "{y} rows along y and {z} along z cannot be cut into {parts} parts; the model reaches so far \
-                 that at most {} parts fit along y and {} along z",
-                most.y, most.z
-            );
-            StartError::NoParts { engine: engine.to_owned(), reason }
-        })
+    /// The cut that distributes the work, given for each row of the space. Along one axis, the largest work of
+    /// a part is the least possible. Along both axes, the bounds along each are the best for the other.
+    pub(crate) fn balanced(geometry: &Geometry, grid: Grid, work: &[u64]) -> Self {
+        let mean = work.iter().fold(0_u64, |sum, work| sum.saturating_add(*work)) / work.len().max(1) as u64;
+        let with_idle: Vec<u64> =
+            work.iter().map(|work| work.saturating_mul(IDLE_ROW).saturating_add(mean.max(1))).collect();
+        let work = Matrix { rows: &with_idle, height: geometry.extents()[1] };
+        let mut best = Self::even(geometry, grid);
+        for _ in 0..ROUNDS {
+            let mut next = best.clone();
+            if grid.y > 1 {
+                next.y = bounds::balanced(&work.along_y(&next.z), grid.y, thinnest(geometry, 1));
+            }
+            if grid.z > 1 {
+                next.z = bounds::balanced(&work.along_z(&next.y), grid.z, thinnest(geometry, 2));
+            }
+            let largest = |cut: &Self| cut.work_of_parts(geometry, &with_idle).into_iter().max();
+            if largest(&next) >= largest(&best) {
+                break;
+            }
+            best = next;
+        }
+        best
     }
 
-    /// The largest numbers of parts along y and along z.
-    pub fn most(geometry: &Geometry) -> Self {
-        let [y, z] = [1, 2]
-            .map(|axis| (geometry.extents()[axis] / geometry.neighbourhood().reach()[axis].max(1)).max(1));
-        Self { y, z }
-    }
-
-    /// Whether each part has at least one row along both axes, and no cell reaches beyond the next part.
-    fn fits(self, geometry: &Geometry) -> bool {
-        let most = Self::most(geometry);
-        (1..=most.y).contains(&self.y) && (1..=most.z).contains(&self.z)
+    /// The numbers of parts.
+    pub(crate) fn grid(&self) -> Grid {
+        Grid { y: self.y.len() - 1, z: self.z.len() - 1 }
     }
 
     /// The number of parts.
-    pub fn count(self) -> usize {
-        self.y * self.z
+    pub(crate) fn count(&self) -> usize {
+        self.grid().count()
     }
 
     /// The part with this number.
-    pub fn part(self, geometry: &Geometry, number: usize) -> Part {
-        let [_, height, depth] = geometry.extents();
-        Part { y: share(height, self.y, number % self.y), z: share(depth, self.z, number / self.y) }
+    pub(crate) fn part(&self, number: usize) -> Part {
+        let (y, z) = (number % self.grid().y, number / self.grid().y);
+        Part { y: self.y[y]..self.y[y + 1], z: self.z[z]..self.z[z + 1] }
     }
 
     /// The number of the part that contains the row with these indices y and z.
-    pub fn part_of(self, geometry: &Geometry, [y, z]: [usize; 2]) -> usize {
-        let [_, height, depth] = geometry.extents();
-        owner(depth, self.z, z) * self.y + owner(height, self.y, y)
+    pub(crate) fn part_of(&self, [y, z]: [usize; 2]) -> usize {
+        let part = |bounds: &[usize], row: usize| bounds[1..].partition_point(|end| *end <= row);
+        part(&self.z, z) * self.grid().y + part(&self.y, y)
     }
 
     /// The number of the part beyond a face of the part with this number, with wrapping around the space.
-    pub fn beyond(self, number: usize, face: Face) -> usize {
+    pub(crate) fn beyond(&self, number: usize, face: Face) -> usize {
         let next = |at: usize, count: usize, axis: usize| {
             let [low, high] = Face::ALONG[axis];
             match face {
@@ -83,91 +87,53 @@ impl Cut {
                 _ => at,
             }
         };
-        next(number / self.y, self.z, 2) * self.y + next(number % self.y, self.y, 1)
+        let Grid { y, z } = self.grid();
+        next(number / y, z, 2) * y + next(number % y, y, 1)
+    }
+
+    /// The work of each part, from that of each row of the space.
+    pub(crate) fn work_of_parts(&self, geometry: &Geometry, work: &[u64]) -> Vec<u64> {
+        let sum = |number: usize| {
+            let rows = self.part(number).runs(geometry).flatten();
+            rows.fold(0_u64, |sum, row| sum.saturating_add(work.get(row).copied().unwrap_or(0)))
+        };
+        (0..self.count()).map(sum).collect()
     }
 }
 
-/// The rows of one part of an axis.
-fn share(rows: usize, parts: usize, number: usize) -> Range<usize> {
-    rows * number / parts..rows * (number + 1) / parts
+/// The work of each row of the space.
+struct Matrix<'a> {
+    rows: &'a [u64],
+    /// The number of rows along y.
+    height: usize,
 }
 
-/// The part of an axis that contains a row.
-fn owner(rows: usize, parts: usize, row: usize) -> usize {
-    let guess = row * parts / rows.max(1);
-    (guess..parts).find(|number| row < share(rows, parts, *number).end).unwrap_or(guess)
+impl Matrix<'_> {
+    /// For each part along z, the work of each row along y.
+    fn along_y(&self, bounds: &[usize]) -> Vec<Vec<u64>> {
+        let column = |part: &[usize]| {
+            let mut column = vec![0_u64; self.height];
+            for layer in self.rows.chunks(self.height.max(1)).take(part[1]).skip(part[0]) {
+                column.iter_mut().zip(layer).for_each(|(sum, work)| *sum = sum.saturating_add(*work));
+            }
+            column
+        };
+        bounds.windows(2).map(column).collect()
+    }
+
+    /// For each part along y, the work of each row along z.
+    fn along_z(&self, bounds: &[usize]) -> Vec<Vec<u64>> {
+        let column = |part: &[usize]| {
+            let layers = self.rows.chunks(self.height.max(1));
+            let sum = |layer: &[u64]| {
+                let rows = layer.get(part[0]..part[1]).unwrap_or_default();
+                rows.iter().fold(0_u64, |sum, work| sum.saturating_add(*work))
+            };
+            layers.map(sum).collect()
+        };
+        bounds.windows(2).map(column).collect()
+    }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::Cut;
-    use xca_core::{Face, Faces, Model, Neighbourhood, Substates};
-
-    #[derive(Substates, Clone)]
-    struct Site {
-        value: u8,
-    }
-
-    fn model(extents: [usize; 3], reach: u8) -> Model {
-        let builder = Model::builder("rows").extents(extents).substates::<Site>();
-        builder.neighbourhood(Neighbourhood::moore(reach)).build().unwrap()
-    }
-
-    #[test]
-    fn cuts_by_hand() {
-        let cut = |extents, reach, parts| {
-            Cut::even(model(extents, reach).geometry(), parts).map(|Cut { y, z }| (y, z))
-        };
-        assert_eq!(cut([9, 12, 12], 1, 4), Some((4, 1)));
-        assert_eq!(cut([9, 11, 12], 1, 4), Some((1, 4)));
-        // There is no room along the longer axis alone.
-        assert_eq!(cut([9, 12, 9], 3, 6), Some((3, 2)));
-        assert_eq!(cut([9, 9, 12], 3, 6), Some((2, 3)));
-        assert_eq!(cut([9, 12, 9], 3, 5), None);
-        assert_eq!(cut([9, 2, 2], 1, 1), Some((1, 1)));
-        assert_eq!(Cut::most(model([9, 12, 10], 3).geometry()), Cut { y: 4, z: 3 });
-    }
-
-    /// Each row belongs to one part, which knows it. The sizes of parts differ by at most one row.
-    #[test]
-    fn each_row_has_one_part() {
-        for (height, depth, y, z) in [(7, 5, 3, 2), (13, 1, 5, 1), (4, 9, 4, 4), (6, 6, 1, 6)] {
-            let model = model([2, height, depth], 1);
-            let (geometry, cut) = (model.geometry(), Cut { y, z });
-            let mut owners = vec![None; height * depth];
-            for number in 0..cut.count() {
-                let part = cut.part(geometry, number);
-                assert!(part.y.len().abs_diff(height / y) <= 1 && part.z.len().abs_diff(depth / z) <= 1);
-                for row in part.runs(geometry).flatten() {
-                    assert_eq!(owners[row].replace(number), None);
-                }
-            }
-            for (row, owner) in owners.into_iter().enumerate() {
-                assert_eq!(owner, Some(cut.part_of(geometry, [row % height, row / height])));
-            }
-        }
-    }
-
-    /// The part beyond a face has this part beyond its opposite face. One row farther is the next part.
-    #[test]
-    fn parts_lie_beyond_each_other() {
-        let model = model([2, 7, 9], 1);
-        let (geometry, cut) = (model.geometry(), Cut { y: 3, z: 4 });
-        for number in 0..12 {
-            let part = cut.part(geometry, number);
-            let at = |y: usize, z: usize| cut.part_of(geometry, [y % 7, z % 9]);
-            let wanted = Faces {
-                west: number,
-                east: number,
-                south: at(part.y.start + 6, part.z.start),
-                north: at(part.y.end, part.z.start),
-                bottom: at(part.y.start, part.z.start + 8),
-                top: at(part.y.start, part.z.end),
-            };
-            for face in Face::ALL {
-                assert_eq!(cut.beyond(number, face), wanted[face]);
-                assert_eq!(cut.beyond(wanted[face], face.opposite()), number);
-            }
-        }
-    }
-}
+mod tests;

@@ -30,7 +30,7 @@ impl Greeting {
             ("substates", substates(model, *precision)),
             ("processes", processes(model)),
             ("parameters", checksum(&(parameters.names(), parameters.bits()))),
-            ("cut", format!("{} x {} parts", cut.y, cut.z)),
+            ("cut", format!("{} x {} parts", cut.grid().y, cut.grid().z)),
         ];
         Self { facts: facts.into_iter().map(|(name, value)| (name.to_owned(), value)).collect() }
     }

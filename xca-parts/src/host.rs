@@ -1,18 +1,18 @@
 //! The host: presents the state of all parts to a simulation.
 
-use crate::border::{Link, NAME, broken};
-use crate::greeting::Greeting;
-use crate::message::{Census, Command, Moment, Reply, decode, encode};
+use crate::balance::{Balance, Balancer, Cost};
+use crate::crew::Crew;
+use crate::cut::Cut;
+use crate::message::{Census, Command, Moment, Reply};
 use crate::rows::{Lengths, Rows};
 use crate::shared::Shared;
-use crate::transport::{Tag, Transport, TransportError};
-use crate::worker::Worker;
+use crate::transport::Transport;
 use std::ops::Range;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use xca_core::engine::{
-    EngineFailure, Execution, Fault, Figure, Interruption, Population, StepContext, SubstateId, check_cells,
-    check_population, check_substate, check_values, check_values_of_cells,
+    EngineFailure, Execution, Fault, Figure, Interruption, Part, Population, RowWork, StepContext,
+    SubstateId, check_cells, check_population, check_substate, check_values, check_values_of_cells,
 };
 use xca_core::model::GroupKind;
 use xca_core::reduction::{Reduced, ReducedRows, Reduction};
@@ -22,51 +22,44 @@ use xca_core::{Engine, StartError};
 pub(crate) struct Host {
     shared: Shared,
     rows: Rows,
-    state: Mutex<State>,
+    crew: Mutex<Crew>,
+    balancer: Balancer,
+    /// Of each population, the items that left the space before the bounds of parts moved.
+    left: Vec<u64>,
+    /// Of each population, the items that were set. There are no more than these.
+    items: Vec<usize>,
     /// The threads of other parts in this process. They end after the host.
     threads: Vec<JoinHandle<()>>,
-}
-
-struct State {
-    own: Worker,
-    link: Link,
-    /// The failure that has stopped all parts.
-    failure: Option<EngineFailure>,
 }
 
 impl Host {
     /// Starts the own part, and waits until the others have started.
     pub(crate) fn start(
-        engine: &dyn Engine,
+        engine: Arc<dyn Engine>,
         shared: Shared,
+        balance: Balance,
         transport: Box<dyn Transport>,
         threads: Vec<JoinHandle<()>>,
     ) -> Result<Self, StartError> {
-        let link = Link::new(transport);
-        let other = |reason: String| StartError::Other { engine: NAME.to_owned(), reason };
-        greet(&shared, &link).map_err(|reason| {
-            link.lock().end();
-            other(reason)
-        })?;
-        let own = Worker::start(engine, &shared, link.clone()).inspect_err(|_| link.lock().end())?;
-        let mut state = State { own, link, failure: None };
-        state.replies(Reply::Done).map_err(|failure| other(failure.to_string()))?;
-        let rows = Rows::new(shared.model.geometry(), shared.cut);
-        Ok(Self { shared, rows, state: Mutex::new(state), threads })
+        let crew = Mutex::new(Crew::start(engine, &shared, transport)?);
+        let rows = Rows::new(shared.model.geometry(), &shared.cut);
+        let balancer = Balancer::new(&shared.model, balance);
+        let groups = shared.model.groups().len();
+        Ok(Self { shared, rows, crew, balancer, left: vec![0; groups], items: vec![0; groups], threads })
     }
 
-    fn state(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    fn crew(&self) -> MutexGuard<'_, Crew> {
+        self.crew.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Gives all parts the same command.
     fn ask(&self, command: &Command) -> Result<Vec<Reply>, EngineFailure> {
-        self.state().ask(vec![command.clone(); self.shared.cut.count()])
+        self.crew().ask(vec![command.clone(); self.shared.cut.count()])
     }
 
     /// Gives each part a command that changes its state.
     fn change(&self, commands: Vec<Command>) -> Result<(), EngineFailure> {
-        self.state().ask(commands).map(drop)
+        self.crew().ask(commands).map(drop)
     }
 
     /// Lets all parts run processes. A fault includes the number of steps done before it.
@@ -85,18 +78,18 @@ impl Host {
             }
         }
         stopped.map_or(Ok(()), |done| {
-            let failure = self.state().fail("a part has stopped, and none tells why".to_owned());
+            let failure = self.crew().fail("a part has stopped, and none tells why".to_owned());
             Err(Interruption { done, fault: Fault::Engine(failure) })
         })
     }
 
     /// The cells of each part, with their indices in the list.
     fn cells_of_parts(&self, cells: &[usize]) -> Vec<CellsOfPart> {
-        let (geometry, cut) = (self.shared.model.geometry(), self.shared.cut);
+        let (geometry, cut) = (self.shared.model.geometry(), &self.shared.cut);
         let mut parts = vec![CellsOfPart::default(); cut.count()];
         for (place, cell) in cells.iter().enumerate() {
             let [_, y, z] = geometry.indices(*cell);
-            let part = &mut parts[cut.part_of(geometry, [y, z])];
+            let part = &mut parts[cut.part_of([y, z])];
             part.cells.push(*cell);
             part.places.push(place);
         }
@@ -104,7 +97,7 @@ impl Host {
     }
 
     fn garbled(&self) -> EngineFailure {
-        self.state().fail("the parts answer what was not asked".to_owned())
+        self.crew().fail("the parts answer what was not asked".to_owned())
     }
 
     /// The size of a substate in a cell, in bytes.
@@ -159,7 +152,79 @@ impl Host {
             all.left += census.left;
             all.largest_occupancy = all.largest_occupancy.max(census.largest_occupancy);
         }
+        all.left += self.left[group];
         Ok(all)
+    }
+
+    /// The work of each row since the executions started.
+    fn work(&self) -> Result<RowWork, EngineFailure> {
+        let work = |reply| match reply {
+            Reply::Work { work } => Some((work.cells, work.items)),
+            _ => None,
+        };
+        let parts = self.ask(&Command::Work)?.into_iter().map(work).collect::<Option<_>>();
+        let (cells, items): (Vec<Vec<u64>>, Vec<Vec<u64>>) = parts.ok_or_else(|| self.garbled())?;
+        if cells.iter().any(Vec::is_empty) {
+            return Ok(RowWork::default());
+        }
+        let gather = |parts: &[Vec<u64>]| self.rows.gather(parts, Lengths::Same(1));
+        let work = gather(&cells).zip(gather(&items)).map(|(cells, items)| RowWork { cells, items });
+        work.ok_or_else(|| self.garbled())
+    }
+
+    /// Moves the bounds of parts if that pays.
+    fn balance(&mut self) -> Result<(), EngineFailure> {
+        if self.shared.cut.count() == 1 {
+            return Ok(());
+        }
+        let [width, height, depth] = self.shared.model.geometry().extents();
+        let items = self.items.iter().map(|items| *items as u64).sum();
+        let cost = Cost { cells: (width * height * depth) as u64, items };
+        let mut cut = self.balancer.expect(&self.shared.model, &self.shared.cut, cost);
+        if cut.is_none() && self.balancer.steps_left() == 0 {
+            let work = self.work()?;
+            cut = self.balancer.look(&self.shared.model, &self.shared.cut, &work, cost);
+        }
+        cut.map_or(Ok(()), |cut| self.move_bounds(cut))
+    }
+
+    /// Moves the bounds of parts: takes the whole state from the parts, lets them start anew, and gives it
+    /// back. An execution has no other memory, so nothing else changes.
+    fn move_bounds(&mut self, cut: Cut) -> Result<(), EngineFailure> {
+        let model = self.shared.model.clone();
+        let mut groups = Vec::with_capacity(model.groups().len());
+        for (group, definition) in model.groups().iter().enumerate() {
+            groups.push(if self.is_population(group) {
+                self.left[group] = self.census(group)?.left;
+                Moved::Items(self.population(group)?)
+            } else {
+                let fields = 0..definition.schema().fields.len();
+                let read = fields.map(|field| self.read(SubstateId { group, field }));
+                Moved::Cells(read.collect::<Result<_, _>>()?)
+            });
+        }
+        self.ask(&Command::Restart { cut: cut.clone() })?;
+        self.rows = Rows::new(model.geometry(), &cut);
+        self.shared.cut = cut;
+        self.balancer.moved();
+        for (group, moved) in groups.into_iter().enumerate() {
+            match moved {
+                Moved::Items(population) => self.scatter_items(group, &population)?,
+                Moved::Cells(fields) => {
+                    for (field, values) in fields.into_iter().enumerate() {
+                        self.write(SubstateId { group, field }, &values)?;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Gives each part its items of a population.
+    fn scatter_items(&self, group: usize, population: &Population) -> Result<(), EngineFailure> {
+        let parts = self.rows.scatter_items(population, &self.sizes(group));
+        let command = |population| Command::SetPopulation { group, population };
+        self.change(parts.into_iter().map(command).collect())
     }
 
     fn values(&self, replies: Vec<Reply>) -> Result<Vec<Vec<u8>>, EngineFailure> {
@@ -171,14 +236,18 @@ impl Host {
     }
 }
 
-/// Receives the greetings of the other parts. They start in the meantime.
-fn greet(shared: &Shared, link: &Link) -> Result<(), String> {
-    let own = Greeting::new(shared);
-    let count = link.lock().count();
-    (1..count).try_for_each(|part| {
-        let said = link.lock().receive(part, Tag::Reply).map_err(|error| error.to_string())?;
-        own.check(part, &said)
-    })
+/// The state of a group while the bounds of parts move.
+enum Moved {
+    /// The values of each field.
+    Cells(Vec<Vec<u8>>),
+    Items(Population),
+}
+
+/// The bounds of a part, for reports.
+fn bounds(number: usize, part: &Part) -> [(String, f64); 4] {
+    let all =
+        [("y_start", part.y.start), ("y_end", part.y.end), ("z_start", part.z.start), ("z_end", part.z.end)];
+    all.map(|(name, bound)| (format!("part_{number}_{name}"), bound as f64))
 }
 
 /// The cells of one part, out of a list.
@@ -190,64 +259,6 @@ struct CellsOfPart {
     places: Vec<usize>,
 }
 
-impl State {
-    /// Stops all parts. Parts that wait for this one get an error.
-    fn fail(&mut self, reason: String) -> EngineFailure {
-        self.link.lock().end();
-        self.failure.get_or_insert(broken(reason)).clone()
-    }
-
-    /// Sends each part its command, and returns the replies of all.
-    fn ask(&mut self, commands: Vec<Command>) -> Result<Vec<Reply>, EngineFailure> {
-        if let Some(failure) = &self.failure {
-            return Err(failure.clone());
-        }
-        let mut commands = commands.into_iter().enumerate();
-        let Some((_, own)) = commands.next() else { return Ok(Vec::new()) };
-        for (part, command) in commands {
-            let sent = encode(&command).and_then(|bytes| {
-                self.link.lock().send(part, Tag::Command, bytes).map_err(|error| error.to_string())
-            });
-            if let Err(reason) = sent {
-                return Err(self.fail(reason));
-            }
-        }
-        let own = self.own.perform(own);
-        self.replies(own)
-    }
-
-    /// Returns the replies of all parts, the own one first. If one part has failed, all stop.
-    fn replies(&mut self, own: Reply) -> Result<Vec<Reply>, EngineFailure> {
-        if matches!(own, Reply::Failed { .. }) {
-            // Other parts may be waiting for this one.
-            self.link.lock().end();
-        }
-        let count = self.link.lock().count();
-        let mut replies = vec![own];
-        let mut lost = None;
-        for part in 1..count {
-            let received: Result<Vec<u8>, TransportError> = self.link.lock().receive(part, Tag::Reply);
-            let reply = received.map_err(|error| error.to_string()).and_then(|bytes| decode(&bytes));
-            match reply {
-                Ok(reply) => replies.push(reply),
-                // A part that reports a reason takes precedence over a part that lost the connection.
-                Err(reason) => {
-                    lost.get_or_insert(reason);
-                    replies.push(Reply::Elsewhere { done: 0 });
-                }
-            }
-        }
-        let failed = replies.iter().enumerate().find_map(|(part, reply)| match reply {
-            Reply::Failed { reason } => Some(format!("part {part}: {reason}")),
-            _ => None,
-        });
-        match failed.or(lost) {
-            Some(reason) => Err(self.fail(reason)),
-            None => Ok(replies),
-        }
-    }
-}
-
 impl Execution for Host {
     fn run(&mut self, processes: Range<usize>, context: &StepContext<'_>) -> Result<(), Fault> {
         let command = Command::Run { processes, moment: Moment::new(context) };
@@ -255,7 +266,19 @@ impl Execution for Host {
     }
 
     fn run_steps(&mut self, steps: u64, context: &StepContext<'_>) -> Result<(), Interruption> {
-        self.run_all(&Command::RunSteps { steps, moment: Moment::new(context) })
+        let mut done = 0;
+        while done < steps {
+            let stopped = |failure| Interruption { done, fault: Fault::Engine(failure) };
+            self.balance().map_err(stopped)?;
+            // The work is looked at between batches of steps.
+            let batch = self.balancer.steps_left().clamp(1, steps - done);
+            let moment = Moment::new(&StepContext { step: context.step + done, ..*context });
+            self.run_all(&Command::RunSteps { steps: batch, moment })
+                .map_err(|stopped| Interruption { done: done + stopped.done, ..stopped })?;
+            self.balancer.stepped(batch);
+            done += batch;
+        }
+        Ok(())
     }
 
     fn read(&self, substate: SubstateId) -> Result<Vec<u8>, EngineFailure> {
@@ -280,7 +303,7 @@ impl Execution for Host {
         check_cells(&self.shared.model, substate, cells)?;
         let parts = self.cells_of_parts(cells);
         let command = |part: &CellsOfPart| Command::ReadCells { substate, cells: part.cells.clone() };
-        let replies = self.state().ask(parts.iter().map(command).collect())?;
+        let replies = self.crew().ask(parts.iter().map(command).collect())?;
         let size = self.size(substate);
         let mut all = vec![0; cells.len() * size];
         for (part, values) in parts.iter().zip(self.values(replies)?) {
@@ -325,9 +348,9 @@ impl Execution for Host {
 
     fn set_population(&mut self, group: usize, population: &Population) -> Result<(), Fault> {
         check_population(&self.shared.model, self.shared.precision, group, population)?;
-        let parts = self.rows.scatter_items(population, &self.sizes(group));
-        let command = |population| Command::SetPopulation { group, population };
-        Ok(self.change(parts.into_iter().map(command).collect())?)
+        self.items[group] = population.labels.len();
+        self.balancer.set(group, &self.rows.items(&population.counts));
+        Ok(self.scatter_items(group, population)?)
     }
 
     fn items(&self, group: usize) -> usize {
@@ -369,13 +392,19 @@ impl Execution for Host {
             }
             _ => Vec::new(),
         };
-        replies.into_iter().enumerate().flat_map(of_part).collect()
+        let mut figures: Vec<Figure> = replies.into_iter().enumerate().flat_map(of_part).collect();
+        let figure = |(name, value)| Figure { name, value };
+        let (geometry, cut) = (self.shared.model.geometry(), &self.shared.cut);
+        figures.extend((0..cut.count()).flat_map(|part| bounds(part, &cut.part(part))).map(figure));
+        let work = self.work().unwrap_or_default();
+        figures.extend(self.balancer.figures(geometry, cut, &work).into_iter().map(figure));
+        figures
     }
 }
 
 impl Drop for Host {
     fn drop(&mut self) {
-        self.state().link.lock().end();
+        self.crew().end();
         for thread in self.threads.drain(..) {
             // A part that panicked has reported this by its end.
             let _ = thread.join();

@@ -2,16 +2,20 @@
 //!
 //! The parts run on engines that support parts of a space ([`Engine::start_part`]). Before a process reads
 //! neighbours, parts exchange the edges of their rows. The state after each step has the same bits as on one
-//! engine, for every cut.
+//! engine, for every cut. The bounds of parts follow the work ([`Balance`]).
 //!
 //! [`Parts`] is an engine whose parts are threads of this process. A [`Transport`] carries their messages.
 //! [`serve`] and [`host`] work with any other transport in the same way.
 
+mod balance;
 mod border;
+mod bounds;
 mod channels;
+mod crew;
 mod cut;
 mod fault;
 mod greeting;
+mod grid;
 mod host;
 mod message;
 mod rows;
@@ -20,8 +24,9 @@ mod traffic;
 mod transport;
 mod worker;
 
+pub use balance::Balance;
 pub use channels::Channels;
-pub use cut::Cut;
+pub use grid::{Grid, GridError};
 pub use transport::{Tag, Transport, TransportError};
 
 use border::NAME;
@@ -40,6 +45,7 @@ pub struct Parts {
     /// The engines that run the parts, in turns.
     engines: Vec<Arc<dyn Engine>>,
     number: Number,
+    balance: Balance,
 }
 
 /// The number of parts.
@@ -47,30 +53,51 @@ pub struct Parts {
 enum Number {
     Exactly(usize),
     AtMost(usize),
-    Cut(Cut),
+    Grid(Grid),
 }
 
 impl Parts {
     /// `parts` parts on one engine, which share its threads. Starting a model fails if its space is too small
     /// for them.
     pub fn new(engine: impl Engine + 'static, parts: NonZeroUsize) -> Self {
-        Self { engines: vec![Arc::new(engine)], number: Number::Exactly(parts.get()) }
+        Self::on(vec![Arc::new(engine)], Number::Exactly(parts.get()))
     }
 
     /// One part for each engine. There must be at least one engine.
     pub fn with_engines(engines: Vec<Arc<dyn Engine>>) -> Self {
         let number = Number::Exactly(engines.len());
-        Self { engines, number }
+        Self::on(engines, number)
     }
 
     /// Like [`Self::new`], but with fewer parts if the space is too small.
     pub fn at_most(engine: impl Engine + 'static, parts: NonZeroUsize) -> Self {
-        Self { engines: vec![Arc::new(engine)], number: Number::AtMost(parts.get()) }
+        Self::on(vec![Arc::new(engine)], Number::AtMost(parts.get()))
     }
 
-    /// Like [`Self::new`], with parts along y and z.
-    pub fn with_cut(engine: impl Engine + 'static, cut: Cut) -> Self {
-        Self { engines: vec![Arc::new(engine)], number: Number::Cut(cut) }
+    /// Like [`Self::new`], with these numbers of parts along y and z.
+    pub fn with_grid(engine: impl Engine + 'static, grid: Grid) -> Self {
+        Self::on(vec![Arc::new(engine)], Number::Grid(grid))
+    }
+
+    /// The same engines, which run the parts of a grid in turns.
+    pub fn in_grid(self, grid: Grid) -> Self {
+        Self { number: Number::Grid(grid), ..self }
+    }
+
+    /// When the bounds of parts follow the work. The results are the same for each balance.
+    ///
+    /// ```
+    /// use std::num::NonZeroUsize;
+    /// use xca_parts::{Balance, Parts};
+    ///
+    /// let parts = Parts::new(xca_core::Reference, NonZeroUsize::MIN).with_balance(Balance::NEVER);
+    /// ```
+    pub fn with_balance(self, balance: Balance) -> Self {
+        Self { balance, ..self }
+    }
+
+    fn on(engines: Vec<Arc<dyn Engine>>, number: Number) -> Self {
+        Self { engines, number, balance: Balance::default() }
     }
 
     /// The engine of the part with this number.
@@ -79,22 +106,15 @@ impl Parts {
         engine.cloned().ok_or_else(|| other("there is no engine to run a part"))
     }
 
-    /// The cut of a model's space.
-    fn cut(&self, geometry: &Geometry) -> Result<Cut, StartError> {
+    /// The numbers of parts of a model's space.
+    fn grid(&self, geometry: &Geometry) -> Result<Grid, StartError> {
         match self.number {
-            Number::Exactly(parts) => Cut::into_parts(geometry, parts, NAME),
+            Number::Exactly(parts) => Grid::into_parts(geometry, parts, NAME),
             Number::AtMost(parts) => {
-                let cut = (1..=parts).rev().find_map(|parts| Cut::even(geometry, parts));
-                Ok(cut.unwrap_or(Cut { y: 1, z: 1 }))
+                let grid = (1..=parts).rev().find_map(|parts| Grid::with_parts(geometry, parts));
+                Ok(grid.unwrap_or(Grid::WHOLE))
             }
-            Number::Cut(cut) => {
-                if cut.count() == 0 {
-                    let reason = "a cut has at least one part along y and one along z".to_owned();
-                    return Err(StartError::NoParts { engine: NAME.to_owned(), reason });
-                }
-                (0..cut.count()).try_for_each(|number| cut.part(geometry, number).check(geometry))?;
-                Ok(cut)
-            }
+            Number::Grid(grid) => grid.check(geometry, NAME).map(|()| grid),
         }
     }
 }
@@ -112,7 +132,7 @@ impl Engine for Parts {
         let parts = match self.number {
             Number::Exactly(parts) => parts.to_string(),
             Number::AtMost(parts) => format!("at most {parts}"),
-            Number::Cut(Cut { y, z }) => format!("{y}x{z}"),
+            Number::Grid(grid) => grid.to_string(),
         };
         let mut facts = vec![("parts", parts)];
         if let Some(engine) = self.engines.first() {
@@ -131,18 +151,17 @@ impl Engine for Parts {
     }
 
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {
-        let cut = self.cut(model.geometry())?;
-        let shared = Shared { model: model.clone(), precision, cut };
-        let mut ends = Channels::connect(cut.count()).into_iter();
+        let shared = Shared::even(model, precision, self.grid(model.geometry())?);
+        let mut ends = Channels::connect(shared.cut.count()).into_iter();
         let own = ends.next().ok_or_else(|| other("there is no part"))?;
         let mut threads = Vec::new();
         for end in ends {
             let (engine, shared) = (self.engine(end.number())?, shared.clone());
             let builder = Builder::new().name(format!("xca-part-{}", end.number()));
-            let work = move || worker::serve(&*engine, &shared, Box::new(end));
+            let work = move || worker::serve(engine, &shared, Box::new(end));
             threads.push(builder.spawn(work).map_err(|error| other(&error.to_string()))?);
         }
-        Ok(Box::new(Host::start(&*self.engine(0)?, shared, Box::new(own), threads)?))
+        Ok(Box::new(Host::start(self.engine(0)?, shared, self.balance, Box::new(own), threads)?))
     }
 }
 
@@ -151,19 +170,21 @@ fn other(reason: &str) -> StartError {
 }
 
 /// Starts a model in parts, and returns its state. This engine runs part 0. Every other part must [`serve`]
-/// the same model, precision and cut at the other end of the transport.
+/// the same model, precision and grid at the other end of the transport. The host alone has a balance.
 ///
 /// # Errors
 /// If a part cannot be started.
 pub fn host(
-    engine: &dyn Engine,
+    engine: Arc<dyn Engine>,
     model: &Model,
     precision: Precision,
-    cut: Cut,
+    grid: Grid,
+    balance: Balance,
     transport: Box<dyn Transport>,
 ) -> Result<Box<dyn Execution>, StartError> {
-    let shared = Shared { model: model.clone(), precision, cut };
-    Ok(Box::new(Host::start(engine, shared, transport, Vec::new())?))
+    grid.check(model.geometry(), NAME)?;
+    let shared = Shared::even(model, precision, grid);
+    Ok(Box::new(Host::start(engine, shared, balance, transport, Vec::new())?))
 }
 
 /// Reports to the [`host`] why the part with the transport's number cannot begin.
@@ -176,11 +197,14 @@ pub fn decline(reason: &str, mut transport: Box<dyn Transport>) {
 /// Runs the part with the transport's number on an engine, by the commands of the [`host`], until the host
 /// ends. Reports failures to the host.
 pub fn serve(
-    engine: &dyn Engine,
+    engine: Arc<dyn Engine>,
     model: &Model,
     precision: Precision,
-    cut: Cut,
+    grid: Grid,
     transport: Box<dyn Transport>,
 ) {
-    worker::serve(engine, &Shared { model: model.clone(), precision, cut }, transport);
+    match grid.check(model.geometry(), NAME) {
+        Ok(()) => worker::serve(engine, &Shared::even(model, precision, grid), transport),
+        Err(error) => decline(&error.to_string(), transport),
+    }
 }

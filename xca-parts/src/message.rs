@@ -1,10 +1,11 @@
 //! Commands of the host, and replies of the parts.
 
+use crate::cut::Cut;
 use crate::fault::FaultMessage;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
-use xca_core::engine::{Population, StepContext, SubstateId};
+use xca_core::engine::{Population, RowWork, StepContext, SubstateId};
 use xca_core::reduction::{ReducedRows, Reduction};
 
 /// A command. All parts get the same commands, with the data of their own cells.
@@ -53,6 +54,12 @@ pub(crate) enum Command {
     },
     Census {
         group: usize,
+    },
+    /// Requests the work of each row since the start.
+    Work,
+    /// Drops the state, and starts a new one with other bounds.
+    Restart {
+        cut: Cut,
     },
     Memory,
     Figures,
@@ -105,6 +112,9 @@ pub(crate) enum Reply {
     },
     Census {
         census: Census,
+    },
+    Work {
+        work: RowWork,
     },
     Memory {
         bytes: usize,

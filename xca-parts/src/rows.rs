@@ -30,9 +30,9 @@ impl Lengths<'_> {
 }
 
 impl Rows {
-    pub(crate) fn new(geometry: &Geometry, cut: Cut) -> Self {
+    pub(crate) fn new(geometry: &Geometry, cut: &Cut) -> Self {
         let [width, height, depth] = geometry.extents();
-        let owner = |row: usize| cut.part_of(geometry, [row % height, row / height]);
+        let owner = |row: usize| cut.part_of([row % height, row / height]);
         Self { owners: (0..height * depth).map(owner).collect(), parts: cut.count(), width }
     }
 

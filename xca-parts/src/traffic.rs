@@ -33,6 +33,11 @@ impl Traffic {
         self.count(|counts| counts.agreements += 1);
     }
 
+    /// The number of agreements so far.
+    pub(crate) fn agreements(&self) -> u64 {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).agreements
+    }
+
     /// Waits for other parts, and adds the time.
     pub(crate) fn timed<T>(&self, wait: impl FnOnce() -> T) -> T {
         let start = Instant::now();

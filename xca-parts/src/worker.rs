@@ -1,6 +1,7 @@
 //! A part of the space, which carries out the commands of the host.
 
-use crate::border::{Link, PartBorder};
+use crate::border::{Link, PartBorder, broken};
+use crate::cut::Cut;
 use crate::fault::FaultMessage;
 use crate::greeting::Greeting;
 use crate::message::{Census, Command, Moment, Reply, decode, encode};
@@ -9,6 +10,7 @@ use crate::traffic::Traffic;
 use crate::transport::{Tag, Transport, TransportError};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 use xca_core::engine::{EngineFailure, Execution, Fault, StepContext};
 use xca_core::{Engine, Model, ParameterSet, Precision, StartError};
 
@@ -17,23 +19,42 @@ pub(crate) struct Worker {
     model: Model,
     precision: Precision,
     parameters: ParameterSet,
-    execution: Box<dyn Execution>,
+    engine: Arc<dyn Engine>,
+    link: Link,
+    /// `None` after a start that has failed.
+    execution: Option<Box<dyn Execution>>,
     traffic: Traffic,
 }
 
 impl Worker {
-    pub(crate) fn start(engine: &dyn Engine, shared: &Shared, link: Link) -> Result<Self, StartError> {
+    pub(crate) fn start(engine: Arc<dyn Engine>, shared: &Shared, link: Link) -> Result<Self, StartError> {
         let Shared { model, precision, cut } = shared.clone();
-        let number = link.lock().number();
-        let part = cut.part(model.geometry(), number);
-        let traffic = Traffic::default();
-        let border = PartBorder::new(link, model.geometry(), cut, traffic.clone());
-        let start = || engine.start_part(&model, precision, &part, Box::new(border));
+        let (parameters, traffic) = (model.parameters().clone(), Traffic::default());
+        let mut worker = Self { model, precision, parameters, engine, link, execution: None, traffic };
+        worker.restart(&cut)?;
+        Ok(worker)
+    }
+
+    /// Starts the part of this worker in a cut. The state begins anew.
+    fn restart(&mut self, cut: &Cut) -> Result<(), StartError> {
+        // There may not be memory for both states.
+        self.execution = None;
+        let part = cut.part(self.link.lock().number());
+        let border = PartBorder::new(self.link.clone(), self.model.geometry(), cut, self.traffic.clone());
+        let start = || self.engine.start_part(&self.model, self.precision, &part, Box::new(border));
         let execution = catch_unwind(AssertUnwindSafe(start)).unwrap_or_else(|panic| {
-            Err(StartError::Other { engine: engine.name().to_owned(), reason: text(&*panic) })
+            Err(StartError::Other { engine: self.engine.name().to_owned(), reason: text(&*panic) })
         })?;
-        let parameters = model.parameters().clone();
-        Ok(Self { model, precision, parameters, execution, traffic })
+        self.execution = Some(execution);
+        Ok(())
+    }
+
+    fn execution(&self) -> Result<&dyn Execution, EngineFailure> {
+        self.execution.as_deref().ok_or_else(no_state)
+    }
+
+    fn execution_mut(&mut self) -> Result<&mut (dyn Execution + 'static), EngineFailure> {
+        self.execution.as_deref_mut().ok_or_else(no_state)
     }
 
     /// Carries out a command. A panic becomes a failure.
@@ -50,49 +71,55 @@ impl Worker {
     fn answer(&mut self, command: Command) -> Result<Reply, EngineFailure> {
         Ok(match command {
             Command::Run { processes, moment } => {
-                let result = self.run(&moment, |execution, context| execution.run(processes, context));
+                let result = self.run(&moment, |execution, context| execution.run(processes, context))?;
                 self.ended(result.map_err(|fault| (0, fault)))
             }
             Command::RunSteps { steps, moment } => {
-                let result = self.run(&moment, |execution, context| execution.run_steps(steps, context));
+                let result = self.run(&moment, |execution, context| execution.run_steps(steps, context))?;
                 self.ended(result.map_err(|interruption| (interruption.done, interruption.fault)))
             }
-            Command::Read { substate } => Reply::Values { values: self.execution.read(substate)? },
+            Command::Read { substate } => Reply::Values { values: self.execution()?.read(substate)? },
             Command::Write { substate, values } => {
-                self.execution.write(substate, &values)?;
+                self.execution_mut()?.write(substate, &values)?;
                 Reply::Done
             }
             Command::ReadCells { substate, cells } => {
-                Reply::Values { values: self.execution.read_cells(substate, &cells)? }
+                Reply::Values { values: self.execution()?.read_cells(substate, &cells)? }
             }
             Command::WriteCells { substate, cells, values } => {
-                self.execution.write_cells(substate, &cells, &values)?;
+                self.execution_mut()?.write_cells(substate, &cells, &values)?;
                 Reply::Done
             }
             Command::ReduceRows { substate, reduction } => {
-                Reply::Rows { rows: self.execution.reduce_rows(substate, &reduction)? }
+                Reply::Rows { rows: self.execution()?.reduce_rows(substate, &reduction)? }
             }
             Command::Population { group } => {
-                Reply::Population { population: self.execution.population(group)? }
+                Reply::Population { population: self.execution()?.population(group)? }
             }
             Command::SetPopulation { group, population } => {
-                let result = self.execution.set_population(group, &population);
+                let result = self.execution_mut()?.set_population(group, &population);
                 self.ended(result.map_err(|fault| (0, fault)))
             }
             Command::ItemsOfRows { group } => {
-                let counts = self.execution.population(group)?.counts;
+                let counts = self.execution()?.population(group)?.counts;
                 let rows = counts.chunks_exact(self.model.geometry().extents()[0]);
                 let items = |counts: &[u32]| counts.iter().map(|count| *count as usize).sum();
                 Reply::ItemsOfRows { items: rows.map(items).collect() }
             }
             Command::Census { group } => {
-                let (items, left) = (self.execution.items(group), self.execution.left(group));
-                let largest_occupancy = self.execution.largest_occupancy(group)?;
+                let execution = self.execution()?;
+                let (items, left) = (execution.items(group), execution.left(group));
+                let largest_occupancy = execution.largest_occupancy(group)?;
                 Reply::Census { census: Census { items, left, largest_occupancy } }
             }
-            Command::Memory => Reply::Memory { bytes: self.execution.memory() },
+            Command::Work => Reply::Work { work: self.execution()?.work() },
+            Command::Restart { cut } => match self.restart(&cut) {
+                Ok(()) => Reply::Done,
+                Err(error) => Reply::Failed { reason: error.to_string() },
+            },
+            Command::Memory => Reply::Memory { bytes: self.execution()?.memory() },
             Command::Figures => {
-                let figures = self.execution.figures().into_iter();
+                let figures = self.execution()?.figures().into_iter();
                 let figures = figures.map(|figure| (figure.name, figure.value));
                 Reply::Figures { figures: figures.chain(self.traffic.figures()).collect() }
             }
@@ -100,7 +127,11 @@ impl Worker {
     }
 
     /// Runs processes with the parameters of the host.
-    fn run<T>(&mut self, moment: &Moment, work: impl FnOnce(&mut dyn Execution, &StepContext<'_>) -> T) -> T {
+    fn run<T>(
+        &mut self,
+        moment: &Moment,
+        work: impl FnOnce(&mut dyn Execution, &StepContext<'_>) -> T,
+    ) -> Result<T, EngineFailure> {
         self.parameters.set_bits(&moment.parameters);
         let views = self.parameters.kernel_views(self.precision);
         let context = StepContext {
@@ -109,7 +140,8 @@ impl Worker {
             parameters: &views,
             values: &self.parameters,
         };
-        work(&mut *self.execution, &context)
+        let execution = self.execution.as_deref_mut().ok_or_else(no_state)?;
+        Ok(work(execution, &context))
     }
 
     fn ended(&self, result: Result<(), (u64, Fault)>) -> Reply {
@@ -122,6 +154,10 @@ impl Worker {
     }
 }
 
+fn no_state() -> EngineFailure {
+    broken("the part could not start again".to_owned())
+}
+
 /// The message of a panic.
 fn text(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
@@ -131,7 +167,7 @@ fn text(panic: &(dyn Any + Send)) -> String {
 
 /// Runs the part with the transport's number on an engine, by the commands of the host. Ends after the host
 /// or after a failure.
-pub(crate) fn serve(engine: &dyn Engine, shared: &Shared, transport: Box<dyn Transport>) {
+pub(crate) fn serve(engine: Arc<dyn Engine>, shared: &Shared, transport: Box<dyn Transport>) {
     let link = Link::new(transport);
     let answer = |reply: &Reply| {
         let bytes = encode(reply).or_else(|reason| encode(&Reply::Failed { reason })).unwrap_or_default();

@@ -11,6 +11,7 @@ const TURNS: [(&str, &str); 3] =
 fn cells() {
     compare_on(&TURNS, LIFE, "--steps 30 --every 8", 11);
     compare_on(&TURNS[..2], LANDSLIDE, "--steps 30 --every 8", 11);
+    compare_on(&[("parts:2x1:cpu:1", "parts:4x1:cpu")], LANDSLIDE, "--steps 80 --every 40", 30);
     compare_on(&TURNS[1..], HEAT, "--size 12 --steps 30 --every 7 --precision f32", 9);
 }
 
@@ -37,6 +38,11 @@ fn what_parts_cannot_do_is_refused() {
         ("watch --engine parts:2:cpu", "`watch` does not run on the parts engine"),
         ("run --engine parts", "engine `parts`: write parts:N:cpu[:THREADS]"),
         ("run --engine parts:2", "say what runs each part: parts:2:cpu"),
+        (
+            "run --engine parts:2x:cpu",
+            "`2x` is not a grid of parts; write two whole numbers from 1, such as 2x3",
+        ),
+        ("run --engine parts:1x2:cpu:1", "cannot be cut into 1 parts along y and 2 along z"),
         ("run --engine parts:2:gpu", "a part runs on the cpu engine, not on `gpu`"),
         ("run --engine parts:2:cpu --threads 3", "--threads is for --engine cpu, not for the parts engine"),
         ("run --engine cpu:2 --threads 3", "--threads is given twice"),

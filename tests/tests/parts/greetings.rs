@@ -5,14 +5,14 @@ use std::sync::Arc;
 use std::thread;
 use xca_core::engine::StartError;
 use xca_core::prelude::*;
-use xca_parts::{Channels, Cut, Tag, Transport, TransportError, decline, host, serve};
+use xca_parts::{Balance, Channels, Grid, Tag, Transport, TransportError, decline, host, serve};
 
 /// What a part is of.
 #[derive(Clone)]
 struct Side {
     model: Model,
     precision: Precision,
-    cut: Cut,
+    grid: Grid,
 }
 
 /// What the host says of three parts, the last of which is of something else.
@@ -24,11 +24,11 @@ fn said(own: &Side, other: &Side) -> Result<String, Box<dyn std::error::Error>> 
     for side in sides {
         let (end, engine) = (ends.pop().ok_or("no end")?, Arc::clone(&engine));
         threads.push(thread::spawn(move || {
-            serve(&*engine, &side.model, side.precision, side.cut, Box::new(end));
+            serve(engine, &side.model, side.precision, side.grid, Box::new(end));
         }));
     }
     let end = ends.pop().ok_or("no end")?;
-    let started = host(&*engine, &own.model, own.precision, own.cut, Box::new(end));
+    let started = host(engine, &own.model, own.precision, own.grid, Balance::default(), Box::new(end));
     let said = started.map_or_else(|error: StartError| error.to_string(), |_| "it has started".to_owned());
     threads.into_iter().try_for_each(thread::JoinHandle::join).map_err(|_| "a part has panicked")?;
     Ok(said)
@@ -61,7 +61,7 @@ fn small(rain: f64, width: usize, is_cool: bool) -> Result<Model, ModelError> {
 
 #[test]
 fn parts_of_other_models_refuse_to_start() -> TestResult {
-    let side = |model: Model| Side { model, precision: Precision::F64, cut: Cut { y: 3, z: 1 } };
+    let side = |model: Model| Side { model, precision: Precision::F64, grid: Grid { y: 3, z: 1 } };
     let own = side(small(0.5, 5, false)?);
     assert_eq!(said(&own, &own)?, "it has started");
     let wood = wood([5, 6, 1], Neighbourhood::moore_2d(1), Faces::all(Boundary::Flat), false)?;
@@ -74,7 +74,7 @@ fn parts_of_other_models_refuse_to_start() -> TestResult {
             Side { precision: Precision::F32, ..own.clone() },
             "part 2 differs in its precision: f32 in place of f64 of part 0",
         ),
-        (Side { cut: Cut { y: 4, z: 1 }, ..own.clone() }, "its cut: 4 x 1 parts in place of 3 x 1 parts"),
+        (Side { grid: Grid { y: 4, z: 1 }, ..own.clone() }, "its cut: 4 x 1 parts in place of 3 x 1 parts"),
     ] {
         let said = said(&own, &other)?;
         assert!(said.contains(wanted), "{said}");
@@ -91,10 +91,11 @@ fn parts_that_do_not_begin_are_told() -> TestResult {
         let (Some(other), Some(own)) = (ends.pop(), ends.pop()) else { return String::new() };
         thread::scope(|scope| {
             let other = scope.spawn(|| begin(other));
-            let cut = Cut { y: 2, z: 1 };
+            let grid = Grid { y: 2, z: 1 };
             let engine = cpu(1, 0).map_err(|error| error.to_string());
             let started = engine.and_then(|engine| {
-                host(&engine, &model, Precision::F64, cut, Box::new(own)).map_err(|error| error.to_string())
+                host(Arc::new(engine), &model, Precision::F64, grid, Balance::default(), Box::new(own))
+                    .map_err(|error| error.to_string())
             });
             let ended = other.join();
             assert!(matches!(ended, Ok(Ok(()))));

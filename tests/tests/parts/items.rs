@@ -5,26 +5,27 @@ use crate::models::number;
 use crate::{TestResult, cpu};
 use std::error::Error;
 use xca_core::Snapshot;
+use xca_core::engine::Figure;
 use xca_core::prelude::*;
-use xca_parts::{Cut, Parts};
+use xca_parts::{Grid, Parts};
 
 #[derive(Substates, Clone, Copy, Debug, PartialEq)]
-struct Walker {
+pub(crate) struct Walker {
     #[position]
-    position: Vector3<Real>,
-    velocity: Vector3<Real>,
-    met: u32,
-    heard: [Real; 2],
+    pub(crate) position: Vector3<Real>,
+    pub(crate) velocity: Vector3<Real>,
+    pub(crate) met: u32,
+    pub(crate) heard: [Real; 2],
 }
 
 #[derive(Substates, Clone, Copy, Debug, PartialEq)]
-struct Ground {
+pub(crate) struct Ground {
     worn: u32,
 }
 
 /// Sees others, and what they have heard, which goes to a second buffer.
 #[elementary_process]
-fn meet(me: &mut Slot<Walker>, space: &Space) {
+pub(crate) fn meet(me: &mut Slot<Walker>, space: &Space) {
     for other in me.others_within(0.75 * space.side()) {
         me.met = 31 * (me.met % 100_000) + other.label();
         me.heard[0] += 0.25 * other.heard[1] + other.velocity.x;
@@ -33,17 +34,17 @@ fn meet(me: &mut Slot<Walker>, space: &Space) {
 }
 
 #[elementary_process]
-fn walk(me: &mut Slot<Walker>, space: &Space) {
+pub(crate) fn walk(me: &mut Slot<Walker>, space: &Space) {
     me.position = space.wrapped(me.position + me.velocity);
 }
 
 #[migration]
-fn settle(me: &Slot<Walker>, space: &Space) -> Destination {
+pub(crate) fn settle(me: &Slot<Walker>, space: &Space) -> Destination {
     space.cell_containing(me.position)
 }
 
 #[elementary_process]
-fn wear(ground: &mut Cell<Ground>, walkers: &Slots<Walker>) {
+pub(crate) fn wear(ground: &mut Cell<Ground>, walkers: &Slots<Walker>) {
     for walker in walkers {
         ground.worn += 1 + walker.label() % 3;
     }
@@ -60,7 +61,7 @@ fn walkers(
 }
 
 /// The same, before they have a process.
-fn crowd(extents: [usize; 3], boundary: Boundary, slots: usize, count: u32) -> ModelBuilder {
+pub(crate) fn crowd(extents: [usize; 3], boundary: Boundary, slots: usize, count: u32) -> ModelBuilder {
     let item = move |label: u32| {
         let cell = [0, 1, 2].map(|axis| number([axis, 3, 3], label, extents[axis] as u32));
         let [x, y, z] = cell.map(|index| f64::from(index) + 0.5);
@@ -84,14 +85,14 @@ fn crowd(extents: [usize; 3], boundary: Boundary, slots: usize, count: u32) -> M
         .initialise(move |state| Ok(state.set_items((0..count).map(item).collect::<Vec<_>>())?))
 }
 
-const STEPS: u64 = 12;
+pub(crate) const STEPS: u64 = 12;
 
 /// Parts do these steps without asking each other.
 const LEAP: u64 = 9;
 
 /// What a simulation looks like after a step.
 #[derive(Debug, PartialEq)]
-struct Seen {
+pub(crate) struct Seen {
     snapshot: Snapshot,
     /// Sums of floats depend on their order.
     heard: u64,
@@ -100,6 +101,14 @@ struct Seen {
 
 /// What is seen after each step, some of which are done twice, and after a last leap.
 fn run(model: &Model, engine: &dyn Engine) -> Result<Vec<Seen>, Box<dyn Error>> {
+    Ok(run_and_report(model, engine)?.0)
+}
+
+/// The same, with the figures of the engine.
+pub(crate) fn run_and_report(
+    model: &Model,
+    engine: &dyn Engine,
+) -> Result<(Vec<Seen>, Vec<Figure>), Box<dyn Error>> {
     let options = RunOptions { precision: Precision::F64, seed: 3 };
     let mut simulation = Simulation::new(model, engine, options)?;
     let mut seen: Vec<Seen> = Vec::new();
@@ -114,7 +123,7 @@ fn run(model: &Model, engine: &dyn Engine) -> Result<Vec<Seen>, Box<dyn Error>> 
         let largest_occupancy = state.largest_occupancy::<Walker>()?;
         seen.push(Seen { snapshot, heard, largest_occupancy });
     }
-    Ok(seen)
+    Ok((seen, simulation.figures()))
 }
 
 #[test]
@@ -126,12 +135,12 @@ fn items_cross_all_borders() -> TestResult {
             let model = walkers(extents, boundary, 60, 80)?;
             let wanted = run(&model, &Reference)?;
             for (turn, [y, z]) in cuts.iter().enumerate() {
-                let cut = Cut { y: *y, z: *z };
-                let parts = Parts::with_cut(cpu(1 + turn % 3, turn)?, cut);
-                assert!(run(&model, &parts)? == wanted, "{extents:?} {boundary} {cut:?}");
+                let grid = Grid { y: *y, z: *z };
+                let parts = Parts::with_grid(cpu(1 + turn % 3, turn)?, grid);
+                assert!(run(&model, &parts)? == wanted, "{extents:?} {boundary} {grid}");
             }
             let late = Behind { engine: cpu(2, 3)?, manner: Manner::Late };
-            let parts = Parts::with_cut(late, Cut { y: 3, z: extents[2].min(2) });
+            let parts = Parts::with_grid(late, Grid { y: 3, z: extents[2].min(2) });
             assert!(run(&model, &parts)? == wanted, "{extents:?} {boundary}, late");
         }
     }
@@ -146,7 +155,7 @@ fn walkers_are_found_outside_their_cells() -> TestResult {
             let model = crowd(extents, boundary, 60, 80).process((walk, meet, settle, wear)).build()?;
             let wanted = run(&model, &Reference)?;
             for [y, z] in cuts.clone() {
-                let parts = Parts::with_cut(cpu(1, 0)?, Cut { y, z });
+                let parts = Parts::with_grid(cpu(1, 0)?, Grid { y, z });
                 assert!(run(&model, &parts)? == wanted, "{extents:?} {boundary} {y} {z}");
             }
         }
@@ -160,7 +169,7 @@ fn a_part_that_cannot_go_on_ends_all() -> TestResult {
     let model = walkers([4, 8, 1], Boundary::Toroidal, 60, 40)?;
     for uses in 1..24 {
         let engine = Behind { engine: cpu(1, 1)?, manner: Manner::Fails { y: 2, uses } };
-        let parts = Parts::with_cut(engine, Cut { y: 4, z: 1 });
+        let parts = Parts::with_grid(engine, Grid { y: 4, z: 1 });
         let mut simulation = Simulation::new(&model, &parts, RunOptions::default())?;
         let error = simulation.run(100).expect_err("a part cannot go on").to_string();
         assert!(error.contains("part 1: ") && error.contains("as planned"), "{error}");
@@ -222,7 +231,7 @@ fn the_first_fault_of_a_migration() -> TestResult {
         };
         let wanted = outcome(&Reference)?;
         for y in [1, 2, 4, 8] {
-            let parts = Parts::with_cut(cpu(1, 1)?, Cut { y, z: 1 });
+            let parts = Parts::with_grid(cpu(1, 1)?, Grid { y, z: 1 });
             assert_eq!(outcome(&parts)?, wanted, "{items:?} in {y} parts");
         }
     }

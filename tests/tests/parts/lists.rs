@@ -7,7 +7,7 @@ use std::error::Error;
 use xca_core::Snapshot;
 use xca_core::prelude::*;
 use xca_cpu::Cpu;
-use xca_parts::{Cut, Parts};
+use xca_parts::{Grid, Parts};
 
 #[derive(Substates, Clone, Copy, Debug, PartialEq)]
 struct Grain {
@@ -124,7 +124,7 @@ fn lists_of_parts_do_not_change_a_bit() -> TestResult {
             for (threads, [y, z]) in [1, 2, 1, 2].into_iter().zip([[2, 1], [1, 2], [2, 2], [4, 3]]) {
                 for skin in [1e-3, 0.3, 1e9] {
                     let engine = Cpu::with_threads(threads)?.with_skin(skin);
-                    let (got, listed) = run(&model, &Parts::with_cut(engine, Cut { y, z }), precision)?;
+                    let (got, listed) = run(&model, &Parts::with_grid(engine, Grid { y, z }), precision)?;
                     let step = wanted.iter().zip(&got).position(|(wanted, got)| wanted != got);
                     let case = format!("{name}, {boundary}, {y} x {z} parts, skin {skin}");
                     assert_eq!(step, None, "{case}");
@@ -147,7 +147,7 @@ fn what_has_gone_to_another_part_is_in_no_list() -> TestResult {
     ];
     let model = grains(Boundary::Flat, items)?;
     let engine = Cpu::with_threads(1)?.with_skin(1e9);
-    let parts = Parts::with_cut(engine, Cut { y: 2, z: 1 });
+    let parts = Parts::with_grid(engine, Grid { y: 2, z: 1 });
     let (got, listed) = run(&model, &parts, Precision::F64)?;
     assert!(got == run(&model, &Reference, Precision::F64)?.0);
     assert!(listed >= (STEPS as f64) / 2.0, "{listed} passes");

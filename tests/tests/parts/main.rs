@@ -2,10 +2,12 @@
 
 mod borders;
 mod faults;
+mod flows;
 mod greetings;
 mod items;
 mod lists;
 mod models;
+mod moves;
 mod traffic;
 
 use borders::{Behind, Manner};
@@ -16,7 +18,7 @@ use xca_core::engine::{EngineFailure, InputError, Part, StartError, SubstateId};
 use xca_core::prelude::*;
 use xca_core::{Fault, NeighbourhoodError, Snapshot};
 use xca_cpu::Cpu;
-use xca_parts::{Cut, Parts};
+use xca_parts::{Grid, Parts};
 
 type TestResult = Result<(), Box<dyn Error>>;
 
@@ -117,7 +119,7 @@ fn same_bits_in_any_parts() -> TestResult {
                 let wanted = run(&model, &Reference)?;
                 for (turn, [y, z]) in cuts.iter().enumerate() {
                     let (threads, tiles) = MANNERS[(number + other + turn) % MANNERS.len()];
-                    let parts = Parts::with_cut(cpu(threads, tiles)?, Cut { y: *y, z: *z });
+                    let parts = Parts::with_grid(cpu(threads, tiles)?, Grid { y: *y, z: *z });
                     for (step, (got, wanted)) in run(&model, &parts)?.iter().zip(&wanted).enumerate() {
                         assert!(
                             got == wanted,
@@ -138,7 +140,7 @@ fn late_messages_change_no_bit() -> TestResult {
         let neighbourhood = if extents[2] > 1 { Neighbourhood::moore(1) } else { Neighbourhood::moore_2d(1) };
         let model = wood(extents, neighbourhood, Faces::all(Toroidal), true)?;
         let engine = Behind { engine: cpu(2, 4)?, manner: Manner::Late };
-        let parts = Parts::with_cut(engine, Cut { y: cut[0], z: cut[1] });
+        let parts = Parts::with_grid(engine, Grid { y: cut[0], z: cut[1] });
         assert!(run(&model, &parts)? == run(&model, &Reference)?, "{extents:?}");
     }
     Ok(())
@@ -298,9 +300,11 @@ fn what_cannot_be_cut_is_refused() -> TestResult {
     let model = wood([9, 8, 5], Neighbourhood::moore(2), Faces::all(Flat), false)?;
     let message = refused(&model, &Parts::new(cpu(1, 0)?, count(9)?))?;
     assert!(message.contains("at most 4 parts fit along y and 2 along z"), "{message}");
-    let message = refused(&model, &Parts::with_cut(cpu(1, 0)?, Cut { y: 5, z: 1 }))?;
-    assert!(message.contains("a part of 1 rows along y is too thin: the model reaches 2 rows"), "{message}");
-    let message = refused(&model, &Parts::with_cut(cpu(1, 0)?, Cut { y: 2, z: 0 }))?;
+    let message = refused(&model, &Parts::with_grid(cpu(1, 0)?, Grid { y: 5, z: 1 }))?;
+    let wanted =
+        "cannot be cut into 5 parts along y and 1 along z; the model reaches so far that at most 4 parts";
+    assert!(message.contains(wanted), "{message}");
+    let message = refused(&model, &Parts::with_grid(cpu(1, 0)?, Grid { y: 2, z: 0 }))?;
     assert!(message.contains("at least one part"), "{message}");
     let message = refused(&model, &Parts::new(Reference, count(2)?))?;
     assert!(message.contains("the reference engine cannot run a part of the space"), "{message}");

@@ -1,6 +1,6 @@
 //! A model that runs on an engine: its state and its steps.
 
-use super::{EngineFailure, Fault, Population, SubstateId};
+use super::{EngineFailure, Fault, Population, RowWork, SubstateId};
 use crate::parameter_set::ParameterSet;
 use crate::reduction::{Reduced, ReducedRows, Reduction};
 use std::any::Any;
@@ -144,6 +144,12 @@ pub trait Execution: Send {
     /// threads and machines.
     fn figures(&self) -> Vec<Figure> {
         Vec::new()
+    }
+
+    /// The work in each row since the start, to balance parts of a space. Both lists are empty if the engine
+    /// does not count. It is no result: it may differ between engines and runs.
+    fn work(&self) -> RowWork {
+        RowWork::default()
     }
 
     /// The engine's own threads, if it has any.

@@ -178,6 +178,7 @@ impl<'a> Pass<'a> {
                     Some(Followed { activity, .. }) if prepared.process.kind == ProcessKind::Cells => {
                         let done = self.run_pieces(activity, prepared, (row, &cells), *population, &mut work);
                         found.worked += done.cells as u64;
+                        activity.worked_in(row, done.cells);
                         done.widest
                     }
                     _ => {

@@ -3,10 +3,12 @@
 use super::Job;
 use crate::engine::Mpi;
 use crate::mailbox::tests::Threads;
+use std::num::NonZeroU64;
 use std::thread;
 use xca_core::prelude::*;
 use xca_core::{Precision, Snapshot};
 use xca_cpu::Cpu;
+use xca_parts::{Balance, Grid};
 
 #[derive(Substates, Clone)]
 struct Life {
@@ -67,6 +69,64 @@ fn processes_come_to_what_one_comes_to() {
         let got = hosted(size, |_| Ok(life(20)), |job| after(&Mpi::new(job, &part, Some(1)).unwrap(), 25));
         assert!(got == wanted, "{size} processes");
     }
+}
+
+/// A soup in a few rows of many: the bounds of the processes move to it.
+fn corner() -> Model {
+    Model::builder("corner")
+        .extents([70, 40, 1])
+        .neighbourhood(Neighbourhood::moore_2d(1))
+        .substates::<Life>()
+        .process(evolve)
+        .fill(|site| Life { alive: u8::from(site.cell()[1] < 12 && site.random(0) < 0.4) })
+        .build()
+        .unwrap()
+}
+
+#[test]
+fn bounds_of_processes_follow_the_work() {
+    let balance = Balance { every: NonZeroU64::new(2), cost: 0 };
+    let run = |engine: &dyn Engine| {
+        let mut simulation = Simulation::new(&corner(), engine, RunOptions::default()).unwrap();
+        simulation.run(30).unwrap();
+        (simulation.snapshot().unwrap(), simulation.figures())
+    };
+    let (wanted, _) = run(&Reference);
+    for (size, grid) in [(2, None), (4, Some(Grid { y: 4, z: 1 }))] {
+        let (got, figures) = hosted(
+            size,
+            |_| Ok(corner()),
+            |job| {
+                let engine = Mpi::new(job, &part, Some(1)).unwrap().with_balance(balance);
+                run(&match grid {
+                    Some(grid) => engine.in_grid(grid),
+                    None => engine,
+                })
+            },
+        );
+        assert!(got == wanted, "{size} processes");
+        let moved = figures.iter().find(|figure| figure.name == "bounds_moved").unwrap();
+        assert!(moved.value >= 1.0, "{size} processes: {figures:?}");
+    }
+}
+
+#[test]
+fn a_grid_has_a_part_for_each_process() {
+    hosted(
+        2,
+        |_| Ok(corner()),
+        |job| {
+            let engine = |grid| Mpi::new(job.clone(), &part, Some(1)).unwrap().in_grid(grid);
+            for (grid, words) in [
+                (Grid { y: 3, z: 1 }, "3x1 are 3 parts, but the job has 2 processes"),
+                (Grid { y: 1, z: 2 }, "cannot be cut into 1 parts along y and 2 along z"),
+            ] {
+                let started = engine(grid).start(&corner(), Precision::F64);
+                let text = started.err().map(|error| error.to_string()).unwrap_or_default();
+                assert!(text.contains(words), "{text}");
+            }
+        },
+    );
 }
 
 /// Executions do not take each other's messages, and a job outlives those that have ended.

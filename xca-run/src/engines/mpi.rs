@@ -5,6 +5,7 @@ use super::cpu;
 use super::kind::{EngineDetail, EngineKind, Helper};
 use super::options::{EngineOption, EngineOptions};
 use xca_core::Engine;
+use xca_parts::Grid;
 use xca_record::Failure;
 
 /// Has what runs each part.
@@ -17,8 +18,27 @@ const PART: EngineOption = EngineOption {
     name: "mpi",
     value_name: "cpu[:THREADS]",
     about: "Engine of each process, and its threads",
-    check: |text| cpu::threads_of_part(text).map(drop),
+    check: |text| Share::new(text).map(drop),
 };
+
+/// What runs each part, and the parts along the axes, if they are chosen.
+struct Share {
+    grid: Option<Grid>,
+    threads: Option<String>,
+}
+
+impl Share {
+    fn new(text: &str) -> Result<Self, String> {
+        // The name of an engine does not begin with a digit.
+        let (grid, part) = match text.split_once(':') {
+            Some((grid, part)) if grid.starts_with(|first: char| first.is_ascii_digit()) => {
+                (Some(grid.parse::<Grid>().map_err(|error| error.to_string())?), part)
+            }
+            _ => (None, text),
+        };
+        Ok(Self { grid, threads: cpu::threads_of_part(part)? })
+    }
+}
 
 impl EngineKind for MpiKind {
     fn name(&self) -> &'static str {
@@ -26,7 +46,7 @@ impl EngineKind for MpiKind {
     }
 
     fn about(&self) -> &'static str {
-        "One part of the space per process of `mpirun`"
+        "One part of the space per process of `mpirun`; mpi:2x3:cpu makes 2 along y and 3 along z"
     }
 
     fn detail(&self) -> Option<EngineDetail> {
@@ -47,8 +67,8 @@ impl EngineKind for MpiKind {
     }
 
     fn make(&self, options: &EngineOptions) -> Result<Box<dyn Engine>, Failure> {
-        let threads = cpu::threads_of_part(options.get(PART.name).unwrap_or("cpu"))?;
-        self.job.engine(threads.map(|threads| threads.parse()).transpose()?)
+        let Share { grid, threads } = Share::new(options.get(PART.name).unwrap_or("cpu"))?;
+        self.job.engine(threads.map(|threads| threads.parse()).transpose()?, grid)
     }
 }
 
@@ -62,6 +82,7 @@ mod built {
     use xca_core::{Engine, Model, Precision};
     use xca_cpu::Cpu;
     use xca_mpi::{Job, Library, Mpi, Wire as _};
+    use xca_parts::Grid;
     use xca_record::Failure;
 
     /// The job of this process, from when it is first needed.
@@ -78,8 +99,16 @@ mod built {
             Ok((job.rank() > 0).then(|| Box::new(Rank(job)) as Box<dyn Helper>))
         }
 
-        pub(super) fn engine(&self, threads: Option<usize>) -> Result<Box<dyn Engine>, Failure> {
-            Ok(Box::new(Mpi::new(self.job()?, &part, threads)?))
+        pub(super) fn engine(
+            &self,
+            threads: Option<usize>,
+            grid: Option<Grid>,
+        ) -> Result<Box<dyn Engine>, Failure> {
+            let engine = Mpi::new(self.job()?, &part, threads)?;
+            Ok(Box::new(match grid {
+                Some(grid) => engine.in_grid(grid),
+                None => engine,
+            }))
         }
     }
 
@@ -119,6 +148,7 @@ mod built {
     use crate::engines::MissingFeature;
     use crate::engines::kind::Helper;
     use xca_core::Engine;
+    use xca_parts::Grid;
     use xca_record::Failure;
 
     const MISSING: MissingFeature = MissingFeature { feature: "mpi" };
@@ -131,8 +161,35 @@ mod built {
             Err(MISSING.into())
         }
 
-        pub(super) fn engine(&self, _threads: Option<usize>) -> Result<Box<dyn Engine>, Failure> {
+        pub(super) fn engine(
+            &self,
+            _threads: Option<usize>,
+            _grid: Option<Grid>,
+        ) -> Result<Box<dyn Engine>, Failure> {
             Err(MISSING.into())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Grid, Share};
+
+    #[test]
+    fn parts_along_the_axes_stand_before_what_runs_them() {
+        let share = |text: &str| Share::new(text).map(|Share { grid, threads }| (grid, threads));
+        assert_eq!(share("cpu"), Ok((None, None)));
+        assert_eq!(share("cpu:2"), Ok((None, Some("2".to_owned()))));
+        let grid = Some(Grid { y: 2, z: 3 });
+        assert_eq!(share("2x3:cpu"), Ok((grid, None)));
+        assert_eq!(share("2x3:cpu:4"), Ok((grid, Some("4".to_owned()))));
+        for (text, words) in [
+            ("2:cpu", "`2` is not a grid of parts; write two whole numbers from 1, such as 2x3"),
+            ("0x3:cpu", "`0x3` is not a grid"),
+            ("2x3:gpu", "a part runs on the cpu engine, not on `gpu`"),
+            ("2x3", "a part runs on the cpu engine, not on `2x3`"),
+        ] {
+            assert!(share(text).is_err_and(|error| error.contains(words)), "{text}");
         }
     }
 }

@@ -6,7 +6,7 @@ use super::options::{EngineOption, EngineOptions};
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 use xca_core::Engine;
-use xca_parts::Parts;
+use xca_parts::{Grid, Parts};
 use xca_record::Failure;
 
 /// Has a number of parts, and what runs each.
@@ -26,7 +26,7 @@ impl EngineKind for PartsKind {
     }
 
     fn about(&self) -> &'static str {
-        "N parts of the space, each on a cpu engine"
+        "N parts of the space, each on a cpu engine; YxZ in place of N, such as 2x3, for parts along y and z"
     }
 
     fn detail(&self) -> Option<EngineDetail> {
@@ -42,53 +42,92 @@ impl EngineKind for PartsKind {
         let Share { parts, threads } = Share::new(share)?;
         let threads = threads.unwrap_or_else(|| {
             let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-            (cores / parts).max(1).to_string()
+            (cores / parts.count()).max(1).to_string()
         });
         let engine = || Ok(Arc::new(cpu::engine(Some(&threads))?) as Arc<dyn Engine>);
-        let engines = (0..parts.get()).map(|_| engine()).collect::<Result<_, Failure>>()?;
-        Ok(Box::new(Parts::with_engines(engines)))
+        let engines = (0..parts.count()).map(|_| engine()).collect::<Result<_, Failure>>()?;
+        let engines = Parts::with_engines(engines);
+        Ok(Box::new(match parts {
+            Division::Parts(_) => engines,
+            Division::Grid(grid) => engines.in_grid(grid),
+        }))
     }
 }
 
 /// How a space is shared.
 #[derive(Debug, PartialEq, Eq)]
 struct Share {
-    parts: NonZeroUsize,
+    parts: Division,
     /// The threads of each part, if they are chosen.
     threads: Option<String>,
 }
 
-impl Share {
+/// The parts of a space, along the axes or in all.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Division {
+    Parts(NonZeroUsize),
+    Grid(Grid),
+}
+
+impl Division {
     fn new(text: &str) -> Result<Self, String> {
         // Each part is a thread.
         const MOST: usize = xca_cpu::Cpu::MOST_THREADS;
+        let parts = match text.parse() {
+            Ok(parts) => Self::Parts(parts),
+            Err(_) if text.contains('x') => {
+                Self::Grid(text.parse::<Grid>().map_err(|error| error.to_string())?)
+            }
+            Err(_) => return Err(format!("the number of parts must be a whole number from 1 to {MOST}")),
+        };
+        if parts.count() > MOST {
+            return Err(format!("the number of parts must be a whole number from 1 to {MOST}"));
+        }
+        Ok(parts)
+    }
+
+    fn count(self) -> usize {
+        match self {
+            Self::Parts(parts) => parts.get(),
+            Self::Grid(grid) => grid.count(),
+        }
+    }
+}
+
+impl Share {
+    fn new(text: &str) -> Result<Self, String> {
         let (parts, rest) = match text.split_once(':') {
             Some((parts, rest)) => (parts, Some(rest)),
             None => (text, None),
         };
-        let parts = parts.parse().ok().filter(|parts: &NonZeroUsize| parts.get() <= MOST);
-        let parts =
-            parts.ok_or_else(|| format!("the number of parts must be a whole number from 1 to {MOST}"))?;
+        let division = Division::new(parts)?;
         let rest = rest.ok_or_else(|| format!("say what runs each part: parts:{parts}:cpu"))?;
-        Ok(Self { parts, threads: cpu::threads_of_part(rest)? })
+        Ok(Self { parts: division, threads: cpu::threads_of_part(rest)? })
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{PartsKind, Share};
+    use super::{Division, PartsKind, Share};
     use crate::engines::{EngineKind, EngineOptions};
+    use xca_parts::Grid;
 
     #[test]
     fn parts_are_named_with_what_runs_them() {
-        let share = |text: &str| Share::new(text).map(|Share { parts, threads }| (parts.get(), threads));
-        assert_eq!(share("7:cpu"), Ok((7, None)));
-        assert_eq!(share("2:cpu:5"), Ok((2, Some("5".to_owned()))));
+        let share = |text: &str| Share::new(text).map(|Share { parts, threads }| (parts, threads));
+        let parts = |number| Division::Parts(std::num::NonZeroUsize::new(number).unwrap());
+        assert_eq!(share("7:cpu"), Ok((parts(7), None)));
+        assert_eq!(share("2:cpu:5"), Ok((parts(2), Some("5".to_owned()))));
+        assert_eq!(share("2x3:cpu"), Ok((Division::Grid(Grid { y: 2, z: 3 }), None)));
         for (text, words) in [
             ("", "whole number from 1 to 1024"),
             ("0:cpu", "whole number from 1 to 1024"),
             ("1025:cpu", "whole number from 1 to 1024"),
+            ("64x17:cpu", "whole number from 1 to 1024"),
+            ("99999999999x99999999999:cpu", "whole number from 1 to 1024"),
+            ("2x:cpu", "`2x` is not a grid of parts"),
             ("2", "say what runs each part: parts:2:cpu"),
+            ("2x3", "say what runs each part: parts:2x3:cpu"),
             ("2:gpu", "not on `gpu`"),
             ("2:cpu:0", "must be at least 1"),
         ] {
@@ -96,5 +135,7 @@ mod tests {
         }
         let options = EngineOptions::default().with("parts", "4:cpu:2");
         assert_eq!(PartsKind.make(&options).unwrap().threads(), 4 * 2);
+        let engine = PartsKind.make(&EngineOptions::default().with("parts", "3x2:cpu:1")).unwrap();
+        assert!(engine.facts().contains(&("parts", "3x2".to_owned())));
     }
 }
