@@ -210,6 +210,52 @@ fn bounds_move_to_items_that_are_set() -> TestResult {
     Ok(())
 }
 
+/// In the first rows along y a walker cannot go on.
+#[elementary_process]
+fn halt(me: &mut Slot<Walker>) {
+    if me.position.y < 2.0 {
+        me.fault(4, me.position.y);
+    }
+}
+
+/// Bounds move right after a fault, because its state is replaced. What parts have sent before is dropped.
+#[test]
+fn bounds_move_after_a_fault() -> TestResult {
+    let item = |label: u32| {
+        let [x, y] = [label as usize % 5, 15 + label as usize / 40];
+        let position = Vector3::new(x as f64 + 0.5, y as f64 + 0.5, 0.5);
+        let velocity = Vector3::new(0.0, 0.0, 0.0);
+        Item { label, cell: [x, y, 0], state: Walker { position, velocity, met: 0, heard: [0.0; 2] } }
+    };
+    let model = Model::builder("march")
+        .extents([5, 20, 1])
+        .neighbourhood(Neighbourhood::moore_2d(1))
+        .population::<Walker>(20)
+        .process((meet, rush, walk, settle, halt))
+        .fault_text(4, "at the end")
+        .initialise(move |state| Ok(state.set_items((0..160).map(item).collect::<Vec<_>>())?))
+        .build()?;
+    let outcome = |engine: &dyn Engine| -> Result<_, Box<dyn Error>> {
+        let mut simulation = Simulation::new(&model, engine, RunOptions::default())?;
+        let first = simulation.snapshot()?;
+        let mut faults = Vec::new();
+        for _ in 0..3 {
+            let fault = simulation.run(60).expect_err("a walker arrives");
+            faults.push(format!("{fault:?}"));
+            simulation.restore(&first)?;
+        }
+        Ok((faults, simulation.figures()))
+    };
+    let (wanted, _) = outcome(&Reference)?;
+    for parts in [2, 3, 5] {
+        let engine = Parts::new(cpu(1, 1)?, count(parts)?).with_balance(eager(1));
+        let (faults, figures) = outcome(&engine)?;
+        assert_eq!(faults, wanted, "{parts} parts");
+        assert!(figure(&figures, "bounds_moved")? >= 6.0, "{figures:?}");
+    }
+    Ok(())
+}
+
 /// After moves a fault is that of one engine, the state is there, and a snapshot brings the run back.
 #[test]
 fn faults_after_moves_are_the_same() -> TestResult {
