@@ -2,8 +2,8 @@
 //!
 //! Parts count their work. After some steps the host compares the largest work of a part with that of the
 //! best cut for the same work. The difference is lost. When the losses add up to the cost of a move, the
-//! bounds move. A short run therefore moves nothing, nor does an imbalance that soon ends, and a run loses at
-//! most about twice what it must. Items that are set are work to be expected, and count like work done.
+//! bounds move. A short run therefore moves nothing, nor does an imbalance that soon ends. Items that are set
+//! are work to be expected, and count like work done.
 //!
 //! Only counts decide, and no clock. Results depend neither on where the bounds are nor on when they move.
 

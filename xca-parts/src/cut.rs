@@ -30,8 +30,8 @@ impl Cut {
         Self { y: bounds::even(height, grid.y), z: bounds::even(depth, grid.z) }
     }
 
-    /// The cut that distributes the work, given for each row of the space. Along one axis, the largest work of
-    /// a part is the least possible. Along both axes, the bounds along each are the best for the other.
+    /// The cut that distributes the work, given for each row of the space. Along one axis, the largest work
+    /// of a part is the least possible. Along both axes, the bounds along each are the best for the other.
     pub(crate) fn balanced(geometry: &Geometry, grid: Grid, work: &[u64]) -> Self {
         let mean = work.iter().fold(0_u64, |sum, work| sum.saturating_add(*work)) / work.len().max(1) as u64;
         let with_idle: Vec<u64> =

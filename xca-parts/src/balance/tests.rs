@@ -115,8 +115,8 @@ fn items_that_are_set_are_work_to_be_expected() {
     // The bounds have just moved.
     assert_eq!(heap(&mut balancer, 100, 0), None);
     balancer.stepped(EVERY);
-    // An item is worth 16 cells. Each row has 40 runs on cells in four steps, and the first two 384 more. That
-    // is 928 in the first half. Behind the first row it is 664, so 264 are lost.
+    // An item is worth 16 cells. In four steps, each row has 40 runs on cells, and the first two 384 more.
+    // That is 928 in the first half. Behind the first row it is 664, so 264 are lost.
     assert_eq!(heap(&mut balancer, 6, 0).unwrap().part(0).y, 0..1);
     // With five items 200 are lost, which is less than a move costs.
     assert_eq!(heap(&mut balancer, 5, 0), None);
