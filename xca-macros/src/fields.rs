@@ -101,7 +101,8 @@ fn proof(fields: &[Field]) -> TokenStream {
         let (type_, marked) = (&field.type_, marked(&field.type_));
         // The type has a name, so that a mistake is shown at the word and not at the type.
         let limited = field.about.limited_by().map(|word| {
-            let proof = quote_spanned!(word.span()=> <Limited as ::xca_core::field_type::Ranged>::RANGED;);
+            let proof =
+                quote_spanned!(word.span()=> let () = <Limited as ::xca_core::field_type::Ranged>::RANGED;);
             quote!({ type Limited = #marked; #proof })
         });
         quote_spanned! {type_.span()=>
