@@ -12,5 +12,6 @@ pub mod path;
 pub mod recipe;
 pub mod reduced;
 pub mod site;
+pub mod sky;
 pub mod traveller;
 pub mod walker;

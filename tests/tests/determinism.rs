@@ -22,6 +22,7 @@ fn everything() -> Recipe {
         processes: vec![
             0, 1, 3, 14, 4, 16, 10, 5, 2, 18, 11, 6, 21, 25, 9, 12, 15, 7, 13, 22, 17, 24, 19, 23, 20,
         ],
+        cadence: false,
         slots: 40,
         crowding: 6,
         aligned: false,

@@ -88,9 +88,9 @@ fn populations() -> impl Strategy<Value = (usize, usize, bool, bool)> {
 
 fn recipes() -> impl Strategy<Value = Recipe> {
     let processes = proptest::collection::vec(0..PROCESSES, 1..=6);
-    let rest = (any::<u32>(), tunings(), any::<bool>());
+    let rest = (any::<u32>(), tunings(), any::<bool>(), any::<bool>());
     (spaces(), neighbourhoods(), populations(), processes, rest).prop_map(
-        |(space, neighbourhood, population, processes, (salt, mut tuning, steered))| {
+        |(space, neighbourhood, population, processes, (salt, mut tuning, steered, cadence))| {
             let (extents, boundaries, side) = space;
             let (slots, crowding, aligned, open) = population;
             tuning.radius = if aligned { side } else { tuning.radius * side };
@@ -101,6 +101,7 @@ fn recipes() -> impl Strategy<Value = Recipe> {
                 outsides: true,
                 side,
                 processes,
+                cadence,
                 slots,
                 crowding,
                 aligned,

@@ -37,7 +37,9 @@ struct Grain {
 /// How they push each other.
 #[derive(Parameters, Clone, Copy, Debug)]
 struct Material {
+    #[parameter(unit = "m", positive)]
     radius: Real,
+    #[parameter(range = 0..=3)]
     rule: u32,
 }
 

@@ -99,12 +99,19 @@ fn proof(fields: &[Field]) -> TokenStream {
     let name = checked::name();
     let proofs = fields.iter().map(|field| {
         let (type_, marked) = (&field.type_, marked(&field.type_));
+        // The type has a name, so that a mistake is shown at the word and not at the type.
+        let limited = field.about.limited_by().map(|word| {
+            let proof =
+                quote_spanned!(word.span()=> let () = <Limited as ::xca_core::field_type::Ranged>::RANGED;);
+            quote!({ type Limited = #marked; #proof })
+        });
         quote_spanned! {type_.span()=>
             let _: fn(#type_) -> <#marked as ::xca_core::field_type::FieldType>::Host = |value| value;
+            #limited
         }
     });
     quote! {
-        #[allow(clippy::type_complexity)]
+        #[allow(clippy::type_complexity, clippy::items_after_statements)]
         const #name: bool = { #(#proofs)* true };
     }
 }

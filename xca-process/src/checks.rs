@@ -113,6 +113,9 @@ impl<T> Itself for T {
 pub struct PlainFunction;
 
 impl PlainFunction {
+    /// As helpers have it.
+    pub const SHADERS_KNOW_NO_RECURSION_WRITE_A_LOOP: () = ();
+
     /// Never called.
     pub fn body() -> Function {
         unreachable!("a process that calls an unmarked function does not compile")

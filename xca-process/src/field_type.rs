@@ -64,6 +64,20 @@ pub trait NumberType {
     fn native<R: Float>(value: Self::Host) -> Self::Native<R>;
 }
 
+/// The type of a parameter that can have a range.
+#[diagnostic::on_unimplemented(
+    message = "a parameter of type `{Self}` has no range",
+    label = "leave this out: only numbers, and vectors and arrays of them, have a range",
+    note = "to allow only some states, write an enum without the others"
+)]
+pub trait Ranged {
+    /// Has a value if the type can have a range.
+    const RANGED: () = ();
+}
+
+#[diagnostic::do_not_recommend]
+impl<T: Ranged, const N: usize> Ranged for [T; N] {}
+
 impl<T: ElementType> FieldType for T {
     const TYPE: ValueType = T::TYPE;
     type Host = T::Host;
@@ -138,6 +152,9 @@ macro_rules! numbers {
                 $conversion
             }
         }
+
+        #[diagnostic::do_not_recommend]
+        impl Ranged for $type {}
     )*};
 }
 
@@ -165,6 +182,9 @@ macro_rules! vectors {
                 value.map(T::native)
             }
         }
+
+        #[diagnostic::do_not_recommend]
+        impl<T: NumberType> Ranged for $vector<T> {}
     )*};
 }
 

@@ -23,18 +23,14 @@ pub struct Medium {
 /// A resting cell becomes excited beside an excited one, then refractory, then it rests again.
 #[elementary_process]
 pub fn react(cell: &mut Cell<Medium>) {
+    let mut excited = false;
+    for n in 1..cell.neighbour_count() {
+        excited |= cell.neighbour(n).tissue == Tissue::Excited;
+    }
     cell.tissue = match cell.tissue {
+        Tissue::Resting if excited => Tissue::Excited,
         Tissue::Excited => Tissue::Refractory,
-        Tissue::Refractory => Tissue::Resting,
-        Tissue::Resting => {
-            let mut next = Tissue::Resting;
-            for n in 1..cell.neighbour_count() {
-                if cell.neighbour(n).tissue == Tissue::Excited {
-                    next = Tissue::Excited;
-                }
-            }
-            next
-        }
+        Tissue::Resting | Tissue::Refractory => Tissue::Resting,
     };
 }
 
@@ -42,10 +38,7 @@ pub fn react(cell: &mut Cell<Medium>) {
 ///
 /// # Errors
 /// Where the sheet has fewer than 3 cells a side.
-pub fn model(
-    size: usize,
-    begin: impl Fn(Site) -> Tissue + Send + Sync + 'static,
-) -> Result<Model, ModelError> {
+pub fn model(size: usize, begin: fn(Site) -> Tissue) -> Result<Model, ModelError> {
     Model::builder("excitable medium")
         .extents([size, size, 1])
         .neighbourhood(Neighbourhood::von_neumann_2d(1))

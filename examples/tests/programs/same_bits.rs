@@ -1,15 +1,16 @@
 //! Engines and numbers of threads make no difference to a single byte.
 
-use crate::running::{CADEM, HEAT, LANDSLIDE, LIFE, MOD2, Workplace, assert_same_results};
+use crate::running::{CADEM, HEAT, LANDSLIDE, LIFE, MOD2, POND, Workplace, assert_same_results};
 
 fn compare(program: &str, options: &str) {
     let place = Workplace::new();
     place.succeed(program, &format!("{options} --engine reference --out reference"));
-    place.succeed(program, &format!("{options} --engine cpu --threads 3 --out cpu"));
-    place.succeed(program, &format!("{options} --engine gpu --arithmetic strict --out gpu"));
-    let place_of = format!("{program} {options}");
-    assert_same_results(&place.path("reference"), &place.path("cpu"), &place_of);
-    assert_same_results(&place.path("reference"), &place.path("gpu"), &place_of);
+    let engines = ["cpu --threads 1", "cpu --threads 2", "cpu --threads 3", "gpu --arithmetic strict"];
+    for engine in engines {
+        place.succeed(program, &format!("{options} --engine {engine} --out other --overwrite"));
+        let place_of = format!("{program} {options} --engine {engine}");
+        assert_same_results(&place.path("reference"), &place.path("other"), &place_of);
+    }
 }
 
 #[test]
@@ -53,5 +54,8 @@ fn dense_models() {
     compare(LANDSLIDE, "--steps 60");
     compare(LANDSLIDE, "--steps 60 --precision f32");
     compare(MOD2, "--size 24 --steps 9");
+    compare(HEAT, "--size 20 --steps 40");
     compare(HEAT, "--size 20 --steps 40 --precision f32");
+    compare(POND, "--steps 25");
+    compare(POND, "--steps 25 --precision f32");
 }

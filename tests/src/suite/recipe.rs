@@ -4,6 +4,7 @@ use super::cover::covered;
 use super::lattice::{Terrain, mix, terrain_of};
 use super::medium::{self, Medium, Tuning};
 use super::reduced;
+use super::sky::{self, Sky, Weather, weather_of};
 use super::walker::{self, Walker};
 use xca_core::prelude::*;
 use xca_core::{ModelBuilder, Parity};
@@ -23,6 +24,8 @@ pub struct Recipe {
     pub side: f64,
     /// The processes by their numbers, see [`add`].
     pub processes: Vec<usize>,
+    /// Whether some processes run every second or third step only.
+    pub cadence: bool,
     /// How many items a cell can hold; 0 for a model without items.
     pub slots: usize,
     /// How many items the fullest cells have at the start, if there are as many slots.
@@ -44,46 +47,59 @@ pub struct Recipe {
     pub steered: bool,
 }
 
-/// How many processes over cells alone [`add`] knows.
-pub const OVER_CELLS: usize = 14;
 /// How many processes [`add`] knows.
-pub const PROCESSES: usize = 28;
+pub const PROCESSES: usize = 33;
 
-/// Processes that leave nothing as nothing. The last of them are told by items, and move these.
-pub const CALM: [usize; 13] = [0, 1, 2, 4, 5, 6, 7, 9, 11, 19, 20, 23, 25];
+/// Processes that leave nothing as nothing. Some of them are told by items, and move these.
+pub const CALM: [usize; 16] = [0, 1, 2, 4, 5, 6, 7, 9, 11, 19, 20, 23, 25, 28, 29, 30];
 
-/// Adds the process with this number.
-pub fn add(builder: ModelBuilder, number: usize) -> ModelBuilder {
+/// Whether the process with this number needs items.
+fn needs_items(number: usize) -> bool {
+    matches!(number, 14..=27 | 31..)
+}
+
+/// Whether it needs the second struct of cells.
+fn needs_sky(number: usize) -> bool {
+    number >= 28
+}
+
+/// Adds the process with this number, which runs every so many steps.
+pub fn add(builder: ModelBuilder, number: usize, every: u64) -> ModelBuilder {
     match number {
-        0 => builder.process(medium::breed),
-        1 => builder.process(medium::relax),
-        2 => builder.process(medium::trade),
-        3 => builder.process(medium::shake),
-        4 => builder.process(medium::slope),
-        5 => builder.process(medium::swirl),
-        6 => builder.process(medium::settle_down),
-        7 => builder.process(medium::blend),
-        8 => builder.process(medium::tire),
-        9 => builder.process(medium::peek),
-        10 => builder.process(medium::percolate),
-        11 => builder.process(medium::erode),
-        12 => builder.process(medium::mark_paths),
-        13 => builder.process(medium::overreach),
-        14 => builder.process(walker::attract),
-        15 => builder.process(walker::share),
-        16 => builder.process(walker::remember),
-        17 => builder.process(walker::follow_first),
-        18 => builder.process(walker::feel),
-        19 => builder.process(walker::weigh),
-        20 => builder.process(walker::crowd),
-        21 => builder.process(walker::recall),
-        22 => builder.process(walker::look_down),
-        23 => builder.process(walker::listen),
-        24 => builder.process(walker::forget),
+        0 => builder.process_every(every, medium::breed),
+        1 => builder.process_every(every, medium::relax),
+        2 => builder.process_every(every, medium::trade),
+        3 => builder.process_every(every, medium::shake),
+        4 => builder.process_every(every, medium::slope),
+        5 => builder.process_every(every, medium::swirl),
+        6 => builder.process_every(every, medium::settle_down),
+        7 => builder.process_every(every, medium::blend),
+        8 => builder.process_every(every, medium::tire),
+        9 => builder.process_every(every, medium::peek),
+        10 => builder.process_every(every, medium::percolate),
+        11 => builder.process_every(every, medium::erode),
+        12 => builder.process_every(every, medium::mark_paths),
+        13 => builder.process_every(every, medium::overreach),
+        14 => builder.process_every(every, walker::attract),
+        15 => builder.process_every(every, walker::share),
+        16 => builder.process_every(every, walker::remember),
+        17 => builder.process_every(every, walker::follow_first),
+        18 => builder.process_every(every, walker::feel),
+        19 => builder.process_every(every, walker::weigh),
+        20 => builder.process_every(every, walker::crowd),
+        21 => builder.process_every(every, walker::recall),
+        22 => builder.process_every(every, walker::look_down),
+        23 => builder.process_every(every, walker::listen),
+        24 => builder.process_every(every, walker::forget),
         // A walk that is not settled ends in a fault soon, so both come together.
-        25 => builder.process(walker::walk).process(walker::settle),
-        26 => builder.process(walker::walk).process(walker::wander),
-        _ => builder.process(walker::stumble),
+        25 => builder.process_every(every, walker::walk).process_every(every, walker::settle),
+        26 => builder.process_every(every, walker::walk).process_every(every, walker::wander),
+        27 => builder.process_every(every, walker::stumble),
+        28 => builder.process_every(every, sky::drift),
+        29 => builder.process_every(every, sky::rain),
+        30 => builder.repeat(2, (sky::drift, sky::rain)),
+        31 => builder.process_every(every, sky::shiver),
+        _ => builder.process_every(every, (sky::shelter, sky::drift)),
     }
 }
 
@@ -109,10 +125,20 @@ impl Recipe {
                 let is_calm = recipe.calm.is_some_and(|rarity| !mix(salt, 99).is_multiple_of(rarity));
                 if is_calm { NOTHING } else { medium_of(salt) }
             });
+        let has_sky = recipe.processes.iter().any(|number| needs_sky(*number));
+        if has_sky {
+            builder = builder.substates::<Sky>().fill(move |site| {
+                let [x, y, z] = site.cell().map(|index| index as u32);
+                if recipe.calm.is_some() { CLEAR } else { sky_of(mix(mix(mix(salt, z), y), x)) }
+            });
+        }
         for (face, number) in Face::ALL.into_iter().zip(0..) {
             let is_apart = recipe.outsides && mix(salt, number).is_multiple_of(2);
             if is_apart && recipe.boundaries[face] == Boundary::Flat {
                 builder = builder.outside(face, medium_of(mix(salt, 18 + number)));
+                if has_sky {
+                    builder = builder.outside(face, sky_of(mix(salt, 24 + number)));
+                }
             }
         }
         if slots > 0 {
@@ -123,9 +149,10 @@ impl Recipe {
                 builder = builder.items_may_leave::<Walker>();
             }
         }
-        for &number in &recipe.processes {
-            if slots > 0 || number < OVER_CELLS {
-                builder = add(builder, number);
+        for (&number, place) in recipe.processes.iter().zip(60..) {
+            if slots > 0 || !needs_items(number) {
+                let every = if recipe.cadence { [1, 1, 2, 3][(mix(salt, place) % 4) as usize] } else { 1 };
+                builder = add(builder, number, every);
             }
         }
         if recipe.steered && recipe.calm.is_some() {
@@ -134,6 +161,9 @@ impl Recipe {
             builder = builder.steer(Schedule::Every(2), steer);
             if slots > 0 {
                 builder = builder.steer(Schedule::Every(1), steer_items);
+            }
+            if has_sky {
+                builder = builder.steer(Schedule::EveryFromStart(3), steer_sky);
             }
         }
         builder.build()
@@ -207,6 +237,18 @@ const NOTHING: Medium = Medium {
     marks: [false; 4],
     long: [0; 11],
 };
+
+/// The same for the second struct.
+const CLEAR: Sky = Sky { cloud: 0.0, drops: [0; 2], weather: Weather::Clear, lit: false };
+
+fn sky_of(salt: u32) -> Sky {
+    Sky {
+        cloud: fraction(salt, 0) * 8.0 - 4.0,
+        drops: [mix(salt, 1), mix(salt, 2)],
+        weather: weather_of(mix(salt, 3)),
+        lit: mix(salt, 4).is_multiple_of(2),
+    }
+}
 
 fn medium_of(salt: u32) -> Medium {
     let part = |number| fraction(salt, number) * 2.0 - 1.0;
@@ -297,6 +339,16 @@ fn steer(state: &mut State<'_>) -> Result<(), SteeringError> {
     state.write(Medium::FLOWS, &flows)?;
     state.set(Medium::MARKS, [0; 3], [rains, true, false, !rains])?;
     state.set(Medium::TERRAIN, extents.map(|extent| extent - 1), terrain_of(which))?;
+    Ok(())
+}
+
+/// The second struct changes too, by what a reduction of it says.
+fn steer_sky(state: &mut State<'_>) -> Result<(), SteeringError> {
+    let extents = state.geometry().extents();
+    let which = state.parameters::<Tuning>()?.salt;
+    state.set(Sky::WEATHER, [0; 3], weather_of(which))?;
+    let storms = state.count_where(|sky: &Sky| sky.weather == Weather::Stormy && sky.cloud > 0.0)?;
+    state.set(Sky::DROPS, extents.map(|extent| extent - 1), [storms as u32, which])?;
     Ok(())
 }
 

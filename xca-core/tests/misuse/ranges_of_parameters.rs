@@ -8,12 +8,6 @@ struct Empty {
 }
 
 #[derive(Parameters, Clone, Debug)]
-struct OfBool {
-    #[parameter(range = 0.0..)]
-    wet: bool,
-}
-
-#[derive(Parameters, Clone, Debug)]
 struct Both {
     #[parameter(positive, range = 0.0..)]
     share: Real,

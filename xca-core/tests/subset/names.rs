@@ -157,3 +157,59 @@ fn processes_made_by_macros() {
     assert_eq!(run(add_two, Names::default()), Names { row: 2, x: 2, ..Names::default() });
     assert_eq!(run(add_three, Names::default()), Names { own_x: 3, x: 3, ..Names::default() });
 }
+
+macro_rules! land_of {
+    ($land:ident, $flow:ident, $raise:ident, $double:ident, $number:ty) => {
+        #[derive(Substates, Clone, Copy, Debug, PartialEq)]
+        struct $land {
+            height: $number,
+            slopes: [Vector2<$number>; 2],
+        }
+
+        #[derive(Parameters, Clone, Debug)]
+        struct $flow {
+            #[parameter(positive)]
+            by: [$number; 2],
+        }
+
+        #[helper]
+        fn $double(number: $number) -> $number {
+            number + number
+        }
+
+        #[elementary_process]
+        fn $raise(cell: &mut Cell<$land>, flow: &$flow) {
+            let by: $number = flow.by[1];
+            cell.height += $double(by);
+            cell.slopes[1].x = cell.height;
+        }
+    };
+}
+
+land_of!(Coarse, CoarseFlow, raise_coarse, double_coarse, i32);
+land_of!(Fine, FineFlow, raise_fine, double_fine, Real);
+
+/// So may the type of a substate, a parameter, a variable and a helper.
+#[test]
+fn types_given_to_macros() {
+    macro_rules! raised {
+        ($land:ident, $flow:ident, $raise:ident, $from:expr, $by:expr) => {{
+            let model = Model::builder("land")
+                .extents([1, 1, 1])
+                .substates::<$land>()
+                .parameters($flow { by: [$from, $by] })
+                .process($raise)
+                .fill(|_| $land { height: $from, slopes: [Vector2::splat($from); 2] })
+                .build()
+                .expect("a model of one cell");
+            let mut simulation =
+                Simulation::new(&model, &Reference, RunOptions::default()).expect("it starts");
+            simulation.run(3).expect("it runs");
+            let state = simulation.state();
+            let slopes = state.get($land::SLOPES, [0; 3]).expect("it has slopes");
+            (state.get($land::HEIGHT, [0; 3]).expect("it has a height"), slopes[1])
+        }};
+    }
+    assert_eq!(raised!(Coarse, CoarseFlow, raise_coarse, 7, 2), (19, Vector2::new(19, 7)));
+    assert_eq!(raised!(Fine, FineFlow, raise_fine, 0.5, 0.25), (2.0, Vector2::new(2.0, 0.5)));
+}

@@ -5,7 +5,7 @@ use quote::quote;
 use syn::meta::ParseNestedMeta;
 use syn::{
     Attribute, Error, Expr, ExprLit, ExprRange, ExprUnary, Lit, LitStr, Meta, Path, RangeLimits, Result,
-    Token, Type, UnOp,
+    Token, UnOp,
 };
 
 /// What a struct is derived for.
@@ -38,7 +38,7 @@ impl Wanted {
 #[derive(Default)]
 pub(super) struct About {
     unit: Option<LitStr>,
-    range: Option<Expr>,
+    range: Option<(Path, Expr)>,
     positive: Option<Path>,
     low: Option<End>,
     high: Option<End>,
@@ -61,23 +61,16 @@ impl About {
                 return Err(Error::new_spanned(attribute, wanted.usage()));
             }
         }
-        about.limit(&field.ty)?;
+        about.limit()?;
         Ok(about)
     }
 
     /// What `range` and `positive` say together.
-    fn limit(&mut self, type_: &Type) -> Result<()> {
-        let is_bool = matches!(type_, Type::Path(path) if path.path.is_ident("bool"));
-        if let Some(range) = self.range.clone() {
-            if is_bool {
-                return Err(Error::new_spanned(range, "a `bool` has no range; leave it out"));
-            }
+    fn limit(&mut self) -> Result<()> {
+        if let Some((_, range)) = self.range.clone() {
             self.read_range(&range)?;
         }
         let Some(positive) = &self.positive else { return Ok(()) };
-        if is_bool {
-            return Err(Error::new_spanned(positive, "a `bool` has no range; leave it out"));
-        }
         if self.low.is_some() {
             let advice = "`positive` is a lower end: leave it out, or give the upper end alone: `positive, range = ..=1.0`";
             return Err(Error::new_spanned(positive, advice));
@@ -92,7 +85,7 @@ impl About {
             let text = text.map_err(|error| Error::new(error.span(), "a unit is a text: `unit = \"m\"`"))?;
             once(self.unit.replace(text).is_some(), meta)?;
         } else if wanted == Wanted::Parameter && meta.path.is_ident("range") {
-            once(self.range.replace(meta.value()?.parse()?).is_some(), meta)?;
+            once(self.range.replace((meta.path.clone(), meta.value()?.parse()?)).is_some(), meta)?;
         } else if wanted == Wanted::Parameter && meta.path.is_ident("positive") {
             alone(meta)?;
             once(self.positive.replace(meta.path.clone()).is_some(), meta)?;
@@ -119,6 +112,11 @@ impl About {
         }
         self.high = end.as_deref().map(|end| End { number: quote!(#end), included });
         Ok(())
+    }
+
+    /// The word that gives a range.
+    pub(super) fn limited_by(&self) -> Option<&Path> {
+        self.positive.as_ref().or(self.range.as_ref().map(|(word, _)| word))
     }
 
     /// The fields of `xca_core::Field` that follow from it.

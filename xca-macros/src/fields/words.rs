@@ -2,7 +2,7 @@
 
 use proc_macro2::TokenStream;
 use quote::quote;
-use syn::{Error, GenericArgument, PathArguments, Result, Type};
+use syn::{Error, GenericArgument, Ident, PathArguments, Result, Type};
 
 /// The scalars that a field can hold.
 const SCALARS: [&str; 7] = ["bool", "u8", "i32", "u32", "f32", "f64", "Real"];
@@ -28,8 +28,9 @@ const VECTORS: [&str; 3] = ["Vector2", "Vector3", "Vector4"];
 /// Whether the words of a type are those of a substate or parameter. What they mean is proved by the code
 /// that the derive writes.
 pub(super) fn check_type(type_: &Type) -> Result<()> {
+    let type_ = bare(type_);
     if let Type::Array(array) = type_ {
-        if let Type::Array(inner) = &*array.elem {
+        if let Type::Array(inner) = bare(&array.elem) {
             return Err(Error::new_spanned(
                 inner,
                 "an array has one index; multiply the lengths: `[Real; 3 * 4]`",
@@ -50,18 +51,23 @@ pub(super) fn check_type(type_: &Type) -> Result<()> {
     match &segment.arguments {
         PathArguments::None if SCALARS.contains(&&*word) || may_be_states(&word) => Ok(()),
         PathArguments::AngleBracketed(arguments) if VECTORS.contains(&&*word) => {
-            match arguments.args.first() {
-                Some(GenericArgument::Type(Type::Path(lane)))
-                    if lane.path.get_ident().is_some_and(|lane| {
-                        lane != "bool" && SCALARS.iter().any(|scalar| lane == scalar)
-                    }) =>
-                {
-                    Ok(())
-                }
-                _ => Err(unsupported()),
-            }
+            let Some(GenericArgument::Type(lane)) = arguments.args.first() else {
+                return Err(unsupported());
+            };
+            let Type::Path(lane) = bare(lane) else { return Err(unsupported()) };
+            let is_number = |lane: &Ident| lane != "bool" && SCALARS.iter().any(|scalar| lane == scalar);
+            if lane.path.get_ident().is_some_and(is_number) { Ok(()) } else { Err(unsupported()) }
         }
         _ => Err(unsupported()),
+    }
+}
+
+/// The type without parentheses, which are invisible around the `$type:ty` of a macro.
+fn bare(type_: &Type) -> &Type {
+    match type_ {
+        Type::Group(group) => bare(&group.elem),
+        Type::Paren(paren) => bare(&paren.elem),
+        _ => type_,
     }
 }
 

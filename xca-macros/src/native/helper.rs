@@ -6,12 +6,13 @@ use super::check;
 use super::generics::Generics;
 use super::names::hidden;
 use super::types::native_parameters;
-use crate::ast::{Function, Role};
+use crate::ast::{Call, Function, Role};
 use crate::checked::checked;
 use crate::fields::with_real;
 use proc_macro2::TokenStream;
-use quote::{format_ident, quote};
+use quote::{format_ident, quote, quote_spanned};
 use syn::Result;
+use syn::spanned::Spanned;
 
 pub(super) fn expand(function: &Function, original: &syn::ItemFn) -> Result<TokenStream> {
     let data = crate::data::function(function)?;
@@ -21,6 +22,7 @@ pub(super) fn expand(function: &Function, original: &syn::ItemFn) -> Result<Toke
     let (check, aliases) = (check::check(function, original), check::aliases(function));
     let conditions: Vec<_> = conditions(function).collect();
     let Generics { declared, .. } = Generics::of(function);
+    let depth = depth(function);
     Ok(quote! {
         #ordinary
 
@@ -41,6 +43,8 @@ pub(super) fn expand(function: &Function, original: &syn::ItemFn) -> Result<Toke
             #[allow(warnings, arithmetic_overflow, overflowing_literals, unconditional_panic, clippy::all)]
             #[automatically_derived]
             impl #name {
+                #depth
+
                 #(#natives)*
 
                 #[doc(hidden)]
@@ -50,8 +54,22 @@ pub(super) fn expand(function: &Function, original: &syn::ItemFn) -> Result<Toke
             }
 
             #aliases
+
+            const _: () = #name::SHADERS_KNOW_NO_RECURSION_WRITE_A_LOOP;
         };
     })
+}
+
+/// A constant that needs those of all helpers that are called. Helpers that call each other in a circle have
+/// no such constant. The compiler then shows the calls, and the name says what to do.
+fn depth(function: &Function) -> TokenStream {
+    let callees = function.mentions.calls.iter().map(|Call { function, alias, .. }| {
+        quote_spanned!(function.span()=> #alias::SHADERS_KNOW_NO_RECURSION_WRITE_A_LOOP;)
+    });
+    quote_spanned! {function.name.span()=>
+        #[doc(hidden)]
+        pub const SHADERS_KNOW_NO_RECURSION_WRITE_A_LOOP: () = { #(#callees)* };
+    }
 }
 
 fn native(function: &Function, real: &TokenStream) -> TokenStream {
