@@ -213,7 +213,8 @@ fn a_thickness_below_0_or_as_high_as_no_mountain_is_refused() {
     assert_eq!(thickness("0 0.5 -9999\n-0.0 30000 0"), Ok(Some(30000.0)));
     for (number, told) in [("-5", "-5"), ("-1e-9", "-0.000000001"), ("32767", "32767"), ("-9998", "-9998")] {
         let said = thickness(&format!("0 0 0\n0 {number} 0")).unwrap_err();
-        let wanted = format!("debris.asc: a thickness of {told} m in column 2, row 2 from the north; it must be");
+        let wanted =
+            format!("debris.asc: a thickness of {told} m in column 2, row 2 from the north; it must be");
         assert!(said.contains(&wanted), "{said}");
     }
 }

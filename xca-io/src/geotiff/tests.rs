@@ -131,7 +131,10 @@ fn a_place_in_doubt_is_refused() {
         message(read(&made(folder.path(), &tags, None)).unwrap_err())
     };
     let south_up = refused(&[10.0, -10.0, 0.0], TIEPOINT.1);
-    assert!(south_up.contains("ModelPixelScale of the GeoTIFF has a side that is not more than 0"), "{south_up}");
+    assert!(
+        south_up.contains("ModelPixelScale of the GeoTIFF has a side that is not more than 0"),
+        "{south_up}"
+    );
     for other in [[3.0, 2.0, 0.0, 130.0, 210.0, 0.0], [3.0, 0.0, 0.0, 131.0, 220.0, 0.0]] {
         let said = refused(SCALE.1, &[TIEPOINT.1, &other].concat());
         assert!(said.contains("ModelTiepoint of the GeoTIFF has points that do not fit"), "{said}");
@@ -160,10 +163,14 @@ fn samples_that_are_not_what_they_seem_are_refused() {
         let item = format!("<GDALMetadata><Item sample=\"0\" role=\"{role}\">{text}</Item></GDALMetadata>");
         read_with(&[(Tag::Unknown(42_112), &item)], &[]).map(|raster| raster.value([0, 1]))
     };
-    for (role, text) in [("scale", "0.1"), ("offset", "100"), ("offset", "-1e3"), ("scale", "nan"), ("scale", "")]
+    for (role, text) in
+        [("scale", "0.1"), ("offset", "100"), ("offset", "-1e3"), ("scale", "nan"), ("scale", "")]
     {
         let said = scaled(role, text).unwrap_err().to_string();
-        assert!(said.contains(&format!("made.tif: the {role} of the samples of the GeoTIFF is {text}; ")), "{said}");
+        assert!(
+            said.contains(&format!("made.tif: the {role} of the samples of the GeoTIFF is {text}; ")),
+            "{said}"
+        );
     }
     assert_eq!(scaled("scale", "1.0").unwrap(), Some(1.0));
     assert_eq!(scaled("offset", "0").unwrap(), Some(1.0));
@@ -173,18 +180,21 @@ fn samples_that_are_not_what_they_seem_are_refused() {
 fn heights_in_feet_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let with_unit = |code: u16| {
-        let directory =
-            [1, 1, 0, 4, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, 32633, 4099, 0, 1, code];
+        let directory = [1, 1, 0, 4, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, 32633, 4099, 0, 1, code];
         made_with(folder.path(), &[SCALE, TIEPOINT], &[], &[(Tag::GeoKeyDirectoryTag, &directory)])
     };
     let with_text = |unit: &str| {
-        let item = format!("<GDALMetadata><Item name=\"UNITTYPE\" role=\"unittype\">{unit}</Item></GDALMetadata>");
+        let item =
+            format!("<GDALMetadata><Item name=\"UNITTYPE\" role=\"unittype\">{unit}</Item></GDALMetadata>");
         made_with(folder.path(), &[SCALE, TIEPOINT], &[(Tag::Unknown(42_112), &item)], &[])
     };
     let refused = |path: &Path, unit: &str| {
         for error in [Raster::read_heights(path).unwrap_err(), Raster::read_thickness(path).unwrap_err()] {
             let said = error.to_string();
-            assert!(said.contains(&format!("the heights of the GeoTIFF are in {unit}, but models")), "{said}");
+            assert!(
+                said.contains(&format!("the heights of the GeoTIFF are in {unit}, but models")),
+                "{said}"
+            );
         }
         // The unit of any other number is its own affair.
         assert_eq!(Raster::read(path).unwrap().value([0, 0]), Some(4.0));
