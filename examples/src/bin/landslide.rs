@@ -191,7 +191,7 @@ impl Program for Landslide {
             .parameters(debris)
             .process((flow, settle))
             .fill(move |site| terrain.state(site))
-            .steer(Schedule::Start, |state| check_thickness(state, Slope::THICKNESS))
+            .steer(Schedule::At(vec![0]), |state| check_thickness(state, Slope::THICKNESS))
             .stop_when(Schedule::Every(20), move |state| {
                 let largest = state.maximum(Slope::OUTFLOW)?.unwrap_or_default();
                 let rests = largest.iter().all(|metres| *metres <= until);

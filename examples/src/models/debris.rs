@@ -162,7 +162,7 @@ pub fn model(
         .parameters(debris)
         .process((erode, flow, settle, lose))
         .fill(begin)
-        .steer(Schedule::Start, |state| check_thickness(state, Slope::THICKNESS))
+        .steer(Schedule::At(vec![0]), |state| check_thickness(state, Slope::THICKNESS))
         .build()
 }
 

@@ -39,7 +39,8 @@ pub fn shares<const N: usize>(heights: [Real; N], takes_part: [bool; N], mobile:
     shares
 }
 
-/// Refuses an initial state in which a thickness is below 0, as a grid of `--initial` can have it.
+/// Refuses an initial state in which a thickness is below 0, as a grid of `--initial` can have it. Call it
+/// with `Schedule::At(vec![0])`: `--initial` comes after all of `Schedule::Start`.
 ///
 /// # Errors
 /// With the first such cell.

@@ -214,7 +214,7 @@ pub fn model(
         .parameters(lava)
         .process((flow, mix, cool))
         .fill(move |site| bare(ground(site)))
-        .steer(Schedule::Start, |state| check_thickness(state, Volcano::THICKNESS))
+        .steer(Schedule::At(vec![0]), |state| check_thickness(state, Volcano::THICKNESS))
         .steer(Schedule::EveryFromStart(1), move |state| erupt(state, &vents))
         .build()
 }
