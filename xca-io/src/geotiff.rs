@@ -1,8 +1,8 @@
 //! GeoTIFF (`.tif`): a layer of cells, its place on the map and its coordinate system.
 //!
 //! The reader takes the first band of the first image. Samples are integers of 8 to 64 bits, `f32` or `f64`,
-//! in strips or tiles. They are uncompressed, or compressed with Deflate, LZW or PackBits, with any
-//! predictor. Rows of a file begin in the north, those of a [`Raster`] in the south.
+//! in strips or tiles. They are uncompressed, or compressed with Deflate, LZW or PackBits; Deflate and LZW
+//! with any predictor. Rows of a file begin in the north, those of a [`Raster`] in the south.
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -21,6 +21,7 @@
 mod directory;
 mod error;
 mod keys;
+mod meaning;
 mod place;
 mod read;
 mod write;
@@ -31,7 +32,7 @@ pub use write::SampleType;
 
 use crate::atomic::WriteError;
 use crate::placement::Placement;
-use crate::raster::Raster;
+use crate::raster::{Quantity, Raster};
 use crate::regular_file;
 use std::io::Read;
 use std::path::Path;
@@ -44,12 +45,16 @@ use std::path::Path;
 /// # Errors
 /// [`ReadGeoTiffError`] with the path.
 pub fn read(path: &Path) -> Result<Raster, ReadGeoTiffError> {
-    read::read(path, None)
+    read::read(path, None, Quantity::Any)
 }
 
 /// Like [`read`], but a file without georeference lies at `on`, if its columns and rows agree.
-pub(crate) fn read_placed(path: &Path, on: Option<Placement>) -> Result<Raster, ReadGeoTiffError> {
-    read::read(path, on)
+pub(crate) fn read_placed(
+    path: &Path,
+    on: Option<Placement>,
+    quantity: Quantity,
+) -> Result<Raster, ReadGeoTiffError> {
+    read::read(path, on, quantity)
 }
 
 /// Writes a raster as a GeoTIFF with one band and Deflate compression. NODATA is NaN. The file appears

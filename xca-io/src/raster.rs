@@ -6,6 +6,7 @@
 
 mod read;
 
+pub(crate) use read::Quantity;
 pub use read::{HIGHEST, ReadRasterError};
 
 use crate::geotiff::GeoKeys;

@@ -64,7 +64,7 @@
 //! | [`io`] | the files: particles and time series as CSV, VTK files for ParaView, ESRI ASCII grids, GeoTIFF |
 //! | [`picture`] | PNG pictures and animations |
 //! | [`progress`] | the line that shows how far a run has come, and the table at its end |
-//! | [`number_in`], [`positive_number`] | value parsers for a model's own options |
+//! | [`number_in`], [`positive_number`], [`whole_number`] | value parsers for a model's own options |
 //! | [`interrupt`] | Ctrl-C and termination: the run ends after its current step |
 //!
 //! These work on plain data (slices of numbers, texts) and know nothing of models and engines.
@@ -87,7 +87,7 @@ pub use engines::{
     Devices, EngineDetail, EngineError, EngineKind, EngineOption, EngineOptions, Engines, Helper,
     MissingFeature,
 };
-pub use options::{number_in, positive_number};
+pub use options::{number_in, positive_number, whole_number};
 pub use program::{Assignment, Given, NoAssignment, Program};
 #[doc(no_inline)]
 pub use xca_io as io;
@@ -100,7 +100,7 @@ pub use xca_record::{
 
 /// What a model's program needs: the words of [`xca_core::prelude`] and those of the frame.
 pub mod prelude {
-    pub use crate::{Given, Program, number_in, positive_number};
+    pub use crate::{Given, Program, number_in, positive_number, whole_number};
     pub use clap::{self, Args};
     pub use std::process::ExitCode;
     pub use xca_core::prelude::*;

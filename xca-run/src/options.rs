@@ -36,6 +36,14 @@ pub fn positive_number(text: &str) -> Result<f64, String> {
     parse(text, Interval { low: Some(End { number: 0.0, included: false }), high: None })
 }
 
+/// A value parser for whole numbers, such as a number of cells.
+///
+/// # Errors
+/// Where the text is no whole number, or one that is too large.
+pub fn whole_number(text: &str) -> Result<usize, String> {
+    text.parse().map_err(|_| format!("it must be a whole number from 0 to {}", usize::MAX))
+}
+
 fn end(bound: Bound<&f64>) -> Option<End> {
     match bound {
         Bound::Included(&number) => Some(End { number, included: true }),
@@ -56,6 +64,15 @@ fn parse(text: &str, interval: Interval) -> Result<f64, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn whole_numbers_are_told_from_others() {
+        assert_eq!(whole_number("64"), Ok(64));
+        for text in ["-1", "1.5", "1e3", "", "99999999999999999999", "sixty"] {
+            let said = whole_number(text).unwrap_err();
+            assert!(said.starts_with("it must be a whole number from 0 to "), "{text}: {said}");
+        }
+    }
 
     #[test]
     fn numbers_out_of_range_are_refused_with_the_range() {

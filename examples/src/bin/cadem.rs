@@ -26,7 +26,7 @@ struct Cadem {
     #[arg(long, value_name = "NAME", value_parser = integrator())]
     integrator: Option<Integrator>,
     /// The slots of a cell; 11 in the paper, unless given as many as settled particles need
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole_number)]
     slots: Option<usize>,
     /// Let a contact take so many steps: dt = pi sqrt(m / k_n) / N. The paper's eq. 3, instead of 0.1 sqrt(m
     /// / k_n)

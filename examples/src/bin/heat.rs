@@ -38,7 +38,7 @@ fn diffuse(cell: &mut Cell<Heat>, p: &Copper) {
 #[derive(Args)]
 struct Cube {
     /// Cells along each side
-    #[arg(long, value_name = "N", default_value_t = 64)]
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = whole_number)]
     size: usize,
     /// The length of a side, in m
     #[arg(long, value_name = "METRES", default_value_t = 0.1, value_parser = positive_number)]

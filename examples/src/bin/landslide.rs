@@ -4,7 +4,7 @@
 //! adherence) can move. The minimisation of differences shares it with the four neighbours. A step moves a
 //! part of that (the rate). The volume of debris is conserved.
 use std::path::{Path, PathBuf};
-use xca_examples::models::flows::shares;
+use xca_examples::models::flows::{check_thickness, shares};
 use xca_run::prelude::*;
 
 /// The sides of a cell.
@@ -123,17 +123,9 @@ impl Terrain {
     }
 
     fn read(dem: &Path, debris: &Path) -> Result<Self, Failure> {
-        let [ground, thickness] = [Raster::read_heights(dem)?, Raster::read(debris)?];
+        let [ground, thickness] = [Raster::read_heights(dem)?, Raster::read_thickness(debris)?];
         let map = Map::from(&ground);
         map.check(debris, &thickness, &dem.display().to_string())?;
-        if let Some(cell) = thickness.values().iter().position(|thickness| *thickness < 0.0) {
-            let [column, row] = thickness.placement().place(cell);
-            let (path, metres) = (debris.display(), thickness.values()[cell]);
-            return Err(format!(
-                "{path}: {metres} m of debris in column {column}, row {row} from the north; it must be at least 0"
-            )
-            .into());
-        }
         Ok(Self { ground, debris: thickness, roughness: 0.0, files: vec![dem.to_owned(), debris.to_owned()] })
     }
 
@@ -154,7 +146,7 @@ const TRACE: f64 = 1e-3;
 
 /// The cells in which debris was found.
 fn read_observed(path: &Path, map: &Map) -> Result<Vec<bool>, Failure> {
-    let found = Raster::read(path)?;
+    let found = Raster::read_thickness(path)?;
     map.check(path, &found, "the ground")?;
     Ok(found.values().iter().map(|metres| *metres > TRACE).collect())
 }
@@ -199,6 +191,7 @@ impl Program for Landslide {
             .parameters(debris)
             .process((flow, settle))
             .fill(move |site| terrain.state(site))
+            .steer(Schedule::At(vec![0]), |state| check_thickness(state, Slope::THICKNESS))
             .stop_when(Schedule::Every(20), move |state| {
                 let largest = state.maximum(Slope::OUTFLOW)?.unwrap_or_default();
                 let rests = largest.iter().all(|metres| *metres <= until);

@@ -85,14 +85,21 @@ impl Program for Eruption {
     const ABOUT: &'static str = "Lava out of the vents of a volcano";
     const EXAMPLES: &'static str = "--vent 60,75 --vent 80,70 --rate 30\n--dem etna.asc --vent 210,180";
 
-    fn set_up(&self, _given: Given) -> Result<SetUp, Failure> {
+    fn set_up(&self, given: Given) -> Result<SetUp, Failure> {
         let ground = match &self.dem {
             Some(path) => Raster::read_heights(path)?,
             None => volcano().ok_or("a volcano has cells")?,
         };
         let (extents, side, map) = (ground.extents(), ground.side(), Map::from(&ground));
         let edge = map.edge();
-        let (lava, vents) = (Lava::default(), self.vents(&ground)?);
+        let (lava, vents) = (given.applied_to(Lava::default())?, self.vents(&ground)?);
+        let [solid, hot] = [lava.solid_temperature, lava.vent_temperature];
+        if hot <= solid {
+            return Err(format!(
+                "the parameter `vent_temperature` is {hot} K, but must be above `solid_temperature`, {solid} K"
+            )
+            .into());
+        }
         let roughness = if self.dem.is_some() { 0.0 } else { 2.0 };
         let altitude = move |site: Site| {
             let [x, y, _] = site.cell();
@@ -114,7 +121,8 @@ impl Program for Eruption {
             ])
         };
         let view = CellView::named("lava").draw(Volcano::TEMPERATURE, "temperature (K)");
-        let view = view.range(1000.0, lava.vent_temperature).relief(Volcano::ALTITUDE, 0.0);
+        let view = view.range(solid - 143.0, hot);
+        let view = view.relief(Volcano::ALTITUDE, 0.0);
         let set_up = SetUp::new(model, 720).time_step(lava.clock).observables(observe).cells(view);
         let set_up = set_up.warning_unless_zero("lava_at_edge", TOO_SMALL);
         Ok(self.dem.iter().fold(set_up.map(map), SetUp::input))

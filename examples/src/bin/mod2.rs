@@ -27,7 +27,7 @@ const FIGURE: [[usize; 3]; 6] = [[0, 0, 0], [1, 0, 0], [2, 0, 0], [2, 1, 0], [2,
 #[derive(Args)]
 struct Mod2 {
     /// Cells along each side of the torus; a power of 2 brings the figure back
-    #[arg(long, value_name = "N", default_value_t = 64)]
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = whole_number)]
     size: usize,
 }
 

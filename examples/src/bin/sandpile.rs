@@ -8,7 +8,7 @@ struct Sandpile {
     #[arg(long, value_name = "N", default_value_t = 1 << 15)]
     grains: u32,
     /// Cells along a side of the table
-    #[arg(long, value_name = "N", default_value_t = 161)]
+    #[arg(long, value_name = "N", default_value_t = 161, value_parser = whole_number)]
     size: usize,
 }
 

@@ -27,7 +27,7 @@ pub struct Cavity {
     #[parameter(range = 0.0..=0.3)]
     pub lid_speed: Real,
     /// Cells along a side.
-    #[parameter(range = 3..)]
+    #[parameter(computed, range = 3..)]
     pub size: u32,
     /// Relaxation rate.
     #[parameter(computed, range = 0.0..2.0)]
@@ -89,7 +89,8 @@ pub fn model(size: u32, reynolds: f64) -> Result<Model, ModelError> {
         .neighbourhood(neighbourhood)
         .substates::<Fluid>()
         .parameters(Cavity { reynolds, lid_speed: 0.1, size, omega: 1.0 })
-        .compute_parameters(|cavity: &mut Cavity| {
+        .compute_parameters(move |cavity: &mut Cavity| {
+            cavity.size = size;
             let viscosity = cavity.lid_speed * f64::from(cavity.size) / cavity.reynolds;
             cavity.omega = 1.0 / (3.0 * viscosity + 0.5);
         })

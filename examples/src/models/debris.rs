@@ -1,7 +1,7 @@
 //! A debris flow over hexagons that tears soil from its bed: SCIDDICA-S3hex (D'Ambrosio, Di Gregorio and
 //! Iovine, Natural Hazards and Earth System Sciences 3, 2003).
 
-use crate::models::flows::shares;
+use crate::models::flows::{check_thickness, shares};
 use xca_core::prelude::*;
 
 /// The sides of a hexagon.
@@ -162,6 +162,7 @@ pub fn model(
         .parameters(debris)
         .process((erode, flow, settle, lose))
         .fill(begin)
+        .steer(Schedule::At(vec![0]), |state| check_thickness(state, Slope::THICKNESS))
         .build()
 }
 

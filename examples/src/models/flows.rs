@@ -38,3 +38,19 @@ pub fn shares<const N: usize>(heights: [Real; N], takes_part: [bool; N], mobile:
     }
     shares
 }
+
+/// Refuses an initial state in which a thickness is below 0, as a grid of `--initial` can have it. Call it
+/// with `Schedule::At(vec![0])`: `--initial` comes after all of `Schedule::Start`.
+///
+/// # Errors
+/// With the first such cell.
+pub fn check_thickness<S: Substates>(
+    state: &State<'_>,
+    thickness: Substate<S, f64>,
+) -> Result<(), SteeringError> {
+    let metres = state.read(thickness)?;
+    let Some(cell) = metres.iter().position(|metres| *metres < 0.0) else { return Ok(()) };
+    let [columns, _, _] = state.geometry().extents();
+    let (x, y) = (cell % columns, cell / columns);
+    Err(format!("a thickness of {} m in cell [{x}, {y}, 0]; it must be at least 0", metres[cell]).into())
+}

@@ -5,7 +5,7 @@
 //! what the yield strength holds back. Yield strength and flow rate follow from the temperature. Vents give
 //! lava at a rate that changes with time.
 
-use crate::models::flows::shares;
+use crate::models::flows::{check_thickness, shares};
 use xca_core::prelude::*;
 
 /// A side or a corner is shared with so many cells.
@@ -214,6 +214,7 @@ pub fn model(
         .parameters(lava)
         .process((flow, mix, cool))
         .fill(move |site| bare(ground(site)))
+        .steer(Schedule::At(vec![0]), |state| check_thickness(state, Volcano::THICKNESS))
         .steer(Schedule::EveryFromStart(1), move |state| erupt(state, &vents))
         .build()
 }

@@ -35,13 +35,13 @@ pub struct Weather {
     #[parameter(range = 0.0..=1.0)]
     pub spread: Real,
     /// Wind towards east and north.
-    #[parameter(unit = "m/s")]
+    #[parameter(unit = "m/s", range = -150.0..=150.0)]
     pub wind: Vector2<Real>,
     /// The effect of the wind's speed, and that of the angle with it.
-    #[parameter(unit = "s/m")]
+    #[parameter(unit = "s/m", range = 0.0..=1.0)]
     pub wind_effects: [Real; 2],
     /// The effect of the slope.
-    #[parameter(unit = "1/degree")]
+    #[parameter(unit = "1/degree", range = 0.0..=1.0)]
     pub slope_effect: Real,
     /// The probability in a step that a fire goes out.
     #[parameter(range = 0.0..=1.0)]

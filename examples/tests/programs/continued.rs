@@ -147,6 +147,9 @@ fn inputs_must_be_as_they_were() {
     place.write("debris.asc", &grid(0.75));
     let said = refuse(&place, LANDSLIDE, "here --checkpoint here/checkpoints/step_00000024.checkpoint");
     assert!(said.contains("input file is debris.asc of the checksum "), "{said}");
+    // The older checkpoint began from the same file: it is not offered.
+    let said = refuse(&place, LANDSLIDE, "here --steps 40");
+    assert!(said.contains("input file is debris.asc of") && !said.contains("resume from it with"), "{said}");
     place.write("debris.asc", &grid(0.5));
     succeed(&place, LANDSLIDE, "here --checkpoint here/checkpoints/step_00000024.checkpoint");
     assert_same_results(&place.path("whole"), &place.path("here"), "the same inputs");

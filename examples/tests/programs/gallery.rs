@@ -103,6 +103,40 @@ fn a_model_of_one_row_is_drawn_in_space_and_time() {
     assert_eq!(checked, 103);
 }
 
+/// What a set-up computes from a parameter follows `--set`; what it cannot is refused.
+#[test]
+fn set_reaches_all_that_a_set_up_computes() {
+    let place = Workplace::new();
+    let [cavity, elementary] = [GALLERY[1].path, GALLERY[3].path];
+    let [lava, wildfire] = [GALLERY[6].path, GALLERY[10].path];
+    // Steps of half a minute.
+    place.succeed(lava, "--set clock=30 --steps 4");
+    let series = Table::read(&place.path("out/lava/observables.csv"));
+    assert_eq!([series.last("step"), series.last("time")], [4.0, 120.0]);
+    // The title of the picture is that of the rule.
+    let picture = |options: &str| {
+        place.succeed(elementary, &format!("{options} --width 31 --steps 3"));
+        fs::read(place.path("out/elementary/final.png")).unwrap()
+    };
+    let by_option = picture("--rule 90");
+    assert!(by_option == picture("--set number=90") && by_option != picture("--rule 30"));
+    for (path, options, wanted) in [
+        (cavity, "--set size=100", "the parameter `size` is computed from others"),
+        (
+            lava,
+            "--set vent_temperature=1000",
+            "`vent_temperature` is 1000 K, but must be above `solid_temperature`",
+        ),
+        (lava, "--set solid_temperature=1360", "1360 K, but must be above `solid_temperature`, 1360 K"),
+        (wildfire, "--set wind=1e300,0", "`wind` is 1e300, but must be at least -150 and at most 150 (m/s)"),
+        (wildfire, "--set slope_effect=-1", "`slope_effect` is -1, but must be at least 0 and at most 1"),
+        (wildfire, "--set wind_effects=0.1,2", "`wind_effects` is 2, but must be at least 0 and at most 1"),
+    ] {
+        let said = place.fail(2, path, options);
+        assert!(said.contains(wanted), "{options}: {said}");
+    }
+}
+
 #[test]
 fn maps_of_the_gallery() {
     let place = Workplace::new();

@@ -91,7 +91,10 @@ fn sizes_that_no_machine_has() {
         (CADEM, "--side 1000000", "BOUNDARY slots; labels for 2147483647 are there; use fewer cells"),
         (HEAT, "--size 0", "the space has no cells along x"),
         (HEAT, "--size 100000", "is too large: cells are numbered by 32 bits"),
-        (HEAT, "--size 99999999999999999999", "number too large"),
+        (HEAT, "--size 99999999999999999999", "it must be a whole number from 0 to "),
+        (HEAT, "--size -1", "it must be a whole number from 0 to "),
+        (MOD2, "--size 1.5", "it must be a whole number from 0 to "),
+        (CADEM, "--slots -3", "it must be a whole number from 0 to "),
     ]);
     if cfg!(target_os = "linux") {
         refused(&[

@@ -181,7 +181,12 @@ fn infinite_numbers_and_impossible_heights_are_refused() {
             message[message.find("dem.asc").unwrap()..].to_owned()
         })
     };
-    assert_eq!(heights("1 -9999 3\n-420 8849 100000"), Ok(6));
+    assert_eq!(heights("1 -9999 3\n-10935 21229 30000"), Ok(6));
+    // What programs write for NODATA without a line in the header.
+    for number in ["-32768", "32767", "65535", "-99999", "99999", "1e20"] {
+        let said = heights(&format!("1 2 {number}\n4 5 6")).unwrap_err();
+        assert!(said.contains("in column 3, row 1 from the north is not an altitude"), "{said}");
+    }
     let said = heights("1 2 3\n4 -32768e4 6").unwrap_err();
     assert!(
         said.starts_with("dem.asc: -327680000 in column 2, row 2 from the north is not an altitude"),
@@ -193,8 +198,25 @@ fn infinite_numbers_and_impossible_heights_are_refused() {
         said.starts_with("dem.asc: -9999 in column 1, row 2 from the north is not an altitude"),
         "{said}"
     );
-    assert!(heights("1 2 100001\n4 5 6").unwrap_err().contains("column 3, row 1"));
+    assert!(heights("1 2 30001\n4 5 6").unwrap_err().contains("column 3, row 1"));
     assert_eq!(heights("-9999 -9999 -9999\n-9999 -9999 -9999").unwrap_err(), "dem.asc: no cell has a value");
+}
+
+#[test]
+fn a_thickness_below_0_or_as_high_as_no_mountain_is_refused() {
+    let thickness = |cells: &str| {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("debris.asc");
+        fs::write(&path, format!("{HEADER}{cells}\n")).unwrap();
+        Raster::read_thickness(&path).map(|grid| grid.value([1, 0])).map_err(|error| error.to_string())
+    };
+    assert_eq!(thickness("0 0.5 -9999\n-0.0 30000 0"), Ok(Some(30000.0)));
+    for (number, told) in [("-5", "-5"), ("-1e-9", "-0.000000001"), ("32767", "32767"), ("-9998", "-9998")] {
+        let said = thickness(&format!("0 0 0\n0 {number} 0")).unwrap_err();
+        let wanted =
+            format!("debris.asc: a thickness of {told} m in column 2, row 2 from the north; it must be");
+        assert!(said.contains(&wanted), "{said}");
+    }
 }
 
 #[test]

@@ -35,6 +35,31 @@ pub enum ReadGeoTiffError {
         /// The type of the samples.
         found: String,
     },
+    /// The samples stand for other numbers, by a scale or an offset.
+    #[error(
+        "{}: the {role} of the samples of the GeoTIFF is {found}; apply it with `gdal_translate -unscale -ot Float64`",
+        path.display()
+    )]
+    Scaled {
+        /// The file.
+        path: PathBuf,
+        /// `scale` or `offset`.
+        role: &'static str,
+        /// Its text in the file.
+        found: String,
+    },
+    /// The heights are not in metres.
+    #[error(
+        "{}: the heights of the GeoTIFF are in {unit}, but models count in metres; convert them, for example \
+         with `gdal_calc`, and set the unit with `gdal_edit -units m`",
+        path.display()
+    )]
+    HeightUnit {
+        /// The file.
+        path: PathBuf,
+        /// The unit in the file.
+        unit: String,
+    },
     /// The image has too many cells.
     #[error(
         "{}: the GeoTIFF has {} x {} cells, which do not fit into memory",

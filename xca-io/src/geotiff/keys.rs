@@ -35,6 +35,9 @@ const METRE: u16 = 9001;
 const FOOT: u16 = 9002;
 const SURVEY_FOOT: u16 = 9003;
 
+/// `VerticalUnitsGeoKey`: the unit of heights.
+const HEIGHT_UNIT: u16 = 4099;
+
 /// The code of a system that the file defines itself.
 const USER_DEFINED: u16 = 32_767;
 
@@ -88,13 +91,16 @@ impl GeoKeys {
             Some(model) => model == MODEL_IS_GEOGRAPHIC,
             None => self.short(GEODETIC).is_some() && self.short(PROJECTED).is_none(),
         };
-        match (is_geographic, self.short(if is_geographic { ANGULAR_UNIT } else { LINEAR_UNIT })) {
-            (true, None | Some(DEGREE)) => MapUnit::Degree,
-            (false, None | Some(METRE)) => MapUnit::Metre,
-            (false, Some(FOOT)) => MapUnit::Foot,
-            (false, Some(SURVEY_FOOT)) => MapUnit::SurveyFoot,
-            _ => MapUnit::Other,
+        match self.short(ANGULAR_UNIT) {
+            None | Some(DEGREE) if is_geographic => MapUnit::Degree,
+            _ if is_geographic => MapUnit::Other,
+            _ => length_unit(self.short(LINEAR_UNIT)),
         }
+    }
+
+    /// The unit of heights. Metres if the file does not say.
+    pub(super) fn height_unit(&self) -> MapUnit {
+        length_unit(self.short(HEIGHT_UNIT))
     }
 
     /// Whether the keys name a coordinate system.
@@ -113,6 +119,16 @@ impl GeoKeys {
         let count = usize::from(*self.directory.get(KEY - 1)?);
         let mut keys = self.directory.chunks_exact(KEY).skip(1).take(count);
         keys.find(|key| key[0] == wanted && key[1] == 0).map(|key| key[3])
+    }
+}
+
+/// The unit of lengths with this code.
+fn length_unit(code: Option<u16>) -> MapUnit {
+    match code {
+        None | Some(METRE) => MapUnit::Metre,
+        Some(FOOT) => MapUnit::Foot,
+        Some(SURVEY_FOOT) => MapUnit::SurveyFoot,
+        Some(_) => MapUnit::Other,
     }
 }
 

@@ -31,6 +31,18 @@ struct Axes {
     row: f64,
 }
 
+impl Axes {
+    /// Whether a tie point is where the axes put its pixel, within a hundredth of a side. A number that is not
+    /// finite is another mistake.
+    fn fits(&self, point: &[f64]) -> bool {
+        let away = [
+            (self.origin[0] + point[0] * self.column - point[3]) / self.column,
+            (self.origin[1] + point[1] * self.row - point[4]) / self.row,
+        ];
+        !away.iter().any(|sides| sides.abs() > 0.01)
+    }
+}
+
 impl Georeference {
     /// The place of an image with these columns and rows. `None` without georeference.
     pub(super) fn pixels(
@@ -51,7 +63,8 @@ impl Georeference {
         if ![x, y, column, row].iter().all(|number| number.is_finite()) {
             return Err(wrong("has a number that is not finite"));
         }
-        if column <= 0.0 || row == 0.0 {
+        // GDAL takes a negative side as a positive one, against the standard: north would be in doubt.
+        if column <= 0.0 || row == 0.0 || (self.has_scale() && row > 0.0) {
             return Err(wrong("has a side that is not more than 0"));
         }
         if (column - row.abs()).abs() > 1e-6 * column {
@@ -70,7 +83,12 @@ impl Georeference {
         if self.has_scale() {
             let (scale, tiepoint) = (&self.scale, &self.tiepoint);
             let origin = [tiepoint[3] - tiepoint[0] * scale[0], tiepoint[4] + tiepoint[1] * scale[1]];
-            return Ok(Some(Axes { origin, column: scale[0], row: -scale[1] }));
+            let axes = Axes { origin, column: scale[0], row: -scale[1] };
+            if !tiepoint.chunks_exact(6).all(|point| axes.fits(point)) {
+                let problem = "has points that do not fit its first one and ModelPixelScale".to_owned();
+                return Err(ReadGeoTiffError::Tag { path: path.to_owned(), tag: "ModelTiepoint", problem });
+            }
+            return Ok(Some(axes));
         }
         let matrix = &self.transformation;
         if matrix.is_empty() {

@@ -1,10 +1,10 @@
 //! The reader of GeoTIFF, one strip or tile at a time.
 
 use super::place::{Georeference, Pixels};
-use super::{GeoKeys, ReadGeoTiffError, directory};
+use super::{GeoKeys, ReadGeoTiffError, directory, meaning};
 use crate::deflate;
 use crate::placement::Placement;
-use crate::raster::{Raster, are_huge, from_the_south};
+use crate::raster::{Quantity, Raster, are_huge, from_the_south};
 use crate::regular_file;
 use std::fs::File;
 use std::io::BufReader;
@@ -27,7 +27,7 @@ const SHORT: usize = 1 << 20;
 /// The number of cells that any file may leave out.
 const FEW: usize = 1 << 20;
 
-type Image = Decoder<BufReader<File>>;
+pub(super) type Image = Decoder<BufReader<File>>;
 
 /// The largest growth of a strip or tile when it is expanded, by the code of its compression.
 fn most_growth(compression: u16) -> u64 {
@@ -41,11 +41,15 @@ fn most_growth(compression: u16) -> u64 {
     }
 }
 
-const NOT_COMPRESSED: u16 = CompressionMethod::None.to_u16();
+pub(super) const NOT_COMPRESSED: u16 = CompressionMethod::None.to_u16();
 const LZW: u16 = CompressionMethod::LZW.to_u16();
-const PACK_BITS: u16 = CompressionMethod::PackBits.to_u16();
+pub(super) const PACK_BITS: u16 = CompressionMethod::PackBits.to_u16();
 
-pub(super) fn read(path: &Path, on: Option<Placement>) -> Result<Raster, ReadGeoTiffError> {
+pub(super) fn read(
+    path: &Path,
+    on: Option<Placement>,
+    quantity: Quantity,
+) -> Result<Raster, ReadGeoTiffError> {
     let unread = |source| ReadGeoTiffError::Open { path: path.to_owned(), source };
     let mut file = BufReader::with_capacity(1 << 16, regular_file::open(path).map_err(unread)?);
     let bytes = file.get_ref().metadata().map_err(unread)?.len();
@@ -67,6 +71,7 @@ pub(super) fn read(path: &Path, on: Option<Placement>) -> Result<Raster, ReadGeo
     let (columns, rows) = image.dimensions().map_err(undecoded)?;
     let extents = [columns as usize, rows as usize];
     let keys = keys(path, &mut image)?;
+    meaning::check(path, &mut image, keys.as_ref(), quantity)?;
     let georeference = georeference(&mut image).map_err(undecoded)?;
     let Pixels { placement, from_the_south: is_upside_down } =
         match georeference.pixels(path, extents, keys.as_ref())? {
@@ -123,7 +128,8 @@ fn keys(path: &Path, image: &mut Image) -> Result<Option<GeoKeys>, ReadGeoTiffEr
     };
     let directory = directory.into_u16_vec().map_err(undecoded)?;
     let doubles = numbers(image, Tag::GeoDoubleParamsTag).map_err(undecoded)?;
-    let text = text(path, image, Tag::GeoAsciiParamsTag, "GeoAsciiParams")?.unwrap_or_default();
+    let tag = Tag::GeoAsciiParamsTag;
+    let text = text(path, image, tag, "GeoAsciiParams", LONGEST_TEXT)?.unwrap_or_default();
     let broken = || ReadGeoTiffError::Tag {
         path: path.to_owned(),
         tag: "GeoKeyDirectory",
@@ -135,17 +141,18 @@ fn keys(path: &Path, image: &mut Image) -> Result<Option<GeoKeys>, ReadGeoTiffEr
 /// The longest text of a tag, in bytes.
 const LONGEST_TEXT: u64 = 1 << 16;
 
-/// The text of a tag.
-fn text(
+/// The text of a tag, of at most `longest` bytes.
+pub(super) fn text(
     path: &Path,
     image: &mut Image,
     tag: Tag,
     name: &'static str,
+    longest: u64,
 ) -> Result<Option<String>, ReadGeoTiffError> {
     let undecoded = |source| ReadGeoTiffError::Decode { path: path.to_owned(), source };
     // For a damaged file, the decoder would take too much memory and print to stderr.
-    if image.image_ifd().find_entry(tag).is_some_and(|entry| entry.count() > LONGEST_TEXT) {
-        let problem = format!("is longer than {LONGEST_TEXT} bytes");
+    if image.image_ifd().find_entry(tag).is_some_and(|entry| entry.count() > longest) {
+        let problem = format!("is longer than {longest} bytes");
         return Err(ReadGeoTiffError::Tag { path: path.to_owned(), tag: name, problem });
     }
     let found = image.find_tag(tag).map_err(undecoded)?;
@@ -154,7 +161,9 @@ fn text(
 
 /// The NODATA value.
 fn nodata(path: &Path, image: &mut Image) -> Result<Option<f64>, ReadGeoTiffError> {
-    let Some(text) = text(path, image, Tag::GdalNodata, "GDAL_NODATA")? else { return Ok(None) };
+    let Some(text) = text(path, image, Tag::GdalNodata, "GDAL_NODATA", LONGEST_TEXT)? else {
+        return Ok(None);
+    };
     let text = text.trim_matches(|letter: char| letter == '\0' || letter.is_whitespace());
     let wrong = || ReadGeoTiffError::Tag {
         path: path.to_owned(),

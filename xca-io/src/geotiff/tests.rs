@@ -24,14 +24,28 @@ fn bits(raster: &Raster) -> Vec<u64> {
 
 /// Writes a file with these tags and the samples 1 to 6, the first in the north-west.
 fn made(folder: &Path, tags: &[(Tag, &[f64])], nodata: Option<&str>) -> PathBuf {
+    let texts: Vec<(Tag, &str)> = nodata.map(|text| (Tag::GdalNodata, text)).into_iter().collect();
+    made_with(folder, tags, &texts, &[])
+}
+
+/// The same with tags that are texts or short numbers.
+fn made_with(
+    folder: &Path,
+    tags: &[(Tag, &[f64])],
+    texts: &[(Tag, &str)],
+    numbers: &[(Tag, &[u16])],
+) -> PathBuf {
     let path = folder.join("made.tif");
     let mut encoder = TiffEncoder::new(File::create(&path).unwrap()).unwrap();
     let mut image = encoder.new_image::<colortype::Gray8>(3, 2).unwrap();
     for (tag, numbers) in tags {
         image.encoder().write_tag(*tag, *numbers).unwrap();
     }
-    if let Some(text) = nodata {
-        image.encoder().write_tag(Tag::GdalNodata, text).unwrap();
+    for (tag, text) in texts {
+        image.encoder().write_tag(*tag, *text).unwrap();
+    }
+    for (tag, numbers) in numbers {
+        image.encoder().write_tag(*tag, *numbers).unwrap();
     }
     image.write_data(&[1, 2, 3, 4, 5, 6]).unwrap();
     path
@@ -106,6 +120,93 @@ fn the_place_follows_from_the_tags() {
     );
     assert!(refused(&matrix(10.0, -10.0, f64::NAN, 0.0)).contains("has a number that is not finite"));
     assert!(refused(&[1.0; 3]).contains("has 3 numbers, not 16"));
+}
+
+/// Where the standard and GDAL, or two tags, disagree, the place is in doubt.
+#[test]
+fn a_place_in_doubt_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |scale: &[f64], tiepoints: &[f64]| {
+        let tags = [(Tag::ModelPixelScaleTag, scale), (Tag::ModelTiepointTag, tiepoints)];
+        message(read(&made(folder.path(), &tags, None)).unwrap_err())
+    };
+    let south_up = refused(&[10.0, -10.0, 0.0], TIEPOINT.1);
+    assert!(
+        south_up.contains("ModelPixelScale of the GeoTIFF has a side that is not more than 0"),
+        "{south_up}"
+    );
+    for other in [[3.0, 2.0, 0.0, 130.0, 210.0, 0.0], [3.0, 0.0, 0.0, 131.0, 220.0, 0.0]] {
+        let said = refused(SCALE.1, &[TIEPOINT.1, &other].concat());
+        assert!(said.contains("ModelTiepoint of the GeoTIFF has points that do not fit"), "{said}");
+    }
+    let two = [TIEPOINT.1, &[3.0, 2.0, 0.0, 130.0, 200.0, 0.0]].concat();
+    let placed = read(&made(folder.path(), &[SCALE, (Tag::ModelTiepointTag, &two)], None)).unwrap();
+    assert_eq!((placed.corner(), placed.side()), ([100.0, 200.0], 10.0));
+}
+
+/// What the decoder would read as other numbers, or in another order.
+#[test]
+fn samples_that_are_not_what_they_seem_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let read_with = |texts: &[(Tag, &str)], numbers: &[(Tag, &[u16])]| {
+        Raster::read(&made_with(folder.path(), &[SCALE, TIEPOINT], texts, numbers))
+    };
+    let refused = |tag: Tag, number: u16| read_with(&[], &[(tag, &[number])]).unwrap_err().to_string();
+    for orientation in [2, 3, 4, 8] {
+        assert!(refused(Tag::Orientation, orientation).contains("do not begin in the north-west"));
+    }
+    assert!(refused(Tag::FillOrder, 2).contains("bits in reverse order"));
+    assert!(refused(Tag::Predictor, 2).contains("a predictor without LZW or Deflate"));
+    let plain = [(Tag::Orientation, &[1_u16][..]), (Tag::FillOrder, &[1]), (Tag::Predictor, &[1])];
+    assert_eq!(read_with(&[], &plain).unwrap().value([0, 1]), Some(1.0));
+    let scaled = |role: &str, text: &str| {
+        let item = format!("<GDALMetadata><Item sample=\"0\" role=\"{role}\">{text}</Item></GDALMetadata>");
+        read_with(&[(Tag::Unknown(42_112), &item)], &[]).map(|raster| raster.value([0, 1]))
+    };
+    for (role, text) in
+        [("scale", "0.1"), ("offset", "100"), ("offset", "-1e3"), ("scale", "nan"), ("scale", "")]
+    {
+        let said = scaled(role, text).unwrap_err().to_string();
+        assert!(
+            said.contains(&format!("made.tif: the {role} of the samples of the GeoTIFF is {text}; ")),
+            "{said}"
+        );
+    }
+    assert_eq!(scaled("scale", "1.0").unwrap(), Some(1.0));
+    assert_eq!(scaled("offset", "0").unwrap(), Some(1.0));
+}
+
+#[test]
+fn heights_in_feet_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let with_unit = |code: u16| {
+        let directory = [1, 1, 0, 4, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, 32633, 4099, 0, 1, code];
+        made_with(folder.path(), &[SCALE, TIEPOINT], &[], &[(Tag::GeoKeyDirectoryTag, &directory)])
+    };
+    let with_text = |unit: &str| {
+        let item =
+            format!("<GDALMetadata><Item name=\"UNITTYPE\" role=\"unittype\">{unit}</Item></GDALMetadata>");
+        made_with(folder.path(), &[SCALE, TIEPOINT], &[(Tag::Unknown(42_112), &item)], &[])
+    };
+    let refused = |path: &Path, unit: &str| {
+        for error in [Raster::read_heights(path).unwrap_err(), Raster::read_thickness(path).unwrap_err()] {
+            let said = error.to_string();
+            assert!(
+                said.contains(&format!("the heights of the GeoTIFF are in {unit}, but models")),
+                "{said}"
+            );
+        }
+        // The unit of any other number is its own affair.
+        assert_eq!(Raster::read(path).unwrap().value([0, 0]), Some(4.0));
+    };
+    refused(&with_unit(9002), "feet");
+    refused(&with_unit(9003), "US survey feet");
+    refused(&with_unit(9096), "another unit than metres");
+    refused(&with_text("ft"), "ft");
+    refused(&with_text("US survey foot"), "US survey foot");
+    for path in [with_unit(9001), with_text("m"), with_text("Metre"), with_text("")] {
+        assert_eq!(Raster::read_heights(&path).unwrap().value([2, 0]), Some(6.0));
+    }
 }
 
 #[test]

@@ -51,7 +51,7 @@ pub(super) fn resume(
     }
     let path = chosen(arguments)?;
     let found = Found { definition, arguments, path: &path };
-    let checkpoint = Checkpoint::read(&path).map_err(|error| found.refused(error.into(), None))?;
+    let checkpoint = Checkpoint::read(&path).map_err(|error| found.refused(error.into(), None, false))?;
     let begun = found.begun(&checkpoint, &earlier)?;
     let on = on.or_as_begun(&begun.engine);
     definition.engines.check([&*on.name], NAME).map_err(Unable::refused)?;
@@ -168,7 +168,10 @@ impl Found<'_> {
                 "{error}; choose that engine with --engine and its options, or add --allow-rounding"
             )),
             BeginError::Folder(_) | BeginError::Write(_) => Unable::refused(error),
-            other => self.refused(other.into(), Some(description)),
+            other => {
+                let is_of_run = matches!(other, BeginError::Checkpoint(CheckpointError::Foreign { .. }));
+                self.refused(other.into(), Some(description), is_of_run)
+            }
         }
     }
 
@@ -176,16 +179,19 @@ impl Found<'_> {
     fn same(&self, difference: Option<Difference>, description: &Description) -> Result<(), Unable> {
         let Some(Difference { what, found, wanted }) = difference else { return Ok(()) };
         let error = CheckpointError::Foreign { path: self.path.to_owned(), what, found, wanted };
-        Err(self.refused(error.into(), Some(description)))
+        Err(self.refused(error.into(), Some(description), true))
     }
 
-    /// A checkpoint that cannot be used, with the latest other one that may be.
-    fn refused(&self, error: Failure, description: Option<&Description>) -> Unable {
+    /// A checkpoint that cannot be used, with the latest other one that may be. A difference of the run, such
+    /// as a changed input file, is that of all its checkpoints.
+    fn refused(&self, error: Failure, description: Option<&Description>, is_of_run: bool) -> Unable {
         let might_do = |path: &PathBuf| {
             let other = Checkpoint::read(path).map(|other| other.description);
             other.is_ok_and(|other| {
                 other.run.other_program(self.definition.identity()).is_none()
-                    && description.is_none_or(|refused| refused.run != other.run || refused.step > other.step)
+                    && description.is_none_or(|refused| {
+                        refused.run != other.run || (!is_of_run && refused.step > other.step)
+                    })
             })
         };
         let is_other = |path: &PathBuf| path.file_name() != self.path.file_name();

@@ -143,6 +143,9 @@ fn numbers_that_are_no_altitudes_are_never_ground() {
         ("1e309", "g.asc:9: `1e309` is not a finite number"),
         ("-32768e3", "g.asc: -32768000 in column 2, row 3 from the north is not an altitude in m"),
         ("1e6", "g.asc: 1000000 in column 2, row 3 from the north is not an altitude in m"),
+        ("-32768", "g.asc: -32768 in column 2, row 3 from the north is not an altitude in m"),
+        ("32767", "g.asc: 32767 in column 2, row 3 from the north is not an altitude in m"),
+        ("99999", "g.asc: 99999 in column 2, row 3 from the north is not an altitude in m"),
     ] {
         ground(&header, text);
         let said = place.fail(2, LANDSLIDE, "--dem g.asc --debris d.asc");
@@ -150,6 +153,34 @@ fn numbers_that_are_no_altitudes_are_never_ground() {
         let said = place.fail(2, LAVA, "--dem g.asc");
         assert!(said.contains(wanted), "{said}");
     }
+}
+
+#[test]
+fn no_layer_is_thinner_than_nothing() {
+    let place = Workplace::new();
+    let header = header([5, 5], [0.0, 0.0]);
+    place.write("g.asc", &format!("{header}{}", matrix_of("500", 5, 11, "510")));
+    place.write("d.asc", &format!("{header}{}", matrix(5, 12, "5")));
+    let other = header.replace("-9999", "-1");
+    for (header, number) in [(&header, "-5"), (&other, "-9999"), (&header, "-1e-3")] {
+        place.write("below.asc", &format!("{header}{}", matrix(5, 7, number)));
+        let number: f64 = number.parse().unwrap();
+        let file = format!("below.asc: a thickness of {number} m in column 3, row 2 from the north");
+        let said = place.fail(2, LANDSLIDE, "--dem g.asc --debris below.asc");
+        assert!(said.contains(&file), "{said}");
+        let said = place.fail(2, LANDSLIDE, "--dem g.asc --debris d.asc --observed below.asc");
+        assert!(said.contains(&file), "{said}");
+        // `--initial` reads any number; the model refuses it.
+        let state = format!("a thickness of {number} m in cell [2, 3, 0]; it must be at least 0");
+        let said = place.fail(2, LANDSLIDE, "--dem g.asc --debris d.asc --initial thickness=below.asc");
+        assert!(said.contains(&state), "{said}");
+        let said = place.fail(2, LAVA, "--dem g.asc --initial thickness=below.asc");
+        assert!(said.contains(&state), "{said}");
+    }
+    place.write("much.asc", &format!("{header}{}", matrix(5, 7, "32767")));
+    let said = place.fail(2, LANDSLIDE, "--dem g.asc --debris much.asc");
+    assert!(said.contains("much.asc: a thickness of 32767 m in column 3, row 2 from the north"), "{said}");
+    assert!(!place.path("out").exists());
 }
 
 #[test]

@@ -1,6 +1,9 @@
 //! Folders that commands get, and those that they do not.
 
 use super::*;
+use crate::view::CellView;
+use crate::{Run, SetUp};
+use xca_core::prelude::*;
 use xca_picture::{Domain, ParticlePicture};
 
 fn files() -> Vec<String> {
@@ -233,5 +236,42 @@ fn a_report_of_another_shape_is_refused() {
     for error in [prepare(folder.path(), &[], &[]).unwrap_err(), RunFolder::open(folder.path()).unwrap_err()]
     {
         assert!(error.to_string().contains("`progress`: invalid type: integer `5`"), "{error}");
+    }
+}
+
+#[derive(Substates, Clone)]
+struct Field {
+    heat: Real,
+}
+
+#[elementary_process]
+fn rest(cell: &mut Cell<Field>) {
+    cell.heat += 0.0;
+}
+
+/// Whatever a view is called, frames of an earlier run do not stay among those of a later one.
+#[test]
+fn frames_of_an_earlier_run_are_removed_under_any_name() {
+    for (name, stem) in
+        [("lava flow", "lava_flow"), ("a/b", "a_b"), ("flux (m²)", "flux__m__"), ("..", "_"), ("x*", "x_")]
+    {
+        let folder = tempfile::tempdir().unwrap();
+        let run = |steps: u64, every: u64| {
+            let model = Model::builder("field").extents([3, 2, 1]).substates::<Field>();
+            let model = model.process(rest).fill(|_| Field { heat: 1.0 }).build().unwrap();
+            let set_up = SetUp::new(model, steps).cells(CellView::<Field>::named(name));
+            let mut recording =
+                Run::new(set_up).unwrap().every(every).begin(folder.path(), &Reference).unwrap();
+            recording.go(&mut ()).unwrap();
+            drop(recording);
+            let entries = fs::read_dir(folder.path().join(FRAMES)).unwrap();
+            let mut names: Vec<String> =
+                entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+            names.sort();
+            names
+        };
+        assert_eq!(run(100, 10).len(), 11, "{name}");
+        let wanted = [0, 20, 40].map(|step| format!("{stem}_{step:08}.vti"));
+        assert_eq!(run(40, 20), wanted, "{name}");
     }
 }

@@ -29,6 +29,7 @@ pub(super) struct Kept<'a> {
 
 /// The part of `run.json` that tells this.
 #[derive(Deserialize)]
+#[serde(expecting = "an object")]
 struct Told {
     xca: String,
     program: String,
@@ -43,6 +44,7 @@ struct Told {
 
 /// How far it came. The keys are written anew.
 #[derive(Deserialize)]
+#[serde(expecting = "an object")]
 struct Progress {
     steps: u64,
 }
