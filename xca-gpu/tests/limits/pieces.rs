@@ -7,7 +7,7 @@ use xca_core::{GroupSnapshot, Snapshot};
 use xca_gpu::Handicap;
 
 /// The most bytes of a binding.
-const REACH: u64 = 4096;
+const REACH: u64 = 4608;
 
 #[derive(Substates, Clone, Copy, Debug)]
 struct Air {
@@ -163,7 +163,7 @@ fn too_many_pieces_are_refused_at_the_start() -> TestResult {
     let gpu = gpu(Handicap { reach: Some(REACH), buffers: Some(13), ..Handicap::default() })?;
     let error = Simulation::new(&swarm(Boundary::Toroidal)?, &gpu, RunOptions::default()).err();
     let error = error.ok_or("thirteen buffers are enough")?.to_string();
-    for part in ["`collide`", "allows 13", "beyond 4096 bytes"] {
+    for part in ["`collide`", "allows 13", &format!("beyond {REACH} bytes")] {
         assert!(error.contains(part), "{error}");
     }
     Ok(())
