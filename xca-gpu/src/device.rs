@@ -10,6 +10,7 @@ mod exact;
 mod handicap;
 mod instance;
 mod passthrough;
+mod pieces;
 mod recorder;
 mod rewrite;
 mod transfer;
@@ -19,6 +20,8 @@ pub(crate) use code::{Access, Code, Pipeline};
 pub(crate) use corrections::Corrections;
 pub use error::DeviceError;
 pub use handicap::Handicap;
+#[cfg(test)]
+pub(crate) use pieces::in_pieces;
 pub(crate) use recorder::{Binding, Bindings, Recorder};
 pub(crate) use rewrite::UNTOUCHED;
 pub(crate) use transfer::Landing;
@@ -40,6 +43,7 @@ pub(crate) struct Device {
     handicap: Handicap,
     /// The most turns of loops, where the device ends them early.
     turns: Option<u32>,
+    reach: u64,
     device: wgpu::Device,
     queue: wgpu::Queue,
     /// Why the device is lost, once it is.
@@ -101,6 +105,7 @@ impl Device {
             note.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error.to_string());
         }));
         Ok(Self {
+            reach: description.largest_binding,
             adapter: description,
             handicap,
             turns: None,
@@ -115,6 +120,11 @@ impl Device {
     /// Notes how many turns the loops of an invocation may take together, where it ends them early.
     pub(crate) fn set_turns(&mut self, turns: Option<u32>) {
         self.turns = turns;
+    }
+
+    /// Keeps to the handicap in bindings from now on. Before, the device is tried out with large ones.
+    pub(crate) fn narrow(&mut self) {
+        self.reach = handicap::lower(self.reach, self.handicap.reach);
     }
 
     /// What is known of it.
@@ -134,6 +144,11 @@ impl Device {
         let wanted = if self.adapter.kind == AdapterKind::Processor { 1024 } else { 64 };
         let most = handicap::lower(most, self.handicap.workgroup);
         wanted.min(1 << most.max(1).ilog2())
+    }
+
+    /// What is corrected from the beginning.
+    pub(crate) fn corrections(&self) -> Corrections {
+        if self.handicap.corrected { Corrections::ALL } else { Corrections::default() }
     }
 
     /// From how many tiles on it is looked for those where something can change, where it is told.
@@ -157,9 +172,9 @@ impl Device {
         self.turns.is_none_or(|most| turns <= most as usize)
     }
 
-    /// The most bytes of a substate of cells that code is to reach at once.
+    /// The most bytes of a buffer that code is bound to at once.
     pub(crate) fn reach(&self) -> u64 {
-        handicap::lower(self.adapter.largest_binding, self.handicap.reach)
+        self.reach
     }
 
     /// Memory full of zeros.

@@ -99,16 +99,16 @@ impl Gpu {
             reason: error.to_string(),
         })?;
         device.set_turns(turns);
-        let device = Arc::new(device);
         let strict = match options.arithmetic {
             Arithmetic::Relaxed => Err("it was asked for".to_owned()),
             Arithmetic::Best | Arithmetic::Strict => proof::of_strictness(&device),
         };
+        device.narrow();
         match (&strict, options.arithmetic) {
             (Err(reason), Arithmetic::Strict) => {
                 Err(GpuError::NotStrict { adapter: device.adapter().to_string(), reason: reason.clone() })
             }
-            _ => Ok(Self { device, texts: Arc::default(), strict }),
+            _ => Ok(Self { device: Arc::new(device), texts: Arc::default(), strict }),
         }
     }
 

@@ -1,6 +1,7 @@
 //! A model under way on a device.
 
 mod memory;
+mod room;
 
 pub(crate) use memory::least_memory;
 
@@ -16,7 +17,7 @@ use crate::plane::size_on_device;
 use crate::program::{Manner, Program, Texts};
 use crate::service::{ADVANCE, SEAL_AIM, SEAL_FULL, SEAL_REPORT, SORTING, Services};
 use crate::space::Space;
-use memory::{check_types, groups_of, looked_at, records, space_of};
+use memory::{check_types, groups_of, looked_at, space_of};
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::sync::Arc;
@@ -308,7 +309,12 @@ impl GpuExecution {
         }
         let program = &self.programs[index];
         if program.process.kind == ProcessKind::Migration {
-            return self.record_migration(recorder, index);
+            let group = program.population(model);
+            self.record_migration(recorder, index)?;
+            if let Some(population) = group.and_then(|group| self.groups.population_mut(group)) {
+                population.swap();
+            }
+            return Ok(());
         }
         let doubled: Vec<SubstateId> = program.doubled(model).collect();
         let written: Vec<SubstateId> = program.written(model).collect();
@@ -323,6 +329,7 @@ impl GpuExecution {
         Ok(())
     }
 
+    /// Records a migration. Afterwards its population has to be swapped.
     fn record_migration(&mut self, recorder: &mut Recorder, index: usize) -> Result<(), DeviceError> {
         let group = self.programs[index].population(&self.model);
         let device = &self.device;
@@ -335,7 +342,7 @@ impl GpuExecution {
         seal(device, recorder, services, (&self.groups, &self.stamps), ((index, Cause::Aimed), group))?;
         migration.arrange(device, recorder, services, (&self.groups, &self.space))?;
         seal(device, recorder, services, (&self.groups, &self.stamps), ((index, Cause::Full), group))?;
-        migration.settle(device, recorder, services, (&mut self.groups, &self.halo))
+        migration.settle(device, recorder, services, (&self.groups, &self.halo))
     }
 
     /// Submits what was recorded, waits for it, and reads the journals. What stopped the run comes with the
@@ -388,22 +395,6 @@ impl GpuExecution {
         let what = program.map(|program| format!("the process `{}`", program.process.name));
         let what = what.unwrap_or_else(|| "the sort of the items of a cell".to_owned());
         Err(DeviceError::EndedEarly { what, turns })
-    }
-
-    /// Tells the device and all that is bound how many items a population has now.
-    pub(crate) fn items_changed(&mut self, group: usize) -> Result<(), DeviceError> {
-        let items = self.groups.items(group);
-        for migration in self.migrations.iter_mut().filter(|migration| migration.group() == group) {
-            migration.make_room(&self.device, items)?;
-        }
-        let (groups, model) = (&self.groups, &self.model);
-        let of = |program: &Program| program.population(model).map_or(0, |group| groups.items(group));
-        let records = records(&self.space, &self.programs, of);
-        self.groups.make_room(&self.device, records)?;
-        self.services.forget();
-        self.programs.iter_mut().for_each(Program::forget);
-        let journal = (group as u64 + 1) * JOURNAL;
-        self.device.upload(self.groups.journals(), journal + 8, bytemuck::bytes_of(&(items as u32)))
     }
 }
 

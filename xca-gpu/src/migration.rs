@@ -152,17 +152,17 @@ impl Migration {
         services.run(device, recorder, SORT, (&[], &parts), space.stored())
     }
 
-    /// Records the moves themselves.
+    /// Records the moves themselves. Afterwards the population has to be swapped.
     pub(crate) fn settle(
         &self,
         device: &Device,
         recorder: &mut Recorder,
         services: &mut Services,
-        (groups, halo): (&mut Groups, &Halo),
+        (groups, halo): (&Groups, &Halo),
     ) -> Result<(), DeviceError> {
         let journal = groups.journal(Some(self.group));
         let faults = Binding::from(groups.faults());
-        let Some(population) = groups.population_mut(self.group) else { return Ok(()) };
+        let Some(population) = groups.population(self.group) else { return Ok(()) };
         let items = population.items;
         let fields = population.fields.iter();
         let moves = fields
@@ -175,13 +175,9 @@ impl Migration {
             services.run(device, recorder, GATHER, (&[("WORDS", words)], parts), items * words)?;
         }
         services.run(device, recorder, DEPART, (&[], &[journal, faults]), 1)?;
-        for ranges in [&population.starts, &population.ends] {
-            halo.fill_words(device, recorder, services, ranges, 1)?;
-        }
-        population.fields.iter_mut().for_each(crate::plane::Plane::swap);
-        population.labels.swap();
-        population.cells.swap();
-        Ok(())
+        [&population.starts, &population.ends]
+            .into_iter()
+            .try_for_each(|ranges| halo.fill_words(device, recorder, services, ranges, 1))
     }
 
     /// The bytes that it takes.

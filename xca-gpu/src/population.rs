@@ -113,6 +113,13 @@ impl Population {
             .try_for_each(|(plane, values)| plane.write_items(device, values))
     }
 
+    /// Makes the items as a migration has moved them the present ones.
+    pub(crate) fn swap(&mut self) {
+        self.fields.iter_mut().for_each(Plane::swap);
+        self.labels.swap();
+        self.cells.swap();
+    }
+
     /// All items.
     pub(crate) fn get(&self, device: &Device, space: &Space) -> Result<Items, DeviceError> {
         let numbers = |plane: &Plane| -> Result<Vec<u32>, DeviceError> {

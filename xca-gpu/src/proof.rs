@@ -116,7 +116,7 @@ pub(crate) fn of_strictness(device: &Device) -> Result<Corrections, String> {
         let interface = &device.adapter().interface;
         return Err(format!("its driver takes no SPIR-V as it is (interface: {interface}, wanted: vulkan)"));
     }
-    let mut corrections = Corrections::default();
+    let mut corrections = device.corrections();
     correct::<f32>(device, 0, &mut corrections)?;
     if device.adapter().has_f64 {
         correct::<f64>(device, 1, &mut corrections)?;

@@ -37,11 +37,11 @@ pub(crate) struct Code {
 pub(crate) struct Pipeline {
     pub(super) pipeline: wgpu::ComputePipeline,
     pub(super) layout: wgpu::BindGroupLayout,
-    pub(super) name: String,
+    pub(super) code: Code,
 }
 
 impl fmt::Debug for Pipeline {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "Pipeline({})", self.name)
+        write!(f, "Pipeline({})", self.code.name)
     }
 }

@@ -71,15 +71,14 @@ impl Device {
                 },
                 cache: None,
             });
-            Pipeline { pipeline, layout, name: code.name.clone() }
+            Pipeline { pipeline, layout, code: code.clone() }
         })
     }
 
     /// What is replaced in strict code.
     fn replacements(&self, corrections: Corrections) -> Vec<Replacements> {
         let corrected = Replacements { manner: Manner::Corrected, of: corrections };
-        let all = Corrections { divisions: [true; 2], roots: [true; 2], roundings: [true; 2] };
-        let rough = Replacements { manner: Manner::Rough, of: all };
+        let rough = Replacements { manner: Manner::Rough, of: Corrections::ALL };
         if self.handicap.rough { vec![corrected, rough] } else { vec![corrected] }
     }
 }

@@ -9,3 +9,8 @@ pub(crate) struct Corrections {
     /// Floats made whole: `trunc`, `floor` and `ceil`.
     pub(crate) roundings: [bool; 2],
 }
+
+impl Corrections {
+    /// Of all operations that can be corrected.
+    pub(crate) const ALL: Self = Self { divisions: [true; 2], roots: [true; 2], roundings: [true; 2] };
+}

@@ -21,6 +21,21 @@ pub enum DeviceError {
         /// The limit.
         most: u64,
     },
+    /// More pieces of buffers than code can use.
+    #[error(
+        "{what} would use {wanted} storage buffers, and this adapter allows {most}: a buffer beyond {reach} bytes \
+         is bound in pieces; use fewer cells or items, divide the process, or take the cpu engine"
+    )]
+    TooManyPieces {
+        /// What uses them.
+        what: String,
+        /// How many it would use.
+        wanted: usize,
+        /// The limit.
+        most: usize,
+        /// The most bytes of a piece.
+        reach: u64,
+    },
     /// Loops that the device does not bring to their end.
     #[error(
         "{what} has loops that take more turns than this adapter does: it ends the loops of a cell or an item after about {turns} \

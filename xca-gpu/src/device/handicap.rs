@@ -5,8 +5,8 @@
 /// result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Handicap {
-    /// The most bytes of a substate of cells that a process reaches at once. Larger ones are worked on in
-    /// parts.
+    /// The most bytes of a buffer in a binding. Larger substates of cells are worked on in parts; larger
+    /// buffers of other kinds are bound in pieces.
     pub reach: Option<u64>,
     /// The most invocations of a workgroup.
     pub workgroup: Option<u32>,
@@ -16,6 +16,9 @@ pub struct Handicap {
     pub tiles: Option<usize>,
     /// The most buffers that a process uses, uniform ones left out.
     pub buffers: Option<u32>,
+    /// Whether strict code divides, takes square roots and makes numbers whole by the corrected versions,
+    /// though the adapter's own are right.
+    pub corrected: bool,
     /// Whether strict code divides and takes square roots with the last digits wrong.
     pub rough: bool,
 }

@@ -1,6 +1,6 @@
 //! Work for the device, recorded and then submitted as one.
 
-use super::{Buffer, Device, DeviceError, Pipeline};
+use super::{Access, Buffer, Device, DeviceError, Pipeline, pieces};
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
@@ -17,6 +17,18 @@ impl Binding {
     /// Bytes of a buffer.
     pub(crate) fn part(buffer: &Buffer, start: u64, size: u64) -> Self {
         Self { buffer: buffer.clone(), start, size }
+    }
+
+    /// The binding in pieces of at most so many bytes, all but the last of the same size.
+    fn pieces(&self, most: u64) -> Vec<Self> {
+        if self.size <= most {
+            return vec![self.clone()];
+        }
+        let piece = (most - most % pieces::ALIGNMENT).max(pieces::ALIGNMENT);
+        let starts = (0..self.size).step_by(piece as usize);
+        starts
+            .map(|start| Self::part(&self.buffer, self.start + start, piece.min(self.size - start)))
+            .collect()
     }
 
     /// What is the same for equal bindings only.
@@ -46,8 +58,9 @@ impl fmt::Debug for Bindings {
 
 /// Work to be submitted.
 pub(crate) struct Recorder {
-    encoder: wgpu::CommandEncoder,
+    // A recorder that is dropped ends its pass first.
     pass: Option<wgpu::ComputePass<'static>>,
+    encoder: wgpu::CommandEncoder,
 }
 
 impl Recorder {
@@ -89,11 +102,7 @@ impl Device {
         pipeline: &Arc<Pipeline>,
         buffers: &[Binding],
     ) -> Result<Bindings, DeviceError> {
-        let most = self.adapter.largest_binding;
-        if let Some(part) = buffers.iter().find(|part| part.size > most) {
-            let what = format!("what {} reaches at once", pipeline.name);
-            return Err(DeviceError::TooLarge { what, wanted: part.size, most });
-        }
+        let (pipeline, buffers) = self.in_reach(pipeline, buffers)?;
         let entries: Vec<_> = buffers
             .iter()
             .zip(0..)
@@ -106,26 +115,54 @@ impl Device {
                 }),
             })
             .collect();
-        let group = self.guarded(&format!("the buffers of {}", pipeline.name), || {
+        let group = self.guarded(&format!("the buffers of {}", pipeline.code.name), || {
             self.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some(&pipeline.name),
+                label: Some(&pipeline.code.name),
                 layout: &pipeline.layout,
                 entries: &entries,
             })
         })?;
-        Ok(Bindings { pipeline: Arc::clone(pipeline), group })
+        Ok(Bindings { pipeline, group })
+    }
+
+    /// Compiled code with its buffers, or where a buffer is too large for a binding, code that is bound to
+    /// pieces of it.
+    fn in_reach(
+        &self,
+        pipeline: &Arc<Pipeline>,
+        buffers: &[Binding],
+    ) -> Result<(Arc<Pipeline>, Vec<Binding>), DeviceError> {
+        let reach = self.reach();
+        let pieces: Vec<Vec<Binding>> = buffers.iter().map(|buffer| buffer.pieces(reach)).collect();
+        if pieces.iter().all(|pieces| pieces.len() == 1) {
+            return Ok((Arc::clone(pipeline), buffers.to_vec()));
+        }
+        let name = &pipeline.code.name;
+        let wanted = buffers.iter().map(|buffer| buffer.size).max().unwrap_or(0);
+        let counts: Vec<usize> = pieces.iter().map(Vec::len).collect();
+        let code = pieces::in_pieces(&pipeline.code, &counts).map_err(|_| DeviceError::TooLarge {
+            what: format!("what {name} reaches at once"),
+            wanted,
+            most: reach,
+        })?;
+        let uniform = code.buffers.iter().filter(|access| **access == Access::Uniform).count();
+        let (wanted, most) = (counts.iter().sum::<usize>() - uniform, self.buffers() as usize);
+        if wanted > most {
+            return Err(DeviceError::TooManyPieces { what: name.clone(), wanted, most, reach });
+        }
+        Ok((self.pipeline(&code)?, pieces.concat()))
     }
 
     /// Starts to record.
     pub(crate) fn recorder(&self) -> Recorder {
         let encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        Recorder { encoder, pass: None }
+        Recorder { pass: None, encoder }
     }
 
     /// Hands recorded work to the device.
     pub(crate) fn submit(&self, recorder: Recorder) -> Result<(), DeviceError> {
         self.guarded("the work of a step", || {
-            let Recorder { encoder, pass } = recorder;
+            let Recorder { pass, encoder } = recorder;
             drop(pass);
             self.queue.submit([encoder.finish()]);
         })

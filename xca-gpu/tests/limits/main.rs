@@ -4,5 +4,7 @@ mod activity;
 mod buffers;
 mod common;
 mod corrections;
+mod pieces;
+mod silence;
 mod turns;
 mod workgroups;
