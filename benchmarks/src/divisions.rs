@@ -73,7 +73,7 @@ pub(crate) fn costs(precision: Precision, rounds: usize) -> Result<Vec<Cost>, Bo
     for operation in ["division", "square root"] {
         let name = format!("{operation} in {type_}");
         if engines[0].corrected().contains(&name) {
-            return Err(format!("{} is corrected on this adapter anyway", name).into());
+            return Err(format!("{name} is corrected on this adapter anyway").into());
         }
     }
     let start = |engine: &Gpu| Simulation::new(&model, engine, RunOptions { precision, seed: 0 });
@@ -85,7 +85,7 @@ pub(crate) fn costs(precision: Precision, rounds: usize) -> Result<Vec<Cost>, Bo
         let times = interleaved(
             rounds,
             &mut [&mut || *first = own.run_process(process), &mut || {
-                *second = corrected.run_process(process)
+                *second = corrected.run_process(process);
             }],
         );
         outcomes.into_iter().collect::<Result<(), _>>()?;

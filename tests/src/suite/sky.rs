@@ -79,7 +79,7 @@ pub fn shiver(me: &mut Slot<Walker>, ground: &Cell<Medium>, sky: &Cell<Sky>) {
 /// A cell, the other struct at neighbours, and its items.
 #[elementary_process]
 pub fn shelter(sky: &mut Cell<Sky>, ground: &Cell<Medium>, slots: &Slots<Walker>, p: &Tuning) {
-    let n = mix(p.salt, sky.drops[0]) as usize % ground.neighbour_count();
+    let n = mix(p.salt, sky.drops[0]) as usize % sky.neighbour_count();
     for item in slots {
         sky.drops[1] = mix(sky.drops[1], item.label());
         sky.cloud = bounded(sky.cloud + item.mass * ground.neighbour(n).flow.x, 40.0);
