@@ -20,6 +20,7 @@
 
 mod directory;
 mod error;
+mod image;
 mod keys;
 mod meaning;
 mod place;
@@ -32,7 +33,8 @@ pub use write::SampleType;
 
 use crate::atomic::WriteError;
 use crate::placement::Placement;
-use crate::raster::{Quantity, Raster};
+use crate::quantity::Quantity;
+use crate::raster::Raster;
 use crate::regular_file;
 use std::io::Read;
 use std::path::Path;

@@ -37,6 +37,7 @@ pub mod numbered;
 pub mod numbers;
 pub mod particle_csv;
 mod placement;
+mod quantity;
 pub mod raster;
 pub mod regular_file;
 pub mod table_csv;

@@ -6,7 +6,6 @@
 
 mod read;
 
-pub(crate) use read::Quantity;
 pub use read::{HIGHEST, ReadRasterError};
 
 use crate::geotiff::GeoKeys;

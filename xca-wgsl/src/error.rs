@@ -42,12 +42,6 @@ pub enum Problem {
         /// The name.
         name: String,
     },
-    /// A helper calls itself, directly or through others.
-    #[error("the helper `{helper}` calls itself, which WGSL forbids; write a loop")]
-    Recursion {
-        /// The helper.
-        helper: String,
-    },
     /// A helper was given where a process is needed.
     #[error("it is a helper, not a process")]
     NotAProcess,

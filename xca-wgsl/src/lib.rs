@@ -28,8 +28,7 @@
 //! computed of these. A process without anything to check, and without faults of its own, needs no record.
 //!
 //! # What is refused
-//! NaN as a constant, empty arrays, comparisons of tuples and of arrays of them, order comparisons of `bool`,
-//! recursion.
+//! NaN as a constant, empty arrays, comparisons of tuples and of arrays of them, order comparisons of `bool`.
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 

@@ -20,7 +20,6 @@ impl Program {
         }
         let mut program = Self { functions: vec![process.clone()], by_address: HashMap::new() };
         program.add_callees(0)?;
-        program.check_recursion()?;
         Ok(program)
     }
 
@@ -64,36 +63,6 @@ impl Program {
             self.by_address.insert(call as usize, number);
             self.add_callees(number)?;
         }
-        Ok(())
-    }
-
-    /// Refuses helpers that call themselves.
-    fn check_recursion(&self) -> Result<(), Error> {
-        let mut done = vec![false; self.functions.len()];
-        self.descend(0, &mut Vec::new(), &mut done)
-    }
-
-    fn descend(&self, number: usize, path: &mut Vec<usize>, done: &mut [bool]) -> Result<(), Error> {
-        if path.contains(&number) {
-            let helper = self.functions[number].name;
-            return Err(error(self.process().name, helper, Problem::Recursion { helper: helper.to_owned() }));
-        }
-        if done[number] {
-            return Ok(());
-        }
-        let mut callees = Vec::new();
-        visit::block(&self.functions[number].body, &mut |node| {
-            if let Node::Expression(Expression::Call { function, .. }) = node {
-                callees.extend(self.helper(*function));
-            }
-            true
-        });
-        path.push(number);
-        for callee in callees {
-            self.descend(callee, path, done)?;
-        }
-        path.pop();
-        done[number] = true;
         Ok(())
     }
 

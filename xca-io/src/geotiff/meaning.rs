@@ -1,10 +1,10 @@
 //! What the samples of a GeoTIFF mean, besides their place: files whose numbers are not what they seem are
 //! refused.
 
-use super::read::{Image, NOT_COMPRESSED, PACK_BITS, text};
+use super::image::{Image, NOT_COMPRESSED, PACK_BITS, text};
 use super::{GeoKeys, ReadGeoTiffError};
 use crate::map_unit::MapUnit;
-use crate::raster::Quantity;
+use crate::quantity::Quantity;
 use std::path::Path;
 use tiff::tags::Tag;
 

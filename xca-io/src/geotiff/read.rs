@@ -1,12 +1,13 @@
 //! The reader of GeoTIFF, one strip or tile at a time.
 
+use super::image::{Image, NOT_COMPRESSED, PACK_BITS, text};
 use super::place::{Georeference, Pixels};
 use super::{GeoKeys, ReadGeoTiffError, directory, meaning};
 use crate::deflate;
 use crate::placement::Placement;
-use crate::raster::{Quantity, Raster, are_huge, from_the_south};
+use crate::quantity::Quantity;
+use crate::raster::{Raster, are_huge, from_the_south};
 use crate::regular_file;
-use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 use std::sync::Arc;
@@ -27,8 +28,6 @@ const SHORT: usize = 1 << 20;
 /// The number of cells that any file may leave out.
 const FEW: usize = 1 << 20;
 
-pub(super) type Image = Decoder<BufReader<File>>;
-
 /// The largest growth of a strip or tile when it is expanded, by the code of its compression.
 fn most_growth(compression: u16) -> u64 {
     match compression {
@@ -41,9 +40,7 @@ fn most_growth(compression: u16) -> u64 {
     }
 }
 
-pub(super) const NOT_COMPRESSED: u16 = CompressionMethod::None.to_u16();
 const LZW: u16 = CompressionMethod::LZW.to_u16();
-pub(super) const PACK_BITS: u16 = CompressionMethod::PackBits.to_u16();
 
 pub(super) fn read(
     path: &Path,
@@ -140,24 +137,6 @@ fn keys(path: &Path, image: &mut Image) -> Result<Option<GeoKeys>, ReadGeoTiffEr
 
 /// The longest text of a tag, in bytes.
 const LONGEST_TEXT: u64 = 1 << 16;
-
-/// The text of a tag, of at most `longest` bytes.
-pub(super) fn text(
-    path: &Path,
-    image: &mut Image,
-    tag: Tag,
-    name: &'static str,
-    longest: u64,
-) -> Result<Option<String>, ReadGeoTiffError> {
-    let undecoded = |source| ReadGeoTiffError::Decode { path: path.to_owned(), source };
-    // For a damaged file, the decoder would take too much memory and print to stderr.
-    if image.image_ifd().find_entry(tag).is_some_and(|entry| entry.count() > longest) {
-        let problem = format!("is longer than {longest} bytes");
-        return Err(ReadGeoTiffError::Tag { path: path.to_owned(), tag: name, problem });
-    }
-    let found = image.find_tag(tag).map_err(undecoded)?;
-    found.map(Value::into_string).transpose().map_err(undecoded)
-}
 
 /// The NODATA value.
 fn nodata(path: &Path, image: &mut Image) -> Result<Option<f64>, ReadGeoTiffError> {

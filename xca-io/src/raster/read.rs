@@ -4,20 +4,12 @@ use super::Raster;
 use crate::ascii_grid::{self, ReadGridError};
 use crate::geotiff::{self, ReadGeoTiffError};
 use crate::placement::Placement;
+use crate::quantity::Quantity;
 use std::path::{Path, PathBuf};
 
 /// The largest valid altitude or depth in metres. No place of a rocky planet is as high or as deep. Below the
 /// numbers for NODATA that programs leave undeclared: 32767, 65535, 99999, with either sign.
 pub const HIGHEST: f64 = 3e4;
-
-/// What the values of a raster are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Quantity {
-    /// Any number.
-    Any,
-    /// An altitude or a thickness, in metres.
-    Height,
-}
 
 impl Raster {
     /// Reads a GeoTIFF or an ESRI ASCII grid. The first bytes or the extension (`.tif`, `.tiff`) decide

@@ -53,27 +53,3 @@ fn a_problem_in_a_helper_names_it() {
          report a fault instead"
     );
 }
-
-#[helper]
-fn even(n: i32) -> bool {
-    if n == 0 { true } else { odd(n - 1) }
-}
-
-#[helper]
-fn odd(n: i32) -> bool {
-    if n == 0 { false } else { even(n - 1) }
-}
-
-#[elementary_process]
-fn recursive(cell: &mut Cell<State>) {
-    cell.count = even(cell.count) as i32;
-}
-
-#[test]
-fn recursion() {
-    assert_eq!(
-        refused::<recursive>().to_string(),
-        "the process `recursive` cannot be written in WGSL: in `even`: the helper `even` calls itself, which WGSL \
-         forbids; write a loop"
-    );
-}
