@@ -46,7 +46,7 @@ impl EngineKind for MpiKind {
     }
 
     fn about(&self) -> &'static str {
-        "One part of the space per process of `mpirun`; mpi:2x3:cpu makes 2 along y and 3 along z"
+        "One part of the space per process of `mpirun`; 2x3: along y and z"
     }
 
     fn detail(&self) -> Option<EngineDetail> {

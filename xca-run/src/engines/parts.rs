@@ -26,7 +26,7 @@ impl EngineKind for PartsKind {
     }
 
     fn about(&self) -> &'static str {
-        "N parts of the space, each on a cpu engine; YxZ in place of N, such as 2x3, for parts along y and z"
+        "N parts of the space, each on a cpu engine; 2x3: along y and z"
     }
 
     fn detail(&self) -> Option<EngineDetail> {
