@@ -4,7 +4,6 @@ mod bandwidth;
 mod boltzmann;
 mod comparison;
 mod dense;
-mod divisions;
 mod engines;
 mod lammps;
 mod mathematics;
@@ -96,8 +95,6 @@ enum Benchmark {
     /// Models that are quiet nearly everywhere: the CPU engine as it is against itself where it works on all
     /// cells.
     Quiet,
-    /// Divisions and square roots on the GPU engine, as the adapter does them and corrected.
-    Divisions,
     /// A call of each function of `xca_core::math`, on one thread.
     Mathematics,
 }
@@ -187,21 +184,6 @@ fn run(arguments: Arguments) -> Result<(), Box<dyn Error>> {
         Benchmark::Quiet => {
             for model in quiet::Quiet::all()? {
                 say!("{}", model.cost(arguments.threads, arguments.rounds)?)?;
-            }
-        }
-        Benchmark::Divisions => {
-            for precision in [Precision::F32, Precision::F64] {
-                for cost in divisions::costs(precision, arguments.rounds)? {
-                    let [own, corrected] = [&cost.own, &cost.corrected].map(|times| {
-                        let (low, high) = times.spread();
-                        format!("{:.3} ns ({:.3} to {:.3})", times.median() * 1e9, low * 1e9, high * 1e9)
-                    });
-                    let ratio = cost.corrected.median() / cost.own.median();
-                    say!(
-                        "{} {precision}: {own}, corrected {corrected}, {ratio:.2} times as long",
-                        cost.name
-                    )?;
-                }
             }
         }
         Benchmark::Mathematics => {
