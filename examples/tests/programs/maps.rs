@@ -161,7 +161,7 @@ fn grids_that_do_not_fit_are_refused() {
         (
             LANDSLIDE,
             "--dem small.asc --debris hole.asc",
-            "hole.asc: -3 m of debris in column 1, row 2 from the north",
+            "hole.asc: a thickness of -3 m in column 1, row 2 from the north",
         ),
         (LANDSLIDE, "--debris hole.asc", "--dem"),
     ] {

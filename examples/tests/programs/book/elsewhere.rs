@@ -63,6 +63,11 @@ pub(super) const ELSEWHERE: &[Elsewhere] = &[
         "cargo run --release -p xca-benchmarks -- --rounds 41 mathematics",
         "runs it with one round",
     ),
+    by(
+        "benchmarks/tests/output.rs",
+        "cargo run --release -p xca-benchmarks -- --rounds 7 parts",
+        "runs another benchmark",
+    ),
     by("benchmarks/tests/output.rs", "cargo run --release -p xca-benchmarks --", "runs one of them"),
     by_nothing("module load openmpi", "for Slurm; the page says that it was not run"),
     by_nothing(
