@@ -27,10 +27,8 @@ pub(crate) enum ChoiceError {
 impl<'a> Choice<'a> {
     pub(crate) fn new(text: &str, engines: &'a Engines) -> Result<Self, ChoiceError> {
         let text = text.trim();
-        let (word, precision) = match text.rsplit_once('@') {
-            Some((word, precision)) => (word, Some(precision.parse()?)),
-            None => (text, None),
-        };
+        let (word, precision) = text.rsplit_once('@').map_or((text, None), |(word, end)| (word, Some(end)));
+        let precision = precision.map(str::parse).transpose()?;
         let engine = EngineWords::new(engines).parse(word)?;
         Ok(Self { text: text.to_owned(), kind: engines.kind(&engine.name)?, engine, precision })
     }

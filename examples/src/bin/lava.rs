@@ -80,6 +80,9 @@ impl Eruption {
 /// The warning of a run in which lava has reached the edge.
 const TOO_SMALL: &str = "lava has reached the edge of the map and piles up there; use a larger map";
 
+/// The range of temperatures below solidification that pictures show, in kelvin.
+const SOLID_SHOWN: f64 = 143.0;
+
 impl Program for Eruption {
     const NAME: &'static str = "lava";
     const ABOUT: &'static str = "Lava out of the vents of a volcano";
@@ -121,8 +124,8 @@ impl Program for Eruption {
             ])
         };
         let view = CellView::named("lava").draw(Volcano::TEMPERATURE, "temperature (K)");
-        let view = view.range(solid - 143.0, hot);
-        let view = view.relief(Volcano::ALTITUDE, 0.0);
+        // Solid lava goes on cooling, and that is shown too.
+        let view = view.range(solid - SOLID_SHOWN, hot).relief(Volcano::ALTITUDE, 0.0);
         let set_up = SetUp::new(model, 720).time_step(lava.clock).observables(observe).cells(view);
         let set_up = set_up.warning_unless_zero("lava_at_edge", TOO_SMALL);
         Ok(self.dem.iter().fold(set_up.map(map), SetUp::input))

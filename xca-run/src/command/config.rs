@@ -80,9 +80,8 @@ fn known(command: &Command) -> String {
 
 fn read(path: &Path) -> Result<Table, ConfigError> {
     let failed = |source| ConfigError::Read { path: path.to_owned(), source };
-    let text = String::from_utf8(regular_file::read(path, LONGEST).map_err(failed)?);
-    let text =
-        text.map_err(|_| failed(io::Error::new(io::ErrorKind::InvalidData, "it is not UTF-8 text")))?;
+    let no_text = |_| failed(io::Error::new(io::ErrorKind::InvalidData, "it is not UTF-8 text"));
+    let text = String::from_utf8(regular_file::read(path, LONGEST).map_err(failed)?).map_err(no_text)?;
     text.parse().map_err(|error: toml::de::Error| {
         let before = error.span().map_or(0, |span| span.start.min(text.len()));
         let line = 1 + text.as_bytes()[..before].iter().filter(|&&byte| byte == b'\n').count();
@@ -126,9 +125,7 @@ fn assignments(value: &Value) -> Texts<Vec<String>> {
 
 fn components(value: &Value) -> Texts<Vec<String>> {
     match value {
-        Value::Array(values) => {
-            Ok(values.iter().map(components).collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
-        }
+        Value::Array(values) => Ok(values.iter().map(components).collect::<Result<Vec<_>, _>>()?.concat()),
         value => Ok(vec![single(value)?]),
     }
 }

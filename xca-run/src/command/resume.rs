@@ -168,10 +168,10 @@ impl Found<'_> {
                 "{error}; choose that engine with --engine and its options, or add --allow-rounding"
             )),
             BeginError::Folder(_) | BeginError::Write(_) => Unable::refused(error),
-            other => {
-                let is_of_run = matches!(other, BeginError::Checkpoint(CheckpointError::Foreign { .. }));
-                self.refused(other.into(), Some(description), is_of_run)
+            BeginError::Checkpoint(error @ CheckpointError::Foreign { .. }) => {
+                self.refused(error.into(), Some(description), true)
             }
+            other => self.refused(other.into(), Some(description), false),
         }
     }
 

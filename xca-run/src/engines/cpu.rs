@@ -49,10 +49,7 @@ pub(super) fn engine(chosen: Option<&str>) -> Result<Cpu, Failure> {
 
 /// The threads of a part that runs on this engine, `cpu` or `cpu:2`, if they are chosen.
 pub(super) fn threads_of_part(text: &str) -> Result<Option<String>, String> {
-    let (engine, threads) = match text.split_once(':') {
-        Some((engine, threads)) => (engine, Some(threads)),
-        None => (text, None),
-    };
+    let (engine, threads) = text.split_once(':').map_or((text, None), |(word, rest)| (word, Some(rest)));
     if engine != "cpu" {
         return Err(format!("a part runs on the cpu engine, not on `{engine}`"));
     }

@@ -30,13 +30,10 @@ struct Share {
 impl Share {
     fn new(text: &str) -> Result<Self, String> {
         // The name of an engine does not begin with a digit.
-        let (grid, part) = match text.split_once(':') {
-            Some((grid, part)) if grid.starts_with(|first: char| first.is_ascii_digit()) => {
-                (Some(grid.parse::<Grid>().map_err(|error| error.to_string())?), part)
-            }
-            _ => (None, text),
-        };
-        Ok(Self { grid, threads: cpu::threads_of_part(part)? })
+        let has_grid = text.starts_with(|first: char| first.is_ascii_digit());
+        let (grid, part) = text.split_once(':').filter(|_| has_grid).unzip();
+        let grid = grid.map(str::parse::<Grid>).transpose().map_err(|error| error.to_string())?;
+        Ok(Self { grid, threads: cpu::threads_of_part(part.unwrap_or(text))? })
     }
 }
 
@@ -67,14 +64,14 @@ impl EngineKind for MpiKind {
     }
 
     fn make(&self, options: &EngineOptions) -> Result<Box<dyn Engine>, Failure> {
-        let Share { grid, threads } = Share::new(options.get(PART.name).unwrap_or("cpu"))?;
-        self.job.engine(threads.map(|threads| threads.parse()).transpose()?, grid)
+        self.job.engine(&Share::new(options.get(PART.name).unwrap_or("cpu"))?)
     }
 }
 
 /// With MPI.
 #[cfg(feature = "mpi")]
 mod built {
+    use super::Share;
     use crate::engines::kind::Helper;
     use crate::interrupt::Interrupt;
     use crate::launcher;
@@ -82,7 +79,6 @@ mod built {
     use xca_core::{Engine, Model, Precision};
     use xca_cpu::Cpu;
     use xca_mpi::{Job, Library, Mpi, Wire as _};
-    use xca_parts::Grid;
     use xca_record::Failure;
 
     /// The job of this process, from when it is first needed.
@@ -99,13 +95,10 @@ mod built {
             Ok((job.rank() > 0).then(|| Box::new(Rank(job)) as Box<dyn Helper>))
         }
 
-        pub(super) fn engine(
-            &self,
-            threads: Option<usize>,
-            grid: Option<Grid>,
-        ) -> Result<Box<dyn Engine>, Failure> {
+        pub(super) fn engine(&self, share: &Share) -> Result<Box<dyn Engine>, Failure> {
+            let threads = share.threads.as_deref().map(str::parse).transpose()?;
             let engine = Mpi::new(self.job()?, &part, threads)?;
-            Ok(Box::new(match grid {
+            Ok(Box::new(match share.grid {
                 Some(grid) => engine.in_grid(grid),
                 None => engine,
             }))
@@ -145,10 +138,10 @@ mod built {
 /// Without MPI: what to do to have it.
 #[cfg(not(feature = "mpi"))]
 mod built {
+    use super::Share;
     use crate::engines::MissingFeature;
     use crate::engines::kind::Helper;
     use xca_core::Engine;
-    use xca_parts::Grid;
     use xca_record::Failure;
 
     const MISSING: MissingFeature = MissingFeature { feature: "mpi" };
@@ -161,11 +154,7 @@ mod built {
             Err(MISSING.into())
         }
 
-        pub(super) fn engine(
-            &self,
-            _threads: Option<usize>,
-            _grid: Option<Grid>,
-        ) -> Result<Box<dyn Engine>, Failure> {
+        pub(super) fn engine(&self, _share: &Share) -> Result<Box<dyn Engine>, Failure> {
             Err(MISSING.into())
         }
     }

@@ -39,17 +39,16 @@ impl EngineKind for PartsKind {
 
     fn make(&self, options: &EngineOptions) -> Result<Box<dyn Engine>, Failure> {
         let share = options.get(PARTS.name).ok_or("the number of parts is not given")?;
-        let Share { parts, threads } = Share::new(share)?;
+        let Share { count, grid, threads } = Share::new(share)?;
         let threads = threads.unwrap_or_else(|| {
             let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-            (cores / parts.count()).max(1).to_string()
+            (cores / count).max(1).to_string()
         });
-        let engine = || Ok(Arc::new(cpu::engine(Some(&threads))?) as Arc<dyn Engine>);
-        let engines = (0..parts.count()).map(|_| engine()).collect::<Result<_, Failure>>()?;
-        let engines = Parts::with_engines(engines);
-        Ok(Box::new(match parts {
-            Division::Parts(_) => engines,
-            Division::Grid(grid) => engines.in_grid(grid),
+        let engine = |_| Ok(Arc::new(cpu::engine(Some(&threads))?) as Arc<dyn Engine>);
+        let parts = Parts::with_engines((0..count).map(engine).collect::<Result<_, Failure>>()?);
+        Ok(Box::new(match grid {
+            Some(grid) => parts.in_grid(grid),
+            None => parts,
         }))
     }
 }
@@ -57,68 +56,43 @@ impl EngineKind for PartsKind {
 /// How a space is shared.
 #[derive(Debug, PartialEq, Eq)]
 struct Share {
-    parts: Division,
+    /// The number of parts.
+    count: usize,
+    /// The parts along the axes, if they are chosen.
+    grid: Option<Grid>,
     /// The threads of each part, if they are chosen.
     threads: Option<String>,
 }
 
-/// The parts of a space, along the axes or in all.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Division {
-    Parts(NonZeroUsize),
-    Grid(Grid),
-}
-
-impl Division {
+impl Share {
     fn new(text: &str) -> Result<Self, String> {
         // Each part is a thread.
         const MOST: usize = xca_cpu::Cpu::MOST_THREADS;
-        let parts = match text.parse() {
-            Ok(parts) => Self::Parts(parts),
-            Err(_) if text.contains('x') => {
-                Self::Grid(text.parse::<Grid>().map_err(|error| error.to_string())?)
-            }
-            Err(_) => return Err(format!("the number of parts must be a whole number from 1 to {MOST}")),
-        };
-        if parts.count() > MOST {
+        let (parts, rest) = text.split_once(':').map_or((text, None), |(parts, rest)| (parts, Some(rest)));
+        let grid = Some(parts).filter(|parts| parts.contains('x')).map(str::parse::<Grid>).transpose();
+        let grid = grid.map_err(|error| error.to_string())?;
+        let count = grid.map_or_else(|| parts.parse().unwrap_or(0), Grid::count);
+        if !(1..=MOST).contains(&count) {
             return Err(format!("the number of parts must be a whole number from 1 to {MOST}"));
         }
-        Ok(parts)
-    }
-
-    fn count(self) -> usize {
-        match self {
-            Self::Parts(parts) => parts.get(),
-            Self::Grid(grid) => grid.count(),
-        }
-    }
-}
-
-impl Share {
-    fn new(text: &str) -> Result<Self, String> {
-        let (parts, rest) = match text.split_once(':') {
-            Some((parts, rest)) => (parts, Some(rest)),
-            None => (text, None),
-        };
-        let division = Division::new(parts)?;
         let rest = rest.ok_or_else(|| format!("say what runs each part: parts:{parts}:cpu"))?;
-        Ok(Self { parts: division, threads: cpu::threads_of_part(rest)? })
+        Ok(Self { count, grid, threads: cpu::threads_of_part(rest)? })
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Division, PartsKind, Share};
+    use super::{PartsKind, Share};
     use crate::engines::{EngineKind, EngineOptions};
     use xca_parts::Grid;
 
     #[test]
     fn parts_are_named_with_what_runs_them() {
-        let share = |text: &str| Share::new(text).map(|Share { parts, threads }| (parts, threads));
-        let parts = |number| Division::Parts(std::num::NonZeroUsize::new(number).unwrap());
-        assert_eq!(share("7:cpu"), Ok((parts(7), None)));
-        assert_eq!(share("2:cpu:5"), Ok((parts(2), Some("5".to_owned()))));
-        assert_eq!(share("2x3:cpu"), Ok((Division::Grid(Grid { y: 2, z: 3 }), None)));
+        let share = Share::new;
+        assert_eq!(share("7:cpu"), Ok(Share { count: 7, grid: None, threads: None }));
+        assert_eq!(share("2:cpu:5"), Ok(Share { count: 2, grid: None, threads: Some("5".to_owned()) }));
+        let grid = Some(Grid { y: 2, z: 3 });
+        assert_eq!(share("2x3:cpu"), Ok(Share { count: 6, grid, threads: None }));
         for (text, words) in [
             ("", "whole number from 1 to 1024"),
             ("0:cpu", "whole number from 1 to 1024"),

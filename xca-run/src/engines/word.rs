@@ -65,10 +65,7 @@ impl EngineWords {
     /// Where it names no engine, or what stands after the colon makes no sense.
     pub(crate) fn parse(&self, word: &str) -> Result<EngineChoice, EngineError> {
         let word = word.trim();
-        let (name, rest) = match word.split_once(':') {
-            Some((name, rest)) => (name, Some(rest)),
-            None => (word, None),
-        };
+        let (name, rest) = word.split_once(':').map_or((word, None), |(name, rest)| (name, Some(rest)));
         let kind = self.kinds.iter().find(|kind| kind.name == name);
         let kind = kind.ok_or_else(|| EngineError::Unknown { name: name.to_owned(), known: self.forms() })?;
         let wrong = |reason: String| EngineError::Word { word: word.to_owned(), reason };
