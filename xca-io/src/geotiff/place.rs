@@ -32,8 +32,8 @@ struct Axes {
 }
 
 impl Axes {
-    /// Whether a tie point is where the axes put its pixel, within a hundredth of a side. A number that is not
-    /// finite is another mistake.
+    /// Whether a tie point is where the axes put its pixel, within a hundredth of a side. A number that is
+    /// not finite is another mistake.
     fn fits(&self, point: &[f64]) -> bool {
         let away = [
             (self.origin[0] + point[0] * self.column - point[3]) / self.column,
