@@ -96,8 +96,7 @@ mod built {
         }
 
         pub(super) fn engine(&self, share: &Share) -> Result<Box<dyn Engine>, Failure> {
-            let threads = share.threads.as_deref().map(str::parse).transpose()?;
-            let engine = Mpi::new(self.job()?, &part, threads)?;
+            let engine = Mpi::new(self.job()?, &part, share.threads.as_deref().map(str::parse).transpose()?)?;
             Ok(Box::new(match share.grid {
                 Some(grid) => engine.in_grid(grid),
                 None => engine,
@@ -154,7 +153,8 @@ mod built {
             Err(MISSING.into())
         }
 
-        pub(super) fn engine(&self, _share: &Share) -> Result<Box<dyn Engine>, Failure> {
+        pub(super) fn engine(&self, share: &Share) -> Result<Box<dyn Engine>, Failure> {
+            let Share { grid: _grid, threads: _threads } = share;
             Err(MISSING.into())
         }
     }
