@@ -5,40 +5,71 @@
 //! matters for zeros alone, whose signs may differ.
 
 use bytemuck::Pod;
+use xca_process::kernel::{self, Work};
 
 /// Numbers that are compared at a time.
-const LANES: usize = 8;
+const LANES: usize = 16;
 
 /// The best of stored numbers, `is_better` than all others; nothing where there is none.
 pub(super) fn extreme<T>(values: &[u8], is_better: impl Fn(T, T) -> bool) -> Option<f64>
 where
     T: Pod + PartialEq + Into<f64>,
 {
-    let numbers = || values.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned::<T>);
-    let first = numbers().next()?;
-    let mut best = [first; LANES];
-    let mut is_nan = [false; LANES];
-    let mut look = |lanes: &[u8]| {
-        let numbers = lanes.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned::<T>);
-        for ((number, best), is_nan) in numbers.zip(&mut best).zip(&mut is_nan) {
-            *is_nan |= is_no_number(number);
-            *best = if is_better(number, *best) { number } else { *best };
-        }
-    };
-    let lines = values.chunks_exact(LANES * size_of::<T>());
-    let rest = lines.remainder();
-    lines.for_each(&mut look);
-    look(rest);
-    let found = if is_nan.contains(&true) {
-        numbers().rev().find(|number| is_no_number(*number))
+    let first = numbers(values).next()?;
+    let mut lanes = Lanes { best: [first; LANES], is_nan: [false; LANES] };
+    kernel::run(Look { values, is_better: &is_better, lanes: &mut lanes });
+    let found = if lanes.is_nan.contains(&true) {
+        numbers(values).rev().find(|number| is_no_number(*number))
     } else {
-        let best = best.into_iter().fold(first, |best, one| if is_better(one, best) { one } else { best });
+        let best =
+            lanes.best.into_iter().fold(first, |best, one| if is_better(one, best) { one } else { best });
         let zero: f64 = best.into();
-        if zero == 0.0 { numbers().find(|number| *number == best) } else { Some(best) }
+        if zero == 0.0 { numbers(values).find(|number| *number == best) } else { Some(best) }
     };
     found.map(Into::into)
 }
 
+/// The numbers of stored bytes.
+#[inline(always)]
+fn numbers<T: Pod>(values: &[u8]) -> impl DoubleEndedIterator<Item = T> + '_ {
+    values.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned::<T>)
+}
+
+/// Every `LANES`th number.
+struct Lanes<T> {
+    best: [T; LANES],
+    is_nan: [bool; LANES],
+}
+
+/// Looks for the best number of each lane.
+struct Look<'a, T, B> {
+    values: &'a [u8],
+    is_better: &'a B,
+    lanes: &'a mut Lanes<T>,
+}
+
+impl<T: Pod + PartialEq, B: Fn(T, T) -> bool> Work for Look<'_, T, B> {
+    #[inline(always)]
+    fn run(self) {
+        let Lanes { mut best, mut is_nan } = *self.lanes;
+        let mut look = |lane: usize, number: T| {
+            is_nan[lane] |= is_no_number(number);
+            best[lane] = if (self.is_better)(number, best[lane]) { number } else { best[lane] };
+        };
+        let size = size_of::<T>();
+        let lines = self.values.chunks_exact(LANES * size);
+        numbers(lines.remainder()).enumerate().for_each(|(lane, number)| look(lane, number));
+        for line in lines {
+            // The compiler knows the number of turns.
+            for lane in 0..LANES {
+                look(lane, bytemuck::pod_read_unaligned(&line[lane * size..(lane + 1) * size]));
+            }
+        }
+        *self.lanes = Lanes { best, is_nan };
+    }
+}
+
+#[inline(always)]
 #[allow(clippy::eq_op, reason = "a NaN equals nothing")]
 fn is_no_number<T: PartialEq + Copy>(number: T) -> bool {
     number != number
