@@ -6,6 +6,7 @@ mod comparison;
 mod dense;
 mod engines;
 mod lammps;
+mod landslide;
 mod mathematics;
 mod particles;
 mod parts;
@@ -95,6 +96,18 @@ enum Benchmark {
     /// Models that are quiet nearly everywhere: the CPU engine as it is against itself where it works on all
     /// cells.
     Quiet,
+    /// A landslide against active cells by hand, on one thread.
+    Landslide {
+        /// A grid of altitudes; a slope of 600 x 500 cells without it.
+        #[arg(long, value_name = "FILE", requires = "debris")]
+        dem: Option<PathBuf>,
+        /// A grid of debris.
+        #[arg(long, value_name = "FILE", requires = "dem")]
+        debris: Option<PathBuf>,
+        /// How many steps make a round. The landslide goes on from round to round.
+        #[arg(long, default_value_t = 400)]
+        steps: u64,
+    },
     /// A call of each function of `xca_core::math`, on one thread.
     Mathematics,
 }
@@ -185,6 +198,13 @@ fn run(arguments: Arguments) -> Result<(), Box<dyn Error>> {
             for model in quiet::Quiet::all()? {
                 say!("{}", model.cost(arguments.threads, arguments.rounds)?)?;
             }
+        }
+        Benchmark::Landslide { dem, debris, steps } => {
+            let model = match dem.zip(debris) {
+                Some((dem, debris)) => landslide::map(&dem, &debris)?,
+                None => landslide::slope()?,
+            };
+            say!("{}", landslide::cost(&model, arguments.threads, arguments.rounds, steps)?)?;
         }
         Benchmark::Mathematics => {
             for precision in [Precision::F32, Precision::F64] {

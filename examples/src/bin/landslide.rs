@@ -1,71 +1,9 @@
 //! A landslide that runs down a valley: debris levels out with the ground, cell by cell.
 //!
-//! The model is SCIDDICA-T in its simplest form. Debris above a layer that sticks to the ground (the
-//! adherence) can move. The minimisation of differences shares it with the four neighbours. A step moves a
-//! part of that (the rate). The volume of debris is conserved.
+//! The model is `models::landslide`. The volume of debris is conserved.
 use std::path::{Path, PathBuf};
-use xca_examples::models::flows::{check_thickness, shares};
+use xca_examples::models::landslide::{Debris, Slope, builder};
 use xca_run::prelude::*;
-
-/// The sides of a cell.
-const SIDES: usize = 4;
-
-#[derive(Substates, Clone)]
-struct Slope {
-    /// Of the ground below the debris.
-    #[substate(unit = "m")]
-    altitude: Real,
-    /// Of the debris.
-    #[substate(unit = "m")]
-    thickness: Real,
-    /// Thickness that leaves for each neighbour.
-    #[substate(unit = "m")]
-    outflow: [Real; SIDES],
-    /// False beyond the map, and where it has no value: nothing flows there.
-    is_ground: bool,
-}
-
-#[derive(Parameters, Clone, Copy, Debug)]
-struct Debris {
-    /// Thickness of what sticks to the ground.
-    #[parameter(unit = "m", range = 0.0..)]
-    adherence: Real,
-    /// The part of the flow that a step moves.
-    #[parameter(range = 0.0..=1.0)]
-    rate: Real,
-}
-
-#[elementary_process]
-fn flow(cell: &mut Cell<Slope>, p: &Debris) {
-    for n in 0..SIDES {
-        cell.outflow[n] = 0.0;
-    }
-    let mobile = cell.thickness - p.adherence;
-    if mobile <= 0.0 {
-        return;
-    }
-    let mut heights = [cell.altitude + p.adherence; SIDES + 1];
-    let mut takes_part = [true; SIDES + 1];
-    for n in 1..cell.neighbour_count() {
-        heights[n] = cell.neighbour(n).altitude + cell.neighbour(n).thickness;
-        takes_part[n] = cell.neighbour(n).is_ground;
-    }
-    let out = shares::<{ SIDES + 1 }>(heights, takes_part, mobile);
-    for n in 1..cell.neighbour_count() {
-        cell.outflow[n - 1] = p.rate * out[n];
-    }
-}
-
-#[elementary_process]
-fn settle(cell: &mut Cell<Slope>) {
-    let mut gone = 0.0;
-    let mut come = 0.0;
-    for n in 1..cell.neighbour_count() {
-        gone += cell.outflow[n - 1];
-        come += cell.neighbour(n).outflow[cell.opposite(n) - 1];
-    }
-    cell.thickness += come - gone;
-}
 
 #[derive(Args)]
 struct Landslide {
@@ -135,8 +73,8 @@ impl Terrain {
         Slope {
             altitude: altitude.map_or(0.0, |altitude| altitude + self.roughness * site.random(0)),
             thickness: self.debris.value([x, y]).unwrap_or(0.0),
-            outflow: [0.0; SIDES],
             is_ground: altitude.is_some(),
+            ..Slope::bare()
         }
     }
 }
@@ -182,16 +120,7 @@ impl Program for Landslide {
         let files = files.into_iter().chain(self.observed.clone());
         let edge = map.edge();
         let debris = Debris { adherence: 1.0, rate: 0.5 };
-        let model = Model::builder("landslide")
-            .extents([columns, rows, 1])
-            .cell_side(side)
-            .neighbourhood(Neighbourhood::von_neumann_2d(1))
-            .boundary(Boundary::Flat)
-            .substates::<Slope>()
-            .parameters(debris)
-            .process((flow, settle))
-            .fill(move |site| terrain.state(site))
-            .steer(Schedule::At(vec![0]), |state| check_thickness(state, Slope::THICKNESS))
+        let model = builder([columns, rows], side, debris, move |site| terrain.state(site))
             .stop_when(Schedule::Every(20), move |state| {
                 let largest = state.maximum(Slope::OUTFLOW)?.unwrap_or_default();
                 let rests = largest.iter().all(|metres| *metres <= until);

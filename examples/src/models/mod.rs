@@ -10,6 +10,7 @@ pub mod elementary;
 pub mod excitable;
 pub mod flows;
 pub mod ising;
+pub mod landslide;
 pub mod lava;
 pub mod predators;
 pub mod reaction;

@@ -23,7 +23,6 @@ macro_rules! program {
 program!(life, 9, evolve);
 program!(mod2, 27, add_up);
 program!(heat, 7, diffuse);
-program!(landslide, 5, flow, settle);
 program!(pond, 5, flow, level, drift, reassign);
 
 fn accepted<P: ElementaryProcess>(neighbours: u32) -> Result<(), Box<dyn Error>> {
@@ -48,7 +47,7 @@ fn all_processes_are_valid_shaders() -> Result<(), Box<dyn Error>> {
         there += text.lines().filter(|line| ["#[elementary_process]", "#[migration]"].contains(line)).count();
     }
     assert_eq!(
-        life::count()? + mod2::count()? + heat::count()? + landslide::count()? + pond::count()?,
+        life::count()? + mod2::count()? + heat::count()? + pond::count()?,
         there,
         "a program is missing here"
     );

@@ -8,6 +8,7 @@ mod debris;
 mod elementary;
 mod excitable;
 mod ising;
+mod landslide;
 mod lava;
 mod predators;
 mod reaction;
