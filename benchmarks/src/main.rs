@@ -96,7 +96,7 @@ enum Benchmark {
     /// Models that are quiet nearly everywhere: the CPU engine as it is against itself where it works on all
     /// cells.
     Quiet,
-    /// A landslide against active cells by hand, on one thread.
+    /// A landslide against active cells by hand. These use one thread.
     Landslide {
         /// A grid of altitudes; a slope of 600 x 500 cells without it.
         #[arg(long, value_name = "FILE", requires = "debris")]
@@ -105,7 +105,7 @@ enum Benchmark {
         #[arg(long, value_name = "FILE", requires = "dem")]
         debris: Option<PathBuf>,
         /// How many steps make a round. The landslide goes on from round to round.
-        #[arg(long, default_value_t = 400)]
+        #[arg(long, default_value_t = 50)]
         steps: u64,
     },
     /// A call of each function of `xca_core::math`, on one thread.
