@@ -70,7 +70,7 @@ const DIRECTIONS: [(&str, &[&str]); 30] = [
         "xca-tests-fuzz",
         &["xca-core", "xca-checkpoint", "xca-ensemble", "xca-io", "xca-picture", "xca-record", "xca-run"],
     ),
-    ("xca-benchmarks", &["xca-core", "xca-cpu", "xca-gpu", "xca-parts", "cadem", "xca-examples"]),
+    ("xca-benchmarks", &["xca-core", "xca-cpu", "xca-gpu", "xca-parts", "xca-io", "cadem", "xca-examples"]),
     (
         "xca-tests",
         &[
