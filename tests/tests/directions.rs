@@ -8,7 +8,7 @@ use toml::{Table, Value};
 type TestResult = Result<(), Box<dyn Error>>;
 
 /// For each member, the members that it may depend on. A new member finds its place here first.
-const DIRECTIONS: [(&str, &[&str]); 30] = [
+const DIRECTIONS: [(&str, &[&str]); 31] = [
     ("xca-methods", &[]),
     ("xca-macros", &["xca-methods"]),
     ("xca-values", &[]),
@@ -70,6 +70,7 @@ const DIRECTIONS: [(&str, &[&str]); 30] = [
         "xca-tests-fuzz",
         &["xca-core", "xca-checkpoint", "xca-ensemble", "xca-io", "xca-picture", "xca-record", "xca-run"],
     ),
+    ("xca-tests-memory", &["xca-core", "xca-cpu", "xca-parts"]),
     ("xca-benchmarks", &["xca-core", "xca-cpu", "xca-gpu", "xca-parts", "xca-io", "cadem", "xca-examples"]),
     (
         "xca-tests",

@@ -1,11 +1,12 @@
-//! Small models of every kind on this engine and the reference, for memory checkers. `scripts/miri` runs them
-//! under Miri. No test opens a file. Each model runs a few steps on a few cells.
+//! Small models of every kind on the reference, the CPU engine and parts of it, for memory checkers.
+//! `scripts/miri` runs them under Miri. No test opens a file. Each model runs a few steps on a few cells.
 
 use std::error::Error;
 use std::num::NonZeroU64;
 use xca_core::prelude::*;
 use xca_core::{Fault, ModelBuilder};
 use xca_cpu::Cpu;
+use xca_parts::{Grid, Parts};
 
 type TestResult = Result<(), Box<dyn Error>>;
 
@@ -196,6 +197,22 @@ fn items(extents: [usize; 3], boundary: Boundary) -> ModelBuilder {
         .process((push, accelerate, displace, rehome, count))
 }
 
+/// The CPU engine with some threads. Two steps run together where they can.
+fn cpu(threads: usize) -> Result<Cpu, Box<dyn Error>> {
+    Ok(Cpu::with_threads(threads)?.with_stride(NonZeroU64::MIN.saturating_add(1)))
+}
+
+/// The engines that are compared with the reference. Miri is some thousand times slower, and three threads
+/// meet in all ways in which fewer do.
+fn engines() -> Result<Vec<Box<dyn Engine>>, Box<dyn Error>> {
+    let threads: &[usize] = if cfg!(miri) { &[3] } else { &[1, 2, 3] };
+    let mut engines: Vec<Box<dyn Engine>> = vec![Box::new(Parts::with_grid(cpu(2)?, Grid { y: 2, z: 1 }))];
+    for threads in threads {
+        engines.push(Box::new(cpu(*threads)?));
+    }
+    Ok(engines)
+}
+
 /// The state after some steps agrees with the reference engine, including all requests of a host.
 fn agrees(builder: ModelBuilder, precision: Precision) -> TestResult {
     let model = builder.watch_finite(Schedule::EveryFromStart(2)).build()?;
@@ -204,20 +221,20 @@ fn agrees(builder: ModelBuilder, precision: Precision) -> TestResult {
     let start = reference.snapshot()?;
     reference.run(3)?;
     let wanted = reference.snapshot()?;
-    for threads in [1, 2, 3] {
-        let engine = Cpu::with_threads(threads)?.with_stride(NonZeroU64::MIN.saturating_add(1));
-        let mut simulation = Simulation::new(&model, &engine, options)?;
-        assert!(simulation.snapshot()? == start, "{threads} threads");
+    for engine in engines()? {
+        let name = engine.name();
+        let mut simulation = Simulation::new(&model, &*engine, options)?;
+        assert!(simulation.snapshot()? == start, "{name}");
         for _ in 0..3 {
             simulation.step()?;
             let state = simulation.state();
             assert!(state.sum(Land::HEIGHT)?.is_finite());
             assert_eq!(state.get_cells(Land::AGE, &[[0, 0, 0], [1, 1, 0]])?.len(), 2);
         }
-        assert!(simulation.snapshot()? == wanted, "{threads} threads");
+        assert!(simulation.snapshot()? == wanted, "{name}");
         simulation.restore(&start)?;
         simulation.run(3)?;
-        assert!(simulation.snapshot()? == wanted, "{threads} threads, restored");
+        assert!(simulation.snapshot()? == wanted, "{name}, restored");
         simulation.state().update(Land::HEIGHT, &[[1, 0, 0]], |_, height| height + 1.0)?;
         simulation.step()?;
     }
@@ -258,8 +275,8 @@ fn items_that_move() -> TestResult {
 #[test]
 fn other_items() -> TestResult {
     let model = items([3, 3, 3], Boundary::Flat).build()?;
-    for threads in [1, 2] {
-        let mut simulation = Simulation::new(&model, &Cpu::with_threads(threads)?, RunOptions::default())?;
+    for engine in engines()? {
+        let mut simulation = Simulation::new(&model, &*engine, RunOptions::default())?;
         simulation.step()?;
         let mut kept = simulation.state().items::<Grain>()?;
         kept.truncate(3);
@@ -279,9 +296,7 @@ fn panics() -> TestResult {
     let of_items = items([4, 3, 3], Boundary::Flat).process(overstep_for_items).build()?;
     for model in [of_cells, of_items] {
         let mut faults = Vec::new();
-        let engines: [Box<dyn Engine>; 3] =
-            [Box::new(Reference), Box::new(Cpu::with_threads(1)?), Box::new(Cpu::with_threads(2)?)];
-        for engine in engines {
+        for engine in [Box::new(Reference) as Box<dyn Engine>].into_iter().chain(engines()?) {
             let mut simulation = Simulation::new(&model, &*engine, RunOptions::default())?;
             let Err(RunError::Fault { fault, .. }) = simulation.run(3) else { return Err("no fault".into()) };
             assert!(matches!(fault, Fault::Panicked { .. }), "{fault:?}");
