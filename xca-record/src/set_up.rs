@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use xca_checkpoint::InputFile;
 use xca_checkpoint::Outputs;
 use xca_core::{Model, State, Substates};
-use xca_io::map::{Map, MapUnit, Placement, PlacementDifference};
+use xca_io::map::{CoarsePlace, Map, MapUnit, Placement, PlacementDifference};
 
 type Observe = dyn Fn(&State<'_>) -> Result<Vec<Observable>, Failure> + Send + Sync;
 
@@ -247,6 +247,9 @@ pub enum SetUpError {
     /// The map has other cells than the model.
     #[error("the map does not fit the model: {0}")]
     Map(PlacementDifference),
+    /// The map is too far from the origin.
+    #[error(transparent)]
+    Place(#[from] CoarsePlace),
     /// The model has several layers, so it has no map.
     #[error("a map is for models of one layer, and `{model}` has {layers}")]
     Layers {
@@ -271,7 +274,7 @@ impl SetUp {
         if layers > 1 {
             return Err(SetUpError::Layers { model: self.model.name().to_owned(), layers });
         }
-        let placement = map.placement();
+        let placement = map.placement().checked()?;
         let cells = Placement { corner: placement.corner, ..unplaced(&self.model) };
         placement.difference(&cells).map_or(Ok(()), |difference| Err(SetUpError::Map(difference)))
     }
@@ -328,6 +331,8 @@ mod tests {
         assert_eq!(said, "the map does not fit the model: it has 4 x 3 cells, not 3 x 4");
         let said = set_up([4, 3, 1], Placement { side: 20.0, ..place }).unwrap_err();
         assert_eq!(said, "the map does not fit the model: its cells have a side of 20, not 10");
+        let said = set_up([4, 3, 1], Placement { corner: [0.0, -1e20], ..place }).unwrap_err();
+        assert!(said.starts_with("a coordinate of 1e20 is too large for cells with a side of 10"), "{said}");
         let said = set_up([4, 3, 2], place).unwrap_err();
         assert_eq!(said, "a map is for models of one layer, and `ground` has 2");
     }
