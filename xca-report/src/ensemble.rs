@@ -3,6 +3,7 @@
 use maud::{DOCTYPE, PreEscaped, html};
 use plotters::coord::Shift;
 use plotters::prelude::*;
+use xca_core::statistics::mean_and_deviation;
 use xca_ensemble::Finished;
 use xca_io::numbers::significant;
 use xca_record::Failure;
@@ -127,10 +128,7 @@ fn lines(finished: &[Finished], observable: usize) -> Vec<Line> {
 }
 
 fn point(x: f64, values: &[f64]) -> Option<Point> {
-    let count = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / count;
-    let squares: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
-    let deviation = if values.len() > 1 { (squares / (count - 1.0)).sqrt() } else { 0.0 };
+    let [mean, deviation] = mean_and_deviation(values);
     (!values.is_empty() && x.is_finite()).then_some(Point { x, mean, deviation })
 }
 
