@@ -77,7 +77,9 @@ impl Recording {
             let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
             (*value != 0.0).then(|| format!("{} ({name}: {}{unit})", warning.text, significant(*value, 6)))
         });
-        due.collect()
+        let infinite = last.iter().filter(|it| it.value.is_infinite() && !self.allow_non_finite);
+        let told = |it: &Observable| format!("the observable `{}` is infinite: too large for f64", it.name);
+        due.chain(infinite.map(told)).collect()
     }
 
     /// Whether the run writes checkpoints.
