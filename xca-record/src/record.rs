@@ -106,7 +106,13 @@ impl Recorder {
         };
         let subject = recorder.subject();
         recorder.formats.chosen().try_for_each(|writer| writer.check(subject)).map_err(SetUpError::Format)?;
-        Ok(recorder)
+        // A file system may ignore capitals.
+        let mut files: Vec<String> = recorder.files().iter().map(|file| file.to_lowercase()).collect();
+        files.sort_unstable();
+        match files.array_windows().find(|[one, other]| one == other) {
+            Some([file, _]) => Err(SetUpError::SameFile(file.clone())),
+            None => Ok(recorder),
+        }
     }
 
     pub fn set_up(&self) -> &SetUp {

@@ -155,18 +155,15 @@ impl Recording {
         let warnings = self.final_warnings();
         self.report.warnings.extend(warnings);
         let done = self.simulation.step_number();
+        let reason = self.simulation.stop_reason().map(str::to_owned);
+        let (word, outcome) = match reason {
+            Some(_) => ("stopped", Outcome::Stopped),
+            None if done < wanted => ("interrupted", Outcome::Interrupted),
+            None => ("done", Outcome::Done),
+        };
         let progress = &mut self.report.progress;
-        if let Some(reason) = self.simulation.stop_reason() {
-            progress.outcome = "stopped";
-            progress.reason = Some(reason.to_owned());
-            return Ok(Outcome::Stopped);
-        } else if done < wanted {
-            progress.outcome = "interrupted";
-            return Ok(Outcome::Interrupted);
-        } else {
-            progress.outcome = "done";
-        }
-        Ok(Outcome::Done)
+        (progress.outcome, progress.reason) = (word, reason);
+        Ok(outcome)
     }
 
     fn check_finite(&self) -> Result<(), Failure> {

@@ -238,6 +238,9 @@ pub enum SetUpError {
     /// A format cannot hold the model.
     #[error(transparent)]
     Format(Failure),
+    /// Two outputs have this file. Capitals do not count.
+    #[error("two outputs would be written to {0}; rename a view or a substate")]
+    SameFile(String),
     /// The time step is not a positive number.
     #[error("the time step is {seconds} s; it must be a positive number")]
     TimeStep {
@@ -310,11 +313,39 @@ impl fmt::Debug for SetUp {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::record::Recorder;
     use xca_core::prelude::*;
 
     #[derive(Substates, Clone)]
     struct Ground {
         altitude: Real,
+    }
+
+    #[derive(Substates, Clone)]
+    struct Ab {
+        altitude: Real,
+        ground_altitude: Real,
+    }
+
+    /// `Ground.altitude` needs its struct in its name, which is then that of another substate.
+    #[test]
+    fn outputs_have_files_of_their_own() {
+        let set_up = |second: &str| {
+            let model = Model::builder("two").extents([4, 1, 1]).substates::<Ground>().substates::<Ab>();
+            let model = model.fill(|_| Ground { altitude: 1.0 });
+            let model = model.fill(|_| Ab { altitude: 1.0, ground_altitude: 2.0 }).build().unwrap();
+            let views = SetUp::new(model, 1).cells(CellView::<Ground>::named("first"));
+            views.cells(CellView::<Ab>::named(second))
+        };
+        let refused = |mut set_up: SetUp, format: &str| {
+            set_up.formats.choose_too(&[format]).unwrap();
+            Recorder::new(set_up).map(|_| ()).map_err(|error| error.to_string())
+        };
+        let said = "two outputs would be written to final_ground_altitude.tif; rename a view or a substate";
+        assert_eq!(refused(set_up("second"), "tif"), Err(said.to_owned()));
+        assert_eq!(refused(set_up("second"), "spacetime"), Ok(()));
+        let said = refused(set_up("Spacetime"), "spacetime").unwrap_err();
+        assert!(said.starts_with("two outputs would be written to final_spacetime.png"), "{said}");
     }
 
     fn set_up(extents: [usize; 3], placement: Placement) -> Result<(), String> {
