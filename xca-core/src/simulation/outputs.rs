@@ -4,10 +4,13 @@ use super::Simulation;
 use crate::model::{GroupKind, Model};
 use xca_values::Precision;
 
+/// What pictures take, whatever the state.
+const PICTURES: u128 = 32 << 20;
+
 impl Model {
-    /// The bytes that outputs of a state take beside the state: a snapshot, a copy of it, and the numbers of
-    /// the largest substate of cells, or of all substates of the largest population, as `f64`. An estimate:
-    /// observables may take more. `items` gives the number of items of the group with this number.
+    /// The bytes that outputs of a state take beside the state: a snapshot, a copy of it, pictures, and the
+    /// numbers of the largest substate of cells, or of all substates of the largest population, as `f64`. An
+    /// estimate: observables may take more. `items` gives the number of items of the group with this number.
     pub fn output_memory(&self, precision: Precision, items: impl Fn(usize) -> usize) -> u128 {
         let cells = self.geometry().cells() as u128;
         let (mut copies, mut numbers) = (0, 0);
@@ -23,7 +26,7 @@ impl Model {
             copies += owners * bytes as u128;
             numbers = numbers.max(owners * 8 * together as u128);
         }
-        2 * copies + numbers
+        2 * copies + numbers + PICTURES
     }
 }
 
@@ -36,6 +39,7 @@ impl Simulation {
 
 #[cfg(test)]
 mod tests {
+    use super::PICTURES;
     use crate::prelude::*;
 
     #[derive(Substates, Clone, Copy)]
@@ -59,7 +63,7 @@ mod tests {
         let options = RunOptions { precision: Precision::F32, ..RunOptions::default() };
         let simulation = Simulation::new(&model, &Reference, options).unwrap();
         let copies = 20 * (2 * 4 + 1) + 60 * (4 + 1);
-        assert_eq!(simulation.output_memory(), 2 * copies + 60 * 8 * 4);
-        assert_eq!(model.output_memory(Precision::F64, |_| 0), 2 * 20 * 17 + 20 * 8 * 2);
+        assert_eq!(simulation.output_memory() - PICTURES, 2 * copies + 60 * 8 * 4);
+        assert_eq!(model.output_memory(Precision::F64, |_| 0) - PICTURES, 2 * 20 * 17 + 20 * 8 * 2);
     }
 }
