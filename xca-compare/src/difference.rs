@@ -14,6 +14,7 @@ use std::ops::Range;
 use xca_checkpoint::components::{state_names, text};
 use xca_core::engine::Population;
 use xca_core::model::Group;
+use xca_core::statistics::Squares;
 use xca_core::{GroupSnapshot, Model, Precision, ScalarType, Snapshot, ValueType};
 
 /// A state and its precision.
@@ -215,7 +216,7 @@ impl Difference {
         place: &dyn Fn(usize) -> Place,
     ) {
         let all = first.components();
-        let (mut squares, mut largest) = (0.0, -1.0);
+        let (mut squares, mut largest) = (Squares::default(), -1.0);
         for (index, (a, b)) in pairs.iter().enumerate() {
             for (number, component) in components.clone().enumerate() {
                 let pair = first.pair(a * all + component, other, b * all + component);
@@ -228,7 +229,7 @@ impl Difference {
                 }
                 self.different += 1;
                 let absolute = pair.absolute();
-                squares += absolute * absolute;
+                squares.add(absolute);
                 self.largest_relative = self.largest_relative.max(pair.relative());
                 self.largest_ulp = self.largest_ulp.map(|ulp| ulp.max(pair.ulp));
                 if absolute > largest {
@@ -238,7 +239,7 @@ impl Difference {
                 }
             }
         }
-        self.rms = (squares / self.values.max(1) as f64).sqrt();
+        self.rms = squares.root(self.values.max(1) as f64);
     }
 }
 

@@ -192,7 +192,11 @@ impl Comparison {
     pub fn run(&self, monitor: &mut dyn Monitor) -> Result<ComparisonReport, CompareError> {
         let model = self.recorder.model();
         let plan = self.plan();
-        let memory = self.contenders.iter().map(|it| it.engine.least_memory(model, it.precision)).sum();
+        // A snapshot of the start and one of the end.
+        let memory_of = |it: &Contender| {
+            it.engine.least_memory(model, it.precision) + model.output_memory(it.precision, |_| 0)
+        };
+        let memory = self.contenders.iter().map(memory_of).sum();
         check_memory(memory, "this model on all these engines at once")?;
         let mut lanes: Vec<Lane<'_>> = Vec::with_capacity(self.contenders.len());
         for contender in &self.contenders {

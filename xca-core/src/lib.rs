@@ -105,6 +105,7 @@ mod reference;
 mod simulation;
 mod site;
 mod state;
+pub mod statistics;
 mod steering;
 pub mod storage;
 

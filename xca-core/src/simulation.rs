@@ -1,6 +1,7 @@
 //! A model on an engine.
 
 mod finite;
+mod outputs;
 mod restore;
 mod snapshot;
 

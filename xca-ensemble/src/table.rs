@@ -4,6 +4,7 @@ use super::member::{End, Finished, Member};
 use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
+use xca_core::statistics::mean_and_deviation;
 use xca_io::atomic::{WriteError, write_atomically};
 use xca_io::lines::LimitedRows;
 use xca_io::regular_file;
@@ -241,11 +242,8 @@ fn statistics(values: &[f64]) -> [String; 4] {
     if values.is_empty() {
         return Default::default();
     }
-    let count = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / count;
-    let squares: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
-    let deviation =
-        if values.len() > 1 { (squares / (count - 1.0)).sqrt().to_string() } else { String::new() };
+    let [mean, deviation] = mean_and_deviation(values);
+    let deviation = if values.len() > 1 { deviation.to_string() } else { String::new() };
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
     let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     [mean.to_string(), deviation, least.to_string(), largest.to_string()]

@@ -1,7 +1,7 @@
 //! The place of a layer of cells on a map, and its cells without ground.
 
 pub use crate::map_unit::MapUnit;
-pub use crate::placement::{Placement, PlacementDifference};
+pub use crate::placement::{CoarsePlace, Placement, PlacementDifference};
 
 use crate::geotiff::GeoKeys;
 use crate::raster::Raster;

@@ -37,6 +37,7 @@ pub(crate) use typed::{NoValue, retyped};
 pub use values::Plane;
 
 use crate::format::{self, Formats, RecordedState};
+use crate::machine::{NotEnoughMemory, check_memory};
 use crate::observable::{Failure, Observable};
 use crate::set_up::{SetUp, SetUpError};
 use crate::view::complete;
@@ -54,6 +55,8 @@ pub enum RecordError {
     Format(Failure),
     #[error("the checkpoint does not say how to continue the files of the format {format}")]
     OtherFormats { format: &'static str, source: Failure },
+    #[error(transparent)]
+    Memory(#[from] NotEnoughMemory),
     #[error(transparent)]
     Picture(#[from] PictureError),
     #[error(transparent)]
@@ -103,7 +106,13 @@ impl Recorder {
         };
         let subject = recorder.subject();
         recorder.formats.chosen().try_for_each(|writer| writer.check(subject)).map_err(SetUpError::Format)?;
-        Ok(recorder)
+        // A file system may ignore capitals.
+        let mut files: Vec<String> = recorder.files().iter().map(|file| file.to_lowercase()).collect();
+        files.sort_unstable();
+        match files.array_windows().find(|[one, other]| one == other) {
+            Some([file, _]) => Err(SetUpError::SameFile(file.clone())),
+            None => Ok(recorder),
+        }
     }
 
     pub fn set_up(&self) -> &SetUp {
@@ -157,6 +166,7 @@ impl Recorder {
 
     /// Records the present state as a row of observables and by the formats, unless that is done already.
     pub fn record(&mut self, simulation: &mut Simulation) -> Result<Snapshot, RecordError> {
+        check_memory(simulation.output_memory(), "the outputs of this state")?;
         let snapshot = simulation.snapshot()?;
         if self.steps.last() != Some(&snapshot.step) {
             self.observe(simulation, &snapshot)?;

@@ -77,7 +77,9 @@ impl Recording {
             let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
             (*value != 0.0).then(|| format!("{} ({name}: {}{unit})", warning.text, significant(*value, 6)))
         });
-        due.collect()
+        let infinite = last.iter().filter(|it| it.value.is_infinite() && !self.allow_non_finite);
+        let told = |it: &Observable| format!("the observable `{}` is infinite: too large for f64", it.name);
+        due.chain(infinite.map(told)).collect()
     }
 
     /// Whether the run writes checkpoints.
@@ -153,18 +155,15 @@ impl Recording {
         let warnings = self.final_warnings();
         self.report.warnings.extend(warnings);
         let done = self.simulation.step_number();
+        let reason = self.simulation.stop_reason().map(str::to_owned);
+        let (word, outcome) = match reason {
+            Some(_) => ("stopped", Outcome::Stopped),
+            None if done < wanted => ("interrupted", Outcome::Interrupted),
+            None => ("done", Outcome::Done),
+        };
         let progress = &mut self.report.progress;
-        if let Some(reason) = self.simulation.stop_reason() {
-            progress.outcome = "stopped";
-            progress.reason = Some(reason.to_owned());
-            return Ok(Outcome::Stopped);
-        } else if done < wanted {
-            progress.outcome = "interrupted";
-            return Ok(Outcome::Interrupted);
-        } else {
-            progress.outcome = "done";
-        }
-        Ok(Outcome::Done)
+        (progress.outcome, progress.reason) = (word, reason);
+        Ok(outcome)
     }
 
     fn check_finite(&self) -> Result<(), Failure> {

@@ -2,8 +2,7 @@
 
 mod earlier;
 
-pub use earlier::ReadReportError;
-pub use earlier::{Earlier, parts, read};
+pub use earlier::{Earlier, ReadReportError, parts, read};
 
 use crate::machine::cores;
 use crate::observable::Observable;
@@ -66,7 +65,7 @@ pub struct Report {
 }
 
 /// How far a run has come, and what it took.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Default, Serialize)]
 pub struct Progress {
     /// `running`, `done`, `stopped`, `interrupted` or `failed`.
     pub outcome: &'static str,
@@ -119,20 +118,9 @@ impl Report {
             resumed: Vec::new(),
             progress: Progress {
                 outcome: "running",
-                reason: None,
-                steps: 0,
                 steps_wanted: origin.steps_wanted,
-                time: 0.0,
                 time_step: set_up.time_step,
-                frames: 0,
-                set_up_seconds: 0.0,
-                step_seconds: 0.0,
-                output_seconds: 0.0,
-                wall_seconds: 0.0,
-                steps_per_second: None,
-                state_bytes: None,
-                peak_memory_bytes: None,
-                engine_figures: BTreeMap::new(),
+                ..Progress::default()
             },
             observables: Vec::new(),
             files: Vec::new(),

@@ -8,8 +8,7 @@ use crate::report::{Earlier, ReadReportError, Report};
 use crate::set_up::{SetUp, SetUpError};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use xca_checkpoint::Outputs;
-use xca_checkpoint::{Checkpoint, CheckpointError, CheckpointFolder, Difference, Identity, Origin};
+use xca_checkpoint::{Checkpoint, CheckpointError, CheckpointFolder, Difference, Identity, Origin, Outputs};
 use xca_core::{Engine, Model, ModelError, RunError, RunOptions, Simulation};
 use xca_io::atomic::WriteError;
 

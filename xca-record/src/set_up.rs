@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use xca_checkpoint::InputFile;
 use xca_checkpoint::Outputs;
 use xca_core::{Model, State, Substates};
-use xca_io::map::{Map, MapUnit, Placement, PlacementDifference};
+use xca_io::map::{CoarsePlace, Map, MapUnit, Placement, PlacementDifference};
 
 type Observe = dyn Fn(&State<'_>) -> Result<Vec<Observable>, Failure> + Send + Sync;
 
@@ -238,6 +238,9 @@ pub enum SetUpError {
     /// A format cannot hold the model.
     #[error(transparent)]
     Format(Failure),
+    /// Two outputs have this file. Capitals do not count.
+    #[error("two outputs would be written to {0}; rename a view or a substate")]
+    SameFile(String),
     /// The time step is not a positive number.
     #[error("the time step is {seconds} s; it must be a positive number")]
     TimeStep {
@@ -247,6 +250,9 @@ pub enum SetUpError {
     /// The map has other cells than the model.
     #[error("the map does not fit the model: {0}")]
     Map(PlacementDifference),
+    /// The map is too far from the origin.
+    #[error(transparent)]
+    Place(#[from] CoarsePlace),
     /// The model has several layers, so it has no map.
     #[error("a map is for models of one layer, and `{model}` has {layers}")]
     Layers {
@@ -271,7 +277,7 @@ impl SetUp {
         if layers > 1 {
             return Err(SetUpError::Layers { model: self.model.name().to_owned(), layers });
         }
-        let placement = map.placement();
+        let placement = map.placement().checked()?;
         let cells = Placement { corner: placement.corner, ..unplaced(&self.model) };
         placement.difference(&cells).map_or(Ok(()), |difference| Err(SetUpError::Map(difference)))
     }
@@ -307,11 +313,39 @@ impl fmt::Debug for SetUp {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::record::Recorder;
     use xca_core::prelude::*;
 
     #[derive(Substates, Clone)]
     struct Ground {
         altitude: Real,
+    }
+
+    #[derive(Substates, Clone)]
+    struct Ab {
+        altitude: Real,
+        ground_altitude: Real,
+    }
+
+    /// `Ground.altitude` needs its struct in its name, which is then that of another substate.
+    #[test]
+    fn outputs_have_files_of_their_own() {
+        let set_up = |second: &str| {
+            let model = Model::builder("two").extents([4, 1, 1]).substates::<Ground>().substates::<Ab>();
+            let model = model.fill(|_| Ground { altitude: 1.0 });
+            let model = model.fill(|_| Ab { altitude: 1.0, ground_altitude: 2.0 }).build().unwrap();
+            let views = SetUp::new(model, 1).cells(CellView::<Ground>::named("first"));
+            views.cells(CellView::<Ab>::named(second))
+        };
+        let refused = |mut set_up: SetUp, format: &str| {
+            set_up.formats.choose_too(&[format]).unwrap();
+            Recorder::new(set_up).map(|_| ()).map_err(|error| error.to_string())
+        };
+        let said = "two outputs would be written to final_ground_altitude.tif; rename a view or a substate";
+        assert_eq!(refused(set_up("second"), "tif"), Err(said.to_owned()));
+        assert_eq!(refused(set_up("second"), "spacetime"), Ok(()));
+        let said = refused(set_up("Spacetime"), "spacetime").unwrap_err();
+        assert!(said.starts_with("two outputs would be written to final_spacetime.png"), "{said}");
     }
 
     fn set_up(extents: [usize; 3], placement: Placement) -> Result<(), String> {
@@ -328,6 +362,8 @@ mod tests {
         assert_eq!(said, "the map does not fit the model: it has 4 x 3 cells, not 3 x 4");
         let said = set_up([4, 3, 1], Placement { side: 20.0, ..place }).unwrap_err();
         assert_eq!(said, "the map does not fit the model: its cells have a side of 20, not 10");
+        let said = set_up([4, 3, 1], Placement { corner: [0.0, -1e20], ..place }).unwrap_err();
+        assert!(said.starts_with("a coordinate of 1e20 is too large for cells with a side of 10"), "{said}");
         let said = set_up([4, 3, 2], place).unwrap_err();
         assert_eq!(said, "a map is for models of one layer, and `ground` has 2");
     }

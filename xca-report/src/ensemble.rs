@@ -3,6 +3,7 @@
 use maud::{DOCTYPE, PreEscaped, html};
 use plotters::coord::Shift;
 use plotters::prelude::*;
+use xca_core::statistics::mean_and_deviation;
 use xca_ensemble::Finished;
 use xca_io::numbers::significant;
 use xca_record::Failure;
@@ -115,7 +116,7 @@ fn lines(finished: &[Finished], observable: usize) -> Vec<Line> {
         });
         let x = value.parse().unwrap_or(place as f64);
         let observed = group.iter().filter_map(|row| row.observables.get(observable));
-        let numbers: Vec<f64> = observed.map(|it| it.value).filter(|value| value.is_finite()).collect();
+        let numbers: Vec<f64> = observed.map(|it| it.value).filter(|value| can_be_drawn(*value)).collect();
         if let Some(point) = point(x, &numbers) {
             match lines.iter_mut().find(|line| line.name == name) {
                 Some(line) => line.points.push(point),
@@ -126,12 +127,14 @@ fn lines(finished: &[Finished], observable: usize) -> Vec<Line> {
     lines
 }
 
+/// Whether an axis can have this number. Plotters searches for ever for ticks in a span that overflows.
+fn can_be_drawn(number: f64) -> bool {
+    number.abs() < 1e300
+}
+
 fn point(x: f64, values: &[f64]) -> Option<Point> {
-    let count = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / count;
-    let squares: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
-    let deviation = if values.len() > 1 { (squares / (count - 1.0)).sqrt() } else { 0.0 };
-    (!values.is_empty() && x.is_finite()).then_some(Point { x, mean, deviation })
+    let [mean, deviation] = mean_and_deviation(values);
+    (!values.is_empty() && can_be_drawn(x)).then_some(Point { x, mean, deviation })
 }
 
 fn plot(lines: &[Line], parameter: &str) -> Result<String, Failure> {
@@ -216,6 +219,19 @@ mod tests {
         assert_eq!(around([[0.0, 0.0]].into_iter()), [-5e-10, 5e-10]);
         assert_eq!(around([[1.0, 2.0], [0.0, 1.5]].into_iter()), [-0.1, 2.1]);
         assert_eq!(around(std::iter::empty()), [-0.05, 1.05]);
+    }
+
+    /// Without their limit, an axis with 1e308 on both sides of 0 has no end.
+    #[test]
+    fn huge_values_are_left_out_of_plots() {
+        let value =
+            |number: usize, value: f64| finished(number, &[("rate", &number.to_string())], Some(value));
+        let rows =
+            [value(0, 1e308), value(1, -1e308), value(2, f64::INFINITY), value(3, 1e299), value(4, -1e299)];
+        let points: Vec<f64> = lines(&rows, 0)[0].points.iter().map(|point| point.mean).collect();
+        assert_eq!(points, [1e299, -1e299]);
+        assert!(page("huge", &rows).unwrap().unwrap().contains("<svg"));
+        assert!(point(1e308, &[1.0]).is_none());
     }
 
     #[test]

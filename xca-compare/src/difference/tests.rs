@@ -76,6 +76,19 @@ fn measures_are_those_of_their_definitions() {
     assert_eq!(differences.verdict(0.125), Verdict::Rounding);
 }
 
+/// Squares of these differences are beyond the range of `f64`, the root of their mean is not.
+#[test]
+fn differences_of_any_size_have_a_root_mean_square() {
+    for size in [1e-200, 1e200] {
+        let first = state(&[], [size; 12], [0; 6]);
+        let mut flow = [size; 12];
+        (flow[0], flow[5]) = (4.0 * size, -3.0 * size);
+        let differences = between(&first, &state(&[], flow, [0; 6]));
+        let wanted = (25.0_f64 / 12.0).sqrt() * size;
+        assert!((differences.substates[0].rms / wanted - 1.0).abs() < 1e-12, "{size}");
+    }
+}
+
 #[test]
 fn zeros_of_either_sign_have_other_bits_and_the_same_value() {
     let first = state(&[], [0.0; 12], [0; 6]);

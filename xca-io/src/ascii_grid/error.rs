@@ -1,5 +1,6 @@
 //! Errors of ASCII grids.
 
+use crate::placement::CoarsePlace;
 use std::io;
 use std::num::ParseFloatError;
 use std::path::PathBuf;
@@ -64,6 +65,14 @@ pub enum ReadGridError {
     TwoSides {
         /// The file.
         path: PathBuf,
+    },
+    /// The header gives a place too far from the origin.
+    #[error("{}: {problem}", path.display())]
+    Place {
+        /// The file.
+        path: PathBuf,
+        /// The coordinate.
+        problem: CoarsePlace,
     },
     /// The file begins with numbers instead of a header.
     #[error(

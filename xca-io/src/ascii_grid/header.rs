@@ -140,7 +140,8 @@ impl Header {
         let x = self.x.ok_or_else(|| missing("xllcorner"))?;
         let y = self.y.ok_or_else(|| missing("yllcorner"))?;
         let corner = [x.corner(side), y.corner(side)];
-        Ok(Placement { extents: [columns, rows], corner, side })
+        let placement = Placement { extents: [columns, rows], corner, side }.checked();
+        placement.map_err(|problem| ReadGridError::Place { path: path.to_owned(), problem })
     }
 
     /// Whether no key has been found.

@@ -45,10 +45,10 @@ fn every_number_comes_back_with_its_bits() {
         bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         values.extend(Some(f64::from_bits(bits)).filter(|value| value.is_finite()));
     }
-    let grid = Raster::new([50, 40], 1.0 / 3.0, values.clone()).unwrap().with_corner([-0.1, 1e20]);
+    let grid = Raster::new([50, 40], 1.0 / 3.0, values.clone()).unwrap().with_corner([-0.1, 1e9]);
     write(&path, &grid).unwrap();
     let back = read(&path).unwrap();
-    assert_eq!((back.side(), back.corner()), (1.0 / 3.0, [-0.1, 1e20]));
+    assert_eq!((back.side(), back.corner()), (1.0 / 3.0, [-0.1, 1e9]));
     for (written, read) in values.iter().zip(back.values()) {
         assert_eq!(written.to_bits(), read.to_bits(), "{written:e}");
     }
@@ -233,6 +233,12 @@ fn headers_on_one_line_are_read_and_words_left_over_are_refused() {
     assert!(message("ncols 3 nrows 2 ncols 3\n").starts_with("dem.asc:1: `ncols` appears twice"));
     assert!(message("cellsize 10 # metres\n").contains("`cellsize` has more than one value: `#`"));
     assert!(message("ncols 3 2\n").contains("`ncols` has more than one value: `2`"));
+}
+
+#[test]
+fn a_place_whose_cells_have_no_coordinates_is_refused() {
+    let said = message(&HEADER.replace("yllcorner 200.5", "yllcorner -1e20"));
+    assert!(said.contains("a coordinate of 1e20 is too large for cells with a side of 10"), "{said}");
 }
 
 #[test]

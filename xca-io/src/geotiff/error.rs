@@ -1,5 +1,6 @@
 //! Errors of GeoTIFF files.
 
+use crate::placement::CoarsePlace;
 use std::io;
 use std::path::PathBuf;
 use tiff::TiffError;
@@ -102,6 +103,14 @@ pub enum ReadGeoTiffError {
         tag: &'static str,
         /// The problem.
         problem: String,
+    },
+    /// The georeference is too far from the origin.
+    #[error("{}: {problem}", path.display())]
+    Place {
+        /// The file.
+        path: PathBuf,
+        /// The coordinate.
+        problem: CoarsePlace,
     },
     /// The rows do not run from west to east.
     #[error("{}: the GeoTIFF is rotated; warp it with `gdalwarp`", path.display())]

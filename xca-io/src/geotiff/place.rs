@@ -71,7 +71,9 @@ impl Georeference {
             return Err(ReadGeoTiffError::NotSquare { path: path.to_owned(), dx: column, dy: row.abs() });
         }
         let south = if row < 0.0 { y + row * extents[1] as f64 } else { y };
-        let placement = Placement { extents, corner: [x, south], side: column };
+        let placement = Placement { extents, corner: [x, south], side: column }.checked();
+        let placement =
+            placement.map_err(|problem| ReadGeoTiffError::Place { path: path.to_owned(), problem })?;
         Ok(Some(Pixels { placement, from_the_south: row > 0.0 }))
     }
 

@@ -139,6 +139,8 @@ fn a_place_in_doubt_is_refused() {
         let said = refused(SCALE.1, &[TIEPOINT.1, &other].concat());
         assert!(said.contains("ModelTiepoint of the GeoTIFF has points that do not fit"), "{said}");
     }
+    let far = refused(SCALE.1, &[0.0, 0.0, 0.0, 1e20, 220.0, 0.0]);
+    assert!(far.contains("a coordinate of 1e20 is too large for cells with a side of 10"), "{far}");
     let two = [TIEPOINT.1, &[3.0, 2.0, 0.0, 130.0, 200.0, 0.0]].concat();
     let placed = read(&made(folder.path(), &[SCALE, (Tag::ModelTiepointTag, &two)], None)).unwrap();
     assert_eq!((placed.corner(), placed.side()), ([100.0, 200.0], 10.0));

@@ -1,11 +1,13 @@
 //! What is observed of a model that does not say it.
 
+use super::values::Plane;
 use crate::observable::Observable;
 use std::borrow::Cow;
 use xca_checkpoint::components::state_names;
 use xca_core::engine::Population;
 use xca_core::model::{Group, GroupKind};
 use xca_core::reduction::{Reduction, reduce_values};
+use xca_core::statistics::mean as mean_of;
 use xca_core::{GroupSnapshot, Model, Precision, ScalarType, Snapshot};
 
 /// Of each substate: minimum, mean and maximum of floats; minimum, sum and maximum of whole numbers; the mean
@@ -86,14 +88,19 @@ fn of_field(
         return component_names.into_iter().enumerate().flat_map(component).collect();
     }
     let sum = reduced(Reduction::Sum, 0.0);
+    // The sum may be too large where the mean is not.
+    let mean = |component: usize| match sum[component] / count {
+        mean if mean.is_infinite() => mean_of(Plane::all(stored, bytes).component(component).into_iter()),
+        mean => mean,
+    };
     if !component_names[0].is_empty() {
-        let components = component_names.into_iter().zip(sum);
+        let components = component_names.into_iter().enumerate();
         return components
-            .map(|(component, sum)| Observable::number(name(&format!("{component}_mean")), sum / count))
+            .map(|(index, component)| Observable::number(name(&format!("{component}_mean")), mean(index)))
             .collect();
     }
     let is_float = matches!(stored.scalar, xca_core::StoredScalar::F32 | xca_core::StoredScalar::F64);
-    let (middle, value) = if is_float { ("mean", sum[0] / count) } else { ("sum", sum[0]) };
+    let (middle, value) = if is_float { ("mean", mean(0)) } else { ("sum", sum[0]) };
     vec![
         Observable::number(name("min"), reduced(Reduction::Minimum, f64::NAN)[0]),
         Observable::number(name(middle), value),

@@ -55,9 +55,7 @@ impl Recorder {
         let groups = self.model().groups();
         groups.len() == snapshot.groups.len() && groups.iter().zip(&snapshot.groups).all(of_group)
     }
-}
 
-impl Recorder {
     /// The formats that give states of a view back, and the files in which they do.
     fn readers(&self, view: View<'_>) -> Vec<Reader<'_>> {
         let subject = self.subject();
@@ -248,9 +246,7 @@ impl<'a> Arrays<'a> {
         }
         Ok(array)
     }
-}
 
-impl Arrays<'_> {
     /// All substates of so many cells or items, as a simulation stores them. The file has the positions of
     /// items apart.
     fn all(&self, positions: Option<&Plane>, count: usize) -> Result<AllStored, SavedError> {

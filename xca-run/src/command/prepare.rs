@@ -90,8 +90,8 @@ fn set_up(invocation: &RunInvocation<'_>, engine: &dyn Engine, given: &Given) ->
 
 /// Refuses a model that the machine has no room for.
 pub(super) fn check_room(engine: &dyn Engine, model: &Model, precision: Precision) -> Result<(), Unable> {
-    let memory = engine.least_memory(model, precision);
-    check_memory(memory, &format!("this model on the {} engine", engine.name())).map_err(Unable::refused)
+    let memory = engine.least_memory(model, precision) + model.output_memory(precision, |_| 0);
+    check_memory(memory, &format!("this run on the {} engine", engine.name())).map_err(Unable::refused)
 }
 
 /// Prints the warnings of a set-up, also where nothing else is said.

@@ -7,7 +7,7 @@ use std::fmt;
 use xca_checkpoint::Exact;
 use xca_checkpoint::components::{state_name, text};
 use xca_checkpoint::{Checkpoint, GroupShape, Kind};
-use xca_core::GroupSnapshot;
+use xca_core::{GroupSnapshot, statistics::mean};
 
 /// One component of a substate over all cells or items.
 #[derive(Debug, Serialize)]
@@ -167,7 +167,7 @@ impl Spread {
         let found = numbers().count();
         Self::Numbers {
             least: numbers().reduce(f64::min).map(Exact),
-            mean: (found > 0).then(|| Exact(numbers().sum::<f64>() / found as f64)),
+            mean: (found > 0).then(|| Exact(mean(numbers()))),
             largest: numbers().reduce(f64::max).map(Exact),
             not_numbers: count - found,
         }
