@@ -4,8 +4,10 @@
 //! instead.
 
 mod calls;
+mod chains;
 mod draws;
 mod expressions;
+mod iterators;
 mod loops;
 mod matches;
 mod places;

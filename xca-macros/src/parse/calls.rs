@@ -1,5 +1,6 @@
 //! Calls of methods and helpers.
 
+use super::chains::End;
 use super::expressions::{no_destination, strip};
 use super::matches::is_constant;
 use super::refusals;
@@ -26,6 +27,11 @@ pub(super) const SPACE_METHODS: &str = "the space has side(), extents(), step(),
 
 impl Scope {
     pub(super) fn method_call(&mut self, call: &ExprMethodCall) -> Result<Expression> {
+        if let Some(end) = End::of(call)
+            && self.begins_chain(&call.receiver)
+        {
+            return self.chain(end, call);
+        }
         if let Some(turbofish) = &call.turbofish {
             return Err(Error::new_spanned(turbofish, "methods take no type arguments in a process"));
         }
@@ -61,7 +67,7 @@ impl Scope {
                     "go through the items, and count what you need: `for item in slots { … }`",
                 ));
             }
-            Some(Binding::Value | Binding::Argument) | None => {}
+            Some(Binding::Value | Binding::Argument | Binding::Reference) | None => {}
         }
         self.number_method(call)
     }
@@ -224,7 +230,7 @@ impl Scope {
                 return Err(Error::new_spanned(
                     only,
                     match binding {
-                        Binding::Value | Binding::Argument => "this is a variable, not a function",
+                        _ if binding.is_value() => "this is a variable, not a function",
                         _ => "this is no function",
                     },
                 ));

@@ -45,10 +45,12 @@ impl Scope {
                 UnOp::Neg(_) | UnOp::Not(_) => {
                     Ok(Expression::Unary(unary.op, Box::new(self.expression(&unary.expr)?)))
                 }
-                _ => Err(Error::new_spanned(
-                    unary,
-                    "there are no references in a process: use the value itself, without `*`",
-                )),
+                _ => self.referenced(&unary.expr).ok_or_else(|| {
+                    Error::new_spanned(
+                        unary,
+                        "there are no references in a process: use the value itself, without `*`",
+                    )
+                }),
             },
             Expr::Binary(binary) if super::plain_operator(&binary.op).is_some() => Err(Error::new_spanned(
                 binary,
@@ -105,10 +107,13 @@ impl Scope {
 
     /// The body of an `else` or of an arm: a block, or one expression.
     pub(super) fn branch(&mut self, branch: &Expr) -> Result<Block> {
-        if let Expr::Block(block) = branch
-            && block.label.is_none()
-        {
-            return self.block(&block.block);
+        match branch {
+            Expr::Block(block) if block.label.is_none() => return self.block(&block.block),
+            // `_ => ()`
+            Expr::Tuple(nothing) if nothing.elems.is_empty() => {
+                return Ok(Block { statements: Vec::new(), value: None });
+            }
+            _ => {}
         }
         Ok(match self.item(branch)? {
             Item::Statement(statement) => Block { statements: vec![statement], value: None },
@@ -122,7 +127,7 @@ impl Scope {
         }
         if let Some(name) = path.path.get_ident() {
             match self.binding(name) {
-                Some(Binding::Value | Binding::Argument) => return Ok(Expression::Local(name.clone())),
+                Some(binding) if binding.is_value() => return Ok(Expression::Local(name.clone())),
                 Some(Binding::Parameters) => return Ok(Expression::Parameters(name.clone())),
                 Some(Binding::Space) => return Ok(Expression::Space(name.span())),
                 Some(Binding::Slots(_)) => {
@@ -203,6 +208,17 @@ impl Scope {
         }
     }
 
+    /// The variable behind one `*` or more, where it is a reference.
+    fn referenced(&self, expression: &Expr) -> Option<Expression> {
+        match strip(expression) {
+            Expr::Unary(unary) if matches!(unary.op, UnOp::Deref(_)) => self.referenced(&unary.expr),
+            Expr::Path(path) if self.named(expression) == Some(Binding::Reference) => {
+                path.path.get_ident().cloned().map(Expression::Local)
+            }
+            _ => None,
+        }
+    }
+
     pub(super) fn is_subject(&self, expression: &Expr) -> bool {
         self.named(expression) == Some(Binding::Subject)
     }
@@ -236,7 +252,7 @@ impl Scope {
                 Some(Binding::Space) => {
                     return Err(Error::new_spanned(member, SPACE_METHODS));
                 }
-                Some(Binding::Value | Binding::Argument) | None => {}
+                Some(Binding::Value | Binding::Argument | Binding::Reference) | None => {}
             }
         }
         if let Expr::MethodCall(call) = strip(&field.base)

@@ -5,6 +5,10 @@ use crate::ast::FunctionKind;
 use syn::{Attribute, Error, Expr, Ident, Result};
 use xca_methods::METHODS;
 
+/// What to write instead of a write to an element of an iterator.
+pub(super) const WRITE_BY_INDEX: &str =
+    "elements are written by their index: `for i in 0..values.len() { values[i] = …; }`";
+
 /// Why an expression is no part of a process.
 pub(super) fn refused(expression: &Expr) -> Error {
     let advice = match expression {
@@ -93,6 +97,7 @@ pub(super) fn cannot_write(binding: Binding, kind: FunctionKind) -> &'static str
         Binding::Subject if kind == FunctionKind::Migration => {
             "a migration only says where the item goes; change its substates in an elementary process"
         }
+        Binding::Reference => WRITE_BY_INDEX,
         Binding::Subject | Binding::Value | Binding::Argument => "this cannot be written in a process",
     }
 }

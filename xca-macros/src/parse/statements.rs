@@ -146,6 +146,10 @@ impl Scope {
         {
             return Ok(Initial::Neighbour(argument, self.neighbour_index(argument, call)?));
         }
+        if self.named(value) == Some(Binding::Reference) {
+            let name = quote::quote!(#value);
+            return Err(Error::new_spanned(value, format!("copy the element: `let value = *{name};`")));
+        }
         self.expression(value).map(Initial::Value)
     }
 
@@ -175,6 +179,9 @@ impl Scope {
                 self.check_in_loop(continue_.label.as_ref(), continue_.span())?;
                 Statement::Continue(continue_.label.clone(), continue_.span())
             }
+            Expr::Return(return_) if self.in_closure => {
+                return Err(Error::new_spanned(return_, "a closure ends with its value, without `return`"));
+            }
             Expr::Return(return_) => {
                 let value = return_.expr.as_deref().map(|value| self.expression(value)).transpose()?;
                 if value.is_some() && matches!(self.kind, FunctionKind::Cells | FunctionKind::Items) {
@@ -184,6 +191,9 @@ impl Scope {
                     ));
                 }
                 Statement::Return(value, return_.span())
+            }
+            Expr::Tuple(nothing) if nothing.elems.is_empty() => {
+                Statement::Expression(Expression::Block(Block { statements: Vec::new(), value: None }))
             }
             Expr::MethodCall(call) if call.method == "fault" && self.is_subject(&call.receiver) => {
                 let usage = "write `fault(code, value);`: a code of your choice, a u32, and a value to report, a Real";
