@@ -271,6 +271,20 @@ pub(crate) enum Expression {
     Block(Block),
 }
 
+impl Expression {
+    /// Whether an expression that may stand for statements has a value.
+    pub(crate) fn has_value(&self) -> bool {
+        match self {
+            Self::If { then, otherwise, .. } => {
+                then.value.is_some() || otherwise.as_ref().is_some_and(|block| block.value.is_some())
+            }
+            Self::Match { arms, .. } => arms.iter().any(|arm| arm.body.value.is_some()),
+            Self::Block(block) => block.value.is_some(),
+            _ => true,
+        }
+    }
+}
+
 pub(crate) struct Arm {
     pub(crate) patterns: Vec<Pattern>,
     pub(crate) guard: Option<Expression>,

@@ -9,6 +9,7 @@ mod checked;
 mod data;
 mod fields;
 mod library;
+mod matches;
 mod native;
 mod parse;
 mod size;
@@ -63,10 +64,11 @@ fn finished(code: syn::Result<proc_macro2::TokenStream>) -> TokenStream {
 
 fn expand(attribute: TokenStream, item: TokenStream, wanted: Wanted) -> TokenStream {
     let attribute = proc_macro2::TokenStream::from(attribute);
-    let function: syn::ItemFn = match syn::parse(item.clone()) {
+    let mut function: syn::ItemFn = match syn::parse(item.clone()) {
         Ok(function) => function,
         Err(error) => return no_function(item, wanted, &error).into(),
     };
+    matches::spell_out(&mut function);
     let expanded = if attribute.is_empty() {
         parse::function(&function, wanted).and_then(|parsed| native::expand(&parsed, &function))
     } else {

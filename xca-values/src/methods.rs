@@ -83,8 +83,8 @@ impl<T: ByValue + Copy> ByValue for &T {
 }
 
 macro_rules! by_value {
-    ($($([$($generic:tt)*])? $type:ty),*) => {
-        $(impl$(<$($generic)*>)? ByValue for $type {
+    ($(impl[$($generic:tt)*] $type:ty),*) => {
+        $(impl<$($generic)*> ByValue for $type {
             type Value = Self;
 
             #[inline(always)]
@@ -95,5 +95,5 @@ macro_rules! by_value {
     };
 }
 
-by_value!(bool, u8, i32, u32, usize, f32, f64, [T] Vector2<T>, [T] Vector3<T>, [T] Vector4<T>);
-by_value!([T, const N: usize] [T; N]);
+by_value!(impl[] bool, impl[] u8, impl[] i32, impl[] u32, impl[] usize, impl[] f32, impl[] f64);
+by_value!(impl[T] Vector2<T>, impl[T] Vector3<T>, impl[T] Vector4<T>, impl[T, const N: usize] [T; N]);

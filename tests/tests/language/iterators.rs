@@ -51,9 +51,42 @@ fn chains(n: i32) -> i32 {
     sum + smallest as i32
 }
 
+#[derive(States, Clone, Copy, Debug, PartialEq)]
+enum Light {
+    Green,
+    Amber,
+    Red,
+}
+
+/// The next light, and a number; patterns give names.
+#[helper]
+fn patterns(n: i32) -> i32 {
+    let mut light = if n % 2 == 0 { Light::Green } else { Light::Red };
+    let mut sum = 0;
+    for (i, weight) in WEIGHTS.iter().enumerate().filter(|(i, weight)| *i > 0 && **weight != 4) {
+        light = match light {
+            Light::Green if (n + i as i32) % 3 == 0 => Light::Amber,
+            Light::Amber => Light::Red,
+            light if sum > 20 => light,
+            _ => Light::Green,
+        };
+        sum += match (n + *weight).rem_euclid(9) {
+            few if few < 3 => few + n,
+            middle @ (3 | 5) => 100 * middle,
+            many @ 6..=7 => 10 * many,
+            _ => 1,
+        };
+        if matches!(light, Light::Red | Light::Amber if sum > 0) {
+            sum += 1000;
+        }
+    }
+    sum
+}
+
 #[derive(Substates, Clone, Copy, Debug, Default, PartialEq)]
 struct Numbers {
     n: i32,
+    patterns: i32,
     loops: i32,
     chains: i32,
     greater: u32,
@@ -66,6 +99,7 @@ struct Numbers {
 fn compute(cell: &mut Cell<Numbers>) {
     cell.loops = loops(cell.n);
     cell.chains = chains(cell.n);
+    cell.patterns = patterns(cell.n);
 }
 
 #[elementary_process]
@@ -101,6 +135,7 @@ fn iterators_are_those_of_rust() -> TestResult {
                 let n = number(cell);
                 assert_eq!(state.get(Numbers::LOOPS, cell)?, loops(n), "{n}");
                 assert_eq!(state.get(Numbers::CHAINS, cell)?, chains(n), "{n}");
+                assert_eq!(state.get(Numbers::PATTERNS, cell)?, patterns(n), "{n}");
                 let [x, y, _] = cell;
                 let around = (0..9)
                     .filter(|place| *place != 4)

@@ -99,9 +99,74 @@ fn chains(n: i32) -> i32 {
     })
 }
 
+#[derive(States, Clone, Copy, Debug, PartialEq)]
+enum Light {
+    Green,
+    Amber,
+    Red,
+}
+
+/// The name `light` is that of another variable too.
+#[helper]
+fn next(light: Light, n: i32) -> (Light, i32) {
+    let waits = matches!(light, Light::Red | Light::Amber if n > 3);
+    let seconds = match n % 10 {
+        few if few < 3 => few + n,
+        4 => n,
+        middle @ (3 | 5) => 100 * middle,
+        many @ 6..=8 => 10 * many,
+        _ => 1000,
+    };
+    let next = match light {
+        Light::Green if waits => Light::Amber,
+        Light::Amber => Light::Red,
+        light if seconds % 2 == 0 => light,
+        other => match seconds % 5 {
+            0 => other,
+            light => {
+                if light > 2 {
+                    Light::Green
+                } else {
+                    Light::Amber
+                }
+            }
+        },
+    };
+    (next, seconds)
+}
+
+/// Loops over what passes a filter, and sums whose type stands beside them.
+#[helper]
+fn patterns(n: i32) -> i32 {
+    let values = digits(n);
+    let total: i32 = values.iter().sum();
+    let (mut light, mut sum) = (Light::Green, total);
+    'values: for (i, value) in values.iter().enumerate().filter(|(i, value)| *i > 0 && **value != 2) {
+        for k in (1..4).filter(|&k| k != *value).map(|k| 3 * k) {
+            if k > 3 * *value {
+                continue 'values;
+            }
+            sum += k;
+        }
+        let (after, seconds) = next(light, *value + n);
+        light = after;
+        sum = (sum + seconds * i as i32) % 10_007;
+        match light {
+            Light::Green => sum += 1,
+            found if found == Light::Red => sum += 2,
+            _ => (),
+        }
+        if matches!(light, Light::Red) && value.min(5) == 5 {
+            break;
+        }
+    }
+    sum
+}
+
 #[derive(Substates, Clone, Copy, Debug, PartialEq, Default)]
 struct State {
     n: i32,
+    patterns: i32,
     loops: i32,
     chains: i32,
 }
@@ -110,12 +175,13 @@ struct State {
 fn compute(cell: &mut Cell<State>) {
     cell.loops = loops(cell.n);
     cell.chains = chains(cell.n);
+    cell.patterns = patterns(cell.n);
 }
 
 #[test]
 fn iterators_are_those_of_rust() {
     for n in (0..100_000).step_by(977).chain([0, 7, 77_777, 99_999, 30_303]) {
-        let wanted = State { n, loops: loops(n), chains: chains(n) };
+        let wanted = State { n, loops: loops(n), chains: chains(n), patterns: patterns(n) };
         assert_eq!(run(compute, State { n, ..State::default() }), wanted, "{n}");
     }
 }

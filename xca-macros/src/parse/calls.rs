@@ -1,6 +1,5 @@
 //! Calls of methods and helpers.
 
-use super::chains::End;
 use super::expressions::{no_destination, strip};
 use super::matches::is_constant;
 use super::refusals;
@@ -27,10 +26,8 @@ pub(super) const SPACE_METHODS: &str = "the space has side(), extents(), step(),
 
 impl Scope {
     pub(super) fn method_call(&mut self, call: &ExprMethodCall) -> Result<Expression> {
-        if let Some(end) = End::of(call)
-            && self.begins_chain(&call.receiver)
-        {
-            return self.chain(end, call);
+        if let Some(chain) = self.chain(call) {
+            return chain;
         }
         if let Some(turbofish) = &call.turbofish {
             return Err(Error::new_spanned(turbofish, "methods take no type arguments in a process"));
@@ -67,7 +64,7 @@ impl Scope {
                     "go through the items, and count what you need: `for item in slots { … }`",
                 ));
             }
-            Some(Binding::Value | Binding::Argument | Binding::Reference) | None => {}
+            Some(_) | None => {}
         }
         self.number_method(call)
     }

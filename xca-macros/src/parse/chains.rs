@@ -1,7 +1,7 @@
 //! Chains such as `(0..n).filter(|i| …).map(|i| …).sum::<Real>()`, which become blocks with a loop.
 
-use super::expressions::strip;
-use super::iterators::{Given, Names, hidden, let_};
+use super::expressions::{both, strip};
+use super::iterators::{Given, Names, Source, hidden, let_};
 use super::scope::{Binding, Scope};
 use crate::ast::{Block, Expression, Place, PlaceRoot, Statement};
 use proc_macro2::Span;
@@ -55,24 +55,50 @@ struct Turn {
     parts: Vec<Part>,
 }
 
-impl Scope {
-    /// Whether a chain may begin here. Cells, items, parameters and the space have methods of their own.
-    pub(super) fn begins_chain(&self, receiver: &Expr) -> bool {
-        self.named(receiver).is_none_or(Binding::is_value)
+impl Turn {
+    fn new(given: Given) -> Self {
+        Self { given, outer: None, mapped: None, names: None, parts: Vec::new() }
     }
 
-    pub(super) fn chain(&mut self, end: End, call: &ExprMethodCall) -> Result<Expression> {
-        let mut stages = Vec::new();
-        let mut over = strip(&call.receiver);
-        while let Expr::MethodCall(stage) = over
-            && (stage.method == "map" || stage.method == "filter")
-        {
-            stages.push(stage);
-            over = strip(&stage.receiver);
+    /// The statements of the turn, after those of the closures.
+    fn around(self, mut statements: Vec<Statement>) -> (Names, Vec<Statement>) {
+        for part in self.parts.into_iter().rev() {
+            match part {
+                Part::Let(statement) => statements.insert(0, statement),
+                Part::Filter(condition) => statements = vec![if_(condition, statements)],
+            }
         }
+        let nameless = || Names { index: None, value: hidden("value") };
+        (self.outer.unwrap_or_else(nameless), statements)
+    }
+}
+
+/// The `map` and `filter` of a chain, the last one first, and what it goes through.
+fn stages(chain: &Expr) -> (Vec<&ExprMethodCall>, &Expr) {
+    let (mut stages, mut over) = (Vec::new(), strip(chain));
+    while let Expr::MethodCall(stage) = over
+        && (stage.method == "map" || stage.method == "filter")
+    {
+        stages.push(stage);
+        over = strip(&stage.receiver);
+    }
+    (stages, over)
+}
+
+impl Scope {
+    /// The chain that ends in this method, where it is one. Cells, items, parameters and the space have methods
+    /// of their own.
+    pub(super) fn chain(&mut self, call: &ExprMethodCall) -> Option<Result<Expression>> {
+        let end = End::of(call).filter(|_| self.named(&call.receiver).is_none_or(Binding::is_value))?;
+        Some(self.chain_to(end, call))
+    }
+
+    fn chain_to(&mut self, end: End, call: &ExprMethodCall) -> Result<Expression> {
+        let expected = self.expected.take();
+        let (stages, over) = stages(&call.receiver);
         let source = self.source(over)?;
-        let (type_, start) = self.start(end, call)?;
-        let turn = Turn { given: source.given(), outer: None, mapped: None, names: None, parts: Vec::new() };
+        let (type_, start) = self.start(end, call, expected)?;
+        let turn = Turn::new(source.given());
         let (names, body) =
             self.nested(|scope| scope.in_closure(|scope| scope.turn(turn, &stages, end, call)))?;
         let result = hidden("result");
@@ -81,7 +107,12 @@ impl Scope {
     }
 
     /// The type of the result, where it is known, and its first value.
-    fn start(&mut self, end: End, call: &ExprMethodCall) -> Result<(Option<Type>, Expression)> {
+    fn start(
+        &mut self,
+        end: End,
+        call: &ExprMethodCall,
+        expected: Option<Type>,
+    ) -> Result<(Option<Type>, Expression)> {
         let integer = |digits| Expression::Integer(LitInt::new(digits, Span::mixed_site()));
         let float = |digits| Expression::Float(LitFloat::new(digits, Span::mixed_site()));
         let arguments = match end {
@@ -104,7 +135,7 @@ impl Scope {
             End::Count => (Some(parse_quote!(usize)), integer("0")),
             End::Fold => (None, self.expression(&call.args[0])?),
             End::Sum | End::Product => {
-                let type_ = number(call)?;
+                let type_ = number(call, expected)?;
                 self.mentions.types.push(type_.clone());
                 let is_float = ["Real", "f32", "f64"].iter().any(|word| is_word(&type_, word));
                 let start = match (end, is_float) {
@@ -129,35 +160,19 @@ impl Scope {
         end: End,
         call: &ExprMethodCall,
     ) -> Result<(Names, Block)> {
-        for stage in stages.iter().rev() {
-            let closure = closure(stage.args.last().filter(|_| stage.args.len() == 1), 1, &stage.method)?;
-            if stage.method == "filter" {
-                self.take(&mut turn, &closure.inputs[0], true)?;
-                let condition = self.closure_value(closure)?;
-                turn.parts.push(Part::Filter(condition));
-            } else {
-                self.take(&mut turn, &closure.inputs[0], false)?;
-                turn.mapped = Some(self.closure_value(closure)?);
-                turn.given = Given::value();
-            }
-        }
+        self.stages(&mut turn, stages)?;
         let result = || Expression::Local(hidden("result"));
         let add = BinOp::Add(syn::Token![+](call.span()));
-        let mut statements = match end {
+        let statements = match end {
             End::Any | End::All => {
                 let closure = closure(call.args.last(), 1, &call.method)?;
                 self.take(&mut turn, &closure.inputs[0], false)?;
                 let value = self.closure_value(closure)?;
-                if turn.parts.is_empty() {
-                    let operator = match end {
-                        End::Any => BinOp::Or(syn::Token![||](call.span())),
-                        _ => BinOp::And(syn::Token![&&](call.span())),
-                    };
-                    let value = Expression::Binary(operator, Box::new(result()), Box::new(value));
-                    vec![set(None, value)]
-                } else {
-                    vec![set(None, value)]
-                }
+                let operator = match end {
+                    End::Any => BinOp::Or(syn::Token![||](call.span())),
+                    _ => BinOp::And(syn::Token![&&](call.span())),
+                };
+                vec![set(None, Expression::Binary(operator, Box::new(result()), Box::new(value)))]
             }
             End::Count => {
                 self.finish_item(&mut turn);
@@ -177,21 +192,58 @@ impl Scope {
             }
         };
         let is_whole = turn.parts.is_empty();
-        for part in turn.parts.into_iter().rev() {
-            match part {
-                Part::Let(statement) => statements.insert(0, statement),
-                Part::Filter(condition) => statements = vec![if_(condition, statements, call.span())],
-            }
-        }
+        let (outer, mut statements) = turn.around(statements);
         // What is known is not asked again.
         if !is_whole && end == End::Any {
             let not = Expression::Unary(UnOp::Not(syn::Token![!](call.span())), Box::new(result()));
-            statements = vec![if_(not, statements, call.span())];
+            statements = vec![if_(not, statements)];
         } else if !is_whole && end == End::All {
-            statements = vec![if_(result(), statements, call.span())];
+            statements = vec![if_(result(), statements)];
         }
-        let outer = turn.outer.unwrap_or_else(|| Names { index: None, value: hidden("value") });
         Ok((outer, Block { statements, value: None }))
+    }
+
+    /// The closures of `map` and `filter`.
+    fn stages(&mut self, turn: &mut Turn, stages: &[&ExprMethodCall]) -> Result<()> {
+        for stage in stages.iter().rev() {
+            let closure = closure(stage.args.last().filter(|_| stage.args.len() == 1), 1, &stage.method)?;
+            if stage.method == "filter" {
+                self.take(turn, &closure.inputs[0], true)?;
+                let condition = self.closure_value(closure)?;
+                turn.parts.push(Part::Filter(condition));
+            } else {
+                self.take(turn, &closure.inputs[0], false)?;
+                turn.mapped = Some(self.closure_value(closure)?);
+                turn.given = Given::value();
+            }
+        }
+        Ok(())
+    }
+
+    /// A `for` over a chain without an end: its loop, without the label.
+    pub(super) fn filtered_loop(
+        &mut self,
+        pattern: &Pat,
+        over: &Expr,
+        body: impl FnOnce(&mut Self) -> Result<Block>,
+    ) -> Result<(Source, Names, Block)> {
+        let (stages, over) = stages(over);
+        let source = self.source(over);
+        self.nested(|scope| {
+            let mut turn =
+                Turn::new(source.as_ref().map_or_else(|_| Given::value().borrowed(), Source::given));
+            let bound = match &source {
+                Ok(_) => scope
+                    .in_closure(|scope| scope.stages(&mut turn, &stages))
+                    .and_then(|()| scope.take(&mut turn, pattern, false)),
+                Err(_) => scope.bind_anyway(pattern).map(|_| ()),
+            };
+            let body = body(scope);
+            let (source, ()) = both(source, bound)?;
+            let Block { statements, value } = body?;
+            let (names, statements) = turn.around(statements);
+            Ok((source, names, Block { statements, value }))
+        })
     }
 
     /// Gives names to what a closure takes.
@@ -261,8 +313,8 @@ fn set(operator: Option<BinOp>, value: Expression) -> Statement {
     Statement::Assign { place, operator, value, span: Span::mixed_site() }
 }
 
-fn if_(condition: Expression, statements: Vec<Statement>, span: Span) -> Statement {
-    let then = Block { statements, value: None };
+fn if_(condition: Expression, statements: Vec<Statement>) -> Statement {
+    let (then, span) = (Block { statements, value: None }, Span::mixed_site());
     Statement::Expression(Expression::If { condition: Box::new(condition), then, otherwise: None, span })
 }
 
@@ -282,14 +334,15 @@ fn closure<'a>(argument: Option<&'a Expr>, count: usize, method: &Ident) -> Resu
 }
 
 /// The type of a sum or product.
-fn number(call: &ExprMethodCall) -> Result<Type> {
+fn number(call: &ExprMethodCall, expected: Option<Type>) -> Result<Type> {
     let method = &call.method;
     let numbers = ["Real", "f32", "f64", "u8", "i32", "u32", "usize"];
-    let written = call.turbofish.as_ref().and_then(|turbofish| turbofish.args.first());
+    let written = match call.turbofish.as_ref().and_then(|turbofish| turbofish.args.first()) {
+        Some(GenericArgument::Type(type_)) => Some(type_.clone()),
+        _ => expected,
+    };
     match written {
-        Some(GenericArgument::Type(type_)) if numbers.iter().any(|word| is_word(type_, word)) => {
-            Ok(type_.clone())
-        }
+        Some(type_) if numbers.iter().any(|word| is_word(&type_, word)) => Ok(type_),
         Some(other) => Err(Error::new_spanned(
             other,
             format!("`{method}` is for numbers; for vectors write `fold(start, |sum, value| sum + value)`"),

@@ -1,7 +1,7 @@
 //! Expressions.
 
 use super::calls::SPACE_METHODS;
-use super::matches::is_constant;
+use super::matches::{is_constant, matched};
 use super::refusals::{is_component, no_component, refused};
 use super::scope::{Binding, Scope};
 use super::statements::Item;
@@ -127,6 +127,7 @@ impl Scope {
         }
         if let Some(name) = path.path.get_ident() {
             match self.binding(name) {
+                Some(Binding::Matched(number)) => return Ok(Expression::Local(matched(number))),
                 Some(binding) if binding.is_value() => return Ok(Expression::Local(name.clone())),
                 Some(Binding::Parameters) => return Ok(Expression::Parameters(name.clone())),
                 Some(Binding::Space) => return Ok(Expression::Space(name.span())),
@@ -252,7 +253,7 @@ impl Scope {
                 Some(Binding::Space) => {
                     return Err(Error::new_spanned(member, SPACE_METHODS));
                 }
-                Some(Binding::Value | Binding::Argument | Binding::Reference) | None => {}
+                Some(_) | None => {}
             }
         }
         if let Expr::MethodCall(call) = strip(&field.base)

@@ -25,16 +25,9 @@ impl Scope {
 
     pub(super) fn for_loop(&mut self, for_: &ExprForLoop) -> Result<Statement> {
         let label = self.new_label(for_.label.as_ref());
-        let source = self.source(&for_.expr);
-        let (names, body) = self.nested(|scope| {
-            let names = match &source {
-                Ok(source) => scope.bind_given(&for_.pat, source.given()),
-                Err(_) => scope.bind_anyway(&for_.pat),
-            };
-            (names, scope.in_loop(lifetime(&for_.label), |scope| scope.block(&for_.body)))
-        });
-        let (source, names) = both(source, names)?;
-        Ok(source.into_loop(label?, names, body?))
+        let body = |scope: &mut Self| scope.in_loop(lifetime(&for_.label), |scope| scope.block(&for_.body));
+        let (source, names, body) = self.filtered_loop(&for_.pat, &for_.expr, body)?;
+        Ok(source.into_loop(label?, names, body))
     }
 
     /// `a..b`, `(a..b).rev()`, `(a..b).step_by(k)`, `(a..b).rev().step_by(k)`.

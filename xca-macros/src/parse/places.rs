@@ -63,6 +63,12 @@ impl Scope {
                     path.push(Projection::Element(self.expression(&index.index)?));
                     here = strip(&index.expr);
                 }
+                Expr::Tuple(tuple) => {
+                    return Err(Error::new_spanned(
+                        tuple,
+                        "assign to one after the other: `let (a, b) = pair;`, then `cell.first = a;`",
+                    ));
+                }
                 Expr::Unary(unary) if matches!(unary.op, UnOp::Deref(_)) => {
                     return Err(Error::new_spanned(unary, WRITE_BY_INDEX));
                 }

@@ -61,7 +61,7 @@ pub(super) fn macro_call(call: &syn::Macro) -> Error {
             "a process cannot print; write what you want to see into a substate and look at it between steps"
         }
         "vec" => "there are no lists in a process; use an array of fixed length: `[0.0; 4]`",
-        "matches" => "write `match` or comparisons instead of `matches!`",
+        "matches" => "write `matches!(value, pattern)`",
         _ => {
             "macros cannot be called in a process; write the code in place, or as a function marked #[helper]"
         }
@@ -98,6 +98,7 @@ pub(super) fn cannot_write(binding: Binding, kind: FunctionKind) -> &'static str
             "a migration only says where the item goes; change its substates in an elementary process"
         }
         Binding::Reference => WRITE_BY_INDEX,
+        Binding::Matched(_) => "a name in a pattern is not written; write what was matched",
         Binding::Subject | Binding::Value | Binding::Argument => "this cannot be written in a process",
     }
 }

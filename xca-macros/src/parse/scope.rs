@@ -15,6 +15,8 @@ pub(super) enum Binding {
     Value,
     /// An argument of a helper, which is a value too.
     Argument,
+    /// The value of the `match` with this number, to which a pattern gives a name.
+    Matched(usize),
     /// A variable that is a reference to a value in Rust, such as an element of `values.iter()`.
     Reference,
     /// The cell or item that the process runs for.
@@ -36,7 +38,7 @@ const IN_RUSTS_PRELUDE: [&str; 5] = ["drop", "size_of", "size_of_val", "align_of
 
 impl Binding {
     pub(super) fn is_value(self) -> bool {
-        matches!(self, Self::Value | Self::Argument | Self::Reference)
+        matches!(self, Self::Value | Self::Argument | Self::Matched(_) | Self::Reference)
     }
 }
 
@@ -52,6 +54,10 @@ pub(super) struct Scope {
     loops: Vec<Option<String>>,
     /// Whether the present place is in a closure.
     pub(super) in_closure: bool,
+    /// How many `match` were read.
+    pub(super) matches: usize,
+    /// The type of the variable that is given a value.
+    pub(super) expected: Option<syn::Type>,
     errors: Option<Error>,
 }
 
@@ -85,6 +91,8 @@ impl Scope {
             levels: vec![names.collect()],
             loops: Vec::new(),
             in_closure: false,
+            matches: 0,
+            expected: None,
             errors: None,
         }
     }

@@ -72,7 +72,10 @@ impl Scope {
             return Err(Error::new_spanned(pattern, "bind a plain name: `let name = value;`"));
         }
         let name = pattern.ident.clone();
+        // The type of `let total: Real = values.iter().sum();`
+        self.expected = type_.clone().filter(|_| is_sum(local));
         let value = self.initial(local);
+        self.expected = None;
         // Bound even after an error, so that one mistake does not make others of its uses.
         let binding = match value {
             Ok(Initial::Neighbour(argument, _)) => Binding::Neighbour(argument),
@@ -202,7 +205,7 @@ impl Scope {
             }
             other => {
                 let value = self.expression(other)?;
-                return Ok(if has_value(&value) {
+                return Ok(if value.has_value() {
                     Item::Value(value)
                 } else {
                     Item::Statement(Statement::Expression(value))
@@ -220,16 +223,10 @@ enum Initial {
     Value(Expression),
 }
 
-/// Whether an expression that may stand for statements has a value.
-fn has_value(expression: &Expression) -> bool {
-    match expression {
-        Expression::If { then, otherwise, .. } => {
-            then.value.is_some() || otherwise.as_ref().is_some_and(|block| block.value.is_some())
-        }
-        Expression::Match { arms, .. } => arms.iter().any(|arm| arm.body.value.is_some()),
-        Expression::Block(block) => block.value.is_some(),
-        _ => true,
-    }
+/// Whether a variable gets a sum or a product of many.
+fn is_sum(local: &syn::Local) -> bool {
+    let value = local.init.as_ref().map(|init| super::expressions::strip(&init.expr));
+    matches!(value, Some(Expr::MethodCall(call)) if call.method == "sum" || call.method == "product")
 }
 
 /// Whether the last statement leaves the function on every path.
