@@ -34,7 +34,7 @@ pub(crate) struct Mentions {
     /// The structs of substates and of parameters.
     pub(crate) substates: Vec<Type>,
     pub(crate) parameters: Vec<Type>,
-    /// Names that are references in Rust and values here.
+    /// Names that may be references in Rust, and are values here.
     pub(crate) references: Vec<Ident>,
     /// The types of variables, casts, arguments and results.
     pub(crate) types: Vec<Type>,
@@ -269,20 +269,6 @@ pub(crate) enum Expression {
         span: Span,
     },
     Block(Block),
-}
-
-impl Expression {
-    /// Whether an expression that may stand for statements has a value.
-    pub(crate) fn has_value(&self) -> bool {
-        match self {
-            Self::If { then, otherwise, .. } => {
-                then.value.is_some() || otherwise.as_ref().is_some_and(|block| block.value.is_some())
-            }
-            Self::Match { arms, .. } => arms.iter().any(|arm| arm.body.value.is_some()),
-            Self::Block(block) => block.value.is_some(),
-            _ => true,
-        }
-    }
 }
 
 pub(crate) struct Arm {

@@ -9,10 +9,10 @@ mod checked;
 mod data;
 mod fields;
 mod library;
-mod matches;
 mod native;
 mod parse;
 mod size;
+mod spelling;
 mod states;
 
 use parse::Wanted;
@@ -68,9 +68,10 @@ fn expand(attribute: TokenStream, item: TokenStream, wanted: Wanted) -> TokenStr
         Ok(function) => function,
         Err(error) => return no_function(item, wanted, &error).into(),
     };
-    matches::spell_out(&mut function);
+    spelling::spell_out_matches(&mut function);
     let expanded = if attribute.is_empty() {
-        parse::function(&function, wanted).and_then(|parsed| native::expand(&parsed, &function))
+        parse::function(spelling::spell_out(&function), wanted)
+            .and_then(|parsed| native::expand(&parsed, &function))
     } else {
         Err(syn::Error::new_spanned(
             attribute,

@@ -81,7 +81,6 @@ fn chains(n: i32) -> i32 {
         .fold(1, |total, next| (total * 3 + next) % 1009);
     sum += values.iter().map(|value| value + 1).filter(|next| next % 2 == 0).map(|next| next * next).count()
         as i32;
-    sum += values.iter().map(|value| 1 + value % 3).product::<i32>();
     // What comes after the end is known is not computed: there are no elements for it.
     if (0..SIDES + 3).any(|i| values[i] == 9 || i + 1 == SIDES) {
         sum += 5000;

@@ -1,10 +1,10 @@
 //! Calls of methods and helpers.
 
-use super::expressions::{no_destination, strip};
-use super::matches::is_constant;
+use super::expressions::no_destination;
 use super::refusals;
 use super::scope::{Binding, Scope};
 use crate::ast::{Builtin, Expression, FunctionKind};
+use crate::spelling::{is_constant, strip};
 use syn::spanned::Spanned;
 use syn::{
     AngleBracketedGenericArguments, Error, Expr, ExprMethodCall, GenericArgument, Ident, Path, PathArguments,
@@ -26,9 +26,6 @@ pub(super) const SPACE_METHODS: &str = "the space has side(), extents(), step(),
 
 impl Scope {
     pub(super) fn method_call(&mut self, call: &ExprMethodCall) -> Result<Expression> {
-        if let Some(chain) = self.chain(call) {
-            return chain;
-        }
         if let Some(turbofish) = &call.turbofish {
             return Err(Error::new_spanned(turbofish, "methods take no type arguments in a process"));
         }
@@ -64,7 +61,7 @@ impl Scope {
                     "go through the items, and count what you need: `for item in slots { … }`",
                 ));
             }
-            Some(_) | None => {}
+            Some(Binding::Value | Binding::Argument) | None => {}
         }
         self.number_method(call)
     }
@@ -227,7 +224,7 @@ impl Scope {
                 return Err(Error::new_spanned(
                     only,
                     match binding {
-                        _ if binding.is_value() => "this is a variable, not a function",
+                        Binding::Value | Binding::Argument => "this is a variable, not a function",
                         _ => "this is no function",
                     },
                 ));

@@ -1,25 +1,16 @@
 //! Expressions.
 
 use super::calls::SPACE_METHODS;
-use super::matches::{is_constant, matched};
 use super::refusals::{is_component, no_component, refused};
 use super::scope::{Binding, Scope};
 use super::statements::Item;
 use crate::ast::{ArgumentNumber, ArraySize, Block, Builtin, Expression, FunctionKind};
 use crate::size::bytes;
+use crate::spelling::{is_constant, strip};
 use syn::spanned::Spanned;
 use syn::{BinOp, Error, Expr, ExprMethodCall, Ident, Lit, Member, Path, Result, UnOp};
 
 const NO_SELF: &str = "a process is a free function: there is no `self`";
-
-/// Without parentheses and invisible groups.
-pub(super) fn strip(expression: &Expr) -> &Expr {
-    match expression {
-        Expr::Paren(paren) => strip(&paren.expr),
-        Expr::Group(group) => strip(&group.expr),
-        other => other,
-    }
-}
 
 /// Both results, or the errors of both.
 pub(super) fn both<A, B>(first: Result<A>, second: Result<B>) -> Result<(A, B)> {
@@ -45,12 +36,8 @@ impl Scope {
                 UnOp::Neg(_) | UnOp::Not(_) => {
                     Ok(Expression::Unary(unary.op, Box::new(self.expression(&unary.expr)?)))
                 }
-                _ => self.referenced(&unary.expr).ok_or_else(|| {
-                    Error::new_spanned(
-                        unary,
-                        "there are no references in a process: use the value itself, without `*`",
-                    )
-                }),
+                // That it is a reference is for the compiler to say.
+                _ => self.expression(&unary.expr),
             },
             Expr::Binary(binary) if super::plain_operator(&binary.op).is_some() => Err(Error::new_spanned(
                 binary,
@@ -107,13 +94,10 @@ impl Scope {
 
     /// The body of an `else` or of an arm: a block, or one expression.
     pub(super) fn branch(&mut self, branch: &Expr) -> Result<Block> {
-        match branch {
-            Expr::Block(block) if block.label.is_none() => return self.block(&block.block),
-            // `_ => ()`
-            Expr::Tuple(nothing) if nothing.elems.is_empty() => {
-                return Ok(Block { statements: Vec::new(), value: None });
-            }
-            _ => {}
+        if let Expr::Block(block) = branch
+            && block.label.is_none()
+        {
+            return self.block(&block.block);
         }
         Ok(match self.item(branch)? {
             Item::Statement(statement) => Block { statements: vec![statement], value: None },
@@ -127,8 +111,7 @@ impl Scope {
         }
         if let Some(name) = path.path.get_ident() {
             match self.binding(name) {
-                Some(Binding::Matched(number)) => return Ok(Expression::Local(matched(number))),
-                Some(binding) if binding.is_value() => return Ok(Expression::Local(name.clone())),
+                Some(Binding::Value | Binding::Argument) => return Ok(Expression::Local(name.clone())),
                 Some(Binding::Parameters) => return Ok(Expression::Parameters(name.clone())),
                 Some(Binding::Space) => return Ok(Expression::Space(name.span())),
                 Some(Binding::Slots(_)) => {
@@ -209,17 +192,6 @@ impl Scope {
         }
     }
 
-    /// The variable behind one `*` or more, where it is a reference.
-    fn referenced(&self, expression: &Expr) -> Option<Expression> {
-        match strip(expression) {
-            Expr::Unary(unary) if matches!(unary.op, UnOp::Deref(_)) => self.referenced(&unary.expr),
-            Expr::Path(path) if self.named(expression) == Some(Binding::Reference) => {
-                path.path.get_ident().cloned().map(Expression::Local)
-            }
-            _ => None,
-        }
-    }
-
     pub(super) fn is_subject(&self, expression: &Expr) -> bool {
         self.named(expression) == Some(Binding::Subject)
     }
@@ -253,7 +225,7 @@ impl Scope {
                 Some(Binding::Space) => {
                     return Err(Error::new_spanned(member, SPACE_METHODS));
                 }
-                Some(_) | None => {}
+                Some(Binding::Value | Binding::Argument) | None => {}
             }
         }
         if let Expr::MethodCall(call) = strip(&field.base)

@@ -1,11 +1,14 @@
 //! Loops.
 
-use super::expressions::{both, strip};
-use super::scope::Scope;
-use crate::ast::{FunctionKind, Loop, LoopKind, Range, Reach, Statement};
+use super::expressions::both;
+use super::refusals::WRITE_BY_INDEX;
+use super::scope::{Binding, Scope};
+use crate::ast::{ArgumentNumber, FunctionKind, Loop, LoopKind, Range, Reach, Statement};
+use crate::spelling::strip;
 use proc_macro2::Span;
+use syn::spanned::Spanned;
 use syn::{
-    Error, Expr, ExprForLoop, ExprLit, ExprLoop, ExprMethodCall, ExprWhile, Label, Lifetime, Lit,
+    Error, Expr, ExprForLoop, ExprLit, ExprLoop, ExprMethodCall, ExprWhile, Ident, Label, Lifetime, Lit, Pat,
     RangeLimits, Result,
 };
 
@@ -25,13 +28,61 @@ impl Scope {
 
     pub(super) fn for_loop(&mut self, for_: &ExprForLoop) -> Result<Statement> {
         let label = self.new_label(for_.label.as_ref());
-        let body = |scope: &mut Self| scope.in_loop(lifetime(&for_.label), |scope| scope.block(&for_.body));
-        let (source, names, body) = self.filtered_loop(&for_.pat, &for_.expr, body)?;
-        Ok(source.into_loop(label?, names, body))
+        let variable = variable(&for_.pat)?;
+        let (kind, binding) = self.run_of(variable.clone(), strip(&for_.expr));
+        let body = self.nested(|scope| {
+            scope.bind(&variable, binding);
+            scope.in_loop(lifetime(&for_.label), |scope| scope.block(&for_.body))
+        })?;
+        Ok(Statement::Loop(Loop { label: label?, kind: kind?, body }))
+    }
+
+    /// What a `for` runs over, and what its variable stands for.
+    fn run_of(&mut self, variable: Ident, over: &Expr) -> (Result<LoopKind>, Binding) {
+        match over {
+            Expr::Range(_) => (self.range(variable, over), Binding::Value),
+            Expr::MethodCall(call) if self.is_subject(&call.receiver) => {
+                let kind =
+                    self.search(call).map(|(reach, radius)| LoopKind::Others { variable, reach, radius });
+                (kind, Binding::Other(ArgumentNumber::SUBJECT))
+            }
+            Expr::MethodCall(call) if call.method == "rev" || call.method == "step_by" => {
+                (self.range(variable, over), Binding::Value)
+            }
+            Expr::MethodCall(call) if call.method == "iter_mut" => {
+                (Err(Error::new_spanned(&call.method, WRITE_BY_INDEX)), Binding::Value)
+            }
+            Expr::Path(_) if let Some(Binding::Slots(argument)) = self.named(over) => {
+                (Ok(LoopKind::Items { variable }), Binding::Other(argument))
+            }
+            Expr::Reference(reference)
+                if let Some(Binding::Slots(argument)) = self.named(&reference.expr) =>
+            {
+                let advice = "it is a reference already: leave out the `&`";
+                (Err(Error::new_spanned(reference, advice)), Binding::Other(argument))
+            }
+            Expr::Reference(reference) if reference.mutability.is_some() => {
+                (Err(Error::new_spanned(reference, WRITE_BY_INDEX)), Binding::Value)
+            }
+            Expr::Reference(reference) => {
+                let kind =
+                    self.expression(&reference.expr).map(|array| LoopKind::Elements { variable, array });
+                (kind, Binding::Value)
+            }
+            Expr::Lit(literal) => {
+                let advice =
+                    "a `for` runs over a range (`for i in 0..n`) or an array (`for value in values`)";
+                (Err(Error::new_spanned(literal, advice)), Binding::Value)
+            }
+            array => {
+                let kind = self.expression(array).map(|array| LoopKind::Elements { variable, array });
+                (kind, Binding::Value)
+            }
+        }
     }
 
     /// `a..b`, `(a..b).rev()`, `(a..b).step_by(k)`, `(a..b).rev().step_by(k)`.
-    pub(super) fn range(&mut self, over: &Expr) -> Result<Range> {
+    fn range(&mut self, variable: Ident, over: &Expr) -> Result<LoopKind> {
         let (over, step) = match strip(over) {
             Expr::MethodCall(call) if call.method == "step_by" => {
                 let [step] = self.arguments(call, "`step_by` takes the step: `(0..n).step_by(2)`")?;
@@ -64,7 +115,7 @@ impl Scope {
         };
         let inclusive = matches!(range.limits, RangeLimits::Closed(_));
         let (from, to) = both(self.expression(from), self.expression(to))?;
-        Ok(Range { from, to, inclusive, reversed, step })
+        Ok(LoopKind::Range { variable, range: Range { from, to, inclusive, reversed, step } })
     }
 
     /// The label of a loop, which no loop around it has.
@@ -100,10 +151,7 @@ impl Scope {
     }
 
     /// A search for other items: where, and within which radius.
-    pub(super) fn search(
-        &mut self,
-        call: &ExprMethodCall,
-    ) -> Result<(Reach, Option<crate::ast::Expression>)> {
+    fn search(&mut self, call: &ExprMethodCall) -> Result<(Reach, Option<crate::ast::Expression>)> {
         let (reach, within) = match call.method.to_string().as_str() {
             "others" => (Reach::All, false),
             "others_in_cell" => (Reach::Cell, false),
@@ -170,4 +218,16 @@ fn check_step(step: &Expr) -> Result<()> {
 
 fn lifetime(label: &Option<Label>) -> Option<&Lifetime> {
     label.as_ref().map(|label| &label.name)
+}
+
+fn variable(pattern: &Pat) -> Result<Ident> {
+    match pattern {
+        Pat::Ident(pattern)
+            if pattern.by_ref.is_none() && pattern.mutability.is_none() && pattern.subpat.is_none() =>
+        {
+            Ok(pattern.ident.clone())
+        }
+        Pat::Wild(underscore) => Ok(Ident::new("_unused", underscore.span())),
+        other => Err(Error::new_spanned(other, "the variable of a `for` is a plain name: `for i in 0..n`")),
+    }
 }

@@ -1,54 +1,25 @@
 //! `match` and its patterns.
 
-use super::scope::{Binding, Scope};
-use crate::ast::{Arm, Block, Expression, Pattern, Statement};
-use proc_macro2::Span;
-use quote::format_ident;
+use super::scope::Scope;
+use crate::ast::{Arm, Expression, Pattern};
+use crate::spelling::is_constant;
 use syn::spanned::Spanned;
-use syn::{Error, Expr, Ident, Lit, LitInt, Pat, Path, Result};
+use syn::{Error, Expr, Lit, LitInt, Pat, Path, Result};
 
 impl Scope {
     pub(super) fn match_expression(&mut self, match_: &syn::ExprMatch) -> Result<Expression> {
         let value = self.expression(&match_.expr);
-        let number = self.matches;
-        self.matches += 1;
-        let (mut arms, mut named) = (Vec::new(), false);
+        let mut arms = Vec::new();
         for arm in &match_.arms {
             super::refusals::refuse_attributes(&arm.attrs)?;
             let (pattern, guard) = match &arm.pat {
-                Pat::Guard(guarded) => (&*guarded.pat, Some(&guarded.guard)),
+                Pat::Guard(guarded) => (&*guarded.pat, Some(self.expression(&guarded.guard)?)),
                 other => (other, None),
             };
-            let name = name(pattern);
-            named |= name.is_some();
-            arms.push(self.nested(|scope| {
-                if let Some(name) = name {
-                    scope.bind(name, Binding::Matched(number));
-                }
-                let guard = guard.map(|guard| scope.expression(guard)).transpose()?;
-                Ok::<_, Error>(Arm {
-                    patterns: scope.patterns(pattern)?,
-                    guard,
-                    body: scope.branch(&arm.body)?,
-                })
-            })?);
+            let patterns = self.patterns(pattern)?;
+            arms.push(Arm { patterns, guard, body: self.branch(&arm.body)? });
         }
-        let (value, span) = (Box::new(value?), match_.span());
-        if !named {
-            return Ok(Expression::Match { value, arms, span });
-        }
-        let name = matched(number);
-        let match_ = Expression::Match { value: Box::new(Expression::Local(name.clone())), arms, span };
-        let mut block = Block {
-            statements: vec![Statement::Let { name, mutable: false, type_: None, value: *value }],
-            value: None,
-        };
-        if match_.has_value() {
-            block.value = Some(Box::new(match_));
-        } else {
-            block.statements.push(Statement::Expression(match_));
-        }
-        Ok(Expression::Block(block))
+        Ok(Expression::Match { value: Box::new(value?), arms, span: match_.span() })
     }
 
     fn patterns(&mut self, pattern: &Pat) -> Result<Vec<Pattern>> {
@@ -61,12 +32,6 @@ impl Scope {
                 Ok(all)
             }
             Pat::Paren(paren) => self.patterns(&paren.pat),
-            Pat::Ident(name)
-                if self.is_matched(&name.ident)
-                    && let Some((_, whole)) = &name.subpat =>
-            {
-                self.patterns(whole)
-            }
             other => self.pattern(other).map(|pattern| vec![pattern]),
         }
     }
@@ -75,18 +40,12 @@ impl Scope {
         match pattern {
             Pat::Wild(underscore) => Ok(Pattern::Any(underscore.span())),
             Pat::Lit(literal) => literal_pattern(&literal.lit),
-            Pat::Ident(name) if name.by_ref.is_some() || name.mutability.is_some() => Err(
-                Error::new_spanned(name, "a pattern gives a plain name: `name => …`, `name @ 1..=9 => …`"),
-            ),
             Pat::Ident(name) if name.subpat.is_none() && is_constant(&name.ident) => {
                 self.constant_pattern(&name.ident.clone().into())
             }
-            Pat::Ident(name) if name.subpat.is_none() && self.is_matched(&name.ident) => {
-                Ok(Pattern::Any(name.ident.span()))
-            }
             Pat::Ident(name) => Err(Error::new_spanned(
                 name,
-                "only a whole pattern has a name: `name => …`, `name @ (1 | 3) => …`",
+                "a pattern gives a plain name to the whole value: `name => …`, `name @ (1 | 3) => …`",
             )),
             Pat::Path(path) if path.qself.is_none() => self.constant_pattern(&path.path),
             Pat::Range(range) => {
@@ -105,10 +64,6 @@ impl Scope {
         }
     }
 
-    fn is_matched(&self, name: &Ident) -> bool {
-        matches!(self.binding(name), Some(Binding::Matched(_)))
-    }
-
     fn constant_pattern(&mut self, path: &Path) -> Result<Pattern> {
         if self.is_generic_constant(path) {
             let name = path.get_ident().map(ToString::to_string).unwrap_or_default();
@@ -122,27 +77,6 @@ impl Scope {
         self.mentions.patterns.push(path.clone());
         Ok(Pattern::Constant(path.clone()))
     }
-}
-
-/// The name that a pattern gives to the whole value.
-fn name(pattern: &Pat) -> Option<&Ident> {
-    match pattern {
-        Pat::Paren(paren) => name(&paren.pat),
-        Pat::Ident(pattern) if pattern.subpat.is_some() || !is_constant(&pattern.ident) => {
-            Some(&pattern.ident)
-        }
-        _ => None,
-    }
-}
-
-/// The variable that holds the value of the `match` with this number.
-pub(super) fn matched(number: usize) -> Ident {
-    format_ident!("__xca_matched_{number}", span = Span::mixed_site())
-}
-
-/// Whether the word is written as constants are.
-pub(super) fn is_constant(name: &Ident) -> bool {
-    name.to_string().trim_start_matches('_').starts_with(char::is_uppercase)
 }
 
 fn unsupported(pattern: &Pat) -> Error {

@@ -1,9 +1,10 @@
 //! What is assigned to.
 
-use super::expressions::{both, strip};
+use super::expressions::both;
 use super::refusals::{WRITE_BY_INDEX, cannot_write, is_component, no_component};
 use super::scope::{Binding, Scope};
 use crate::ast::{ArgumentNumber, FunctionKind, Place, PlaceRoot, Projection, Statement};
+use crate::spelling::strip;
 use proc_macro2::Span;
 use syn::spanned::Spanned;
 use syn::{BinOp, Error, Expr, Ident, Member, Result, UnOp};
@@ -62,12 +63,6 @@ impl Scope {
                 Expr::Index(index) => {
                     path.push(Projection::Element(self.expression(&index.index)?));
                     here = strip(&index.expr);
-                }
-                Expr::Tuple(tuple) => {
-                    return Err(Error::new_spanned(
-                        tuple,
-                        "assign to one after the other: `let (a, b) = pair;`, then `cell.first = a;`",
-                    ));
                 }
                 Expr::Unary(unary) if matches!(unary.op, UnOp::Deref(_)) => {
                     return Err(Error::new_spanned(unary, WRITE_BY_INDEX));

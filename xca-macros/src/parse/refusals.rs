@@ -14,7 +14,8 @@ pub(super) fn refused(expression: &Expr) -> Error {
     let advice = match expression {
         Expr::Macro(call) => return macro_call(&call.mac),
         Expr::Closure(_) => {
-            "closures are not part of a process; write the code in place, or as a function marked #[helper]"
+            "a closure stands only in a chain, such as `(0..n).any(|i| …)`; write the code in place, or as a \
+             function marked #[helper]"
         }
         Expr::Reference(_) | Expr::RawAddr(_) => {
             "there are no references in a process: use the value itself, without `&`"
@@ -97,8 +98,6 @@ pub(super) fn cannot_write(binding: Binding, kind: FunctionKind) -> &'static str
         Binding::Subject if kind == FunctionKind::Migration => {
             "a migration only says where the item goes; change its substates in an elementary process"
         }
-        Binding::Reference => WRITE_BY_INDEX,
-        Binding::Matched(_) => "a name in a pattern is not written; write what was matched",
         Binding::Subject | Binding::Value | Binding::Argument => "this cannot be written in a process",
     }
 }
@@ -166,10 +165,14 @@ pub(super) fn method(method: &Ident) -> Error {
         "into" | "try_into" => {
             format!("`{name}` is not part of a process; cast: `value as Real`, `value as u32`")
         }
-        "iter" | "into_iter" | "iter_mut" | "map" | "filter" | "sum" | "fold" => {
+        "iter" | "into_iter" | "iter_mut" | "map" | "filter" | "enumerate" => {
             format!(
-                "there are no iterators in a process, so no `{name}`; write `for value in values {{ … }}`"
+                "`{name}` stands only in a `for` and in a chain that ends in any, all, count, sum or fold"
             )
+        }
+        "zip" | "skip" | "take" | "chain" | "windows" | "chunks" | "position" | "find" | "last"
+        | "for_each" => {
+            format!("a process has no `{name}`; write a loop: `for i in 0..values.len() {{ … values[i] … }}`")
         }
         "push" | "pop" | "insert" | "remove" | "extend" | "collect" => {
             format!(

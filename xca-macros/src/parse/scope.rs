@@ -15,10 +15,6 @@ pub(super) enum Binding {
     Value,
     /// An argument of a helper, which is a value too.
     Argument,
-    /// The value of the `match` with this number, to which a pattern gives a name.
-    Matched(usize),
-    /// A variable that is a reference to a value in Rust, such as an element of `values.iter()`.
-    Reference,
     /// The cell or item that the process runs for.
     Subject,
     /// Another struct of the cell, or of the cell that the item stands in.
@@ -38,7 +34,7 @@ const IN_RUSTS_PRELUDE: [&str; 5] = ["drop", "size_of", "size_of_val", "align_of
 
 impl Binding {
     pub(super) fn is_value(self) -> bool {
-        matches!(self, Self::Value | Self::Argument | Self::Matched(_) | Self::Reference)
+        matches!(self, Self::Value | Self::Argument)
     }
 }
 
@@ -52,12 +48,6 @@ pub(super) struct Scope {
     levels: Vec<HashMap<String, Binding>>,
     /// The loops around the present place, with their labels.
     loops: Vec<Option<String>>,
-    /// Whether the present place is in a closure.
-    pub(super) in_closure: bool,
-    /// How many `match` were read.
-    pub(super) matches: usize,
-    /// The type of the variable that is given a value.
-    pub(super) expected: Option<syn::Type>,
     errors: Option<Error>,
 }
 
@@ -90,9 +80,6 @@ impl Scope {
             constants: constants.iter().map(|constant| constant.ident.clone()).collect(),
             levels: vec![names.collect()],
             loops: Vec::new(),
-            in_closure: false,
-            matches: 0,
-            expected: None,
             errors: None,
         }
     }
@@ -136,14 +123,6 @@ impl Scope {
         self.loops.push(label.map(|label| label.ident.to_string()));
         let result = read(self);
         self.loops.pop();
-        result
-    }
-
-    /// Reads the body of a closure, which leaves no loop around it.
-    pub(super) fn in_closure<T>(&mut self, read: impl FnOnce(&mut Self) -> T) -> T {
-        let outside = (std::mem::take(&mut self.loops), std::mem::replace(&mut self.in_closure, true));
-        let result = read(self);
-        (self.loops, self.in_closure) = outside;
         result
     }
 

@@ -72,10 +72,7 @@ impl Scope {
             return Err(Error::new_spanned(pattern, "bind a plain name: `let name = value;`"));
         }
         let name = pattern.ident.clone();
-        // The type of `let total: Real = values.iter().sum();`
-        self.expected = type_.clone().filter(|_| is_sum(local));
         let value = self.initial(local);
-        self.expected = None;
         // Bound even after an error, so that one mistake does not make others of its uses.
         let binding = match value {
             Ok(Initial::Neighbour(argument, _)) => Binding::Neighbour(argument),
@@ -143,15 +140,11 @@ impl Scope {
     }
 
     fn initial_value(&mut self, value: &Expr) -> Result<Initial> {
-        if let Expr::MethodCall(call) = super::expressions::strip(value)
+        if let Expr::MethodCall(call) = crate::spelling::strip(value)
             && call.method == "neighbour"
             && let Some(argument) = self.cell_argument(&call.receiver)
         {
             return Ok(Initial::Neighbour(argument, self.neighbour_index(argument, call)?));
-        }
-        if self.named(value) == Some(Binding::Reference) {
-            let name = quote::quote!(#value);
-            return Err(Error::new_spanned(value, format!("copy the element: `let value = *{name};`")));
         }
         self.expression(value).map(Initial::Value)
     }
@@ -182,9 +175,6 @@ impl Scope {
                 self.check_in_loop(continue_.label.as_ref(), continue_.span())?;
                 Statement::Continue(continue_.label.clone(), continue_.span())
             }
-            Expr::Return(return_) if self.in_closure => {
-                return Err(Error::new_spanned(return_, "a closure ends with its value, without `return`"));
-            }
             Expr::Return(return_) => {
                 let value = return_.expr.as_deref().map(|value| self.expression(value)).transpose()?;
                 if value.is_some() && matches!(self.kind, FunctionKind::Cells | FunctionKind::Items) {
@@ -205,7 +195,7 @@ impl Scope {
             }
             other => {
                 let value = self.expression(other)?;
-                return Ok(if value.has_value() {
+                return Ok(if has_value(&value) {
                     Item::Value(value)
                 } else {
                     Item::Statement(Statement::Expression(value))
@@ -223,10 +213,16 @@ enum Initial {
     Value(Expression),
 }
 
-/// Whether a variable gets a sum or a product of many.
-fn is_sum(local: &syn::Local) -> bool {
-    let value = local.init.as_ref().map(|init| super::expressions::strip(&init.expr));
-    matches!(value, Some(Expr::MethodCall(call)) if call.method == "sum" || call.method == "product")
+/// Whether an expression that may stand for statements has a value.
+fn has_value(expression: &Expression) -> bool {
+    match expression {
+        Expression::If { then, otherwise, .. } => {
+            then.value.is_some() || otherwise.as_ref().is_some_and(|block| block.value.is_some())
+        }
+        Expression::Match { arms, .. } => arms.iter().any(|arm| arm.body.value.is_some()),
+        Expression::Block(block) => block.value.is_some(),
+        _ => true,
+    }
 }
 
 /// Whether the last statement leaves the function on every path.
