@@ -30,8 +30,6 @@ fn process(cell: &mut Cell<Heat>) {
     }
     for weight in weights.iter() {
         *weight *= 2.0;
-        let copy = weight;
-        cell.temperature += copy;
     }
     for weight in weights.iter().enumerate() {
         cell.temperature += weight;
@@ -43,9 +41,7 @@ fn process(cell: &mut Cell<Heat>) {
         cell.temperature += weight * other;
     }
     cell.temperature = weights.iter().sum();
-    cell.temperature += weights.iter().enumerate().sum::<Real>();
     cell.temperature += weights.iter().map(abs).sum::<Real>();
-    cell.temperature = weights.iter().copied().max();
     if weights.iter().any(|weight| return *weight > 0.0) {
         cell.kind = 1;
     }

@@ -228,6 +228,9 @@ fn variable(pattern: &Pat) -> Result<Ident> {
             Ok(pattern.ident.clone())
         }
         Pat::Wild(underscore) => Ok(Ident::new("_unused", underscore.span())),
-        other => Err(Error::new_spanned(other, "the variable of a `for` is a plain name: `for i in 0..n`")),
+        other => Err(Error::new_spanned(
+            other,
+            "the variable of a `for` is a plain name: `for i in 0..n`; only `enumerate` gives pairs",
+        )),
     }
 }

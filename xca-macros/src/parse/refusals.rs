@@ -165,10 +165,11 @@ pub(super) fn method(method: &Ident) -> Error {
         "into" | "try_into" => {
             format!("`{name}` is not part of a process; cast: `value as Real`, `value as u32`")
         }
-        "iter" | "into_iter" | "iter_mut" | "map" | "filter" | "enumerate" => {
-            format!(
-                "`{name}` stands only in a `for` and in a chain that ends in any, all, count, sum or fold"
-            )
+        "iter" | "into_iter" | "iter_mut" | "enumerate" | "map" | "filter" | "any" | "all" | "count"
+        | "sum" | "fold" => {
+            "iterators stand in a `for` and in chains that end in any, all, count, sum or fold: \
+                     `values.iter().any(|value| …)`"
+                .to_owned()
         }
         "zip" | "skip" | "take" | "chain" | "windows" | "chunks" | "position" | "find" | "last"
         | "for_each" => {
