@@ -151,6 +151,21 @@ fn the_program_of_the_readme_is_the_example() -> TestResult {
     Ok(())
 }
 
+/// The most lines of code that models have, without blank lines and comments.
+const MOST_LINES: [(&str, usize); 4] = [("excitable", 30), ("boltzmann", 80), ("debris", 150), ("lava", 200)];
+
+/// A model that grows is one for which the language lacks something.
+#[test]
+fn models_are_short() -> TestResult {
+    for (model, most) in MOST_LINES {
+        let text = fs::read_to_string(root().join(format!("examples/src/models/{model}.rs")))?;
+        let is_code = |line: &&str| !line.trim().is_empty() && !line.trim_start().starts_with("//");
+        let lines = text.lines().filter(is_code).count();
+        assert!((most / 2..=most).contains(&lines), "{model}.rs has {lines} lines; {most} are allowed");
+    }
+    Ok(())
+}
+
 /// docs/SUMMARY.md, from which a book is made, has all pages of docs.
 #[test]
 fn the_book_has_every_page() -> TestResult {

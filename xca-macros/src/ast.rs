@@ -34,6 +34,8 @@ pub(crate) struct Mentions {
     /// The structs of substates and of parameters.
     pub(crate) substates: Vec<Type>,
     pub(crate) parameters: Vec<Type>,
+    /// Names that may be references in Rust, and are values here.
+    pub(crate) references: Vec<Ident>,
     /// The types of variables, casts, arguments and results.
     pub(crate) types: Vec<Type>,
 }

@@ -12,6 +12,7 @@ mod library;
 mod native;
 mod parse;
 mod size;
+mod spelling;
 mod states;
 
 use parse::Wanted;
@@ -63,12 +64,14 @@ fn finished(code: syn::Result<proc_macro2::TokenStream>) -> TokenStream {
 
 fn expand(attribute: TokenStream, item: TokenStream, wanted: Wanted) -> TokenStream {
     let attribute = proc_macro2::TokenStream::from(attribute);
-    let function: syn::ItemFn = match syn::parse(item.clone()) {
+    let mut function: syn::ItemFn = match syn::parse(item.clone()) {
         Ok(function) => function,
         Err(error) => return no_function(item, wanted, &error).into(),
     };
+    spelling::spell_out_matches(&mut function);
     let expanded = if attribute.is_empty() {
-        parse::function(&function, wanted).and_then(|parsed| native::expand(&parsed, &function))
+        parse::function(spelling::spell_out(&function), wanted)
+            .and_then(|parsed| native::expand(&parsed, &function))
     } else {
         Err(syn::Error::new_spanned(
             attribute,

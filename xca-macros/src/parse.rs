@@ -18,6 +18,7 @@ mod wanted;
 
 use crate::ast::{Function, FunctionKind, Role};
 use crate::checked::checked;
+use crate::spelling::Spelled;
 pub(crate) use places::plain_operator;
 use scope::Scope;
 use syn::{Error, Result};
@@ -25,10 +26,13 @@ pub(crate) use wanted::Wanted;
 
 /// Parses and checks a function of the given kind; for processes the kind (cells or items) follows from the
 /// first argument.
-pub(crate) fn function(item: &syn::ItemFn, wanted: Wanted) -> Result<Function> {
+pub(crate) fn function(spelled: Spelled, wanted: Wanted) -> Result<Function> {
+    let item = &spelled.function;
     let signature = signature::parse(item, wanted)?;
     let mut scope =
         Scope::new(signature.kind, item.sig.ident.clone(), &signature.arguments, &signature.constants);
+    scope.mentions.references = spelled.references;
+    spelled.errors.into_iter().for_each(|error| scope.keep(error));
     let body = scope.block(&item.block);
     scope.finish()?;
     let body = body?;

@@ -15,7 +15,7 @@ pub use numbers::{Comparable, Euclidean, Integer, Magnitude, Sign};
 pub use vectors::{FloatVector, Lanes};
 
 use crate::value::Real;
-use crate::vector::Vector3;
+use crate::vector::{Vector2, Vector3, Vector4};
 use std::ops::{Mul, Sub};
 
 /// Returns the receiver of a function of `xca_core::math`.
@@ -57,3 +57,43 @@ pub fn cross<T: Copy + Mul<Output = T> + Sub<Output = T>>(
 pub fn len<T, const N: usize>(_array: [T; N]) -> usize {
     N
 }
+
+/// Returns the receiver of a method, which Rust finds through references.
+#[inline(always)]
+pub fn by_value<T: ByValue>(value: T) -> T::Value {
+    value.by_value()
+}
+
+/// A value, or references around it.
+pub trait ByValue {
+    /// Its type without references.
+    type Value;
+
+    /// The value itself.
+    fn by_value(self) -> Self::Value;
+}
+
+impl<T: ByValue + Copy> ByValue for &T {
+    type Value = T::Value;
+
+    #[inline(always)]
+    fn by_value(self) -> T::Value {
+        (*self).by_value()
+    }
+}
+
+macro_rules! by_value {
+    ($(impl[$($generic:tt)*] $type:ty),*) => {
+        $(impl<$($generic)*> ByValue for $type {
+            type Value = Self;
+
+            #[inline(always)]
+            fn by_value(self) -> Self {
+                self
+            }
+        })*
+    };
+}
+
+by_value!(impl[] bool, impl[] u8, impl[] i32, impl[] u32, impl[] usize, impl[] f32, impl[] f64);
+by_value!(impl[T] Vector2<T>, impl[T] Vector3<T>, impl[T] Vector4<T>, impl[T, const N: usize] [T; N]);

@@ -107,14 +107,3 @@ pub fn model(
         .build()?;
     Ok(model)
 }
-
-/// Density and velocity of a cell.
-pub fn moments(fluid: &[f64; DIRECTIONS], directions: &[[i32; 3]]) -> (f64, Vector3<f64>) {
-    let (mut density, mut momentum) = (0.0, Vector3::splat(0.0));
-    for (f, direction) in fluid.iter().zip(directions) {
-        let [x, y, z] = direction.map(f64::from);
-        density += f;
-        momentum += Vector3::new(x, y, z) * *f;
-    }
-    (density, momentum / density)
-}

@@ -23,10 +23,7 @@ pub struct Medium {
 /// A resting cell becomes excited beside an excited one, then refractory, then it rests again.
 #[elementary_process]
 pub fn react(cell: &mut Cell<Medium>) {
-    let mut excited = false;
-    for n in 1..cell.neighbour_count() {
-        excited |= cell.neighbour(n).tissue == Tissue::Excited;
-    }
+    let excited = (1..cell.neighbour_count()).any(|n| cell.neighbour(n).tissue == Tissue::Excited);
     cell.tissue = match cell.tissue {
         Tissue::Resting if excited => Tissue::Excited,
         Tissue::Excited => Tissue::Refractory,

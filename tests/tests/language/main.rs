@@ -1,6 +1,7 @@
 //! The Rust of a process on every engine, against the same functions run by Rust itself.
 
 mod generics;
+mod iterators;
 mod loops;
 mod methods;
 mod tuples;

@@ -1,4 +1,4 @@
-// A pattern binds a name.
+// A pattern binds a reference.
 use xca_core::prelude::*;
 
 #[derive(Substates, Clone, Copy)]
@@ -11,7 +11,7 @@ struct Heat {
 fn process(cell: &mut Cell<Heat>) {
     match cell.kind {
         0 => {}
-        other => cell.kind = other - 1,
+        ref other => cell.kind = other - 1,
     }
 }
 

@@ -10,6 +10,7 @@ mod floats;
 mod helpers;
 mod integers;
 mod items;
+mod iterators;
 mod loops;
 mod names;
 mod ranges;

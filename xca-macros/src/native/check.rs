@@ -4,7 +4,7 @@
 
 use super::attributes::lints;
 use super::types::operation;
-use crate::ast::{Call, Function};
+use crate::ast::{Call, Function, Mentions};
 use crate::checked::{self, checked};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{quote, quote_spanned};
@@ -76,7 +76,7 @@ fn representative(constant: &syn::ConstParam) -> TokenStream {
 /// The function as a closure, which belongs to the constant's own body.
 fn copy(function: &Function, original: &syn::ItemFn) -> TokenStream {
     let mut block = original.block.clone();
-    SpellOut(&function.mentions.calls).visit_block_mut(&mut block);
+    SpellOut(&function.mentions).visit_block_mut(&mut block);
     let inputs = &original.sig.inputs;
     let output = match &original.sig.output {
         syn::ReturnType::Default => quote!(-> ()),
@@ -97,8 +97,9 @@ fn copy(function: &Function, original: &syn::ItemFn) -> TokenStream {
 /// Writes `a += b` as `a = a + b`: the fields of a cell are reached through `DerefMut`, and in a compound
 /// assignment of vectors that would borrow the cell while the right-hand side reads it. For the same reason
 /// an index of what is assigned to gets a name before. Methods become the functions that they mean, which
-/// take literals of any type. And each call of a function checks that it is a helper.
-struct SpellOut<'a>(&'a [Call]);
+/// take literals of any type. And each call of a function checks that it is a helper. An iterator over a
+/// substate goes through a copy, so that the cell can be written meanwhile.
+struct SpellOut<'a>(&'a Mentions);
 
 /// Gives names to the indices of a place, outermost last, but for numbers and names.
 fn name_indices(place: &mut syn::Expr, names: &mut Vec<TokenStream>) {
@@ -148,7 +149,7 @@ impl VisitMut for SpellOut<'_> {
                     last.arguments = syn::PathArguments::None;
                 }
                 let text = quote!(#function).to_string();
-                let helper = self.0.iter().find(|call| {
+                let helper = self.0.calls.iter().find(|call| {
                     let function = &call.function;
                     quote!(#function).to_string() == text
                 });
@@ -160,32 +161,43 @@ impl VisitMut for SpellOut<'_> {
                 }
             }
             syn::Expr::MethodCall(call) => {
-                if let Some(function) = as_function(call) {
+                if call.method == "iter" {
+                    copy_substate(&mut call.receiver);
+                }
+                if let Some(function) = as_function(call, &self.0.references) {
                     *expression = function;
                 }
             }
+            syn::Expr::Reference(reference) => copy_substate(&mut reference.expr),
             _ => {}
         }
     }
 }
 
+fn copy_substate(values: &mut syn::Expr) {
+    if matches!(values, syn::Expr::Field(_)) {
+        *values = syn::Expr::Verbatim(quote_spanned!(values.span()=> { #values }));
+    }
+}
+
 /// A helper as ordinary code: its methods are those of a process, so that it computes the same everywhere. In
 /// a constant function they are those of Rust.
-pub(super) fn ordinary(original: &syn::ItemFn) -> syn::ItemFn {
+pub(super) fn ordinary(function: &Function, original: &syn::ItemFn) -> syn::ItemFn {
     let mut ordinary = original.clone();
     if original.sig.constness.is_none() {
-        Methods.visit_block_mut(&mut ordinary.block);
+        Methods(&function.mentions.references).visit_block_mut(&mut ordinary.block);
     }
     ordinary
 }
 
-struct Methods;
+/// With the names that are references.
+struct Methods<'a>(&'a [Ident]);
 
-impl VisitMut for Methods {
+impl VisitMut for Methods<'_> {
     fn visit_expr_mut(&mut self, expression: &mut syn::Expr) {
         syn::visit_mut::visit_expr_mut(self, expression);
         if let syn::Expr::MethodCall(call) = expression
-            && let Some(function) = as_function(call)
+            && let Some(function) = as_function(call, self.0)
         {
             *expression = function;
         }
@@ -193,12 +205,19 @@ impl VisitMut for Methods {
 }
 
 /// The call of the function that a method means.
-fn as_function(call: &syn::ExprMethodCall) -> Option<syn::Expr> {
+fn as_function(call: &syn::ExprMethodCall, references: &[Ident]) -> Option<syn::Expr> {
     let method = Method::named(&call.method.to_string())?;
     // As an argument it needs no parentheses.
     let receiver = match &*call.receiver {
         syn::Expr::Paren(paren) => &paren.expr,
         receiver => receiver,
+    };
+    let receiver = match receiver {
+        // In Rust a method is found through references too.
+        syn::Expr::Path(path) if path.path.get_ident().is_some_and(|name| references.contains(name)) => {
+            quote_spanned!(path.span()=> ::xca_core::methods::by_value(#path))
+        }
+        receiver => quote!(#receiver),
     };
     let (arguments, span) = (&call.args, call.method.span());
     Some(syn::Expr::Verbatim(match method.meaning {

@@ -17,7 +17,7 @@ use syn::spanned::Spanned;
 pub(super) fn expand(function: &Function, original: &syn::ItemFn) -> Result<TokenStream> {
     let data = crate::data::function(function)?;
     let (name, visibility) = (&function.name, &function.visibility);
-    let ordinary = check::ordinary(original);
+    let ordinary = check::ordinary(function, original);
     let natives = [quote!(f32), quote!(f64)].map(|real| native(function, &real));
     let (check, aliases) = (check::check(function, original), check::aliases(function));
     let conditions: Vec<_> = conditions(function).collect();

@@ -1,10 +1,10 @@
 //! Calls of methods and helpers.
 
-use super::expressions::{no_destination, strip};
-use super::matches::is_constant;
+use super::expressions::no_destination;
 use super::refusals;
 use super::scope::{Binding, Scope};
 use crate::ast::{Builtin, Expression, FunctionKind};
+use crate::spelling::{is_constant, strip};
 use syn::spanned::Spanned;
 use syn::{
     AngleBracketedGenericArguments, Error, Expr, ExprMethodCall, GenericArgument, Ident, Path, PathArguments,

@@ -1,25 +1,16 @@
 //! Expressions.
 
 use super::calls::SPACE_METHODS;
-use super::matches::is_constant;
 use super::refusals::{is_component, no_component, refused};
 use super::scope::{Binding, Scope};
 use super::statements::Item;
 use crate::ast::{ArgumentNumber, ArraySize, Block, Builtin, Expression, FunctionKind};
 use crate::size::bytes;
+use crate::spelling::{is_constant, strip};
 use syn::spanned::Spanned;
 use syn::{BinOp, Error, Expr, ExprMethodCall, Ident, Lit, Member, Path, Result, UnOp};
 
 const NO_SELF: &str = "a process is a free function: there is no `self`";
-
-/// Without parentheses and invisible groups.
-pub(super) fn strip(expression: &Expr) -> &Expr {
-    match expression {
-        Expr::Paren(paren) => strip(&paren.expr),
-        Expr::Group(group) => strip(&group.expr),
-        other => other,
-    }
-}
 
 /// Both results, or the errors of both.
 pub(super) fn both<A, B>(first: Result<A>, second: Result<B>) -> Result<(A, B)> {
@@ -45,10 +36,8 @@ impl Scope {
                 UnOp::Neg(_) | UnOp::Not(_) => {
                     Ok(Expression::Unary(unary.op, Box::new(self.expression(&unary.expr)?)))
                 }
-                _ => Err(Error::new_spanned(
-                    unary,
-                    "there are no references in a process: use the value itself, without `*`",
-                )),
+                // That it is a reference is for the compiler to say.
+                _ => self.expression(&unary.expr),
             },
             Expr::Binary(binary) if super::plain_operator(&binary.op).is_some() => Err(Error::new_spanned(
                 binary,

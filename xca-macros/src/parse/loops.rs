@@ -1,8 +1,10 @@
 //! Loops.
 
-use super::expressions::{both, strip};
+use super::expressions::both;
+use super::refusals::WRITE_BY_INDEX;
 use super::scope::{Binding, Scope};
 use crate::ast::{ArgumentNumber, FunctionKind, Loop, LoopKind, Range, Reach, Statement};
+use crate::spelling::strip;
 use proc_macro2::Span;
 use syn::spanned::Spanned;
 use syn::{
@@ -47,12 +49,8 @@ impl Scope {
             Expr::MethodCall(call) if call.method == "rev" || call.method == "step_by" => {
                 (self.range(variable, over), Binding::Value)
             }
-            Expr::MethodCall(call)
-                if ["iter", "into_iter", "iter_mut", "enumerate"].iter().any(|name| call.method == name) =>
-            {
-                let advice = "leave out what follows the array: `for value in values { … }`; with the index: \
-                              `for i in 0..values.len() { … values[i] … }`";
-                (Err(Error::new_spanned(&call.method, advice)), Binding::Value)
+            Expr::MethodCall(call) if call.method == "iter_mut" => {
+                (Err(Error::new_spanned(&call.method, WRITE_BY_INDEX)), Binding::Value)
             }
             Expr::Path(_) if let Some(Binding::Slots(argument)) = self.named(over) => {
                 (Ok(LoopKind::Items { variable }), Binding::Other(argument))
@@ -63,9 +61,13 @@ impl Scope {
                 let advice = "it is a reference already: leave out the `&`";
                 (Err(Error::new_spanned(reference, advice)), Binding::Other(argument))
             }
+            Expr::Reference(reference) if reference.mutability.is_some() => {
+                (Err(Error::new_spanned(reference, WRITE_BY_INDEX)), Binding::Value)
+            }
             Expr::Reference(reference) => {
-                let advice = "go through the values themselves, without `&`: `for value in values { … }`";
-                (Err(Error::new_spanned(reference, advice)), Binding::Value)
+                let kind =
+                    self.expression(&reference.expr).map(|array| LoopKind::Elements { variable, array });
+                (kind, Binding::Value)
             }
             Expr::Lit(literal) => {
                 let advice =
@@ -226,6 +228,9 @@ fn variable(pattern: &Pat) -> Result<Ident> {
             Ok(pattern.ident.clone())
         }
         Pat::Wild(underscore) => Ok(Ident::new("_unused", underscore.span())),
-        other => Err(Error::new_spanned(other, "the variable of a `for` is a plain name: `for i in 0..n`")),
+        other => Err(Error::new_spanned(
+            other,
+            "the variable of a `for` is a plain name: `for i in 0..n`; only `enumerate` gives pairs",
+        )),
     }
 }

@@ -2,6 +2,7 @@
 
 use super::scope::Scope;
 use crate::ast::{Arm, Expression, Pattern};
+use crate::spelling::is_constant;
 use syn::spanned::Spanned;
 use syn::{Error, Expr, Lit, LitInt, Pat, Path, Result};
 
@@ -39,14 +40,12 @@ impl Scope {
         match pattern {
             Pat::Wild(underscore) => Ok(Pattern::Any(underscore.span())),
             Pat::Lit(literal) => literal_pattern(&literal.lit),
-            Pat::Ident(name) if name.subpat.is_some() => Err(Error::new_spanned(
-                name,
-                "a pattern binds no name; leave out the `name @` and use the matched value itself",
-            )),
-            Pat::Ident(name) if is_constant(&name.ident) => self.constant_pattern(&name.ident.clone().into()),
+            Pat::Ident(name) if name.subpat.is_none() && is_constant(&name.ident) => {
+                self.constant_pattern(&name.ident.clone().into())
+            }
             Pat::Ident(name) => Err(Error::new_spanned(
                 name,
-                "a pattern binds no name; write `_`, and use the matched value itself",
+                "a pattern gives a plain name to the whole value: `name => …`, `name @ (1 | 3) => …`",
             )),
             Pat::Path(path) if path.qself.is_none() => self.constant_pattern(&path.path),
             Pat::Range(range) => {
@@ -78,11 +77,6 @@ impl Scope {
         self.mentions.patterns.push(path.clone());
         Ok(Pattern::Constant(path.clone()))
     }
-}
-
-/// Whether the word is written as constants are.
-pub(super) fn is_constant(name: &syn::Ident) -> bool {
-    name.to_string().trim_start_matches('_').starts_with(char::is_uppercase)
 }
 
 fn unsupported(pattern: &Pat) -> Error {

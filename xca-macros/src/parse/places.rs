@@ -1,12 +1,13 @@
 //! What is assigned to.
 
-use super::expressions::{both, strip};
-use super::refusals::{cannot_write, is_component, no_component};
+use super::expressions::both;
+use super::refusals::{WRITE_BY_INDEX, cannot_write, is_component, no_component};
 use super::scope::{Binding, Scope};
 use crate::ast::{ArgumentNumber, FunctionKind, Place, PlaceRoot, Projection, Statement};
+use crate::spelling::strip;
 use proc_macro2::Span;
 use syn::spanned::Spanned;
-use syn::{BinOp, Error, Expr, Ident, Member, Result};
+use syn::{BinOp, Error, Expr, Ident, Member, Result, UnOp};
 
 impl Scope {
     pub(super) fn assignment(
@@ -62,6 +63,9 @@ impl Scope {
                 Expr::Index(index) => {
                     path.push(Projection::Element(self.expression(&index.index)?));
                     here = strip(&index.expr);
+                }
+                Expr::Unary(unary) if matches!(unary.op, UnOp::Deref(_)) => {
+                    return Err(Error::new_spanned(unary, WRITE_BY_INDEX));
                 }
                 other => {
                     return Err(Error::new_spanned(

@@ -5,12 +5,17 @@ use crate::ast::FunctionKind;
 use syn::{Attribute, Error, Expr, Ident, Result};
 use xca_methods::METHODS;
 
+/// What to write instead of a write to an element of an iterator.
+pub(super) const WRITE_BY_INDEX: &str =
+    "elements are written by their index: `for i in 0..values.len() { values[i] = …; }`";
+
 /// Why an expression is no part of a process.
 pub(super) fn refused(expression: &Expr) -> Error {
     let advice = match expression {
         Expr::Macro(call) => return macro_call(&call.mac),
         Expr::Closure(_) => {
-            "closures are not part of a process; write the code in place, or as a function marked #[helper]"
+            "a closure stands only in a chain, such as `(0..n).any(|i| …)`; write the code in place, or as a \
+             function marked #[helper]"
         }
         Expr::Reference(_) | Expr::RawAddr(_) => {
             "there are no references in a process: use the value itself, without `&`"
@@ -57,7 +62,7 @@ pub(super) fn macro_call(call: &syn::Macro) -> Error {
             "a process cannot print; write what you want to see into a substate and look at it between steps"
         }
         "vec" => "there are no lists in a process; use an array of fixed length: `[0.0; 4]`",
-        "matches" => "write `match` or comparisons instead of `matches!`",
+        "matches" => "write `matches!(value, pattern)`",
         _ => {
             "macros cannot be called in a process; write the code in place, or as a function marked #[helper]"
         }
@@ -160,10 +165,15 @@ pub(super) fn method(method: &Ident) -> Error {
         "into" | "try_into" => {
             format!("`{name}` is not part of a process; cast: `value as Real`, `value as u32`")
         }
-        "iter" | "into_iter" | "iter_mut" | "map" | "filter" | "sum" | "fold" => {
-            format!(
-                "there are no iterators in a process, so no `{name}`; write `for value in values {{ … }}`"
-            )
+        "iter" | "into_iter" | "iter_mut" | "enumerate" | "map" | "filter" | "any" | "all" | "count"
+        | "sum" | "fold" => {
+            "iterators stand in a `for` and in chains that end in any, all, count, sum or fold: \
+                     `values.iter().any(|value| …)`"
+                .to_owned()
+        }
+        "zip" | "skip" | "take" | "chain" | "windows" | "chunks" | "position" | "find" | "last"
+        | "for_each" => {
+            format!("a process has no `{name}`; write a loop: `for i in 0..values.len() {{ … values[i] … }}`")
         }
         "push" | "pop" | "insert" | "remove" | "extend" | "collect" => {
             format!(

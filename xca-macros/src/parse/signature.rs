@@ -2,6 +2,7 @@
 
 use super::wanted::Wanted;
 use crate::ast::{Argument, FunctionKind, Role};
+use crate::spelling::is_constant;
 use syn::{
     ConstParam, Error, FnArg, GenericArgument, GenericParam, Ident, ItemFn, Pat, PathArguments, PathSegment,
     Result, ReturnType, Type,
@@ -74,7 +75,7 @@ fn constants(item: &ItemFn, wanted: Wanted) -> Result<Vec<ConstParam>> {
         if !["bool", "u8", "i32", "u32", "usize"].contains(&type_.as_str()) {
             return Err(Error::new_spanned(&constant.ty, "such a constant is a bool, u8, i32, u32 or usize"));
         }
-        if !super::matches::is_constant(&constant.ident) {
+        if !is_constant(&constant.ident) {
             let capitals = constant.ident.to_string().to_uppercase();
             return Err(Error::new_spanned(
                 &constant.ident,

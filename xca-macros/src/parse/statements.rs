@@ -140,7 +140,7 @@ impl Scope {
     }
 
     fn initial_value(&mut self, value: &Expr) -> Result<Initial> {
-        if let Expr::MethodCall(call) = super::expressions::strip(value)
+        if let Expr::MethodCall(call) = crate::spelling::strip(value)
             && call.method == "neighbour"
             && let Some(argument) = self.cell_argument(&call.receiver)
         {
@@ -184,6 +184,9 @@ impl Scope {
                     ));
                 }
                 Statement::Return(value, return_.span())
+            }
+            Expr::Tuple(nothing) if nothing.elems.is_empty() => {
+                Statement::Expression(Expression::Block(Block { statements: Vec::new(), value: None }))
             }
             Expr::MethodCall(call) if call.method == "fault" && self.is_subject(&call.receiver) => {
                 let usage = "write `fault(code, value);`: a code of your choice, a u32, and a value to report, a Real";

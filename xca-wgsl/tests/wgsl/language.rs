@@ -140,3 +140,30 @@ fn loops_over_neighbours_in_several_structs() {
     assert!(!text.contains("checked_index") && !text.contains("valid_neighbour"), "{text}");
     assert!(text.contains("7i"), "{text}");
 }
+
+#[elementary_process]
+fn iterate(cell: &mut Cell<State>) {
+    let weights = [cell.x, cell.y, 0.5];
+    for (i, weight) in weights.iter().enumerate() {
+        cell.x += weight.abs() * i as Real;
+    }
+    if (1..cell.neighbour_count()).any(|n| cell.neighbour(n).count == cell.count) {
+        cell.y = weights.iter().filter(|weight| **weight > 0.0).map(|weight| 2.0 * weight).sum::<Real>();
+    }
+    match cell.count {
+        0 => cell.count = TABLE.into_iter().fold(1, |product, value| product * value),
+        1 => {}
+        _ => (),
+    }
+}
+
+/// An iterator is a loop, whose indices are known to lie in the array.
+#[test]
+fn iterators_are_loops() {
+    accepted::<iterate>();
+    let text = function(&written::<iterate>(Precision::F32), "iterate");
+    for part in ["(var i: u32 = 0u; i < 3u; i += 1u)", "_xca_elements[i]", "if weight_2 > 0.0"] {
+        assert!(text.contains(part), "{part}\n{text}");
+    }
+    assert!(!text.contains("checked_index") && !text.contains("valid_neighbour"), "{text}");
+}
