@@ -1,10 +1,11 @@
 //! A model on an engine.
 
+mod blocks;
 mod finite;
 mod restore;
 mod snapshot;
 
-pub use snapshot::{GroupSnapshot, Snapshot, SnapshotError};
+pub use snapshot::{GroupSnapshot, ItemCounts, Outline, Snapshot, SnapshotError};
 
 use crate::engine::{Engine, EngineFailure, Execution, Fault, Figure, Interruption, StartError, StepContext};
 use crate::model::Model;

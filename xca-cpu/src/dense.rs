@@ -152,10 +152,15 @@ impl Dense {
     /// The values of all cells. The elements of each value are contiguous.
     pub(crate) fn read(&self, layout: &Layout) -> Vec<u8> {
         let mut values = Vec::with_capacity(layout.rows() * layout.width() * self.stored.size());
-        for row in 0..layout.rows() {
+        self.read_rows(layout, 0..layout.rows(), &mut values);
+        values
+    }
+
+    /// Appends the values of the cells of these rows.
+    pub(crate) fn read_rows(&self, layout: &Layout, rows: impl Iterator<Item = usize>, values: &mut Vec<u8>) {
+        for row in rows {
             values.extend_from_slice(&self.row(layout, row));
         }
-        values
     }
 
     /// The elements with this index of the values of a row.

@@ -21,9 +21,10 @@ use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use xca_core::engine::{
-    Border, EngineFailure, Execution, Fault, Figure, InputError, Interruption, Part, Population as Items,
-    RowWork, StartError, StepContext, SubstateId, Workers, check_cells, check_cells_of_part,
-    check_population_of_part, check_substate, check_values, check_values_of_cells, check_values_of_part,
+    Border, EngineFailure, Execution, Fault, Figure, InputError, Interruption, Part, Plane,
+    Population as Items, RowWork, StartError, StepContext, SubstateId, Workers, check_cells,
+    check_cells_of_part, check_plane, check_population_of_part, check_substate, check_values,
+    check_values_of_cells, check_values_of_part,
 };
 use xca_core::reduction::{Reduced, ReducedRows, Reduction, append_row};
 use xca_core::{Model, Precision, ProcessKind};
@@ -282,6 +283,22 @@ impl Execution for CpuExecution {
             }
         }
         Ok(())
+    }
+
+    fn read_rows(&self, plane: Plane, rows: Range<usize>) -> Result<Option<Vec<u8>>, EngineFailure> {
+        check_plane(&self.model, plane)?;
+        let (own, mut bytes) = (self.layout.rows_within(rows), Vec::new());
+        match (&self.groups[plane.group()], plane) {
+            (Group::Population(population), plane) => {
+                population.read_rows((&self.layout, plane), own, &mut bytes);
+            }
+            (Group::Cells(planes), Plane::Values(SubstateId { field, .. })) => {
+                planes[field].read_rows(&self.layout, own, &mut bytes);
+            }
+            // The check refuses counts and labels of cells.
+            (Group::Cells(_), _) => {}
+        }
+        Ok(Some(bytes))
     }
 
     fn population(&self, group: usize) -> Result<Items, EngineFailure> {

@@ -11,8 +11,9 @@ use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use xca_core::engine::{
-    EngineFailure, Execution, Fault, Figure, Interruption, Part, Population, RowWork, StepContext,
-    SubstateId, check_cells, check_population, check_substate, check_values, check_values_of_cells,
+    EngineFailure, Execution, Fault, Figure, Interruption, Part, Plane, Population, RowWork, StepContext,
+    SubstateId, check_cells, check_plane, check_population, check_substate, check_values,
+    check_values_of_cells,
 };
 use xca_core::model::GroupKind;
 use xca_core::reduction::{Reduced, ReducedRows, Reduction};
@@ -330,6 +331,31 @@ impl Execution for Host {
             Command::WriteCells { substate, values: values.copied().collect(), cells: part.cells }
         };
         self.change(self.cells_of_parts(cells).into_iter().map(command).collect())
+    }
+
+    fn read_rows(&self, plane: Plane, rows: Range<usize>) -> Result<Option<Vec<u8>>, EngineFailure> {
+        check_plane(&self.shared.model, plane)?;
+        let (mut bytes, mut items) = (Vec::new(), Vec::new());
+        for reply in self.ask(&Command::ReadRows { plane, rows: rows.clone() })? {
+            let Reply::BytesOfRows { bytes: of_part, items: in_part } = reply else {
+                return Err(self.garbled());
+            };
+            let Some(of_part) = of_part else { return Ok(None) };
+            bytes.push(of_part.into_vec());
+            items.push(in_part);
+        }
+        let size = match plane {
+            Plane::Values(substate) => self.size(substate),
+            Plane::Counts(_) | Plane::Labels(_) => size_of::<u32>(),
+        };
+        let gather = |lengths| self.rows.gather_rows(rows.clone(), &bytes, lengths);
+        let whole = if matches!(plane, Plane::Counts(_)) || !self.is_population(plane.group()) {
+            gather(Lengths::Same(self.shared.model.geometry().extents()[0] * size))
+        } else {
+            let items = self.rows.gather_rows(rows.clone(), &items, Lengths::Same(1));
+            items.and_then(|items| gather(Lengths::Each(&items, size)))
+        };
+        whole.map(Some).ok_or_else(|| self.garbled())
     }
 
     fn population(&self, group: usize) -> Result<Population, EngineFailure> {

@@ -5,7 +5,7 @@ use crate::fault::FaultMessage;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
-use xca_core::engine::{Population, RowWork, StepContext, SubstateId};
+use xca_core::engine::{Plane, Population, RowWork, StepContext, SubstateId};
 use xca_core::reduction::{ReducedRows, Reduction};
 
 /// A command. All parts get the same commands, with the data of their own cells.
@@ -40,6 +40,11 @@ pub(crate) enum Command {
     ReduceRows {
         substate: SubstateId,
         reduction: Reduction,
+    },
+    /// Requests the bytes of a plane in the own ones of these rows of the whole space.
+    ReadRows {
+        plane: Plane,
+        rows: Range<usize>,
     },
     Population {
         group: usize,
@@ -100,6 +105,12 @@ pub(crate) enum Reply {
     Values {
         #[serde(with = "serde_bytes")]
         values: Vec<u8>,
+    },
+    /// The bytes of rows, and for items the number in each row. No bytes if the engine of the part reads
+    /// whole planes only.
+    BytesOfRows {
+        bytes: Option<serde_bytes::ByteBuf>,
+        items: Vec<usize>,
     },
     Rows {
         rows: ReducedRows,
