@@ -14,7 +14,7 @@ pub use execution::{Execution, Figure, Interruption, StepContext, Workers, step_
 pub use fault::{EngineFailure, Fault};
 pub use input::{
     check_cells, check_cells_of_part, check_plane, check_population, check_population_of_part,
-    check_substate, check_values, check_values_of_cells, check_values_of_part,
+    check_substate, check_values, check_values_of_cells, check_values_of_part, check_values_of_rows,
 };
 pub use input_error::InputError;
 pub use part::{Part, PartError};

@@ -187,9 +187,10 @@ impl Dense {
         values.into()
     }
 
-    pub(crate) fn write(&mut self, layout: &Layout, values: &[u8]) {
+    /// Replaces the values of the cells of these rows.
+    pub(crate) fn write_rows(&mut self, layout: &Layout, rows: impl Iterator<Item = usize>, values: &[u8]) {
         let (size, element) = (self.stored.size(), self.stored.element_size());
-        for (row, values) in values.chunks_exact(layout.width() * size).enumerate() {
+        for (row, values) in rows.zip(values.chunks_exact(layout.width() * size)) {
             for number in 0..self.stored.length as usize {
                 let first = (number * layout.cells() + layout.first(row)) * element;
                 let plane = &mut self.current.bytes_mut()[first..first + layout.width() * element];

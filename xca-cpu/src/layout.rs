@@ -122,7 +122,7 @@ impl Layout {
     }
 
     /// The rows that lie in this range of rows of the whole space.
-    pub(crate) fn rows_within(&self, rows: Range<usize>) -> impl Iterator<Item = usize> + use<> {
+    pub(crate) fn rows_within(&self, rows: Range<usize>) -> impl Iterator<Item = usize> + Clone + use<> {
         let ([_, height, depth], [y, z], whole) = (self.extents, self.start, self.height);
         (0..depth).flat_map(move |layer| {
             let first = (z + layer) * whole + y;

@@ -41,6 +41,13 @@ pub(crate) enum Command {
         substate: SubstateId,
         reduction: Reduction,
     },
+    /// Replaces the values of cells in the own ones of these rows of the whole space.
+    WriteRows {
+        substate: SubstateId,
+        rows: Range<usize>,
+        #[serde(with = "serde_bytes")]
+        values: Vec<u8>,
+    },
     /// Requests the bytes of a plane in the own ones of these rows of the whole space.
     ReadRows {
         plane: Plane,
@@ -105,6 +112,10 @@ pub(crate) enum Reply {
     Values {
         #[serde(with = "serde_bytes")]
         values: Vec<u8>,
+    },
+    /// Whether the engine of the part can write rows.
+    Written {
+        is_possible: bool,
     },
     /// The bytes of rows, and for items the number in each row. No bytes if the engine of the part reads
     /// whole planes only.

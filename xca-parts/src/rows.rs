@@ -60,9 +60,19 @@ impl Rows {
     }
 
     /// Scatters the data of all rows to the parts.
-    pub(crate) fn scatter<T: Clone>(&self, mut whole: &[T], lengths: Lengths<'_>) -> Vec<Vec<T>> {
+    pub(crate) fn scatter<T: Clone>(&self, whole: &[T], lengths: Lengths<'_>) -> Vec<Vec<T>> {
+        self.scatter_rows(0..self.owners.len(), whole, lengths)
+    }
+
+    /// Scatters the data of some rows. The lengths are those of these rows alone.
+    pub(crate) fn scatter_rows<T: Clone>(
+        &self,
+        rows: Range<usize>,
+        mut whole: &[T],
+        lengths: Lengths<'_>,
+    ) -> Vec<Vec<T>> {
         let mut parts = vec![Vec::new(); self.parts];
-        for (row, owner) in self.owners.iter().enumerate() {
+        for (row, owner) in self.owners.get(rows).unwrap_or_default().iter().enumerate() {
             let (values, after) = whole.split_at(lengths.of(row).min(whole.len()));
             parts[*owner].extend_from_slice(values);
             whole = after;

@@ -98,6 +98,9 @@ impl Worker {
                 Reply::Rows { rows: self.execution()?.reduce_rows(substate, &reduction)? }
             }
             Command::ReadRows { plane, rows } => self.read_rows(plane, rows)?,
+            Command::WriteRows { substate, rows, values } => {
+                Reply::Written { is_possible: self.execution_mut()?.write_rows(substate, rows, &values)? }
+            }
             Command::Population { group } => {
                 Reply::Population { population: self.execution()?.population(group)? }
             }

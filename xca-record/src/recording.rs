@@ -189,14 +189,13 @@ impl Recording {
         }
         let Some(checkpoints) = &mut self.checkpoints else { return Ok(()) };
         let state = self.simulation.outline();
-        let recorded = self.recorder.recorded()?;
         let description = Description::new(
             self.origin.clone(),
             self.recorder.model(),
             self.recorder.set_up().missing(),
             self.recorder.time(state.step),
             &state,
-            recorded,
+            self.recorder.recorded()?,
         );
         checkpoints.write(&description, &self.simulation)?;
         self.complete_report();

@@ -108,6 +108,21 @@ pub trait Execution: Send {
         Ok(None)
     }
 
+    /// Replaces the values of a substate of cells in these rows of the whole space. An engine with a part of
+    /// the space takes those of its own rows. `false` if the engine writes whole planes only.
+    ///
+    /// # Errors
+    /// Returns an error if [`check_values_of_rows`](super::check_values_of_rows) does, or as
+    /// [`Self::read`]. Nothing is then written.
+    fn write_rows(
+        &mut self,
+        _substate: SubstateId,
+        _rows: Range<usize>,
+        _values: &[u8],
+    ) -> Result<bool, EngineFailure> {
+        Ok(false)
+    }
+
     /// All items of a population.
     ///
     /// # Errors

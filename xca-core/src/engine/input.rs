@@ -69,6 +69,22 @@ pub fn check_values_of_part(
     check_bytes(&model.groups()[substate.group], precision, substate.field, count, values)
 }
 
+/// Checks new values for a substate of cells in so many rows.
+///
+/// # Errors
+/// As [`check_values_of_part`].
+pub fn check_values_of_rows(
+    model: &Model,
+    precision: Precision,
+    substate: SubstateId,
+    rows: usize,
+    values: &[u8],
+) -> Result<(), InputError> {
+    check_cells(model, substate, &[])?;
+    let count = rows * model.geometry().extents()[0];
+    check_bytes(&model.groups()[substate.group], precision, substate.field, count, values)
+}
+
 /// Checks that cells belong to a part of the space.
 ///
 /// # Errors
