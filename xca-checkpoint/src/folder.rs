@@ -30,8 +30,8 @@ impl CheckpointFolder {
         Ok(Self { folder: run.subfolder(CHECKPOINTS)?, last })
     }
 
-    /// Writes a checkpoint of a run in its present state, block by block. Keeps this one and the previous one,
-    /// and removes all others.
+    /// Writes a checkpoint of a run in its present state, block by block. Keeps this one and the previous
+    /// one, and removes all others.
     pub fn write(
         &mut self,
         description: &Description,

@@ -99,8 +99,8 @@ pub trait Execution: Send {
         values: &[u8],
     ) -> Result<(), EngineFailure>;
 
-    /// The bytes of a plane in these rows of the whole space. Rows count along y, then along z. An engine with
-    /// a part of the space gives those of its own rows. `None` if the engine reads whole planes only.
+    /// The bytes of a plane in these rows of the whole space. Rows count along y, then along z. An engine
+    /// with a part of the space gives those of its own rows. `None` if the engine reads whole planes only.
     ///
     /// # Errors
     /// Returns an error if [`check_plane`](super::check_plane) does, or as [`Self::read`].
