@@ -5,7 +5,7 @@ use crate::components::state_names;
 use crate::{Exact, Recorded};
 use serde::{Deserialize, Serialize};
 use xca_core::model::Group;
-use xca_core::{GroupSnapshot, Model, Precision, Snapshot, StoredScalar, StoredType};
+use xca_core::{ItemCounts, Model, Outline, Precision, StoredScalar, StoredType};
 
 /// The JSON part of a checkpoint.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -101,26 +101,26 @@ pub struct SubstateShape {
 }
 
 impl Description {
-    /// The description of a run at a snapshot. `missing` is the mask of the cells without ground. `time` is
+    /// The description of a run in a state. `missing` is the mask of the cells without ground. `time` is
     /// in seconds if the model gives it.
     pub fn new(
         run: Origin,
         model: &Model,
         missing: Option<&[bool]>,
         time: f64,
-        snapshot: &Snapshot,
+        state: &Outline,
         recorded: Recorded,
     ) -> Self {
-        let groups = model.groups().iter().zip(&snapshot.groups);
+        let groups = model.groups().iter().zip(&state.populations);
         let components =
-            snapshot.parameters.iter().map(|bits| bits.iter().copied().map(f64::from_bits).collect());
+            state.parameters.iter().map(|bits| bits.iter().copied().map(f64::from_bits).collect());
         Self {
-            step: snapshot.step,
+            step: state.step,
             time: Exact(time),
-            stop: snapshot.stop.clone(),
+            stop: state.stop.clone(),
             parameters: Parameter::with_values(model.parameters(), components),
             groups: groups
-                .map(|(group, state)| GroupShape::new(group, state, model, run.precision))
+                .map(|(group, population)| GroupShape::new(group, *population, model, run.precision))
                 .collect(),
             missing: missing.map(Run::all).unwrap_or_default(),
             run,
@@ -188,13 +188,11 @@ impl SubstateShape {
 }
 
 impl GroupShape {
-    fn new(group: &Group, state: &GroupSnapshot, model: &Model, precision: Precision) -> Self {
+    fn new(group: &Group, population: Option<ItemCounts>, model: &Model, precision: Precision) -> Self {
         let cells = model.geometry().cells();
-        let kind = match state {
-            GroupSnapshot::Cells(_) => Kind::Cells { cells },
-            GroupSnapshot::Population(population, left) => {
-                Kind::Items { cells, items: population.labels.len(), left: *left }
-            }
+        let kind = match population {
+            None => Kind::Cells { cells },
+            Some(ItemCounts { items, left }) => Kind::Items { cells, items, left },
         };
         let substates = group.schema().fields.iter().map(|field| SubstateShape {
             name: field.name.to_owned(),

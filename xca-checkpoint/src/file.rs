@@ -1,10 +1,10 @@
 //! The format of the file: a line, a description, binary data, a checksum.
 
 use super::Description;
-use super::planes::{self, Plane};
+use super::planes::{self, PlaneError, PlaneWriter, Planes};
 use std::io::{self, BufReader, Read, Seek, Write};
 use std::path::{Path, PathBuf};
-use xca_core::Snapshot;
+use xca_core::{EngineFailure, Snapshot};
 use xca_io::atomic::{WriteError, write_atomically};
 use xca_io::regular_file;
 
@@ -39,6 +39,18 @@ pub enum CheckpointError {
     Foreign { path: PathBuf, what: &'static str, found: String, wanted: String },
 }
 
+/// A checkpoint that could not be written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CheckpointWriteError {
+    /// The file could not be written.
+    #[error(transparent)]
+    File(#[from] WriteError),
+    /// The engine lost the state.
+    #[error(transparent)]
+    State(#[from] EngineFailure),
+}
+
 /// A reader or writer that computes the CRC-32 of all bytes.
 struct Summed<T> {
     inner: T,
@@ -63,24 +75,32 @@ impl<T: Write> Write for Summed<T> {
     }
 }
 
-/// Writes a checkpoint. `data` is the size of all planes in bytes.
+/// Writes a checkpoint.
 pub(super) fn write(
     path: &Path,
     description: &Description,
-    planes: &[Plane<'_>],
-    data: usize,
-) -> Result<(), WriteError> {
-    write_atomically(path, |file| {
-        let description = serde_json::to_vec_pretty(description)?;
+    state: &impl Planes,
+) -> Result<(), CheckpointWriteError> {
+    let mut lost = None;
+    let written = write_atomically(path, |file| {
+        let text = serde_json::to_vec_pretty(description)?;
         let mut file = Summed::new(file);
-        writeln!(file, "{MAGIC}{FORMAT} {} {data}", description.len())?;
-        file.write_all(&description)?;
-        for plane in planes {
-            plane.write(&mut file)?;
-        }
+        writeln!(file, "{MAGIC}{FORMAT} {} {}", text.len(), description.data_bytes())?;
+        file.write_all(&text)?;
+        state.write(&mut PlaneWriter::new(description, &mut file)).map_err(|error| match error {
+            PlaneError::Write(error) => error,
+            PlaneError::State(failure) => {
+                lost = Some(failure);
+                io::ErrorKind::Other.into()
+            }
+        })?;
         let sum = file.sum.finalize();
         file.inner.write_all(&sum.to_le_bytes())
-    })
+    });
+    match lost {
+        Some(failure) => Err(failure.into()),
+        None => Ok(written?),
+    }
 }
 
 /// The lengths in the first line.

@@ -1,10 +1,11 @@
 //! The last two checkpoints of a run.
 
-use super::Checkpoint;
+use super::{CheckpointWriteError, Description, file};
 use std::ffi::OsString;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use xca_core::Simulation;
 use xca_io::atomic::{OutputFolder, WriteError};
 use xca_io::numbered;
 
@@ -29,10 +30,15 @@ impl CheckpointFolder {
         Ok(Self { folder: run.subfolder(CHECKPOINTS)?, last })
     }
 
-    /// Writes a checkpoint. Keeps this one and the previous one, and removes all others.
-    pub fn write(&mut self, checkpoint: &Checkpoint) -> Result<(), WriteError> {
-        let path = self.folder.numbered(STEM, checkpoint.description.step, EXTENSION);
-        checkpoint.write(&path)?;
+    /// Writes a checkpoint of a run in its present state, block by block. Keeps this one and the previous
+    /// one, and removes all others.
+    pub fn write(
+        &mut self,
+        description: &Description,
+        simulation: &Simulation,
+    ) -> Result<(), CheckpointWriteError> {
+        let path = self.folder.numbered(STEM, description.step, EXTENSION);
+        file::write(&path, description, simulation)?;
         self.folder.sync()?;
         let name = path.file_name().map(OsString::from);
         if self.last == name {
@@ -46,7 +52,7 @@ impl CheckpointFolder {
         for file in Self::all(self.folder.path()).into_iter().filter(|file| !is_kept(file)) {
             match fs::remove_file(&file) {
                 Err(source) if source.kind() != io::ErrorKind::NotFound => {
-                    return Err(WriteError::File { path: file, source });
+                    return Err(WriteError::File { path: file, source }.into());
                 }
                 _ => {}
             }

@@ -18,7 +18,7 @@ mod planes;
 mod recorded;
 
 pub use description::{Description, GroupShape, Kind};
-pub use file::CheckpointError;
+pub use file::{CheckpointError, CheckpointWriteError};
 pub use folder::{CHECKPOINTS, CheckpointFolder};
 pub use identity::Identity;
 pub use input_file::InputFile;
@@ -30,7 +30,6 @@ pub use recorded::{Quantity, Recorded};
 
 use std::path::Path;
 use xca_core::Snapshot;
-use xca_io::atomic::WriteError;
 
 /// A run at some step.
 #[derive(Debug, Clone)]
@@ -43,9 +42,8 @@ pub struct Checkpoint {
 
 impl Checkpoint {
     /// Writes the file. Overwrites an earlier one.
-    pub fn write(&self, path: &Path) -> Result<(), WriteError> {
-        let planes = planes::of(&self.description, &self.snapshot);
-        file::write(path, &self.description, &planes, self.description.data_bytes())
+    pub fn write(&self, path: &Path) -> Result<(), CheckpointWriteError> {
+        file::write(path, &self.description, &self.snapshot)
     }
 
     /// Reads a file. A damaged file is an error.

@@ -1,34 +1,82 @@
-//! Converts snapshots to binary planes, little-endian, and back.
+//! Converts the planes of a state to binary, little-endian, and back.
 
 use super::Description;
 use super::description::{GroupShape, Kind};
-use std::borrow::Cow;
 use std::io::{self, Read, Write};
-use xca_core::engine::Population;
-use xca_core::{GroupSnapshot, Snapshot, StoredType};
+use xca_core::engine::{EngineFailure, Plane, Population, SubstateId};
+use xca_core::{GroupSnapshot, Simulation, Snapshot};
 
-/// Numbers of equal size, one after the other, in the byte order of this machine.
-pub(super) struct Plane<'a> {
-    size: usize,
-    bytes: Cow<'a, [u8]>,
+/// The size of the blocks in which the planes of a simulation are read. Smaller ones would cost messages
+/// between the parts of a space, larger ones memory of their host.
+const BLOCK: usize = 1 << 22;
+
+/// A state whose planes can be written.
+pub(super) trait Planes {
+    /// Writes all planes in the order of the file.
+    fn write<W: Write>(&self, to: &mut PlaneWriter<'_, W>) -> Result<(), PlaneError>;
 }
 
-impl<'a> Plane<'a> {
-    fn of_substate(stored: StoredType, bytes: &'a [u8]) -> Self {
-        Self { size: stored.scalar.size(), bytes: Cow::Borrowed(bytes) }
-    }
+/// Planes that could not be written.
+pub(super) enum PlaneError {
+    Write(io::Error),
+    State(EngineFailure),
+}
 
-    fn of_numbers(numbers: &[u32]) -> Self {
-        let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_ne_bytes()).collect();
-        Self { size: size_of::<u32>(), bytes: Cow::Owned(bytes) }
+impl From<EngineFailure> for PlaneError {
+    fn from(failure: EngineFailure) -> Self {
+        Self::State(failure)
     }
+}
 
-    pub(super) fn write(&self, file: &mut impl Write) -> io::Result<()> {
-        if cfg!(target_endian = "little") {
-            file.write_all(&self.bytes)
-        } else {
-            file.write_all(&turned(self.bytes.to_vec(), self.size))
+impl Planes for Snapshot {
+    fn write<W: Write>(&self, to: &mut PlaneWriter<'_, W>) -> Result<(), PlaneError> {
+        let mut groups = self.groups.iter().enumerate();
+        groups.try_for_each(|(number, group)| group.planes(number, &mut |plane, bytes| to.add(plane, bytes)))
+    }
+}
+
+impl Planes for Simulation {
+    fn write<W: Write>(&self, to: &mut PlaneWriter<'_, W>) -> Result<(), PlaneError> {
+        self.read_blocks(BLOCK, |plane, bytes| to.add(plane, bytes))?;
+        if to.written == to.description.data_bytes() {
+            return Ok(());
         }
+        let message = "the engine gives another number of bytes than the state has";
+        Err(PlaneError::Write(io::Error::new(io::ErrorKind::InvalidData, message)))
+    }
+}
+
+/// A file to which planes are written.
+pub(super) struct PlaneWriter<'a, W> {
+    description: &'a Description,
+    file: &'a mut W,
+    /// The number of bytes.
+    written: usize,
+}
+
+impl<'a, W: Write> PlaneWriter<'a, W> {
+    pub(super) fn new(description: &'a Description, file: &'a mut W) -> Self {
+        Self { description, file, written: 0 }
+    }
+
+    /// Adds bytes of a plane, which are in the byte order of this machine.
+    fn add(&mut self, plane: Plane, bytes: &[u8]) -> Result<(), PlaneError> {
+        let group = self.description.groups.get(plane.group());
+        let size = match plane {
+            Plane::Counts(_) | Plane::Labels(_) => group.map(|_| size_of::<u32>()),
+            Plane::Values(SubstateId { field, .. }) => {
+                group.and_then(|group| group.substates.get(field)).map(|field| field.stored.scalar.size())
+            }
+        };
+        // What is not described is not in the file.
+        let Some(size) = size else { return Ok(()) };
+        self.written += bytes.len();
+        let written = if cfg!(target_endian = "little") {
+            self.file.write_all(bytes)
+        } else {
+            self.file.write_all(&turned(bytes.to_vec(), size))
+        };
+        written.map_err(PlaneError::Write)
     }
 }
 
@@ -36,25 +84,6 @@ impl<'a> Plane<'a> {
 fn turned(mut bytes: Vec<u8>, size: usize) -> Vec<u8> {
     bytes.chunks_exact_mut(size).for_each(<[u8]>::reverse);
     bytes
-}
-
-/// The planes of a snapshot in the order of the file. Each group gives its substates. Before them, a
-/// population gives the number of items in each cell, and the labels.
-pub(super) fn of<'a>(description: &Description, snapshot: &'a Snapshot) -> Vec<Plane<'a>> {
-    let mut planes = Vec::new();
-    for (shape, state) in description.groups.iter().zip(&snapshot.groups) {
-        let fields = match state {
-            GroupSnapshot::Cells(fields) => fields,
-            GroupSnapshot::Population(population, _) => {
-                planes.push(Plane::of_numbers(&population.counts));
-                planes.push(Plane::of_numbers(&population.labels));
-                &population.fields
-            }
-        };
-        let stored = shape.substates.iter().map(|substate| substate.stored);
-        planes.extend(stored.zip(fields).map(|(stored, bytes)| Plane::of_substate(stored, bytes)));
-    }
-    planes
 }
 
 /// A reader of the data of a file, plane by plane.

@@ -5,6 +5,7 @@ mod fault;
 pub(crate) mod input;
 mod input_error;
 mod part;
+mod plane;
 mod population;
 mod row_work;
 mod substate_id;
@@ -12,11 +13,12 @@ mod substate_id;
 pub use execution::{Execution, Figure, Interruption, StepContext, Workers, step_by_step};
 pub use fault::{EngineFailure, Fault};
 pub use input::{
-    check_cells, check_cells_of_part, check_population, check_population_of_part, check_substate,
-    check_values, check_values_of_cells, check_values_of_part,
+    check_cells, check_cells_of_part, check_plane, check_population, check_population_of_part,
+    check_substate, check_values, check_values_of_cells, check_values_of_part, check_values_of_rows,
 };
 pub use input_error::InputError;
 pub use part::{Part, PartError};
+pub use plane::Plane;
 pub use population::Population;
 pub use row_work::RowWork;
 pub use substate_id::SubstateId;

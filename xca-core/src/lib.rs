@@ -113,7 +113,9 @@ pub use engine::{Engine, EngineFailure, Fault, StartError};
 pub use model::{InitialError, Model, ModelBuilder, ModelError};
 pub use parameter_set::ParameterSet;
 pub use reference::Reference;
-pub use simulation::{GroupSnapshot, Outcome, RunError, RunOptions, Simulation, Snapshot, SnapshotError};
+pub use simulation::{
+    GroupSnapshot, ItemCounts, Outcome, Outline, RunError, RunOptions, Simulation, Snapshot, SnapshotError,
+};
 pub use site::Site;
 pub use state::{Item, State, StateError};
 pub use steering::{Schedule, SteeringError};

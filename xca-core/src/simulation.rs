@@ -1,11 +1,12 @@
 //! A model on an engine.
 
+mod blocks;
 mod finite;
 mod outputs;
 mod restore;
 mod snapshot;
 
-pub use snapshot::{GroupSnapshot, Snapshot, SnapshotError};
+pub use snapshot::{GroupSnapshot, ItemCounts, Outline, Snapshot, SnapshotError};
 
 use crate::engine::{Engine, EngineFailure, Execution, Fault, Figure, Interruption, StartError, StepContext};
 use crate::model::Model;

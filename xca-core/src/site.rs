@@ -1,5 +1,6 @@
 //! A cell of the initial state, as the functions that make it see it.
 
+use std::ops::Range;
 use xca_process::Geometry;
 use xca_process::{Draw, Stream, uniform};
 use xca_values::Vector3;
@@ -45,7 +46,12 @@ pub(crate) struct Sites<'a> {
 impl<'a> Sites<'a> {
     /// All sites by linear index.
     pub(crate) fn iter(self) -> impl Iterator<Item = Site> + 'a {
-        (0..self.geometry.cells()).map(move |linear| {
+        self.within(0..self.geometry.cells())
+    }
+
+    /// The sites with these linear indices.
+    pub(crate) fn within(self, cells: Range<usize>) -> impl Iterator<Item = Site> + 'a {
+        cells.map(move |linear| {
             let cell = self.geometry.indices(linear);
             let [x, y, z] = self.geometry.centre(cell);
             Site {

@@ -152,10 +152,15 @@ impl Dense {
     /// The values of all cells. The elements of each value are contiguous.
     pub(crate) fn read(&self, layout: &Layout) -> Vec<u8> {
         let mut values = Vec::with_capacity(layout.rows() * layout.width() * self.stored.size());
-        for row in 0..layout.rows() {
+        self.read_rows(layout, 0..layout.rows(), &mut values);
+        values
+    }
+
+    /// Appends the values of the cells of these rows.
+    pub(crate) fn read_rows(&self, layout: &Layout, rows: impl Iterator<Item = usize>, values: &mut Vec<u8>) {
+        for row in rows {
             values.extend_from_slice(&self.row(layout, row));
         }
-        values
     }
 
     /// The elements with this index of the values of a row.
@@ -182,9 +187,10 @@ impl Dense {
         values.into()
     }
 
-    pub(crate) fn write(&mut self, layout: &Layout, values: &[u8]) {
+    /// Replaces the values of the cells of these rows.
+    pub(crate) fn write_rows(&mut self, layout: &Layout, rows: impl Iterator<Item = usize>, values: &[u8]) {
         let (size, element) = (self.stored.size(), self.stored.element_size());
-        for (row, values) in values.chunks_exact(layout.width() * size).enumerate() {
+        for (row, values) in rows.zip(values.chunks_exact(layout.width() * size)) {
             for number in 0..self.stored.length as usize {
                 let first = (number * layout.cells() + layout.first(row)) * element;
                 let plane = &mut self.current.bytes_mut()[first..first + layout.width() * element];

@@ -21,9 +21,10 @@ use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use xca_core::engine::{
-    Border, EngineFailure, Execution, Fault, Figure, InputError, Interruption, Part, Population as Items,
-    RowWork, StartError, StepContext, SubstateId, Workers, check_cells, check_cells_of_part,
-    check_population_of_part, check_substate, check_values, check_values_of_cells, check_values_of_part,
+    Border, EngineFailure, Execution, Fault, Figure, InputError, Interruption, Part, Plane,
+    Population as Items, RowWork, StartError, StepContext, SubstateId, Workers, check_cells,
+    check_cells_of_part, check_plane, check_population_of_part, check_substate, check_values,
+    check_values_of_cells, check_values_of_part, check_values_of_rows,
 };
 use xca_core::reduction::{Reduced, ReducedRows, Reduction, append_row};
 use xca_core::{Model, Precision, ProcessKind};
@@ -252,7 +253,9 @@ impl Execution for CpuExecution {
             activity.replaced(substate);
         }
         match &mut self.groups[substate.group] {
-            Group::Cells(planes) => planes[substate.field].write(&self.layout, values),
+            Group::Cells(planes) => {
+                planes[substate.field].write_rows(&self.layout, 0..self.layout.rows(), values);
+            }
             Group::Population(population) => population.write(substate.field, values),
         }
         Ok(())
@@ -282,6 +285,39 @@ impl Execution for CpuExecution {
             }
         }
         Ok(())
+    }
+
+    fn read_rows(&self, plane: Plane, rows: Range<usize>) -> Result<Option<Vec<u8>>, EngineFailure> {
+        check_plane(&self.model, plane)?;
+        let (own, mut bytes) = (self.layout.rows_within(rows), Vec::new());
+        match (&self.groups[plane.group()], plane) {
+            (Group::Population(population), plane) => {
+                population.read_rows((&self.layout, plane), own, &mut bytes);
+            }
+            (Group::Cells(planes), Plane::Values(SubstateId { field, .. })) => {
+                planes[field].read_rows(&self.layout, own, &mut bytes);
+            }
+            // The check refuses counts and labels of cells.
+            (Group::Cells(_), _) => {}
+        }
+        Ok(Some(bytes))
+    }
+
+    fn write_rows(
+        &mut self,
+        substate: SubstateId,
+        rows: Range<usize>,
+        values: &[u8],
+    ) -> Result<bool, EngineFailure> {
+        let own = self.layout.rows_within(rows);
+        check_values_of_rows(&self.model, self.precision, substate, own.clone().count(), values)?;
+        if let Some(activity) = &mut self.activity {
+            activity.replaced(substate);
+        }
+        if let Group::Cells(planes) = &mut self.groups[substate.group] {
+            planes[substate.field].write_rows(&self.layout, own, values);
+        }
+        Ok(true)
     }
 
     fn population(&self, group: usize) -> Result<Items, EngineFailure> {

@@ -121,6 +121,16 @@ impl Layout {
         (z * self.height + y) * self.extents[0] + x
     }
 
+    /// The rows that lie in this range of rows of the whole space.
+    pub(crate) fn rows_within(&self, rows: Range<usize>) -> impl Iterator<Item = usize> + Clone + use<> {
+        let ([_, height, depth], [y, z], whole) = (self.extents, self.start, self.height);
+        (0..depth).flat_map(move |layer| {
+            let first = (z + layer) * whole + y;
+            let own = |row: usize| layer * height + row.clamp(first, first + height) - first;
+            own(rows.start)..own(rows.end)
+        })
+    }
+
     /// The row of the cell with this linear index in the whole space.
     pub(crate) fn row_of(&self, cell: usize) -> usize {
         let row = cell / self.extents[0];

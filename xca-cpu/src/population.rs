@@ -11,7 +11,7 @@ use crate::motion::Motion;
 use crate::upkeep::Upkeep;
 use rayon::prelude::*;
 use std::ops::Range;
-use xca_core::engine::Population as Items;
+use xca_core::engine::{Plane, Population as Items, SubstateId};
 use xca_core::model::{Group as Definition, GroupKind};
 use xca_core::storage::Buffer;
 use xca_core::{Precision, StoredScalar, StoredType};
@@ -122,6 +122,30 @@ impl Population {
             values.extend_from_slice(&bytes[places.start * size..places.end * size]);
         }
         values
+    }
+
+    /// Appends the bytes of a plane in these rows.
+    pub(crate) fn read_rows(
+        &self,
+        (layout, plane): (&Layout, Plane),
+        rows: impl Iterator<Item = usize>,
+        bytes: &mut Vec<u8>,
+    ) {
+        for row in rows {
+            let (first, end) = self.row(row);
+            match plane {
+                Plane::Counts(_) => {
+                    self.counts(layout, row).for_each(|count| bytes.extend(count.to_ne_bytes()));
+                }
+                Plane::Labels(_) => {
+                    bytes.extend_from_slice(bytemuck::cast_slice(&self.items.labels[first..end]))
+                }
+                Plane::Values(SubstateId { field, .. }) => {
+                    let size = self.types[field].size();
+                    bytes.extend_from_slice(&self.items.fields[field].bytes()[first * size..end * size]);
+                }
+            }
+        }
     }
 
     /// Replaces the values of a field. There must be as many as items.

@@ -1,6 +1,7 @@
 //! The host: presents the state of all parts to a simulation.
 
 use crate::balance::{Balance, Balancer, Cost};
+use crate::cells::CellsOfPart;
 use crate::crew::Crew;
 use crate::cut::Cut;
 use crate::message::{Census, Command, Moment, Reply};
@@ -11,8 +12,9 @@ use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use xca_core::engine::{
-    EngineFailure, Execution, Fault, Figure, Interruption, Part, Population, RowWork, StepContext,
-    SubstateId, check_cells, check_population, check_substate, check_values, check_values_of_cells,
+    EngineFailure, Execution, Fault, Figure, Interruption, Part, Plane, Population, RowWork, StepContext,
+    SubstateId, check_cells, check_plane, check_population, check_substate, check_values,
+    check_values_of_cells, check_values_of_rows,
 };
 use xca_core::model::GroupKind;
 use xca_core::reduction::{Reduced, ReducedRows, Reduction};
@@ -83,19 +85,6 @@ impl Host {
         })
     }
 
-    /// The cells of each part, with their indices in the list.
-    fn cells_of_parts(&self, cells: &[usize]) -> Vec<CellsOfPart> {
-        let (geometry, cut) = (self.shared.model.geometry(), &self.shared.cut);
-        let mut parts = vec![CellsOfPart::default(); cut.count()];
-        for (place, cell) in cells.iter().enumerate() {
-            let [_, y, z] = geometry.indices(*cell);
-            let part = &mut parts[cut.part_of([y, z])];
-            part.cells.push(*cell);
-            part.places.push(place);
-        }
-        parts
-    }
-
     fn garbled(&self) -> EngineFailure {
         self.crew().fail("the parts answer what was not asked".to_owned())
     }
@@ -133,7 +122,11 @@ impl Host {
 
     /// The size of each row of a substate, in bytes.
     fn lengths<'a>(&self, substate: SubstateId, items: &'a Option<Vec<usize>>) -> Lengths<'a> {
-        let size = self.size(substate);
+        self.row_lengths(self.size(substate), items)
+    }
+
+    /// The size of each row of values of so many bytes. `items` are the numbers in the rows, of a population.
+    fn row_lengths<'a>(&self, size: usize, items: &'a Option<Vec<usize>>) -> Lengths<'a> {
         match items {
             Some(items) => Lengths::Each(items, size),
             None => Lengths::Same(self.shared.model.geometry().extents()[0] * size),
@@ -250,15 +243,6 @@ fn bounds(number: usize, part: &Part) -> [(String, f64); 4] {
     all.map(|(name, bound)| (format!("part_{number}_{name}"), bound as f64))
 }
 
-/// The cells of one part, out of a list.
-#[derive(Debug, Clone, Default)]
-struct CellsOfPart {
-    /// Their linear indices.
-    cells: Vec<usize>,
-    /// Their indices in the list.
-    places: Vec<usize>,
-}
-
 impl Execution for Host {
     fn run(&mut self, processes: Range<usize>, context: &StepContext<'_>) -> Result<(), Fault> {
         let command = Command::Run { processes, moment: Moment::new(context) };
@@ -299,9 +283,23 @@ impl Execution for Host {
         self.change(parts.into_iter().map(|values| Command::Write { substate, values }).collect())
     }
 
+    fn write_rows(
+        &mut self,
+        substate: SubstateId,
+        rows: Range<usize>,
+        values: &[u8],
+    ) -> Result<bool, EngineFailure> {
+        let Shared { model, precision, .. } = &self.shared;
+        check_values_of_rows(model, *precision, substate, rows.len(), values)?;
+        let parts = self.rows.scatter_rows(rows.clone(), values, self.lengths(substate, &None));
+        let command = |values| Command::WriteRows { substate, rows: rows.clone(), values };
+        let written = |reply| matches!(reply, Reply::Written { is_possible: true });
+        Ok(self.crew().ask(parts.into_iter().map(command).collect())?.into_iter().all(written))
+    }
+
     fn read_cells(&self, substate: SubstateId, cells: &[usize]) -> Result<Vec<u8>, EngineFailure> {
         check_cells(&self.shared.model, substate, cells)?;
-        let parts = self.cells_of_parts(cells);
+        let parts = CellsOfPart::all(self.shared.model.geometry(), &self.shared.cut, cells);
         let command = |part: &CellsOfPart| Command::ReadCells { substate, cells: part.cells.clone() };
         let replies = self.crew().ask(parts.iter().map(command).collect())?;
         let size = self.size(substate);
@@ -329,7 +327,33 @@ impl Execution for Host {
             let values = part.places.iter().flat_map(|place| &values[place * size..(place + 1) * size]);
             Command::WriteCells { substate, values: values.copied().collect(), cells: part.cells }
         };
-        self.change(self.cells_of_parts(cells).into_iter().map(command).collect())
+        let parts = CellsOfPart::all(self.shared.model.geometry(), &self.shared.cut, cells);
+        self.change(parts.into_iter().map(command).collect())
+    }
+
+    fn read_rows(&self, plane: Plane, rows: Range<usize>) -> Result<Option<Vec<u8>>, EngineFailure> {
+        check_plane(&self.shared.model, plane)?;
+        let (mut bytes, mut items) = (Vec::new(), Vec::new());
+        for reply in self.ask(&Command::ReadRows { plane, rows: rows.clone() })? {
+            let Reply::BytesOfRows { bytes: of_part, items: in_part } = reply else {
+                return Err(self.garbled());
+            };
+            let Some(of_part) = of_part else { return Ok(None) };
+            bytes.push(of_part.into_vec());
+            items.push(in_part);
+        }
+        let size = match plane {
+            Plane::Values(substate) => self.size(substate),
+            Plane::Counts(_) | Plane::Labels(_) => size_of::<u32>(),
+        };
+        let items = if matches!(plane, Plane::Counts(_)) || !self.is_population(plane.group()) {
+            None
+        } else {
+            let items = self.rows.gather_rows(rows.clone(), &items, Lengths::Same(1));
+            Some(items.ok_or_else(|| self.garbled())?)
+        };
+        let whole = self.rows.gather_rows(rows, &bytes, self.row_lengths(size, &items));
+        whole.map(Some).ok_or_else(|| self.garbled())
     }
 
     fn population(&self, group: usize) -> Result<Population, EngineFailure> {

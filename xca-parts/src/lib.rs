@@ -10,6 +10,7 @@
 mod balance;
 mod border;
 mod bounds;
+mod cells;
 mod channels;
 mod crew;
 mod cut;

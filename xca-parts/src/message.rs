@@ -5,7 +5,7 @@ use crate::fault::FaultMessage;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
-use xca_core::engine::{Population, RowWork, StepContext, SubstateId};
+use xca_core::engine::{Plane, Population, RowWork, StepContext, SubstateId};
 use xca_core::reduction::{ReducedRows, Reduction};
 
 /// A command. All parts get the same commands, with the data of their own cells.
@@ -40,6 +40,18 @@ pub(crate) enum Command {
     ReduceRows {
         substate: SubstateId,
         reduction: Reduction,
+    },
+    /// Replaces the values of cells in the own ones of these rows of the whole space.
+    WriteRows {
+        substate: SubstateId,
+        rows: Range<usize>,
+        #[serde(with = "serde_bytes")]
+        values: Vec<u8>,
+    },
+    /// Requests the bytes of a plane in the own ones of these rows of the whole space.
+    ReadRows {
+        plane: Plane,
+        rows: Range<usize>,
     },
     Population {
         group: usize,
@@ -100,6 +112,16 @@ pub(crate) enum Reply {
     Values {
         #[serde(with = "serde_bytes")]
         values: Vec<u8>,
+    },
+    /// Whether the engine of the part can write rows.
+    Written {
+        is_possible: bool,
+    },
+    /// The bytes of rows, and for items the number in each row. No bytes if the engine of the part reads
+    /// whole planes only.
+    BytesOfRows {
+        bytes: Option<serde_bytes::ByteBuf>,
+        items: Vec<usize>,
     },
     Rows {
         rows: ReducedRows,

@@ -1,6 +1,7 @@
 //! The rows of each part: gathers and scatters their data.
 
 use crate::cut::Cut;
+use std::ops::Range;
 use xca_core::Geometry;
 use xca_core::engine::Population;
 
@@ -38,9 +39,19 @@ impl Rows {
 
     /// Gathers the data of all parts. `None` if the lengths do not match.
     pub(crate) fn gather<T: Clone>(&self, parts: &[Vec<T>], lengths: Lengths<'_>) -> Option<Vec<T>> {
+        self.gather_rows(0..self.owners.len(), parts, lengths)
+    }
+
+    /// Gathers the data of some rows. The lengths are those of these rows alone. `None` if they do not match.
+    pub(crate) fn gather_rows<T: Clone>(
+        &self,
+        rows: Range<usize>,
+        parts: &[Vec<T>],
+        lengths: Lengths<'_>,
+    ) -> Option<Vec<T>> {
         let mut rest: Vec<&[T]> = parts.iter().map(Vec::as_slice).collect();
         let mut whole = Vec::with_capacity(parts.iter().map(Vec::len).sum());
-        for (row, owner) in self.owners.iter().enumerate() {
+        for (row, owner) in self.owners.get(rows)?.iter().enumerate() {
             let (values, after) = rest.get(*owner)?.split_at_checked(lengths.of(row))?;
             whole.extend_from_slice(values);
             rest[*owner] = after;
@@ -49,9 +60,19 @@ impl Rows {
     }
 
     /// Scatters the data of all rows to the parts.
-    pub(crate) fn scatter<T: Clone>(&self, mut whole: &[T], lengths: Lengths<'_>) -> Vec<Vec<T>> {
+    pub(crate) fn scatter<T: Clone>(&self, whole: &[T], lengths: Lengths<'_>) -> Vec<Vec<T>> {
+        self.scatter_rows(0..self.owners.len(), whole, lengths)
+    }
+
+    /// Scatters the data of some rows. The lengths are those of these rows alone.
+    pub(crate) fn scatter_rows<T: Clone>(
+        &self,
+        rows: Range<usize>,
+        mut whole: &[T],
+        lengths: Lengths<'_>,
+    ) -> Vec<Vec<T>> {
         let mut parts = vec![Vec::new(); self.parts];
-        for (row, owner) in self.owners.iter().enumerate() {
+        for (row, owner) in self.owners.get(rows).unwrap_or_default().iter().enumerate() {
             let (values, after) = whole.split_at(lengths.of(row).min(whole.len()));
             parts[*owner].extend_from_slice(values);
             whole = after;
@@ -61,8 +82,7 @@ impl Rows {
 
     /// The number of items in each row, from the numbers in each cell.
     pub(crate) fn items(&self, counts: &[u32]) -> Vec<usize> {
-        let items = |counts: &[u32]| counts.iter().map(|count| *count as usize).sum();
-        counts.chunks_exact(self.width).map(items).collect()
+        items_of_rows(counts, self.width)
     }
 
     /// Gathers a population from those of the parts. `sizes` are the sizes of its fields. `None` if the
@@ -93,4 +113,10 @@ impl Rows {
         }
         parts
     }
+}
+
+/// The number of items in each row of so many cells, from the numbers in the cells.
+pub(crate) fn items_of_rows(counts: &[u32], width: usize) -> Vec<usize> {
+    let items = |counts: &[u32]| counts.iter().map(|count| *count as usize).sum();
+    counts.chunks_exact(width).map(items).collect()
 }

@@ -5,13 +5,17 @@ use crate::cut::Cut;
 use crate::fault::FaultMessage;
 use crate::greeting::Greeting;
 use crate::message::{Census, Command, Moment, Reply, decode, encode};
+use crate::rows::items_of_rows;
 use crate::shared::Shared;
 use crate::traffic::Traffic;
 use crate::transport::{Tag, Transport, TransportError};
+use serde_bytes::ByteBuf;
 use std::any::Any;
+use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
-use xca_core::engine::{EngineFailure, Execution, Fault, StepContext};
+use xca_core::engine::{EngineFailure, Execution, Fault, Plane, StepContext};
+use xca_core::model::{Group, GroupKind};
 use xca_core::{Engine, Model, ParameterSet, Precision, StartError};
 
 /// A part of the space.
@@ -93,6 +97,10 @@ impl Worker {
             Command::ReduceRows { substate, reduction } => {
                 Reply::Rows { rows: self.execution()?.reduce_rows(substate, &reduction)? }
             }
+            Command::ReadRows { plane, rows } => self.read_rows(plane, rows)?,
+            Command::WriteRows { substate, rows, values } => {
+                Reply::Written { is_possible: self.execution_mut()?.write_rows(substate, rows, &values)? }
+            }
             Command::Population { group } => {
                 Reply::Population { population: self.execution()?.population(group)? }
             }
@@ -102,9 +110,7 @@ impl Worker {
             }
             Command::ItemsOfRows { group } => {
                 let counts = self.execution()?.population(group)?.counts;
-                let rows = counts.chunks_exact(self.model.geometry().extents()[0]);
-                let items = |counts: &[u32]| counts.iter().map(|count| *count as usize).sum();
-                Reply::ItemsOfRows { items: rows.map(items).collect() }
+                Reply::ItemsOfRows { items: items_of_rows(&counts, self.model.geometry().extents()[0]) }
             }
             Command::Census { group } => {
                 let execution = self.execution()?;
@@ -124,6 +130,21 @@ impl Worker {
                 Reply::Figures { figures: figures.chain(self.traffic.figures()).collect() }
             }
         })
+    }
+
+    /// The bytes of a plane in the own ones of these rows.
+    fn read_rows(&self, plane: Plane, rows: Range<usize>) -> Result<Reply, EngineFailure> {
+        let execution = self.execution()?;
+        let bytes = execution.read_rows(plane, rows.clone())?.map(ByteBuf::from);
+        let kind = self.model.groups().get(plane.group()).map(Group::kind);
+        let of_items =
+            matches!(kind, Some(GroupKind::Population { .. })) && !matches!(plane, Plane::Counts(_));
+        let counts = match of_items {
+            true => execution.read_rows(Plane::Counts(plane.group()), rows)?.unwrap_or_default(),
+            false => Vec::new(),
+        };
+        let counts: Vec<u32> = counts.as_chunks().0.iter().map(|bytes| u32::from_ne_bytes(*bytes)).collect();
+        Ok(Reply::BytesOfRows { bytes, items: items_of_rows(&counts, self.model.geometry().extents()[0]) })
     }
 
     /// Runs processes with the parameters of the host.

@@ -16,7 +16,7 @@ use crate::record::{Recorder, RunFolder};
 use crate::report::{self, Earlier, Report};
 use std::path::Path;
 use std::time::{Duration, Instant};
-use xca_checkpoint::{Checkpoint, Description, Origin};
+use xca_checkpoint::{Description, Origin};
 use xca_core::Simulation;
 use xca_io::numbers::significant;
 
@@ -187,17 +187,16 @@ impl Recording {
             self.check_finite()?;
         }
         let Some(checkpoints) = &mut self.checkpoints else { return Ok(()) };
-        let snapshot = self.simulation.snapshot()?;
-        let recorded = self.recorder.recorded()?;
+        let state = self.simulation.outline();
         let description = Description::new(
             self.origin.clone(),
             self.recorder.model(),
             self.recorder.set_up().missing(),
-            self.recorder.time(snapshot.step),
-            &snapshot,
-            recorded,
+            self.recorder.time(state.step),
+            &state,
+            self.recorder.recorded()?,
         );
-        checkpoints.write(&Checkpoint { description, snapshot })?;
+        checkpoints.write(&description, &self.simulation)?;
         self.complete_report();
         self.report.write(&self.folder.report())?;
         Ok(())

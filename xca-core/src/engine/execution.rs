@@ -1,9 +1,10 @@
 //! A model that runs on an engine: its state and its steps.
 
-use super::{EngineFailure, Fault, Population, RowWork, SubstateId};
+use super::{EngineFailure, Fault, Plane, Population, RowWork, SubstateId};
 use crate::parameter_set::ParameterSet;
 use crate::reduction::{Reduced, ReducedRows, Reduction};
 use std::any::Any;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// The threads of an engine.
@@ -58,7 +59,7 @@ pub trait Execution: Send {
     /// # Errors
     /// Returns the first fault, by process, then cell, then label. The state is then that of an unfinished
     /// step.
-    fn run(&mut self, processes: std::ops::Range<usize>, context: &StepContext<'_>) -> Result<(), Fault>;
+    fn run(&mut self, processes: Range<usize>, context: &StepContext<'_>) -> Result<(), Fault>;
 
     /// Runs several whole steps, with nothing between them. The context is that of the first.
     ///
@@ -97,6 +98,30 @@ pub trait Execution: Send {
         cells: &[usize],
         values: &[u8],
     ) -> Result<(), EngineFailure>;
+
+    /// The bytes of a plane in these rows of the whole space. Rows count along y, then along z. An engine
+    /// with a part of the space gives those of its own rows. `None` if the engine reads whole planes only.
+    ///
+    /// # Errors
+    /// Returns an error if [`check_plane`](super::check_plane) does, or as [`Self::read`].
+    fn read_rows(&self, _plane: Plane, _rows: Range<usize>) -> Result<Option<Vec<u8>>, EngineFailure> {
+        Ok(None)
+    }
+
+    /// Replaces the values of a substate of cells in these rows of the whole space. An engine with a part of
+    /// the space takes those of its own rows. `false` if the engine writes whole planes only.
+    ///
+    /// # Errors
+    /// Returns an error if [`check_values_of_rows`](super::check_values_of_rows) does, or as
+    /// [`Self::read`]. Nothing is then written.
+    fn write_rows(
+        &mut self,
+        _substate: SubstateId,
+        _rows: Range<usize>,
+        _values: &[u8],
+    ) -> Result<bool, EngineFailure> {
+        Ok(false)
+    }
 
     /// All items of a population.
     ///

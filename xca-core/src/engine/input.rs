@@ -3,7 +3,7 @@
 //! Kernels trust the lengths and ranges that engines keep, and the methods of an engine are public. Each
 //! engine therefore calls these functions first. Unsafe code relies on their checks.
 
-use super::{Fault, InputError, Part, Population, SubstateId};
+use super::{Fault, InputError, Part, Plane, Population, SubstateId};
 use crate::model::{Group, GroupKind, Model};
 use xca_values::Field;
 use xca_values::{Precision, ScalarType};
@@ -14,6 +14,23 @@ use xca_values::{Precision, ScalarType};
 /// Returns an error otherwise.
 pub fn check_substate(model: &Model, substate: SubstateId) -> Result<(), InputError> {
     checked_group(model, substate).map(|_| ())
+}
+
+/// Checks that the model has a plane.
+///
+/// # Errors
+/// Returns an error otherwise.
+pub fn check_plane(model: &Model, plane: Plane) -> Result<(), InputError> {
+    let group = match plane {
+        Plane::Values(substate) => return check_substate(model, substate),
+        Plane::Counts(group) | Plane::Labels(group) => group,
+    };
+    let groups = model.groups().len();
+    let definition = model.groups().get(group).ok_or(InputError::NoSuchGroup { group, groups })?;
+    match definition.kind() {
+        GroupKind::Population { .. } => Ok(()),
+        GroupKind::Cells { .. } => Err(InputError::NotAPopulation(definition.schema().name)),
+    }
 }
 
 /// Checks new values for a whole substate. `items` is the number of items, if the group is a population.
@@ -49,6 +66,22 @@ pub fn check_values_of_part(
 ) -> Result<(), InputError> {
     check_cells(model, substate, &[])?;
     let count = part.cells(model.geometry());
+    check_bytes(&model.groups()[substate.group], precision, substate.field, count, values)
+}
+
+/// Checks new values for a substate of cells in so many rows.
+///
+/// # Errors
+/// As [`check_values_of_part`].
+pub fn check_values_of_rows(
+    model: &Model,
+    precision: Precision,
+    substate: SubstateId,
+    rows: usize,
+    values: &[u8],
+) -> Result<(), InputError> {
+    check_cells(model, substate, &[])?;
+    let count = rows * model.geometry().extents()[0];
     check_bytes(&model.groups()[substate.group], precision, substate.field, count, values)
 }
 

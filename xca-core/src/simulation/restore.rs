@@ -2,7 +2,7 @@
 
 use super::snapshot::{GroupSnapshot, Snapshot, does_not_fit};
 use super::{RunError, RunOptions, Simulation};
-use crate::engine::{Engine, Fault, SubstateId};
+use crate::engine::{Engine, EngineFailure, Fault, SubstateId};
 use crate::model::{Group, GroupKind, Model};
 
 impl Simulation {
@@ -11,25 +11,45 @@ impl Simulation {
     /// # Errors
     /// Returns an error if the engine lost its state.
     pub fn snapshot(&self) -> Result<Snapshot, RunError> {
-        let execution = &self.execution;
-        let of_group = |(group, definition): (usize, &Group)| match definition.kind() {
+        let groups = self.model.groups().iter().enumerate();
+        Ok(Snapshot {
+            step: self.step,
+            groups: groups
+                .map(|(number, group)| self.snapshot_of(number, group))
+                .collect::<Result<_, _>>()?,
+            parameters: self.parameters.bits(),
+            stop: self.stop.clone(),
+            broken: self.is_broken(),
+        })
+    }
+
+    /// The state of the group with this number.
+    pub(super) fn snapshot_of(
+        &self,
+        group: usize,
+        definition: &Group,
+    ) -> Result<GroupSnapshot, EngineFailure> {
+        match definition.kind() {
             GroupKind::Cells { .. } => {
                 let fields = 0..definition.schema().fields.len();
-                let read = fields.map(|field| execution.read(SubstateId { group, field }));
+                let read = fields.map(|field| self.execution.read(SubstateId { group, field }));
                 read.collect::<Result<_, _>>().map(GroupSnapshot::Cells)
             }
             GroupKind::Population { .. } => {
-                let left = self.left_before[group].wrapping_add(execution.left(group));
-                execution.population(group).map(|items| GroupSnapshot::Population(items, left))
+                let items = self.execution.population(group)?;
+                Ok(GroupSnapshot::Population(items, self.left(group)))
             }
-        };
-        Ok(Snapshot {
-            step: self.step,
-            groups: self.model.groups().iter().enumerate().map(of_group).collect::<Result<_, _>>()?,
-            parameters: self.parameters.bits(),
-            stop: self.stop.clone(),
-            broken: self.faulty.is_some_and(|step| step > self.step),
-        })
+        }
+    }
+
+    /// The number of items of a population that left.
+    pub(super) fn left(&self, group: usize) -> u64 {
+        self.left_before[group].wrapping_add(self.execution.left(group))
+    }
+
+    /// Whether the last step ended with a fault.
+    pub(super) fn is_broken(&self) -> bool {
+        self.faulty.is_some_and(|step| step > self.step)
     }
 
     /// Starts a model on an engine in the state of a snapshot.

@@ -57,6 +57,30 @@ pub enum GroupSnapshot {
     Population(Population, u64),
 }
 
+/// The state of a run between two steps without its planes. [`crate::Simulation::read_blocks`] gives these.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Outline {
+    /// The number of steps done.
+    pub step: u64,
+    /// The numbers of items of each group in the model's order. `None` for a group of cells.
+    pub populations: Vec<Option<ItemCounts>>,
+    /// As in [`Snapshot::parameters`].
+    pub parameters: Vec<Vec<u64>>,
+    /// As in [`Snapshot::stop`].
+    pub stop: Option<String>,
+    /// As in [`Snapshot::broken`].
+    pub broken: bool,
+}
+
+/// How many items a population has and had.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ItemCounts {
+    /// The items in the space.
+    pub items: usize,
+    /// The items that left it.
+    pub left: u64,
+}
+
 /// A snapshot from which a simulation cannot continue.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -82,6 +106,23 @@ pub(super) fn does_not_fit(model: &Model, reason: String) -> SnapshotError {
 }
 
 impl Snapshot {
+    /// The state without its planes.
+    pub fn outline(&self) -> Outline {
+        let of_group = |group: &GroupSnapshot| match group {
+            GroupSnapshot::Cells(_) => None,
+            GroupSnapshot::Population(population, left) => {
+                Some(ItemCounts { items: population.labels.len(), left: *left })
+            }
+        };
+        Outline {
+            step: self.step,
+            populations: self.groups.iter().map(of_group).collect(),
+            parameters: self.parameters.clone(),
+            stop: self.stop.clone(),
+            broken: self.broken,
+        }
+    }
+
     /// Checks that a simulation of this model can go on from here: what engines rely on.
     pub(super) fn check(&self, model: &Model, precision: Precision) -> Result<(), SnapshotError> {
         if self.broken {

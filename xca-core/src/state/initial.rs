@@ -6,6 +6,9 @@ use crate::site::{Site, Sites};
 use xca_process::Parameters;
 use xca_process::Substates;
 
+/// The size of the blocks in which cells are filled, in bytes.
+const BLOCK: usize = 1 << 22;
+
 impl State<'_> {
     fn sites(&self, group: usize) -> Sites<'_> {
         let (geometry, step) = (self.structure.geometry(), self.step);
@@ -18,9 +21,25 @@ impl State<'_> {
     /// Returns an error if the model does not have these substates of cells.
     pub fn fill<S: Substates>(&mut self, state: impl Fn(Site) -> S) -> Result<(), StateError> {
         let group = self.cells_of::<S>()?;
-        let fields = self.encoded(group, self.sites(group).iter().map(state));
-        for (field, bytes) in fields.iter().enumerate() {
-            self.execution.write(SubstateId { group, field }, bytes)?;
+        let [width, height, depth] = self.geometry().extents();
+        let sizes = self.structure.groups()[group].stored(self.precision);
+        // An engine that takes rows needs no second copy of the whole group.
+        let by_rows =
+            !sizes.is_empty() && self.execution.write_rows(SubstateId { group, field: 0 }, 0..0, &[])?;
+        let size_of_row = width * sizes.iter().map(|stored| stored.size()).sum::<usize>();
+        let step = if by_rows { (BLOCK / size_of_row.max(1)).max(1) } else { height * depth };
+        for start in (0..height * depth).step_by(step) {
+            let rows = start..(start + step).min(height * depth);
+            let sites = self.sites(group).within(rows.start * width..rows.end * width);
+            let fields = self.encoded(group, sites.map(&state));
+            for (field, bytes) in fields.iter().enumerate() {
+                let substate = SubstateId { group, field };
+                if by_rows {
+                    self.execution.write_rows(substate, rows.clone(), bytes)?;
+                } else {
+                    self.execution.write(substate, bytes)?;
+                }
+            }
         }
         Ok(())
     }

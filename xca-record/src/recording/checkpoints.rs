@@ -4,7 +4,8 @@ use crate::interval::Interval;
 use crate::record::RunFolder;
 use std::path::Path;
 use std::time::Instant;
-use xca_checkpoint::{Checkpoint, CheckpointFolder};
+use xca_checkpoint::{CheckpointFolder, CheckpointWriteError, Description};
+use xca_core::Simulation;
 use xca_io::atomic::WriteError;
 
 /// The checkpoints of a run.
@@ -36,8 +37,8 @@ impl Checkpoints {
         }
     }
 
-    pub(super) fn write(&mut self, checkpoint: &Checkpoint) -> Result<(), WriteError> {
-        self.folder.write(checkpoint)?;
+    pub(super) fn write(&mut self, of: &Description, run: &Simulation) -> Result<(), CheckpointWriteError> {
+        self.folder.write(of, run)?;
         self.written = Instant::now();
         Ok(())
     }
