@@ -1,5 +1,6 @@
 //! The interface between simulations and engines.
 
+mod agreement;
 mod execution;
 mod fault;
 pub(crate) mod input;
@@ -9,6 +10,7 @@ mod population;
 mod row_work;
 mod substate_id;
 
+pub use agreement::{Phase, STEPS_TO_AGREE, Stopped, agree};
 pub use execution::{Execution, Figure, Interruption, StepContext, Workers, step_by_step};
 pub use fault::{EngineFailure, Fault};
 pub use input::{
