@@ -1,4 +1,5 @@
-//! The first message of each part: its version, engine, model and cut. The host detects parts that do not match.
+//! The first message of each part: its version, engine, model and cut. The host detects parts that do not
+//! match.
 
 use crate::shared::Shared;
 use std::fmt::{Debug, Write as _};
