@@ -35,10 +35,8 @@ impl EngineKind for CpuKind {
     }
 
     fn make(&self, options: &EngineOptions) -> Result<Box<dyn Engine>, Failure> {
-        Ok(Box::new(match options.get(THREADS.name) {
-            None => Cpu::new()?,
-            Some(number) => Cpu::with_threads(threads(number)?)?,
-        }))
+        let threads = options.get(THREADS.name).map(threads).transpose()?;
+        Ok(Box::new(threads.map_or_else(Cpu::new, Cpu::with_threads)?))
     }
 }
 

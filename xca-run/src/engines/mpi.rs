@@ -123,8 +123,7 @@ mod built {
         fn help(&self, model: &mut dyn FnMut(Precision) -> Result<Model, Failure>) -> Result<(), Failure> {
             // The host ends the job; signals to this process do not.
             Interrupt::install()?;
-            let mut model = |precision| model(precision).map_err(|error| error.to_string());
-            Ok(self.0.serve(&part, &mut model)?)
+            Ok(self.0.serve(&part, &mut |precision| model(precision).map_err(|error| error.to_string()))?)
         }
     }
 }
@@ -133,8 +132,7 @@ mod built {
 #[cfg(not(feature = "mpi"))]
 mod built {
     use super::Share;
-    use crate::engines::MissingFeature;
-    use crate::engines::kind::Helper;
+    use crate::engines::kind::{Helper, MissingFeature};
     use xca_core::Engine;
     use xca_record::Failure;
 

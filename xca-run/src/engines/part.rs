@@ -15,14 +15,12 @@ pub(super) fn parse(word: &str) -> Result<(&'static dyn EngineKind, EngineOption
         "gpu" => (&GpuKind, ADAPTER),
         other => return Err(format!("a part runs on the cpu or the gpu engine, not on `{other}`")),
     };
-    let options = EngineOptions::default();
-    let Some(detail) = detail else { return Ok((kind, options)) };
-    (option.check)(detail)?;
-    Ok((kind, options.with(option.name, detail)))
+    detail.map_or(Ok(()), option.check)?;
+    let none = EngineOptions::default();
+    Ok((kind, detail.into_iter().fold(none, |options, detail| options.with(option.name, detail))))
 }
 
-/// The engine of a part. Without a choice it has so many threads, and its adapter by its number on the
-/// machine.
+/// The engine of a part. Without a choice, it has so many threads, or its adapter by its number.
 pub(super) fn engine(word: &str, number: usize, threads: usize) -> Result<Box<dyn Engine>, Failure> {
     let (kind, chosen) = parse(word)?;
     let own = EngineOptions::default().with(THREADS.name, threads.to_string());

@@ -60,8 +60,7 @@ struct Share {
 
 impl Share {
     fn new(text: &str) -> Result<Self, String> {
-        // Each part is a thread.
-        const MOST: usize = xca_cpu::Cpu::MOST_THREADS;
+        const MOST: usize = xca_cpu::Cpu::MOST_THREADS; // Each part is a thread.
         let (parts, rest) = text.split_once(':').map_or((text, None), |(parts, rest)| (parts, Some(rest)));
         let grid = Some(parts).filter(|parts| parts.contains('x')).map(str::parse::<Grid>).transpose();
         let grid = grid.map_err(|error| error.to_string())?;
