@@ -1,5 +1,7 @@
 //! The interface between simulations and engines.
 
+mod agreement;
+mod border;
 mod execution;
 mod fault;
 pub(crate) mod input;
@@ -10,6 +12,8 @@ mod population;
 mod row_work;
 mod substate_id;
 
+pub use agreement::{Phase, STEPS_TO_AGREE, Stopped, agree};
+pub use border::Border;
 pub use execution::{Execution, Figure, Interruption, StepContext, Workers, step_by_step};
 pub use fault::{EngineFailure, Fault};
 pub use input::{
@@ -25,7 +29,6 @@ pub use substate_id::SubstateId;
 
 use crate::model::Model;
 use std::fmt;
-use xca_process::Face;
 use xca_values::Precision;
 
 /// A way to run models. A program chooses one; a model never names one.
@@ -78,36 +81,6 @@ pub trait Engine: fmt::Debug + Send + Sync {
         let (engine, reason) = (self.name().to_owned(), "it cannot share a space with others".to_owned());
         Err(StartError::NoParts { engine, reason })
     }
-}
-
-/// The connection of a part of a space to the other parts. Messages arrive in order. The engines define their
-/// content.
-pub trait Border: Send {
-    /// Sends bytes to the part beyond this face. Does not wait for their arrival.
-    ///
-    /// # Errors
-    /// Returns [`EngineFailure::Elsewhere`] if another part has ended, or an error if the connection is
-    /// broken.
-    fn send(&mut self, face: Face, bytes: Vec<u8>) -> Result<(), EngineFailure>;
-
-    /// Waits for the bytes that the part beyond this face has sent across it.
-    ///
-    /// # Errors
-    /// As [`Self::send`].
-    fn receive(&mut self, face: Face) -> Result<Vec<u8>, EngineFailure>;
-
-    /// Tells the parts beyond all faces that this part sends nothing more before all parts call
-    /// [`Self::least`]. Those that wait for it get [`EngineFailure::Elsewhere`].
-    ///
-    /// # Errors
-    /// As [`Self::send`].
-    fn give_up(&mut self) -> Result<(), EngineFailure>;
-
-    /// The minimum of the numbers of all parts. Messages that were sent before and not received are dropped.
-    ///
-    /// # Errors
-    /// As [`Self::send`].
-    fn least(&mut self, number: u64) -> Result<u64, EngineFailure>;
 }
 
 /// A model that an engine cannot run.

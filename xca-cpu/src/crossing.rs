@@ -1,13 +1,13 @@
 //! Migration between the parts of a space: items that leave this part, and items that arrive.
 
-use crate::edges::{Edges, Phase, Stopped};
+use crate::edges::Edges;
 use crate::ghosts::{axes, faces, mismatch, number, pack_item, take, unpack_item};
 use crate::layout::Layout;
 use crate::migration::{Arrival, arrivals, check_slots, settle};
 use crate::population::Population;
 use crate::rows::Mover;
 use crate::threads::Threads;
-use xca_core::engine::{EngineFailure, Fault};
+use xca_core::engine::{EngineFailure, Fault, Phase, Stopped};
 use xca_core::{Face, Geometry, Process};
 
 /// A migration, as in all parts.

@@ -1,4 +1,4 @@
-//! Communication between the parts of a space: the edges of planes, and the first fault.
+//! Communication between the parts of a space: the edges of planes.
 //!
 //! All parts run the same stages. The same halos are stale in all parts, so each part knows the next message
 //! of its neighbours. Nothing here waits on a thread of the engine, because parts that share threads would
@@ -7,27 +7,17 @@
 //! A part sends its edges, runs the rows that see no other part, and only then waits for the edges of others.
 //! Where items migrate, it runs the rows at its borders first, sends the items that leave, and runs the
 //! other rows before it waits for those that arrive.
-//!
-//! A part with a fault gives up: it tells its neighbours, which then give up too, and so on. All parts meet
-//! at the next agreement and compare their faults. A part gives up only because of faults of earlier stages,
-//! or of earlier phases of the stage. The first fault is therefore among those compared.
 
 use crate::activity::Activity;
 use crate::dense::Dense;
 use crate::ghosts::{self, Visible, axes, faces, mismatch, rows_at_borders};
 use crate::group::Group;
 use crate::layout::Layout;
-use crate::rows::{FirstFault, searched};
+use crate::rows::searched;
 use crate::threads::Threads;
 use std::sync::Arc;
-use xca_core::engine::{Border, EngineFailure, Fault, Interruption, Part, SubstateId};
+use xca_core::engine::{Border, EngineFailure, Part, SubstateId};
 use xca_core::{Face, Faces, Model};
-
-/// No fault. The value is larger than that of any fault.
-const NO_FAULT: u64 = u64::MAX;
-
-/// The number of steps after which the parts compare their faults.
-pub(crate) const STEPS_TO_AGREE: u64 = 16;
 
 /// A part of a space, and its connection to the others.
 pub(crate) struct Edges {
@@ -192,30 +182,6 @@ impl Edges {
         }
         Ok(())
     }
-
-    /// Compares the faults of all parts since the last agreement. `stopped` is the reason why this part has
-    /// stopped before, and the number of steps since then. Returns the first fault of all.
-    pub(crate) fn agree(&mut self, stopped: Option<(u64, Stopped)>) -> Result<(), Interruption> {
-        let lost = |failure: EngineFailure| Interruption { done: 0, fault: failure.into() };
-        let own = match &stopped {
-            None => NO_FAULT,
-            Some((done, stopped)) => match &stopped.fault {
-                Fault::Engine(failure) if *failure != EngineFailure::Elsewhere => {
-                    return Err(lost(failure.clone()));
-                }
-                _ => {
-                    self.border.give_up().map_err(lost)?;
-                    stopped.key(*done)
-                }
-            },
-        };
-        let least = self.border.least(own).map_err(lost)?;
-        match stopped {
-            None if least == NO_FAULT => Ok(()),
-            Some((done, stopped)) if own == least => Err(Interruption { done, fault: stopped.fault }),
-            _ => Err(Interruption { done: least >> STEP, ..lost(EngineFailure::Elsewhere) }),
-        }
-    }
 }
 
 impl Exchange {
@@ -231,60 +197,6 @@ impl Exchange {
                 }
             }
         });
-    }
-}
-
-/// The reason why a part has stopped before the next agreement.
-#[derive(Debug)]
-pub(crate) struct Stopped {
-    process: usize,
-    phase: Phase,
-    /// The linear index of the cell.
-    cell: u32,
-    pub(crate) fault: Fault,
-}
-
-/// The phases of a stage, in the order of their faults.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Phase {
-    /// The processes, row by row.
-    Rows,
-    /// The destinations of items.
-    Destinations,
-    /// The room for items in their new cells.
-    Slots,
-}
-
-/// The place of the step in the key of a fault, then those of the process and of the phase. The cell comes
-/// last.
-const STEP: u32 = 56;
-const PROCESS: u32 = 34;
-const PHASE: u32 = 32;
-
-impl Stopped {
-    pub(crate) fn new(process: usize, phase: Phase, cell: u32, fault: Fault) -> Self {
-        Self { process, phase, cell, fault }
-    }
-
-    /// Orders faults as they come first. `done` is the number of steps since the last agreement.
-    fn key(&self, done: u64) -> u64 {
-        if matches!(self.fault, Fault::Engine(_)) {
-            return NO_FAULT;
-        }
-        done << STEP | (self.process as u64) << PROCESS | (self.phase as u64) << PHASE | u64::from(self.cell)
-    }
-}
-
-impl From<FirstFault> for Stopped {
-    fn from(FirstFault { process, cell, fault, .. }: FirstFault) -> Self {
-        Self { process, phase: Phase::Rows, cell, fault }
-    }
-}
-
-/// A part without a fault of its own cannot go on.
-impl From<EngineFailure> for Stopped {
-    fn from(failure: EngineFailure) -> Self {
-        Self { process: 0, phase: Phase::Rows, cell: 0, fault: failure.into() }
     }
 }
 

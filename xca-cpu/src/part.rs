@@ -1,15 +1,15 @@
 //! Steps in a part of a space.
 
 use crate::crossing::{self, Departure, Migration};
-use crate::edges::{STEPS_TO_AGREE, Stopped, seen};
+use crate::edges::seen;
 use crate::execution::CpuExecution;
 use crate::ghosts;
 use crate::group::Group;
-use crate::rows::{self, Begun, Ground, Rows, StageOfStep};
+use crate::rows::{self, Begun, FirstFault, Ground, Rows, StageOfStep};
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
-use xca_core::engine::{Interruption, StepContext};
+use xca_core::engine::{Interruption, Phase, STEPS_TO_AGREE, StepContext, Stopped, agree};
 
 impl CpuExecution {
     /// Runs processes in some steps. All other parts do the same. They compare their faults now and then, and
@@ -29,7 +29,7 @@ impl CpuExecution {
                 Some((step, self.run_step_of_part(processes.clone(), &context).err()?))
             });
             if let Some(edges) = &mut self.edges {
-                let agreed = edges.agree(stopped);
+                let agreed = agree(&mut *edges.border, stopped);
                 agreed.map_err(|stopped| Interruption { done: done + stopped.done, ..stopped })?;
             }
             done += now;
@@ -130,6 +130,12 @@ impl CpuExecution {
             departure = crossing::depart(migration, population, layout, edges, begun.movers())?;
         }
         Ok(Overlap { begun: Some(begun), departure })
+    }
+}
+
+impl From<FirstFault> for Stopped {
+    fn from(FirstFault { process, cell, fault, .. }: FirstFault) -> Self {
+        Self::new(process, Phase::Rows, cell, fault)
     }
 }
 

@@ -2,14 +2,16 @@
 
 use crate::activity::Activity;
 use crate::device::DeviceError;
-use crate::execution::{GpuExecution, failure};
+use crate::edges::Edges;
+use crate::error::failure;
+use crate::execution::GpuExecution;
 use crate::groups::Group;
 use crate::reduction::{self, Rows, Values};
 use crate::service::{OCCUPANCY, Services};
 use std::ops::Range;
 use xca_core::engine::{
     EngineFailure, Execution, Fault, Figure, Interruption, Population as Items, StepContext, SubstateId,
-    check_cells, check_population, check_substate, check_values, check_values_of_cells,
+    check_cells, check_population, check_substate, check_values, check_values_of_cells, check_values_of_part,
 };
 use xca_core::reduction::{Reduced, ReducedRows, Reduction, append_row};
 
@@ -33,8 +35,12 @@ impl Execution for GpuExecution {
     }
 
     fn write(&mut self, substate: SubstateId, values: &[u8]) -> Result<(), EngineFailure> {
-        let items = self.items(substate.group);
-        check_values(&self.model, self.manner.precision, substate, items, values)?;
+        let (model, precision) = (&self.model, self.manner.precision);
+        match self.edges {
+            Some(_) => check_values_of_part(model, precision, substate, self.space.part(), values)?,
+            None => check_values(model, precision, substate, self.items(substate.group), values)?,
+        }
+        self.others_change(substate);
         self.forget_activity().map_err(|error| failure(&error))?;
         let plane = self.groups.plane(substate);
         match self.groups.group(substate.group) {
@@ -49,6 +55,7 @@ impl Execution for GpuExecution {
 
     fn read_cells(&self, substate: SubstateId, cells: &[usize]) -> Result<Vec<u8>, EngineFailure> {
         check_cells(&self.model, substate, cells)?;
+        self.check_own(cells)?;
         let plane = self.groups.plane(substate);
         plane.read_cells(&self.device, &self.numbers(cells)).map_err(|error| failure(&error))
     }
@@ -60,6 +67,8 @@ impl Execution for GpuExecution {
         values: &[u8],
     ) -> Result<(), EngineFailure> {
         check_values_of_cells(&self.model, self.manner.precision, substate, cells, values)?;
+        self.check_own(cells)?;
+        self.others_change(substate);
         self.forget_activity().map_err(|error| failure(&error))?;
         self.set_cells(substate, cells, values).map_err(|error| failure(&error))
     }
@@ -94,14 +103,14 @@ impl Execution for GpuExecution {
         check_substate(&self.model, substate)?;
         let stored = self.model.stored(substate, self.manner.precision);
         let longest_row = match self.groups.group(substate.group) {
-            Group::Cells(_) => self.space.geometry().extents()[0],
+            Group::Cells(_) => self.space.extents()[0],
             Group::Population(population) => population.items,
         };
         let results = if reduction::is_possible(&self.device, (reduction, stored), longest_row) {
             self.reduce_here(substate, reduction).map_err(|error| failure(&error))?
         } else {
             let lengths = match self.groups.group(substate.group) {
-                Group::Cells(_) => vec![self.space.geometry().extents()[0]; self.space.rows()],
+                Group::Cells(_) => vec![self.space.extents()[0]; self.space.rows()],
                 Group::Population(population) => {
                     population.row_lengths(&self.device, &self.space).map_err(|error| failure(&error))?
                 }
@@ -122,7 +131,8 @@ impl Execution for GpuExecution {
     fn memory(&self) -> usize {
         let migrations = self.migrations.iter().map(crate::migration::Migration::memory);
         let activity = self.activity.as_ref().map_or(0, Activity::memory);
-        self.groups.memory() + self.halo.memory() + migrations.sum::<usize>() + activity
+        let edges = self.edges.as_ref().map_or(0, Edges::memory);
+        self.groups.memory() + self.halo.memory() + migrations.sum::<usize>() + activity + edges
     }
 
     fn figures(&self) -> Vec<Figure> {
@@ -183,9 +193,9 @@ impl GpuExecution {
             return reduce(Values::OfItems(plane.now().into(), ranges), whole);
         }
         let mut all = Vec::new();
-        for part in self.space.parts() {
-            let rows = self.rows(part.count, self.space.number(part.first) - part.base);
-            all.extend(reduce(Values::OfCells(plane.part(plane.now(), part)), rows)?);
+        for section in self.space.sections() {
+            let rows = self.rows(section.count, self.space.number(section.first) - section.base);
+            all.extend(reduce(Values::OfCells(plane.section(plane.now(), section)), rows)?);
         }
         Ok(all)
     }

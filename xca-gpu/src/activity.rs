@@ -69,8 +69,8 @@ impl Activity {
         (manner, texts): (Manner, &Texts),
     ) -> Result<Option<Self>, NotOnDevice> {
         let size = workgroup_size(space.geometry().extents(), manner.workgroup);
-        let [part] = space.parts() else { return Ok(None) };
-        let along = part.workgroups(size).map(|count| count as usize);
+        let [section] = space.sections() else { return Ok(None) };
+        let along = section.workgroups(size).map(|count| count as usize);
         let tiles: usize = along.iter().product();
         let few = device.few_tiles().unwrap_or(FEW_TILES);
         if tiles < few || manner.strict.is_none() || !programs.iter().all(can_be_selected) {

@@ -1,7 +1,8 @@
-//! How a process stops a run.
+//! How a process stops a run, and what stopped it.
 
 use crate::program::Program;
 use xca_core::ProcessKind;
+use xca_core::engine::Fault;
 
 /// How a process stopped a run; the number is what the device notes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -26,4 +27,14 @@ impl Cause {
         }
         causes
     }
+}
+
+/// What stopped a run.
+pub(crate) struct Stop {
+    pub(crate) step: u64,
+    /// The index of the process in the model.
+    pub(crate) process: usize,
+    /// The linear index of the cell, or the number of the item.
+    pub(crate) at: u32,
+    pub(crate) fault: Fault,
 }

@@ -8,7 +8,8 @@ use crate::proof;
 use crate::turns;
 use std::fmt;
 use std::sync::Arc;
-use xca_core::engine::{Engine, Execution, StartError};
+use xca_core::engine::{Border, Engine, Execution, Part, StartError};
+use xca_core::model::{Group, GroupKind};
 use xca_core::{Model, Precision};
 use xca_wgsl::Numbering;
 
@@ -147,6 +148,22 @@ impl Gpu {
 }
 
 impl Gpu {
+    /// A model, or a part of it.
+    fn execution(
+        &self,
+        model: &Model,
+        precision: Precision,
+        shared: Option<(Part, Box<dyn Border>)>,
+    ) -> Result<Box<dyn Execution>, StartError> {
+        let strict = self.strict.as_ref().ok().copied();
+        let (workgroup, reach) = (self.device.workgroup(), self.device.reach());
+        let manner = Manner { precision, strict, workgroup, reach };
+        match GpuExecution::new(model, manner, Arc::clone(&self.device), &self.texts, shared) {
+            Ok(execution) => Ok(Box::new(execution)),
+            Err(error) => Err(self.cannot_start(error)),
+        }
+    }
+
     fn cannot_start(&self, error: NotOnDevice) -> StartError {
         let engine = "gpu".to_owned();
         let too_large = |what: String, wanted: u128, limit: u64| StartError::TooLarge {
@@ -209,13 +226,30 @@ impl Engine for Gpu {
     }
 
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {
-        let strict = self.strict.as_ref().ok().copied();
-        let (workgroup, reach) = (self.device.workgroup(), self.device.reach());
-        let manner = Manner { precision, strict, workgroup, reach };
-        match GpuExecution::new(model, manner, Arc::clone(&self.device), &self.texts) {
-            Ok(execution) => Ok(Box::new(execution)),
-            Err(error) => Err(self.cannot_start(error)),
+        self.execution(model, precision, None)
+    }
+
+    fn start_part(
+        &self,
+        model: &Model,
+        precision: Precision,
+        part: &Part,
+        border: Box<dyn Border>,
+    ) -> Result<Box<dyn Execution>, StartError> {
+        part.check(model.geometry())?;
+        if *part == Part::whole(model.geometry()) {
+            return self.start(model, precision);
         }
+        let is_population = |group: &&Group| matches!(group.kind(), GroupKind::Population { .. });
+        if let Some(population) = model.groups().iter().find(is_population) {
+            let reason = format!(
+                "the model has the population `{}`, and parts on GPUs hold cells only; take parts on the cpu engine, \
+                 or one GPU (--engine gpu)",
+                population.schema().name
+            );
+            return Err(StartError::NoParts { engine: self.name().to_owned(), reason });
+        }
+        self.execution(model, precision, Some((part.clone(), border)))
     }
 }
 

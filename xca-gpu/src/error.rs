@@ -1,6 +1,7 @@
 //! What can go wrong before a run.
 
 use crate::device::DeviceError;
+use xca_core::EngineFailure;
 
 /// A GPU engine that cannot be had.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -80,4 +81,15 @@ pub(crate) enum NotOnDevice {
         /// The limit.
         most: u64,
     },
+}
+
+/// What the host hears of an error of the device.
+pub(crate) fn failure(error: &DeviceError) -> EngineFailure {
+    EngineFailure::Broken { engine: "gpu".to_owned(), reason: error.to_string() }
+}
+
+impl From<DeviceError> for EngineFailure {
+    fn from(error: DeviceError) -> Self {
+        failure(&error)
+    }
 }

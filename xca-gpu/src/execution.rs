@@ -1,13 +1,16 @@
 //! A model under way on a device.
 
 mod memory;
+mod part;
 mod room;
+mod steps;
 
 pub(crate) use memory::least_memory;
 
 use crate::activity::Activity;
-use crate::cause::Cause;
+use crate::cause::{Cause, Stop};
 use crate::device::{Binding, Buffer, Device, DeviceError, Landing, Recorder};
+use crate::edges::Edges;
 use crate::error::NotOnDevice;
 use crate::groups::{ENDED_EARLY, Groups, JOURNAL, JOURNAL_WORDS};
 use crate::halo::Halo;
@@ -15,14 +18,12 @@ use crate::migration::Migration;
 use crate::pace::Pace;
 use crate::plane::size_on_device;
 use crate::program::{Manner, Program, Texts};
-use crate::service::{ADVANCE, SEAL_AIM, SEAL_FULL, SEAL_REPORT, SORTING, Services};
+use crate::service::{SEAL_AIM, SEAL_FULL, SEAL_REPORT, SORTING, Services};
 use crate::space::Space;
 use memory::{check_types, groups_of, looked_at, space_of};
 use std::collections::{HashMap, HashSet};
-use std::ops::Range;
 use std::sync::Arc;
-use std::time::Instant;
-use xca_core::engine::{EngineFailure, Fault, Interruption, StepContext, SubstateId};
+use xca_core::engine::{Border, EngineFailure, Part, StepContext, SubstateId};
 use xca_core::{Face, Faces, Model, ParameterValue, ProcessKind, Stream};
 
 /// The bytes that activity is told by.
@@ -36,6 +37,8 @@ pub(crate) struct GpuExecution {
     pub(crate) space: Space,
     pub(crate) groups: Groups,
     pub(crate) halo: Halo,
+    /// The connection to the other parts. `None` for the whole space.
+    pub(crate) edges: Option<Edges>,
     pub(crate) services: Services,
     pub(crate) programs: Vec<Program>,
     /// Where it is looked for tiles in which something can change; and where what it tells lands.
@@ -66,15 +69,21 @@ impl GpuExecution {
         manner: Manner,
         device: Arc<Device>,
         texts: &Texts,
+        shared: Option<(Part, Box<dyn Border>)>,
     ) -> Result<Self, NotOnDevice> {
         check_types(model, manner, &device)?;
-        let space = space_of(model, manner)?;
+        let (part, border) = shared.unzip();
+        let space = space_of(model, part, manner)?;
         let mut programs = Vec::new();
         for (place, process) in model.processes().iter().enumerate() {
             let process = (*process, Stream::process(place));
             programs.push(Program::new(&device, model, &space, process, (manner, texts), false)?);
         }
-        let activity = Activity::new(&device, model, &space, &programs, (manner, texts))?;
+        let activity = match border {
+            // Nothing follows what other parts change.
+            Some(_) => None,
+            None => Activity::new(&device, model, &space, &programs, (manner, texts))?,
+        };
         let doubled: HashSet<SubstateId> =
             programs.iter().flat_map(|program| program.doubled(model)).collect();
         let groups = groups_of(model, manner, &device, (&space, &programs, &doubled))?;
@@ -94,6 +103,10 @@ impl GpuExecution {
                 stamps.insert((index, cause), device.uniform("stamp", bytemuck::cast_slice(&words))?);
             }
         }
+        let looked_at = looked_at(model);
+        let size = |substate: &SubstateId| (*substate, groups.plane(*substate).size());
+        let sizes: Vec<(SubstateId, usize)> = looked_at.iter().map(size).collect();
+        let edges = border.map(|border| Edges::new(&device, &space, &sizes, border)).transpose()?;
         let landing = device.landing(groups.journals().size())?;
         let activity_landing = device.landing(ACTIVITY_TOLD)?;
         let ended_early = groups.ended_early().map(|_| device.landing(ENDED_EARLY)).transpose()?;
@@ -104,13 +117,14 @@ impl GpuExecution {
             space,
             groups,
             halo,
+            edges,
             services: Services::default(),
             programs,
             activity,
             activity_landing,
             migrations,
             stamps,
-            looked_at: looked_at(model),
+            looked_at,
             landing,
             ended_early,
             pace: Pace::new(),
@@ -125,7 +139,7 @@ impl GpuExecution {
 
     /// Writes what stands beyond flat faces.
     fn write_outside(&self) -> Result<(), DeviceError> {
-        let cells = self.space.geometry().cells();
+        let cells = self.space.part().cells(self.space.geometry());
         for (number, group) in self.model.groups().iter().enumerate() {
             for (field, stored) in group.stored(self.manner.precision).iter().enumerate() {
                 let substate = SubstateId { group: number, field };
@@ -208,79 +222,11 @@ impl GpuExecution {
         Ok(())
     }
 
-    /// Runs processes of one step.
-    pub(crate) fn run_processes(
-        &mut self,
-        processes: Range<usize>,
-        context: &StepContext<'_>,
-    ) -> Result<(), Fault> {
-        let result = self.processes(processes, context).map_err(|error| Fault::Engine(failure(&error)))?;
-        result.map_or(Ok(()), |(_, fault)| Err(fault))
-    }
-
-    fn processes(
-        &mut self,
-        processes: Range<usize>,
-        context: &StepContext<'_>,
-    ) -> Result<Option<(u64, Fault)>, DeviceError> {
-        self.prepare(context)?;
-        let mut recorder = self.device.recorder();
-        for index in processes {
-            if self.programs[index].process.is_due(context.step) {
-                self.record(&mut recorder, index)?;
-            }
+    /// Records a process with all that follows from it. Says whether the device goes on.
+    fn record(&mut self, recorder: &mut Recorder, index: usize) -> Result<bool, EngineFailure> {
+        if !self.exchange(recorder, index)? {
+            return Ok(false);
         }
-        self.finish(recorder, 1)
-    }
-
-    /// Runs whole steps, several in one submission.
-    pub(crate) fn steps(&mut self, steps: u64, context: &StepContext<'_>) -> Result<(), Interruption> {
-        let mut done = 0;
-        while done < steps {
-            let several = self.pace.steps(steps - done);
-            let started = Instant::now();
-            let context = StepContext { step: context.step + done, ..*context };
-            let outcome = self
-                .several(several, &context)
-                .map_err(|error| Interruption { done, fault: Fault::Engine(failure(&error)) })?;
-            if let Some((step, fault)) = outcome {
-                return Err(Interruption { done: done + step.saturating_sub(context.step), fault });
-            }
-            self.pace.learn(several, started);
-            done += several;
-        }
-        Ok(())
-    }
-
-    fn several(
-        &mut self,
-        steps: u64,
-        context: &StepContext<'_>,
-    ) -> Result<Option<(u64, Fault)>, DeviceError> {
-        self.prepare(context)?;
-        let mut recorder = self.device.recorder();
-        for done in 0..steps {
-            for index in 0..self.programs.len() {
-                if !self.programs[index].process.is_due(context.step + done) {
-                    continue;
-                }
-                self.record(&mut recorder, index)?;
-                if self.pace.apart() {
-                    let recorded = std::mem::replace(&mut recorder, self.device.recorder());
-                    self.device.submit(recorded)?;
-                    self.device.wait()?;
-                }
-            }
-            let parts = [self.groups.journals().into(), self.groups.faults().into()];
-            let journals = self.model.groups().len() + 1;
-            self.services.run(&self.device, &mut recorder, ADVANCE, (&[], &parts), journals)?;
-        }
-        self.step = self.step.map(|step| step + steps);
-        self.finish(recorder, steps)
-    }
-
-    /// Records a process with all that follows from it.
-    fn record(&mut self, recorder: &mut Recorder, index: usize) -> Result<(), DeviceError> {
         let program = &mut self.programs[index];
         let (device, model) = (&self.device, &self.model);
         let selecting = self.activity.as_mut().filter(|activity| activity.is_looking());
@@ -297,7 +243,7 @@ impl GpuExecution {
         for (bindings, workgroups) in dispatches {
             recorder.run(&bindings, workgroups);
             if self.stamps.contains_key(&(index, Cause::Reported)) {
-                // After each part: so that it is the first part with a fault whose records are kept.
+                // After each section: so that it is the first section with a fault whose records are kept.
                 seal(
                     device,
                     recorder,
@@ -314,7 +260,7 @@ impl GpuExecution {
             if let Some(population) = group.and_then(|group| self.groups.population_mut(group)) {
                 population.swap();
             }
-            return Ok(());
+            return Ok(true);
         }
         let doubled: Vec<SubstateId> = program.doubled(model).collect();
         let written: Vec<SubstateId> = program.written(model).collect();
@@ -325,8 +271,11 @@ impl GpuExecution {
             if self.looked_at.contains(&substate) {
                 self.halo.fill(device, recorder, &mut self.services, self.groups.plane(substate))?;
             }
+            if let Some(edges) = &mut self.edges {
+                edges.changed(substate);
+            }
         }
-        Ok(())
+        Ok(true)
     }
 
     /// Records a migration. Afterwards its population has to be swapped.
@@ -345,9 +294,8 @@ impl GpuExecution {
         migration.settle(device, recorder, services, (&self.groups, &self.halo))
     }
 
-    /// Submits what was recorded, waits for it, and reads the journals. What stopped the run comes with the
-    /// number of its step.
-    fn finish(&mut self, mut recorder: Recorder, steps: u64) -> Result<Option<(u64, Fault)>, DeviceError> {
+    /// Submits what was recorded, waits for it, and reads the journals. Tells what stopped the run.
+    fn finish(&mut self, mut recorder: Recorder, steps: u64) -> Result<Option<Stop>, DeviceError> {
         recorder.land(self.groups.journals(), 0, &self.landing);
         if let (Some(note), Some(landing)) = (self.groups.ended_early(), &self.ended_early) {
             recorder.land(note, 0, landing);
@@ -380,7 +328,7 @@ impl GpuExecution {
         let process = (journal[6] - 1) as usize;
         let details = [journal[11], journal[12], journal[13], journal[14]];
         let fault = self.fault(process, journal[7], journal[10], details)?;
-        Ok(Some((long(journal[8], journal[9]), fault)))
+        Ok(Some(Stop { step: long(journal[8], journal[9]), process, at: journal[10], fault }))
     }
 
     /// An error where the device has ended a loop early.
@@ -426,9 +374,4 @@ fn seal(
 
 fn long(low: u32, high: u32) -> u64 {
     u64::from(high) << 32 | u64::from(low)
-}
-
-/// What the host hears of an error of the device.
-pub(crate) fn failure(error: &DeviceError) -> EngineFailure {
-    EngineFailure::Broken { engine: "gpu".to_owned(), reason: error.to_string() }
 }

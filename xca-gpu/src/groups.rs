@@ -3,7 +3,7 @@
 use crate::device::{Binding, Buffer, Device, DeviceError, UNTOUCHED};
 use crate::plane::Plane;
 use crate::population::Population;
-use crate::space::Part;
+use crate::space::Section;
 use xca_core::engine::SubstateId;
 
 /// The substates of one struct.
@@ -115,12 +115,12 @@ impl Groups {
         &self,
         substate: SubstateId,
         results: bool,
-        part: Option<&Part>,
+        section: Option<&Section>,
     ) -> Option<Binding> {
         let plane = self.plane(substate);
         let buffer = if results { plane.next() } else { plane.now() };
-        Some(match part.filter(|_| self.of_cells(substate)) {
-            Some(part) => plane.part(buffer, part),
+        Some(match section.filter(|_| self.of_cells(substate)) {
+            Some(section) => plane.section(buffer, section),
             None => buffer.into(),
         })
     }

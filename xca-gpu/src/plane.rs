@@ -1,7 +1,7 @@
 //! The values of a substate in the device's memory.
 
 use crate::device::{Binding, Buffer, Device, DeviceError};
-use crate::space::{HaloCell, Part, Shown, Space};
+use crate::space::{HaloCell, Section, Shown, Space};
 use std::ops::Range;
 use xca_core::{Faces, StoredScalar, StoredType};
 
@@ -53,10 +53,10 @@ impl Plane {
         self.buffers.iter().map(|buffer| buffer.size() as usize).sum()
     }
 
-    /// Those values of a buffer of this plane that a part of the space needs.
-    pub(crate) fn part(&self, buffer: &Buffer, part: &Part) -> Binding {
+    /// Those values of a buffer of this plane that a section of the space needs.
+    pub(crate) fn section(&self, buffer: &Buffer, section: &Section) -> Binding {
         let size = self.size() as u64;
-        Binding::part(buffer, part.base as u64 * size, part.stored as u64 * size)
+        Binding::part(buffer, section.base as u64 * size, section.stored as u64 * size)
     }
 
     /// Writes the values of all items.
@@ -83,13 +83,15 @@ impl Plane {
         let values = widened(self.stored, values);
         let outside = outside.map(|bytes| widened(self.stored, bytes).into_owned());
         let mut stored = vec![0; space.stored() * size];
-        let row = space.geometry().extents()[0] * size;
+        let row = space.extents()[0] * size;
         for (number, values) in values.chunks_exact(row).enumerate() {
             let start = space.row_start(number) * size;
             stored[start..start + row].copy_from_slice(values);
         }
         for HaloCell { number, shows } in halo {
             match shows {
+                // Arrives from another part before it is seen.
+                Shown::Elsewhere => {}
                 Shown::Cell(source) => stored.copy_within(source * size..(source + 1) * size, number * size),
                 Shown::Outside(face) => {
                     stored[number * size..(number + 1) * size].copy_from_slice(&outside[*face]);
@@ -102,7 +104,7 @@ impl Plane {
     /// The values of all cells.
     pub(crate) fn read_space(&self, device: &Device, space: &Space) -> Result<Vec<u8>, DeviceError> {
         let size = self.size();
-        let row = space.geometry().extents()[0] * size;
+        let row = space.extents()[0] * size;
         let mut values = Vec::with_capacity(space.rows() * row);
         let stored = device.download(self.now(), 0..(space.stored() * size) as u64)?;
         for number in 0..space.rows() {

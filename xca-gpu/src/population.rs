@@ -2,7 +2,7 @@
 
 use crate::device::{Binding, Buffer, Device, DeviceError};
 use crate::plane::Plane;
-use crate::space::{HaloCell, Part, Shown, Space};
+use crate::space::{HaloCell, Section, Shown, Space};
 use xca_core::engine::Population as Items;
 use xca_core::{Field, StoredType};
 use xca_wgsl::Content;
@@ -100,7 +100,8 @@ impl Population {
         for HaloCell { number, shows } in halo {
             (starts[*number], ends[*number]) = match shows {
                 Shown::Cell(source) => (starts[*source], ends[*source]),
-                Shown::Outside(_) => (0, 0),
+                // There are no other parts where there are items.
+                Shown::Outside(_) | Shown::Elsewhere => (0, 0),
             };
         }
         device.upload(&self.starts, 0, bytemuck::cast_slice(&starts))?;
@@ -151,11 +152,11 @@ impl Population {
     }
 
     /// What a process is bound to.
-    pub(crate) fn binding(&self, content: &Content, part: Option<&Part>) -> Option<Binding> {
-        let ranges = |buffer: &Buffer| match part {
-            Some(part) => {
+    pub(crate) fn binding(&self, content: &Content, section: Option<&Section>) -> Option<Binding> {
+        let ranges = |buffer: &Buffer| match section {
+            Some(section) => {
                 let size = size_of::<u32>();
-                Binding::part(buffer, (part.base * size) as u64, (part.stored * size) as u64)
+                Binding::part(buffer, (section.base * size) as u64, (section.stored * size) as u64)
             }
             None => buffer.into(),
         };

@@ -4,7 +4,7 @@ use crate::device::{Access, Binding, Bindings, Buffer, Code, Corrections, Device
 use crate::error::NotOnDevice;
 use crate::groups::{Group, Groups};
 use crate::service;
-use crate::space::{Part, Space};
+use crate::space::{Section, Space};
 use crate::values;
 use std::collections::HashMap;
 use std::num::NonZeroU32;
@@ -34,7 +34,7 @@ pub(crate) struct Program {
     pub(crate) shader: Shader,
     pipeline: Arc<Pipeline>,
     parameters: Vec<Parameters>,
-    /// The description of the space for each part.
+    /// The description of the space for each section.
     spaces: Option<(Layout, Vec<Buffer>)>,
     offsets: Option<Buffer>,
     directions: Option<Buffer>,
@@ -102,7 +102,7 @@ pub(crate) fn workgroup_size([width, height, _]: [usize; 3], workgroup: u32) -> 
 /// Along the axes, unless one of them has too many workgroups for a dispatch.
 fn numbering(device: &Device, space: &Space, manner: Manner) -> Numbering {
     let size = workgroup_size(space.geometry().extents(), manner.workgroup);
-    let longest = space.parts().iter().flat_map(|part| part.workgroups(size)).max();
+    let longest = space.sections().iter().flat_map(|section| section.workgroups(size)).max();
     if longest > Some(device.most_workgroups()) { Numbering::Row } else { Numbering::Axes }
 }
 
@@ -165,7 +165,7 @@ impl Program {
                 }
                 Content::Space(layout) => {
                     let zeros = vec![0; layout.size as usize];
-                    let buffers = space.parts().iter().map(|_| device.uniform("space", &zeros));
+                    let buffers = space.sections().iter().map(|_| device.uniform("space", &zeros));
                     spaces = Some((layout.clone(), buffers.collect::<Result<_, _>>()?));
                 }
                 Content::NeighbourOffsets => {
@@ -259,15 +259,15 @@ impl Program {
         precision: Precision,
     ) -> Result<(), DeviceError> {
         let Some((layout, buffers)) = &self.spaces else { return Ok(()) };
-        space.parts().iter().zip(buffers).try_for_each(|(part, buffer)| {
-            // Items are not bound part by part: their cells have the numbers of the whole space.
-            let whole = Part { base: 0, ..part.clone() };
-            let part = if self.process.kind == ProcessKind::Cells { part } else { &whole };
-            device.upload(buffer, 0, &values::space(layout, space, part, (seed, self.stream), precision))
+        space.sections().iter().zip(buffers).try_for_each(|(section, buffer)| {
+            // Items are not bound section by section: their cells have the numbers of the whole space.
+            let whole = Section { base: 0, ..section.clone() };
+            let section = if self.process.kind == ProcessKind::Cells { section } else { &whole };
+            device.upload(buffer, 0, &values::space(layout, space, section, (seed, self.stream), precision))
         })
     }
 
-    /// The runs of the process: for each part of the space one, or one for all items.
+    /// The runs of the process: for each section of the space one, or one for all items.
     pub(crate) fn dispatches(
         &mut self,
         device: &Device,
@@ -282,17 +282,17 @@ impl Program {
                 let parts = self.buffers(model, groups, 0, None);
                 Ok(vec![(self.bind(device, parts)?, workgroups)])
             }
-            Dispatch::Cells(size) => (0..space.parts().len())
+            Dispatch::Cells(size) => (0..space.sections().len())
                 .map(|number| {
-                    let part = &space.parts()[number];
-                    let along = part.workgroups(size);
+                    let section = &space.sections()[number];
+                    let along = section.workgroups(size);
                     let workgroups = match self.shader.numbering {
                         Numbering::Axes => along,
                         Numbering::Row | Numbering::List => {
                             service::workgroups(device, along.iter().map(|count| *count as usize).product())
                         }
                     };
-                    let parts = self.buffers(model, groups, number, Some(part));
+                    let parts = self.buffers(model, groups, number, Some(section));
                     Ok((self.bind(device, parts)?, workgroups))
                 })
                 .collect(),
@@ -312,7 +312,7 @@ impl Program {
         space: &Space,
         groups: &Groups,
     ) -> Result<Bindings, DeviceError> {
-        let parts = self.buffers(model, groups, 0, space.parts().first());
+        let parts = self.buffers(model, groups, 0, space.sections().first());
         self.bind(device, parts)
     }
 
@@ -332,7 +332,13 @@ impl Program {
     }
 
     /// The buffers in the order of their numbers.
-    fn buffers(&self, model: &Model, groups: &Groups, number: usize, part: Option<&Part>) -> Vec<Binding> {
+    fn buffers(
+        &self,
+        model: &Model,
+        groups: &Groups,
+        number: usize,
+        section: Option<&Section>,
+    ) -> Vec<Binding> {
         let population = self.population(model);
         let bindings = self.shader.bindings.iter();
         bindings
@@ -351,11 +357,11 @@ impl Program {
                 Content::Activity => self.notes.clone(),
                 Content::Substate { argument, field, state, .. } => {
                     let id = self.substate(model, *argument, *field)?;
-                    groups.substate(id, *state == State::After, part)
+                    groups.substate(id, *state == State::After, section)
                 }
                 content => match groups.group(population?) {
                     Group::Cells(_) => None,
-                    Group::Population(population) => population.binding(content, part),
+                    Group::Population(population) => population.binding(content, section),
                 },
             })
             .chain(groups.ended_early().map(Binding::from))

@@ -1,26 +1,32 @@
-//! Where cells lie in the device's memory: rows along x with a halo around the space, cut into parts that a
-//! process can reach at once.
+//! Where cells lie in the device's memory: rows along x with a halo around the space, or around the own part
+//! of it, cut into sections that a process can reach at once.
+//!
+//! Cells have their indices in the whole space everywhere.
 
+use std::ops::Range;
+use xca_core::engine::Part;
 use xca_core::{Boundary, Face, Geometry, Reached};
 
-/// Where the stored cells of a part begin is a multiple of this, so that each substate of theirs begins where
-/// a binding may.
+/// Where the stored cells of a section begin is a multiple of this, so that each substate of theirs begins
+/// where a binding may.
 const ALIGNMENT: usize = 64;
 
 /// The stored space.
 #[derive(Debug, Clone)]
 pub(crate) struct Space {
     geometry: Geometry,
+    /// The part of the space whose cells are stored.
+    part: Part,
     reach: [usize; 3],
     /// The stored cells from one row to the next, and from one layer to the next.
     row: usize,
     layer: usize,
-    parts: Vec<Part>,
+    sections: Vec<Section>,
 }
 
 /// Cells that are worked on together.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Part {
+pub(crate) struct Section {
     /// The indices of the first.
     pub(crate) first: [usize; 3],
     /// How many along each axis.
@@ -31,7 +37,7 @@ pub(crate) struct Part {
     pub(crate) stored: usize,
 }
 
-impl Part {
+impl Section {
     /// The workgroups of this size along each axis that cover its cells.
     pub(crate) fn workgroups(&self, size: [u32; 3]) -> [u32; 3] {
         std::array::from_fn(|axis| (self.count[axis] as u32).div_ceil(size[axis]))
@@ -49,13 +55,15 @@ pub(crate) struct HaloCell {
 /// What a cell of the halo shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Shown {
-    /// The cell of the space with this stored number.
+    /// The own cell with this stored number.
     Cell(usize),
+    /// A cell of another part.
+    Elsewhere,
     /// What lies beyond a flat face.
     Outside(Face),
 }
 
-/// A space that cannot be cut so that its parts can be reached.
+/// A space that cannot be cut so that its sections can be reached.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct TooLarge {
     /// The stored cells that would have to be reached at once.
@@ -63,9 +71,9 @@ pub(crate) struct TooLarge {
 }
 
 impl Space {
-    /// Lays the cells out; at most so many stored cells can be reached at once.
-    pub(crate) fn new(geometry: &Geometry, reachable: u64) -> Result<Self, TooLarge> {
-        let (extents, reach) = (geometry.extents(), geometry.neighbourhood().reach());
+    /// Lays the cells of a part out; at most so many stored cells can be reached at once.
+    pub(crate) fn new(geometry: &Geometry, part: &Part, reachable: u64) -> Result<Self, TooLarge> {
+        let (extents, reach) = (part.extents(geometry), geometry.neighbourhood().reach());
         let padded: [usize; 3] = std::array::from_fn(|axis| extents[axis] + 2 * reach[axis]);
         let product = |row: usize, layers: usize| row as u128 * padded[1] as u128 * layers as u128;
         // Cells are numbered in 32 bits, and their distances with a sign.
@@ -75,13 +83,15 @@ impl Space {
         }
         let mut space = Self {
             geometry: geometry.clone(),
+            part: part.clone(),
             reach,
             row: padded[0],
             layer: padded[0] * padded[1],
-            parts: Vec::new(),
+            sections: Vec::new(),
         };
         if product(padded[0], padded[2]) <= u128::from(reachable) {
-            space.parts = vec![Part { first: [0; 3], count: extents, base: 0, stored: space.stored() }];
+            let (first, stored) = (space.origin(), space.stored());
+            space.sections = vec![Section { first, count: extents, base: 0, stored }];
             return Ok(space);
         }
         // Layers are cut apart, or where there is but one, rows.
@@ -96,34 +106,59 @@ impl Space {
         if most <= around {
             return Err(TooLarge { wanted: (step * (around + 1)) as u128 });
         }
-        space.parts = (0..extents[axis])
+        space.sections = (0..extents[axis])
             .step_by(most - around)
             .map(|start| {
-                let (mut first, mut count) = ([0; 3], extents);
-                first[axis] = start;
+                let (mut first, mut count) = (space.origin(), extents);
+                first[axis] += start;
                 count[axis] = (most - around).min(extents[axis] - start);
-                Part { first, count, base: start * step, stored: (count[axis] + around) * step }
+                Section { first, count, base: start * step, stored: (count[axis] + around) * step }
             })
             .collect();
         Ok(space)
     }
 
+    /// The whole space.
     pub(crate) fn geometry(&self) -> &Geometry {
         &self.geometry
+    }
+
+    /// The part of the space whose cells are stored.
+    pub(crate) fn part(&self) -> &Part {
+        &self.part
+    }
+
+    /// The number of cells along each axis, without those of other parts.
+    pub(crate) fn extents(&self) -> [usize; 3] {
+        self.part.extents(&self.geometry)
+    }
+
+    /// The first cell.
+    fn origin(&self) -> [usize; 3] {
+        [0, self.part.y.start, self.part.z.start]
+    }
+
+    /// How many stored cells would come before the first stored one, if those of the whole space were stored
+    /// in the same way. Shaders compute with it modulo 2^32.
+    pub(crate) fn shift(&self) -> u32 {
+        let [_, y, z] = self.origin();
+        (y as u32).wrapping_mul(self.row as u32).wrapping_add((z as u32).wrapping_mul(self.layer as u32))
     }
 
     pub(crate) fn reach(&self) -> [usize; 3] {
         self.reach
     }
 
-    /// The parts, in the order of cells.
-    pub(crate) fn parts(&self) -> &[Part] {
-        &self.parts
+    /// The sections, in the order of cells.
+    pub(crate) fn sections(&self) -> &[Section] {
+        &self.sections
     }
 
-    /// The part that a cell lies in.
-    pub(crate) fn part_of(&self, cell: [usize; 3]) -> Option<&Part> {
-        self.parts.iter().find(|part| (0..3).all(|axis| cell[axis] < part.first[axis] + part.count[axis]))
+    /// The section that a cell lies in.
+    pub(crate) fn section_of(&self, cell: [usize; 3]) -> Option<&Section> {
+        self.sections
+            .iter()
+            .find(|section| (0..3).all(|axis| cell[axis] < section.first[axis] + section.count[axis]))
     }
 
     /// The number of stored cells from one row to the next.
@@ -138,30 +173,33 @@ impl Space {
 
     /// The number of stored cells.
     pub(crate) fn stored(&self) -> usize {
-        self.layer * (self.geometry.extents()[2] + 2 * self.reach[2])
+        self.layer * (self.part.z.len() + 2 * self.reach[2])
     }
 
-    /// The number of rows of the space.
+    /// The number of rows of cells.
     pub(crate) fn rows(&self) -> usize {
-        self.geometry.extents()[1] * self.geometry.extents()[2]
+        self.part.y.len() * self.part.z.len()
     }
 
     /// The stored number of the first cell of a row.
     pub(crate) fn row_start(&self, row: usize) -> usize {
-        let height = self.geometry.extents()[1];
-        self.number([0, row % height, row / height])
+        let height = self.part.y.len();
+        self.number([0, self.part.y.start + row % height, self.part.z.start + row / height])
     }
 
     /// The stored number of a cell.
-    pub(crate) fn number(&self, [x, y, z]: [usize; 3]) -> usize {
-        x + self.reach[0] + (y + self.reach[1]) * self.row + (z + self.reach[2]) * self.layer
+    pub(crate) fn number(&self, cell: [usize; 3]) -> usize {
+        let origin = self.origin();
+        let [x, y, z] = std::array::from_fn(|axis| cell[axis] + self.reach[axis] - origin[axis]);
+        x + y * self.row + z * self.layer
     }
 
     /// The cell with this stored number, which is no halo cell.
     pub(crate) fn cell(&self, number: usize) -> [usize; 3] {
         let rest = number % self.layer;
         let padded = [rest % self.row, rest / self.row, number / self.layer];
-        std::array::from_fn(|axis| padded[axis].saturating_sub(self.reach[axis]))
+        let origin = self.origin();
+        std::array::from_fn(|axis| (padded[axis] + origin[axis]).saturating_sub(self.reach[axis]))
     }
 
     /// The distances of the neighbours in stored cells, for cells in even and in odd rows or columns.
@@ -190,15 +228,15 @@ impl Space {
 
     /// The cells of the halo.
     pub(crate) fn halo(&self) -> Vec<HaloCell> {
-        let extents = self.geometry.extents();
-        let range = |axis: usize| -(self.reach[axis] as i64)..(extents[axis] + self.reach[axis]) as i64;
+        let extents = self.extents();
         let [width, height, depth] = extents.map(|extent| extent as i64);
+        let [x_range, y_range, z_range] = [0, 1, 2].map(|axis| self.padded(axis));
         let mut halo = Vec::new();
-        for z in range(2) {
-            for y in range(1) {
-                let of_space = (0..height).contains(&y) && (0..depth).contains(&z);
-                let inner = if of_space { 0..width } else { 0..0 };
-                for x in (range(0).start..inner.start).chain(inner.end..range(0).end) {
+        for z in z_range {
+            for y in y_range.clone() {
+                let is_own = (0..height).contains(&y) && (0..depth).contains(&z);
+                let inner = if is_own { 0..width } else { 0..0 };
+                for x in (x_range.start..inner.start).chain(inner.end..x_range.end) {
                     halo.push(HaloCell { number: self.halo_number([x, y, z]), shows: self.shown([x, y, z]) });
                 }
             }
@@ -206,22 +244,58 @@ impl Space {
         halo
     }
 
+    /// The indices along an axis from the first own cell, with those of the halo.
+    fn padded(&self, axis: usize) -> Range<i64> {
+        let reach = self.reach[axis] as i64;
+        -reach..self.extents()[axis] as i64 + reach
+    }
+
+    /// The stored number of a cell from its indices from the first own cell.
     fn halo_number(&self, at: [i64; 3]) -> usize {
         let [x, y, z]: [i64; 3] = std::array::from_fn(|axis| at[axis] + self.reach[axis] as i64);
         (x + y * self.row as i64 + z * self.layer as i64) as usize
     }
 
-    /// What stands at these indices by the boundary rules.
+    /// What stands at these indices from the first own cell, by the boundary rules.
     fn shown(&self, at: [i64; 3]) -> Shown {
-        let extents = self.geometry.extents();
-        // From the nearest cell of the space the rest of the way is a displacement.
+        let (extents, origin) = (self.extents(), self.origin());
+        // From the nearest own cell the rest of the way is a displacement.
         let nearest: [usize; 3] =
             std::array::from_fn(|axis| at[axis].clamp(0, extents[axis] as i64 - 1) as usize);
         let displacement = std::array::from_fn(|axis| (at[axis] - nearest[axis] as i64) as i32);
+        let nearest = std::array::from_fn(|axis| nearest[axis] + origin[axis]);
         match self.geometry.reach(nearest, displacement) {
+            Reached::Cell([_, y, z]) if !(self.part.y.contains(&y) && self.part.z.contains(&z)) => {
+                Shown::Elsewhere
+            }
             Reached::Cell(cell) => Shown::Cell(self.number(cell)),
             Reached::Outside(face) => Shown::Outside(face),
         }
+    }
+
+    /// The stored numbers of the cells that the part beyond a face sees, and of those that are seen there, in
+    /// the same order. Whole lines with their ends beyond x; those along z include what has arrived along y,
+    /// so corners need no messages of their own.
+    pub(crate) fn edges(&self, face: Face) -> [Vec<usize>; 2] {
+        let axis = face.axis();
+        let (reach, extent) = (self.reach[axis] as i64, self.extents()[axis] as i64);
+        let is_low = face == Face::ALONG[axis][0];
+        let own = if is_low { 0..reach } else { extent - reach..extent };
+        let beyond = if is_low { -reach..0 } else { extent..extent + reach };
+        let borders = self.part.borders(&self.geometry);
+        [own, beyond].map(|rows| {
+            let [y_range, z_range] = if axis == 2 {
+                [self.padded(1), rows]
+            } else {
+                // Layers beyond a border arrive later, along z.
+                let [below, above] =
+                    Face::ALONG[2].map(|face| if borders[face] { self.reach[2] as i64 } else { 0 });
+                let padded = self.padded(2);
+                [rows, padded.start + below..padded.end - above]
+            };
+            let lines = z_range.flat_map(|z| y_range.clone().map(move |y| [y, z]));
+            lines.flat_map(|[y, z]| self.padded(0).map(move |x| self.halo_number([x, y, z]))).collect()
+        })
     }
 
     /// Whether what lies in the halo follows what lies in the space.
@@ -232,70 +306,4 @@ impl Space {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::{ALIGNMENT, Geometry, Space, TooLarge};
-    use xca_core::{Boundary, Model, Neighbourhood, Substates};
-
-    #[derive(Substates, Clone, Copy)]
-    struct Grey {
-        level: u8,
-    }
-
-    fn geometry(extents: [usize; 3], neighbourhood: Neighbourhood) -> Geometry {
-        let model = Model::builder("grey")
-            .extents(extents)
-            .neighbourhood(neighbourhood)
-            .boundary(Boundary::Toroidal)
-            .substates::<Grey>()
-            .build();
-        model.unwrap().geometry().clone()
-    }
-
-    #[test]
-    fn what_fits_is_one_part() {
-        let space = Space::new(&geometry([5, 4, 3], Neighbourhood::moore(1)), 7 * 6 * 5).unwrap();
-        assert_eq!(space.parts().len(), 1);
-        assert_eq!((space.row(), space.layer(), space.stored()), (7, 42, 210));
-    }
-
-    /// Each cell lies in one part, with all its neighbours in what is stored of the part.
-    #[test]
-    fn parts_hold_their_cells_with_their_neighbours() {
-        for (extents, neighbourhood, reachable) in [
-            ([5, 4, 9], Neighbourhood::moore(1), 300),
-            ([5, 5, 9], Neighbourhood::von_neumann(2), 800),
-            ([70, 30, 1], Neighbourhood::moore_2d(1), 600),
-        ] {
-            let geometry = geometry(extents, neighbourhood);
-            let space = Space::new(&geometry, reachable).unwrap();
-            assert!(space.parts().len() > 1);
-            let mut seen = 0;
-            for linear in 0..geometry.cells() {
-                let cell = geometry.indices(linear);
-                let part = space.part_of(cell).unwrap();
-                assert!((0..3).all(|axis| cell[axis] >= part.first[axis]));
-                seen += 1;
-                let number = space.number(cell);
-                assert_eq!(space.cell(number), cell);
-                for offset in space.offsets() {
-                    let there = (number as i64 + i64::from(offset)) as usize;
-                    assert!((part.base..part.base + part.stored).contains(&there));
-                }
-            }
-            assert_eq!(
-                seen,
-                space.parts().iter().map(|part| part.count.iter().product::<usize>()).sum::<usize>()
-            );
-            for part in space.parts() {
-                assert!(part.stored as u64 <= reachable && part.base + part.stored <= space.stored());
-                assert_eq!(part.base % ALIGNMENT, 0);
-            }
-        }
-    }
-
-    #[test]
-    fn what_cannot_be_cut_is_refused() {
-        let geometry = geometry([50, 40, 9], Neighbourhood::moore(1));
-        assert_eq!(Space::new(&geometry, 2000).unwrap_err(), TooLarge { wanted: 3 * 2240 });
-    }
-}
+mod tests;

@@ -31,12 +31,13 @@ impl GpuExecution {
             Dispatch::Items(size) => u64::from(at / size),
             Dispatch::Cells(size) => {
                 let cell = self.space.geometry().indices(at as usize);
-                let part = self.space.part_of(cell);
+                let section = self.space.section_of(cell);
                 let [x, y, z] = std::array::from_fn(|axis| {
-                    let first = part.map_or(0, |part| part.first[axis]);
+                    let first = section.map_or(0, |section| section.first[axis]);
                     (cell[axis] - first) as u64 / u64::from(size[axis])
                 });
-                let [width, height, _] = part.map_or([1; 3], |part| part.workgroups(size)).map(u64::from);
+                let [width, height, _] =
+                    section.map_or([1; 3], |section| section.workgroups(size)).map(u64::from);
                 (z * height + y) * width + x
             }
         };

@@ -1,6 +1,6 @@
 //! Bytes of the structs that processes read.
 
-use crate::space::{Part, Space};
+use crate::space::{Section, Space};
 use xca_core::{AnyParameters, Precision, StoredScalar, Stream};
 use xca_wgsl::Layout;
 
@@ -34,7 +34,7 @@ fn real(value: f64, precision: Precision) -> Vec<u8> {
 pub(crate) fn space(
     layout: &Layout,
     space: &Space,
-    part: &Part,
+    section: &Section,
     (seed, stream): (u64, Stream),
     precision: Precision,
 ) -> Vec<u8> {
@@ -46,9 +46,9 @@ pub(crate) fn space(
         "halo" => narrow(space.reach()),
         "row" => words(&[space.row() as u32]),
         "layer" => words(&[space.layer() as u32]),
-        "first" => narrow(part.first),
-        "count" => narrow(part.count),
-        "base" => words(&[part.base as u32]),
+        "first" => narrow(section.first),
+        "count" => narrow(section.count),
+        "base" => words(&[space.shift().wrapping_add(section.base as u32)]),
         "seed" => words(&[seed as u32, (seed >> 32) as u32]),
         "stream" => words(&[stream.number().into()]),
         "side" => real(geometry.side(), precision),

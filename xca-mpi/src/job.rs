@@ -2,11 +2,13 @@
 
 use crate::attendant::Attendant;
 use crate::mailbox::Mailbox;
+use crate::opened::Opened;
 use crate::order::{Beginning, Order};
 use crate::place::Place;
 use crate::ranks::{Ranks, Shared};
 use crate::tag::{Kind, number};
 use crate::wire::Wire;
+use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
@@ -14,8 +16,8 @@ use std::thread;
 use xca_core::{Engine, Model, Precision};
 use xca_parts::{Grid, decline};
 
-/// Makes the engine of a part, with so many threads.
-pub type PartEngine<'a> = dyn Fn(usize) -> Result<Box<dyn Engine>, String> + 'a;
+/// Makes the engine of a part, which a word names, for a process at this place.
+pub type PartEngine<'a> = dyn Fn(&str, &Place) -> Result<Box<dyn Engine>, String> + 'a;
 
 /// The processes that a launcher has started together. The last clone of the process of rank 0 ends them all.
 #[derive(Debug, Clone)]
@@ -55,7 +57,7 @@ impl Job {
         let mut places = vec![place];
         if rank == 0 {
             // A process that says nothing sensible is found by its greeting, before anything runs.
-            let unknown = Place { machine: "unknown".to_owned(), threads: 1, is_bound: false };
+            let unknown = Place { machine: "unknown".to_owned(), number: 0, threads: 1, is_bound: false };
             let place =
                 |from| mailbox.receive(from, 0, Kind::Place).and_then(|bytes| Place::from_bytes(&bytes));
             places.extend((1..size).map(|from| place(from).unwrap_or_else(|| unknown.clone())));
@@ -83,10 +85,26 @@ impl Job {
         &self.0.places
     }
 
+    /// Has all others make the engines of their parts, and tells of these.
+    pub(crate) fn open(&self, part: &str) -> Result<Vec<Opened>, String> {
+        self.0.order(&Order::Open(part.to_owned()));
+        let replies: Vec<_> = (1..self.size()).map(|from| (from, self.opened(from))).collect();
+        let told = |(rank, opened): (usize, Result<Opened, String>)| {
+            opened.map_err(|reason| format!("rank {rank} ({}): {reason}", self.places()[rank].machine))
+        };
+        replies.into_iter().map(told).collect()
+    }
+
+    fn opened(&self, from: usize) -> Result<Opened, String> {
+        let bytes = self.0.mailbox.receive(from, 0, Kind::Opened).ok_or("it has ended")?;
+        Opened::from_bytes(&bytes)
+    }
+
     /// Has all others start their parts of a model; gives the way to them.
-    pub(crate) fn start(&self, precision: Precision, grid: Grid, threads: Option<usize>) -> Ranks {
+    pub(crate) fn start(&self, precision: Precision, grid: Grid, part: &str) -> Ranks {
         let execution = self.0.next.fetch_add(1, Ordering::Relaxed);
-        self.0.order(&Order::Start(Beginning { execution, precision, grid, threads }));
+        let part = part.to_owned();
+        self.0.order(&Order::Start(Beginning { execution, precision, grid, part }));
         Ranks::new(self.0.mailbox.clone(), execution)
     }
 
@@ -112,23 +130,39 @@ impl Job {
         engine: &PartEngine<'_>,
         model: &mut dyn FnMut(Precision) -> Result<Model, String>,
     ) -> Result<(), ServeError> {
+        let mut engines: HashMap<String, Arc<dyn Engine>> = HashMap::new();
         thread::scope(|scope| {
             loop {
                 let order = self.0.mailbox.receive(0, 0, Kind::Order);
                 let order = order.and_then(|bytes| Order::from_bytes(&bytes)).ok_or(ServeError::Garbled)?;
-                let Order::Start(beginning) = order else {
-                    self.0.stopped.store(true, Ordering::Relaxed);
-                    return Ok(());
+                let beginning = match order {
+                    Order::Stop => {
+                        self.0.stopped.store(true, Ordering::Relaxed);
+                        return Ok(());
+                    }
+                    Order::Open(part) => {
+                        let reply = match engine(&part, &self.places()[0]) {
+                            Ok(engine) => {
+                                let opened = Opened::new(&*engine);
+                                engines.insert(part, Arc::from(engine));
+                                opened.bytes()
+                            }
+                            Err(reason) => Opened::declined(&reason),
+                        };
+                        self.0.mailbox.lock().send(0, number(0, Kind::Opened), &reply);
+                        continue;
+                    }
+                    Order::Start(beginning) => beginning,
                 };
-                let Beginning { execution, precision, grid, threads } = beginning;
+                let Beginning { execution, precision, grid, part } = beginning;
                 let ranks = Ranks::new(self.0.mailbox.clone(), execution);
-                let threads = threads.or(self.places().first().map(|place| place.threads)).unwrap_or(1);
-                match engine(threads).and_then(|engine| Ok((engine, model(precision)?))) {
+                let engine = engines.get(&part).cloned().ok_or_else(|| format!("no engine `{part}` is open"));
+                match engine.and_then(|engine| Ok((engine, model(precision)?))) {
                     Err(reason) => decline(&reason, Box::new(ranks)),
                     // Several executions can be there at the same time.
                     Ok((engine, model)) => {
                         scope.spawn(move || {
-                            xca_parts::serve(Arc::from(engine), &model, precision, grid, Box::new(ranks));
+                            xca_parts::serve(engine, &model, precision, grid, Box::new(ranks));
                         });
                     }
                 }

@@ -15,6 +15,7 @@ mod job;
 #[cfg(feature = "mpi")]
 mod library;
 mod mailbox;
+mod opened;
 mod order;
 mod place;
 mod ranks;

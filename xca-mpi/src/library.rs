@@ -13,6 +13,7 @@ pub struct Library {
     rank: usize,
     size: usize,
     on_this_machine: usize,
+    number_on_this_machine: usize,
     machine: String,
     /// Ends MPI when it is dropped.
     _universe: Universe,
@@ -54,6 +55,7 @@ impl Library {
             rank: world.rank() as usize,
             size: world.size() as usize,
             on_this_machine: machine.size() as usize,
+            number_on_this_machine: machine.rank() as usize,
             machine: environment::processor_name().unwrap_or_else(|_| "unknown".to_owned()),
             _universe: universe,
         })
@@ -77,6 +79,10 @@ impl Wire for Library {
 
     fn on_this_machine(&self) -> usize {
         self.on_this_machine
+    }
+
+    fn number_on_this_machine(&self) -> usize {
+        self.number_on_this_machine
     }
 
     fn machine(&self) -> String {

@@ -136,6 +136,10 @@ pub(crate) mod tests {
             self.to.len()
         }
 
+        fn number_on_this_machine(&self) -> usize {
+            self.rank % 2
+        }
+
         fn machine(&self) -> String {
             format!("machine {}", self.rank / 2)
         }

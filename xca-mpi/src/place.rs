@@ -8,6 +8,8 @@ use std::num::NonZeroUsize;
 pub struct Place {
     /// The name of its machine.
     pub machine: String,
+    /// Its number among the processes on its machine, from 0.
+    pub number: usize,
     /// The number of threads of its part where none is chosen: its share of the cores, or those that the
     /// launcher binds it to.
     pub threads: usize,
@@ -21,26 +23,29 @@ impl Place {
         let usable = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
         let online = std::fs::read_to_string("/sys/devices/system/cpu/online");
         let all = online.ok().and_then(|text| cores(&text)).unwrap_or(usable);
-        Self::among(wire.machine(), usable, all, wire.on_this_machine())
+        let number = wire.number_on_this_machine();
+        Self::among(wire.machine(), (number, wire.on_this_machine()), usable, all)
     }
 
-    fn among(machine: String, usable: usize, all: usize, processes: usize) -> Self {
+    fn among(machine: String, (number, processes): (usize, usize), usable: usize, all: usize) -> Self {
         let share = (all / processes.max(1)).max(1);
         // Bound processes have cores of their own; others share what there is.
         let threads = if usable < all { usable } else { share };
-        Self { machine, threads, is_bound: usable < share }
+        Self { machine, number, threads, is_bound: usable < share }
     }
 
     pub(crate) fn bytes(&self) -> Vec<u8> {
-        format!("{} {} {}", self.threads, u8::from(self.is_bound), self.machine).into_bytes()
+        let is_bound = u8::from(self.is_bound);
+        format!("{} {} {is_bound} {}", self.number, self.threads, self.machine).into_bytes()
     }
 
     /// Nothing where the bytes are not those of a place.
     pub(crate) fn from_bytes(bytes: &[u8]) -> Option<Self> {
-        let mut words = str::from_utf8(bytes).ok()?.splitn(3, ' ');
+        let mut words = str::from_utf8(bytes).ok()?.splitn(4, ' ');
+        let number = words.next()?.parse().ok()?;
         let threads = words.next()?.parse().ok()?;
         let is_bound = words.next()? == "1";
-        Some(Self { machine: words.next()?.to_owned(), threads, is_bound })
+        Some(Self { machine: words.next()?.to_owned(), number, threads, is_bound })
     }
 }
 
@@ -63,7 +68,7 @@ mod tests {
         assert_eq!(cores("0-3,8-11,15\n"), Some(9));
         assert_eq!((cores("0\n"), cores(""), cores("3-1"), cores("x")), (Some(1), None, None, None));
         let threads = |usable, all, processes| {
-            let place = Place::among("a b".to_owned(), usable, all, processes);
+            let place = Place::among("a b".to_owned(), (1, processes), usable, all);
             assert_eq!(Place::from_bytes(&place.bytes()), Some(place.clone()));
             (place.threads, place.is_bound)
         };

@@ -20,6 +20,8 @@ pub(crate) enum Kind {
     Order,
     /// Where a process is.
     Place,
+    /// What a process says of the engine of its part.
+    Opened,
 }
 
 /// The number of a kind of message in an execution.
@@ -39,6 +41,7 @@ pub(crate) fn number(execution: u32, kind: Kind) -> i32 {
             Face::Bottom => 10,
             Face::Top => 11,
         },
+        Kind::Opened => 12,
     };
     // At most 2^24, which each MPI library takes in practice.
     (execution % EXECUTIONS * EACH) as i32 + kind
@@ -54,7 +57,8 @@ mod tests {
     #[test]
     fn each_kind_in_each_execution_has_its_number() {
         let parts = [Tag::Command, Tag::Reply, Tag::Least].into_iter().chain(Face::ALL.map(Tag::Edge));
-        let kinds: Vec<Kind> = parts.map(Kind::Part).chain([Kind::Ended, Kind::Order, Kind::Place]).collect();
+        let kinds: Vec<Kind> =
+            parts.map(Kind::Part).chain([Kind::Ended, Kind::Order, Kind::Place, Kind::Opened]).collect();
         let all = |execution: u32| kinds.iter().map(move |kind| number(execution, *kind));
         let numbers: BTreeSet<i32> = [0, 1, 2, (1 << 20) - 1].into_iter().flat_map(all).collect();
         assert_eq!(numbers.len(), 4 * kinds.len());

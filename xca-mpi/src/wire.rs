@@ -13,6 +13,9 @@ pub trait Wire: Send {
     /// The number of processes on this machine, this one included.
     fn on_this_machine(&self) -> usize;
 
+    /// The number of this process among those on this machine, from 0.
+    fn number_on_this_machine(&self) -> usize;
+
     /// The name of this machine.
     fn machine(&self) -> String;
 

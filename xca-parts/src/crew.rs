@@ -27,7 +27,7 @@ impl Crew {
     ) -> Result<Self, StartError> {
         let link = Link::new(transport);
         let other = |reason: String| StartError::Other { engine: NAME.to_owned(), reason };
-        greet(shared, &link).map_err(|reason| {
+        greet(shared, engine.name(), &link).map_err(|reason| {
             link.lock().end();
             other(reason)
         })?;
@@ -100,8 +100,8 @@ impl Crew {
 }
 
 /// Receives the greetings of the other parts. They start in the meantime.
-fn greet(shared: &Shared, link: &Link) -> Result<(), String> {
-    let own = Greeting::new(shared);
+fn greet(shared: &Shared, engine: &str, link: &Link) -> Result<(), String> {
+    let own = Greeting::new(shared, engine);
     let count = link.lock().count();
     (1..count).try_for_each(|part| {
         let said = link.lock().receive(part, Tag::Reply).map_err(|error| error.to_string())?;

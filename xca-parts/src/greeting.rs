@@ -1,4 +1,5 @@
-//! The first message of each part: its version, model and cut. The host detects parts that do not match.
+//! The first message of each part: its version, engine, model and cut. The host detects parts that do not
+//! match.
 
 use crate::shared::Shared;
 use std::fmt::{Debug, Write as _};
@@ -15,7 +16,7 @@ pub(crate) struct Greeting {
 const DECLINED: &str = "declined";
 
 impl Greeting {
-    pub(crate) fn new(shared: &Shared) -> Self {
+    pub(crate) fn new(shared: &Shared, engine: &str) -> Self {
         let Shared { model, precision, cut } = shared;
         let byte_order = if cfg!(target_endian = "little") { "little-endian" } else { "big-endian" };
         let geometry = model.geometry();
@@ -24,6 +25,8 @@ impl Greeting {
         let facts = [
             ("version", env!("CARGO_PKG_VERSION").to_owned()),
             ("byte order", byte_order.to_owned()),
+            // Each engine has its own messages between parts.
+            ("engine", engine.to_owned()),
             ("precision", precision.to_string()),
             ("model", model.name().to_owned()),
             ("space", checksum(&space)),

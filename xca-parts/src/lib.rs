@@ -80,9 +80,9 @@ impl Parts {
         Self::on(vec![Arc::new(engine)], Number::Grid(grid))
     }
 
-    /// The same engines, which run the parts of a grid in turns.
-    pub fn in_grid(self, grid: Grid) -> Self {
-        Self { number: Number::Grid(grid), ..self }
+    /// The same engines, which run the parts of a grid in turns. `None` leaves the number of parts.
+    pub fn in_grid(self, grid: impl Into<Option<Grid>>) -> Self {
+        Self { number: grid.into().map_or(self.number, Number::Grid), ..self }
     }
 
     /// When the bounds of parts follow the work. The results are the same for each balance.
@@ -138,13 +138,14 @@ impl Engine for Parts {
         let mut facts = vec![("parts", parts)];
         if let Some(engine) = self.engines.first() {
             facts.push(("part_engine", engine.name().to_owned()));
-            facts.extend(engine.facts());
+            let all: Vec<_> = self.engines.iter().map(|engine| engine.facts()).collect();
+            facts.extend(facts_of_parts(&all));
         }
         facts
     }
 
     fn note(&self) -> Option<String> {
-        self.engines.first()?.note()
+        self.engines.iter().find_map(|engine| engine.note())
     }
 
     fn least_memory(&self, model: &Model, precision: Precision) -> u128 {
@@ -164,6 +165,33 @@ impl Engine for Parts {
         }
         Ok(Box::new(Host::start(self.engine(0)?, shared, self.balance, Box::new(own), threads)?))
     }
+}
+
+/// The facts of the engines of parts, in the order of parts: each once if it is the same in all, else one for
+/// each part.
+pub fn facts_of_parts(all: &[Vec<(&'static str, String)>]) -> Vec<(&'static str, String)> {
+    let Some(first) = all.first() else { return Vec::new() };
+    let mut names: Vec<&'static str> = Vec::new();
+    for (name, _) in all.iter().flatten() {
+        if !names.contains(name) {
+            names.push(name);
+        }
+    }
+    let value = |facts: &[(&'static str, String)], name| {
+        facts.iter().find(|(other, _)| *other == name).map(|(_, value)| value.clone())
+    };
+    let merged = |name| {
+        let own = value(first, name);
+        if all.iter().all(|facts| value(facts, name) == own) {
+            return own.unwrap_or_default();
+        }
+        let each = all
+            .iter()
+            .enumerate()
+            .filter_map(|(part, facts)| Some(format!("{part}: {}", value(facts, name)?)));
+        each.collect::<Vec<_>>().join("; ")
+    };
+    names.into_iter().map(|name| (name, merged(name))).collect()
 }
 
 fn other(reason: &str) -> StartError {

@@ -194,7 +194,7 @@ pub(crate) fn serve(engine: Arc<dyn Engine>, shared: &Shared, transport: Box<dyn
         let bytes = encode(reply).or_else(|reason| encode(&Reply::Failed { reason })).unwrap_or_default();
         link.lock().send(0, Tag::Reply, bytes)
     };
-    if link.lock().send(0, Tag::Reply, Greeting::new(shared).bytes()).is_err() {
+    if link.lock().send(0, Tag::Reply, Greeting::new(shared, engine.name()).bytes()).is_err() {
         return;
     }
     let mut worker = match Worker::start(engine, shared, link.clone()) {

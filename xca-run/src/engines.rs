@@ -5,6 +5,7 @@ mod gpu;
 mod kind;
 mod mpi;
 mod options;
+mod part;
 mod parts;
 mod reference;
 mod word;

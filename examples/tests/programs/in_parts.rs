@@ -43,7 +43,7 @@ fn what_parts_cannot_do_is_refused() {
             "`2x` is not a grid of parts; write two whole numbers from 1, such as 2x3",
         ),
         ("run --engine parts:1x2:cpu:1", "cannot be cut into 1 parts along y and 2 along z"),
-        ("run --engine parts:2:gpu", "a part runs on the cpu engine, not on `gpu`"),
+        ("run --engine parts:2:mpi", "a part runs on the cpu or the gpu engine, not on `mpi`"),
         ("run --engine parts:2:cpu --threads 3", "--threads is for --engine cpu, not for the parts engine"),
         ("run --engine cpu:2 --threads 3", "--threads is given twice"),
         ("run --parts 3", "unexpected argument '--parts'"),

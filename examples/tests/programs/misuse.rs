@@ -30,8 +30,8 @@ fn names_that_no_one_knows() {
         (
             CADEM,
             "--engine abacus",
-            "unknown engine `abacus`; there are cpu[:N], gpu[:N|NAME], mpi:cpu[:THREADS], \
-             parts:N:cpu[:THREADS], reference",
+            "unknown engine `abacus`; there are cpu[:N], gpu[:N|NAME], mpi:cpu[:THREADS]|gpu[:NAME], \
+             parts:N:cpu[:THREADS]|gpu[:NAME], reference",
         ),
         (
             HEAT,

@@ -54,6 +54,17 @@ fn model(boundary: Boundary, fuses: &'static [Fuse]) -> Result<Model, ModelError
         .build()
 }
 
+const CASES: [&[Fuse]; 7] = [
+    &[(0, 3)],
+    &[(11, 16)],
+    &[(5, 17), (0, 17)],
+    // The later fault is seen first by the parts beside it.
+    &[(0, 14), (11, 11)],
+    &[(0, 20), (6, 19), (11, 21)],
+    &[(2, 33), (3, 32), (9, 32)],
+    &[(11, 5), (0, 6), (4, 7)],
+];
+
 /// A run with a fault, a second one from its beginning without faults, and a third one with them.
 fn outcome(model: &Model, engine: &dyn Engine) -> Result<[String; 3], Box<dyn Error>> {
     let mut simulation = Simulation::new(model, engine, RunOptions::default())?;
@@ -74,16 +85,6 @@ fn outcome(model: &Model, engine: &dyn Engine) -> Result<[String; 3], Box<dyn Er
 /// after it is left over for later steps.
 #[test]
 fn the_first_fault_of_parts_far_from_each_other() -> TestResult {
-    const CASES: [&[Fuse]; 7] = [
-        &[(0, 3)],
-        &[(11, 16)],
-        &[(5, 17), (0, 17)],
-        // The later fault is seen first by the parts beside it.
-        &[(0, 14), (11, 11)],
-        &[(0, 20), (6, 19), (11, 21)],
-        &[(2, 33), (3, 32), (9, 32)],
-        &[(11, 5), (0, 6), (4, 7)],
-    ];
     for (number, fuses) in CASES.into_iter().enumerate() {
         for boundary in [Boundary::Flat, Boundary::Toroidal] {
             let model = model(boundary, fuses)?;
@@ -95,6 +96,21 @@ fn the_first_fault_of_parts_far_from_each_other() -> TestResult {
                     assert_eq!(outcome(&model, &parts)?, wanted, "{fuses:?} {boundary} {parts:?}");
                 }
             }
+        }
+    }
+    Ok(())
+}
+
+/// The same on GPUs.
+#[test]
+fn the_first_fault_of_parts_on_gpus() -> TestResult {
+    let gpu = xca_tests::suite::engines::gpu()?;
+    for fuses in CASES {
+        let model = model(Boundary::Toroidal, fuses)?;
+        let wanted = outcome(&model, &Reference)?;
+        for parts in [2, 3] {
+            let parts = Parts::new(gpu.clone(), count(parts)?);
+            assert_eq!(outcome(&model, &parts)?, wanted, "{fuses:?} {parts:?}");
         }
     }
     Ok(())

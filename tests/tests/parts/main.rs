@@ -3,6 +3,7 @@
 mod borders;
 mod faults;
 mod flows;
+mod gpu;
 mod greetings;
 mod items;
 mod lists;
@@ -50,7 +51,11 @@ const STEPS: u64 = 18;
 
 /// What is seen after each step, some of which are done twice, and after a last leap.
 fn run(model: &Model, engine: &dyn Engine) -> Result<Vec<Seen>, Box<dyn Error>> {
-    let options = RunOptions { precision: Precision::F32, seed: 7 };
+    run_in(model, engine, Precision::F32)
+}
+
+fn run_in(model: &Model, engine: &dyn Engine, precision: Precision) -> Result<Vec<Seen>, Box<dyn Error>> {
+    let options = RunOptions { precision, seed: 7 };
     let mut simulation = Simulation::new(model, engine, options)?;
     let last = model.geometry().extents().map(|extent| extent - 1);
     let mut seen: Vec<Seen> = Vec::new();
@@ -229,6 +234,7 @@ fn the_first_fault_of_all_parts() -> TestResult {
         &[([1, 3, 0], 5)],
         &[([4, 0, 0], 6)],
     ];
+    let gpu = xca_tests::suite::engines::gpu()?;
     for weights in CASES {
         let model = loads(weights)?;
         let outcome = |engine: &dyn Engine| -> Result<_, Box<dyn Error>> {
@@ -245,6 +251,8 @@ fn the_first_fault_of_all_parts() -> TestResult {
                 assert_eq!(outcome(&engine)?, wanted, "{weights:?} in {parts} parts");
             }
         }
+        let engine = Parts::new(gpu.clone(), count(2)?);
+        assert_eq!(outcome(&engine)?, wanted, "{weights:?} in parts on a GPU");
     }
     Ok(())
 }

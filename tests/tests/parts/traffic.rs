@@ -4,6 +4,7 @@ use crate::{TestResult, cpu};
 use std::collections::BTreeMap;
 use xca_core::prelude::*;
 use xca_parts::{Balance, Grid, Parts};
+use xca_tests::suite::engines::gpu;
 
 #[derive(Substates, Clone, Copy, Debug, PartialEq)]
 struct Plate {
@@ -28,7 +29,7 @@ const LINE: u64 = (30 + 2) * 8;
 const STEPS: u64 = 19;
 
 /// The figures of all parts after some steps.
-fn figures(boundary: Boundary, grid: Grid) -> Result<BTreeMap<String, f64>, Box<dyn std::error::Error>> {
+fn figures(boundary: Boundary, parts: &Parts) -> Result<BTreeMap<String, f64>, Box<dyn std::error::Error>> {
     let model = Model::builder("plate")
         .extents([30, 8, 1])
         .neighbourhood(Neighbourhood::von_neumann_2d(1))
@@ -37,8 +38,7 @@ fn figures(boundary: Boundary, grid: Grid) -> Result<BTreeMap<String, f64>, Box<
         .process(spread)
         .build()?;
     let options = RunOptions { precision: Precision::F64, seed: 0 };
-    let mut simulation =
-        Simulation::new(&model, &Parts::with_grid(cpu(1, 0)?, grid).with_balance(Balance::NEVER), options)?;
+    let mut simulation = Simulation::new(&model, parts, options)?;
     simulation.run(STEPS)?;
     Ok(simulation.figures().into_iter().map(|figure| (figure.name, figure.value)).collect())
 }
@@ -52,8 +52,12 @@ fn messages_are_those_of_the_edges() -> TestResult {
         (Boundary::Flat, 3, vec![1, 2, 1]),
         (Boundary::Flat, 1, vec![0]),
     ] {
-        let figures = figures(boundary, Grid { y: parts, z: 1 })?;
-        for (part, faces) in neighbours.into_iter().enumerate() {
+        let grid = Grid { y: parts, z: 1 };
+        let on_cpu = figures(boundary, &Parts::with_grid(cpu(1, 0)?, grid).with_balance(Balance::NEVER))?;
+        let on_gpu = figures(boundary, &Parts::with_grid(gpu()?, grid))?;
+        for ((part, faces), figures) in
+            neighbours.into_iter().enumerate().flat_map(|part| [(part, &on_cpu), (part, &on_gpu)])
+        {
             let figure = |name: &str| figures[&format!("part_{part}_{name}")];
             // Each step sends the warmth of the line at each face.
             assert_eq!(figure("messages_sent"), (STEPS * faces) as f64, "{boundary} {parts}");

@@ -71,12 +71,16 @@ pub enum AdapterChoice {
     Number(usize),
     /// The first whose name contains this text, in any case.
     Name(String),
+    /// For the part of a space with this number on its machine: the best adapter and those of its kind and
+    /// interface, in turns.
+    Turn(usize),
 }
 
 impl From<&str> for AdapterChoice {
-    /// A number, or a part of a name.
+    /// A number, `turn` with a number, or a part of a name.
     fn from(text: &str) -> Self {
-        text.parse().map_or_else(|_| Self::Name(text.to_owned()), Self::Number)
+        let turn = text.strip_prefix("turn ").and_then(|number| number.parse().ok()).map(Self::Turn);
+        turn.unwrap_or_else(|| text.parse().map_or_else(|_| Self::Name(text.to_owned()), Self::Number))
     }
 }
 
@@ -134,8 +138,18 @@ pub(super) fn all() -> Vec<(wgpu::Adapter, Adapter)> {
 impl AdapterChoice {
     /// The number of the adapter that is meant.
     pub(super) fn of(&self, adapters: &[Adapter]) -> Option<usize> {
+        let best = adapters.iter().min_by_key(|adapter| (adapter.rank(), adapter.number));
         match self {
-            Self::Best => adapters.iter().min_by_key(|adapter| (adapter.rank(), adapter.number)),
+            Self::Best => best,
+            Self::Turn(number) => {
+                let alike = |adapter: &&Adapter| {
+                    best.is_some_and(|best| {
+                        (adapter.kind, &adapter.interface) == (best.kind, &best.interface)
+                    })
+                };
+                let alike: Vec<&Adapter> = adapters.iter().filter(alike).collect();
+                number.checked_rem(alike.len()).map(|turn| alike[turn])
+            }
             Self::Number(number) => adapters.iter().find(|adapter| adapter.number == *number),
             Self::Name(name) => {
                 let wanted = name.to_lowercase();
@@ -152,6 +166,7 @@ impl fmt::Display for AdapterChoice {
             Self::Best => f.write_str("any"),
             Self::Number(number) => write!(f, "number {number}"),
             Self::Name(name) => write!(f, "`{name}`"),
+            Self::Turn(number) => write!(f, "turn {number}"),
         }
     }
 }
@@ -188,5 +203,25 @@ mod tests {
         assert_eq!(AdapterChoice::from("3").of(&adapters), None);
         assert_eq!(AdapterChoice::from("radeon").of(&adapters), None);
         assert_eq!(AdapterChoice::Best.of(&adapters[..1]), Some(0));
+    }
+
+    #[test]
+    fn parts_take_the_best_adapters_in_turns() {
+        let mut adapters = [
+            adapter(0, "llvmpipe", AdapterKind::Processor),
+            adapter(1, "GeForce", AdapterKind::Discrete),
+            adapter(2, "Intel Graphics", AdapterKind::Integrated),
+            adapter(3, "GeForce", AdapterKind::Discrete),
+            adapter(4, "GeForce", AdapterKind::Discrete),
+        ];
+        // The same card by another interface.
+        adapters[4].interface = "dx12".to_owned();
+        let turns = |adapters: &[Adapter]| {
+            [0, 1, 2, 3].map(|part| AdapterChoice::from(&*format!("turn {part}")).of(adapters))
+        };
+        assert_eq!(turns(&adapters), [1, 3, 1, 3].map(Some));
+        assert_eq!(turns(&adapters[..1]), [Some(0); 4]);
+        assert_eq!(turns(&[]), [None; 4]);
+        assert_eq!(AdapterChoice::from("turn"), AdapterChoice::Name("turn".to_owned()));
     }
 }

@@ -5,7 +5,7 @@
 /// result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Handicap {
-    /// The most bytes of a buffer in a binding. Larger substates of cells are worked on in parts; larger
+    /// The most bytes of a buffer in a binding. Larger substates of cells are worked on in sections; larger
     /// buffers of other kinds are bound in pieces.
     pub reach: Option<u64>,
     /// The most invocations of a workgroup.

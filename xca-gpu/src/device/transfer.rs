@@ -87,7 +87,12 @@ impl Device {
 
     /// Waits for the device, and gives what has landed.
     pub(crate) fn landed(&self, landing: &Landing) -> Result<Vec<u8>, DeviceError> {
-        let slice = landing.buffer.slice(..);
+        self.landed_before(landing, landing.buffer.size())
+    }
+
+    /// Waits for the device, and gives so many of the bytes that have landed, a multiple of four.
+    pub(crate) fn landed_before(&self, landing: &Landing, end: u64) -> Result<Vec<u8>, DeviceError> {
+        let slice = landing.buffer.slice(..end);
         // The wait below tells whether it went wrong.
         self.guarded("a download", || slice.map_async(wgpu::MapMode::Read, |_| ()))?;
         self.wait()?;
@@ -110,5 +115,10 @@ impl Recorder {
     /// Has bytes of a buffer land, as many as there is room for.
     pub(crate) fn land(&mut self, buffer: &Buffer, start: u64, landing: &Landing) {
         self.copy(buffer, start, &landing.buffer, 0..landing.buffer.size());
+    }
+
+    /// Has the first bytes of a buffer land at this place.
+    pub(crate) fn land_at(&mut self, buffer: &Buffer, landing: &Landing, place: Range<u64>) {
+        self.copy(buffer, 0, &landing.buffer, place);
     }
 }

@@ -6,9 +6,9 @@ use crate::groups::{Group, Groups};
 use crate::plane::{Plane, size_on_device};
 use crate::population::Population;
 use crate::program::{Manner, Program};
-use crate::space::{Part, Space};
+use crate::space::{Section, Space};
 use std::collections::HashSet;
-use xca_core::engine::SubstateId;
+use xca_core::engine::{Part, SubstateId};
 use xca_core::model::GroupKind;
 use xca_core::{Model, ProcessKind, StoredScalar};
 use xca_wgsl::{Content, Dispatch};
@@ -41,13 +41,14 @@ pub(super) fn check_types(model: &Model, manner: Manner, device: &Device) -> Res
     Ok(())
 }
 
-/// The space, cut so that the largest substate of cells can be reached.
-pub(super) fn space_of(model: &Model, manner: Manner) -> Result<Space, NotOnDevice> {
+/// The space, or a part of it, cut so that the largest substate of cells can be reached.
+pub(super) fn space_of(model: &Model, part: Option<Part>, manner: Manner) -> Result<Space, NotOnDevice> {
     let of_cells = model.groups().iter().filter(|group| matches!(group.kind(), GroupKind::Cells { .. }));
     let sizes = of_cells.flat_map(|group| group.stored(manner.precision)).map(size_on_device);
     let largest = sizes.max().unwrap_or(4);
     let most = manner.reach;
-    Space::new(model.geometry(), most / largest as u64).map_err(|too_large| NotOnDevice::TooLarge {
+    let part = part.unwrap_or_else(|| Part::whole(model.geometry()));
+    Space::new(model.geometry(), &part, most / largest as u64).map_err(|too_large| NotOnDevice::TooLarge {
         what: "a substate with its neighbours".to_owned(),
         wanted: too_large.wanted * largest as u128,
         most,
@@ -98,8 +99,9 @@ pub(super) fn records(space: &Space, programs: &[Program], items: impl Fn(&Progr
         })?;
         let workgroups = match program.shader.dispatch {
             Dispatch::Cells(size) => {
-                let of_part = |part: &Part| part.workgroups(size).into_iter().map(u64::from).product();
-                space.parts().iter().map(of_part).max().unwrap_or(1)
+                let of_section =
+                    |section: &Section| section.workgroups(size).into_iter().map(u64::from).product();
+                space.sections().iter().map(of_section).max().unwrap_or(1)
             }
             Dispatch::Items(size) => (items(program) as u64).div_ceil(u64::from(size)).max(1),
         };

@@ -3,8 +3,10 @@
 use super::Job;
 use crate::engine::Mpi;
 use crate::mailbox::tests::Threads;
+use crate::place::Place;
 use std::num::NonZeroU64;
 use std::thread;
+use xca_core::engine::{Execution, StartError};
 use xca_core::prelude::*;
 use xca_core::{Precision, Snapshot};
 use xca_cpu::Cpu;
@@ -36,7 +38,9 @@ fn life(width: usize) -> Model {
         .unwrap()
 }
 
-fn part(threads: usize) -> Result<Box<dyn Engine>, String> {
+/// The number of threads, or those of the place.
+fn part(word: &str, place: &Place) -> Result<Box<dyn Engine>, String> {
+    let threads = if word.is_empty() { place.threads } else { word.parse().map_err(|_| "no number")? };
     let cpu = Cpu::with_threads(threads).map_err(|error| error.to_string())?;
     Ok(Box::new(cpu))
 }
@@ -66,7 +70,7 @@ fn after(engine: &dyn Engine, steps: u64) -> Snapshot {
 fn processes_come_to_what_one_comes_to() {
     let wanted = after(&Reference, 25);
     for size in [1, 2, 3, 5] {
-        let got = hosted(size, |_| Ok(life(20)), |job| after(&Mpi::new(job, &part, Some(1)).unwrap(), 25));
+        let got = hosted(size, |_| Ok(life(20)), |job| after(&Mpi::new(job, &part, "1").unwrap(), 25));
         assert!(got == wanted, "{size} processes");
     }
 }
@@ -97,11 +101,8 @@ fn bounds_of_processes_follow_the_work() {
             size,
             |_| Ok(corner()),
             |job| {
-                let engine = Mpi::new(job, &part, Some(1)).unwrap().with_balance(balance);
-                run(&match grid {
-                    Some(grid) => engine.in_grid(grid),
-                    None => engine,
-                })
+                let engine = Mpi::new(job, &part, "1").unwrap().with_balance(balance);
+                run(&engine.in_grid(grid))
             },
         );
         assert!(got == wanted, "{size} processes");
@@ -116,7 +117,7 @@ fn a_grid_has_a_part_for_each_process() {
         2,
         |_| Ok(corner()),
         |job| {
-            let engine = |grid| Mpi::new(job.clone(), &part, Some(1)).unwrap().in_grid(grid);
+            let engine = |grid| Mpi::new(job.clone(), &part, "1").unwrap().in_grid(grid);
             for (grid, words) in [
                 (Grid { y: 3, z: 1 }, "3x1 are 3 parts, but the job has 2 processes"),
                 (Grid { y: 1, z: 2 }, "cannot be cut into 1 parts along y and 2 along z"),
@@ -137,7 +138,7 @@ fn several_executions_are_there_at_once() {
         3,
         |_| Ok(life(20)),
         |job| {
-            let [one, two] = [Some(1), Some(2)].map(|threads| Mpi::new(job.clone(), &part, threads).unwrap());
+            let [one, two] = ["1", "2"].map(|threads| Mpi::new(job.clone(), &part, threads).unwrap());
             let mut first = Simulation::new(&life(20), &one, RunOptions::default()).unwrap();
             let mut second = Simulation::new(&life(20), &two, RunOptions::default()).unwrap();
             for _ in 0..5 {
@@ -157,7 +158,7 @@ fn several_executions_are_there_at_once() {
 fn processes_that_cannot_begin_are_told_and_serve_on() {
     let said = |model: fn(Precision) -> Result<Model, String>| {
         hosted(3, model, |job| {
-            let engine = Mpi::new(job, &part, None).unwrap();
+            let engine = Mpi::new(job, &part, "").unwrap();
             let started = Simulation::new(&life(20), &engine, RunOptions::default());
             started.err().map(|error| error.to_string()).unwrap_or_default()
         })
@@ -174,7 +175,7 @@ fn the_host_knows_where_the_processes_are() {
         4,
         |_| Ok(life(20)),
         |job| {
-            let engine = Mpi::new(job, &part, Some(3)).unwrap();
+            let engine = Mpi::new(job, &part, "3").unwrap();
             assert_eq!((engine.name(), engine.threads()), ("mpi", 12));
             let facts = engine.facts();
             let ranks = "0: machine 0, 3 threads; 1: machine 0, 3 threads; 2: machine 1, 3 threads; \
@@ -182,4 +183,51 @@ fn the_host_knows_where_the_processes_are() {
             assert!(facts.contains(&("ranks", ranks.to_owned())), "{facts:?}");
         },
     );
+}
+
+/// An engine whose name says on which machine it is the how manieth.
+#[derive(Debug)]
+struct Card(usize);
+
+impl Engine for Card {
+    fn name(&self) -> &str {
+        "card"
+    }
+
+    fn threads(&self) -> usize {
+        1
+    }
+
+    fn facts(&self) -> Vec<(&'static str, String)> {
+        vec![("adapter", format!("card {}", self.0)), ("arithmetic", "strict".to_owned())]
+    }
+
+    fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {
+        Reference.start(model, precision)
+    }
+}
+
+/// What the host says of a job of four processes with this word.
+fn told(word: &str) -> Result<Vec<(&'static str, String)>, String> {
+    fn card(word: &str, place: &Place) -> Result<Box<dyn Engine>, String> {
+        let is_missing = word == "broken" && place.machine == "machine 1" && place.number == 1;
+        if is_missing { Err("no card\nis there".to_owned()) } else { Ok(Box::new(Card(place.number))) }
+    }
+    thread::scope(|scope| {
+        let mut wires = Threads::connect(4).into_iter();
+        let own = wires.next().unwrap();
+        for wire in wires {
+            scope.spawn(move || Job::new(wire).serve(&card, &mut |_| Ok(life(20))).unwrap());
+        }
+        Mpi::new(Job::new(own), &card, word).map(|engine| engine.facts())
+    })
+}
+
+#[test]
+fn the_host_knows_what_the_processes_run_on() {
+    let facts = told("sound").unwrap();
+    for wanted in [("adapter", "0: card 0; 1: card 1; 2: card 0; 3: card 1"), ("arithmetic", "strict")] {
+        assert!(facts.contains(&(wanted.0, wanted.1.to_owned())), "{facts:?}");
+    }
+    assert_eq!(told("broken").unwrap_err(), "rank 3 (machine 1): no card; is there");
 }

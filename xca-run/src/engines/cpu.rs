@@ -35,25 +35,9 @@ impl EngineKind for CpuKind {
     }
 
     fn make(&self, options: &EngineOptions) -> Result<Box<dyn Engine>, Failure> {
-        Ok(Box::new(engine(options.get(THREADS.name))?))
+        let threads = options.get(THREADS.name).map(threads).transpose()?;
+        Ok(Box::new(threads.map_or_else(Cpu::new, Cpu::with_threads)?))
     }
-}
-
-/// The engine with the threads that are chosen.
-pub(super) fn engine(chosen: Option<&str>) -> Result<Cpu, Failure> {
-    Ok(match chosen {
-        None => Cpu::new()?,
-        Some(number) => Cpu::with_threads(threads(number)?)?,
-    })
-}
-
-/// The threads of a part that runs on this engine, `cpu` or `cpu:2`, if they are chosen.
-pub(super) fn threads_of_part(text: &str) -> Result<Option<String>, String> {
-    let (engine, threads) = text.split_once(':').map_or((text, None), |(word, rest)| (word, Some(rest)));
-    if engine != "cpu" {
-        return Err(format!("a part runs on the cpu engine, not on `{engine}`"));
-    }
-    threads.map(|threads| (THREADS.check)(threads).map(|()| threads.to_owned())).transpose()
 }
 
 fn threads(text: &str) -> Result<usize, String> {

@@ -10,7 +10,7 @@ use xca_record::Failure;
 #[derive(Debug)]
 pub(super) struct GpuKind;
 
-const ADAPTER: EngineOption = EngineOption {
+pub(super) const ADAPTER: EngineOption = EngineOption {
     name: "adapter",
     value_name: "N|NAME",
     about: "Adapter of the gpu engine: its number or part of its name; `list` shows both [default: the best]",

@@ -1,9 +1,9 @@
 //! The engine whose parts are the processes of an MPI job. All that the command line knows of MPI is here,
 //! also of a program that was built without it.
 
-use super::cpu;
 use super::kind::{EngineDetail, EngineKind, Helper};
 use super::options::{EngineOption, EngineOptions};
+use super::part;
 use xca_core::Engine;
 use xca_parts::Grid;
 use xca_record::Failure;
@@ -16,15 +16,15 @@ pub(super) struct MpiKind {
 
 const PART: EngineOption = EngineOption {
     name: "mpi",
-    value_name: "cpu[:THREADS]",
-    about: "Engine of each process, and its threads",
+    value_name: "cpu[:THREADS]|gpu[:NAME]",
+    about: "Engine of each process, with its threads or its adapter",
     check: |text| Share::new(text).map(drop),
 };
 
 /// What runs each part, and the parts along the axes, if they are chosen.
 struct Share {
     grid: Option<Grid>,
-    threads: Option<String>,
+    part: String,
 }
 
 impl Share {
@@ -33,7 +33,8 @@ impl Share {
         let has_grid = text.starts_with(|first: char| first.is_ascii_digit());
         let (grid, part) = text.split_once(':').filter(|_| has_grid).unzip();
         let grid = grid.map(str::parse::<Grid>).transpose().map_err(|error| error.to_string())?;
-        Ok(Self { grid, threads: cpu::threads_of_part(part.unwrap_or(text))? })
+        let part = part.unwrap_or(text);
+        part::parse(part).map(|_| Self { grid, part: part.to_owned() })
     }
 }
 
@@ -71,14 +72,13 @@ impl EngineKind for MpiKind {
 /// With MPI.
 #[cfg(feature = "mpi")]
 mod built {
-    use super::Share;
+    use super::{Share, part};
     use crate::engines::kind::Helper;
     use crate::interrupt::Interrupt;
     use crate::launcher;
     use std::sync::OnceLock;
     use xca_core::{Engine, Model, Precision};
-    use xca_cpu::Cpu;
-    use xca_mpi::{Job, Library, Mpi, Wire as _};
+    use xca_mpi::{Job, Library, Mpi, Place, Wire as _};
     use xca_record::Failure;
 
     /// The job of this process, from when it is first needed.
@@ -96,11 +96,7 @@ mod built {
         }
 
         pub(super) fn engine(&self, share: &Share) -> Result<Box<dyn Engine>, Failure> {
-            let engine = Mpi::new(self.job()?, &part, share.threads.as_deref().map(str::parse).transpose()?)?;
-            Ok(Box::new(match share.grid {
-                Some(grid) => engine.in_grid(grid),
-                None => engine,
-            }))
+            Ok(Box::new(Mpi::new(self.job()?, &part, &share.part)?.in_grid(share.grid)))
         }
     }
 
@@ -116,9 +112,8 @@ mod built {
         Ok(Job::new(Box::new(library)))
     }
 
-    fn part(threads: usize) -> Result<Box<dyn Engine>, String> {
-        let engine = Cpu::with_threads(threads).map_err(|error| error.to_string())?;
-        Ok(Box::new(engine))
+    fn part(word: &str, place: &Place) -> Result<Box<dyn Engine>, String> {
+        part::engine(word, place.number, place.threads).map_err(|error| error.to_string())
     }
 
     /// A process that does what the host says.
@@ -128,8 +123,7 @@ mod built {
         fn help(&self, model: &mut dyn FnMut(Precision) -> Result<Model, Failure>) -> Result<(), Failure> {
             // The host ends the job; signals to this process do not.
             Interrupt::install()?;
-            let mut model = |precision| model(precision).map_err(|error| error.to_string());
-            Ok(self.0.serve(&part, &mut model)?)
+            Ok(self.0.serve(&part, &mut |precision| model(precision).map_err(|error| error.to_string()))?)
         }
     }
 }
@@ -138,8 +132,7 @@ mod built {
 #[cfg(not(feature = "mpi"))]
 mod built {
     use super::Share;
-    use crate::engines::MissingFeature;
-    use crate::engines::kind::Helper;
+    use crate::engines::kind::{Helper, MissingFeature};
     use xca_core::Engine;
     use xca_record::Failure;
 
@@ -154,7 +147,7 @@ mod built {
         }
 
         pub(super) fn engine(&self, share: &Share) -> Result<Box<dyn Engine>, Failure> {
-            let Share { grid: _grid, threads: _threads } = share;
+            let Share { grid: _grid, part: _part } = share;
             Err(MISSING.into())
         }
     }
@@ -166,17 +159,19 @@ mod tests {
 
     #[test]
     fn parts_along_the_axes_stand_before_what_runs_them() {
-        let share = |text: &str| Share::new(text).map(|Share { grid, threads }| (grid, threads));
-        assert_eq!(share("cpu"), Ok((None, None)));
-        assert_eq!(share("cpu:2"), Ok((None, Some("2".to_owned()))));
+        let share = |text: &str| Share::new(text).map(|Share { grid, part }| (grid, part));
+        let of = |grid, part: &str| Ok((grid, part.to_owned()));
+        assert_eq!(share("cpu"), of(None, "cpu"));
+        assert_eq!(share("cpu:2"), of(None, "cpu:2"));
+        assert_eq!(share("gpu:NVIDIA"), of(None, "gpu:NVIDIA"));
         let grid = Some(Grid { y: 2, z: 3 });
-        assert_eq!(share("2x3:cpu"), Ok((grid, None)));
-        assert_eq!(share("2x3:cpu:4"), Ok((grid, Some("4".to_owned()))));
+        assert_eq!(share("2x3:gpu"), of(grid, "gpu"));
+        assert_eq!(share("2x3:cpu:4"), of(grid, "cpu:4"));
         for (text, words) in [
             ("2:cpu", "`2` is not a grid of parts; write two whole numbers from 1, such as 2x3"),
             ("0x3:cpu", "`0x3` is not a grid"),
-            ("2x3:gpu", "a part runs on the cpu engine, not on `gpu`"),
-            ("2x3", "a part runs on the cpu engine, not on `2x3`"),
+            ("2x3:mpi", "a part runs on the cpu or the gpu engine, not on `mpi`"),
+            ("2x3", "a part runs on the cpu or the gpu engine, not on `2x3`"),
         ] {
             assert!(share(text).is_err_and(|error| error.contains(words)), "{text}");
         }

@@ -1,8 +1,8 @@
 //! The engine that shares a space among several.
 
-use super::cpu;
 use super::kind::{EngineDetail, EngineKind};
 use super::options::{EngineOption, EngineOptions};
+use super::part;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 use xca_core::Engine;
@@ -15,8 +15,8 @@ pub(super) struct PartsKind;
 
 const PARTS: EngineOption = EngineOption {
     name: "parts",
-    value_name: "N:cpu[:THREADS]",
-    about: "Number of parts, and the engine and threads of each",
+    value_name: "N:cpu[:THREADS]|gpu[:NAME]",
+    about: "Number of parts, and the engine of each, with its threads or its adapter",
     check: |text| Share::new(text).map(drop),
 };
 
@@ -26,7 +26,7 @@ impl EngineKind for PartsKind {
     }
 
     fn about(&self) -> &'static str {
-        "N parts of the space, each on a cpu engine; 2x3: along y and z"
+        "N parts of the space, each on an engine of its own; 2x3: along y and z"
     }
 
     fn detail(&self) -> Option<EngineDetail> {
@@ -39,17 +39,11 @@ impl EngineKind for PartsKind {
 
     fn make(&self, options: &EngineOptions) -> Result<Box<dyn Engine>, Failure> {
         let share = options.get(PARTS.name).ok_or("the number of parts is not given")?;
-        let Share { count, grid, threads } = Share::new(share)?;
-        let threads = threads.unwrap_or_else(|| {
-            let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-            (cores / count).max(1).to_string()
-        });
-        let engine = |_| Ok(Arc::new(cpu::engine(Some(&threads))?) as Arc<dyn Engine>);
+        let Share { count, grid, part } = Share::new(share)?;
+        let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+        let engine = |number| Ok(Arc::from(part::engine(&part, number, (cores / count).max(1))?));
         let parts = Parts::with_engines((0..count).map(engine).collect::<Result<_, Failure>>()?);
-        Ok(Box::new(match grid {
-            Some(grid) => parts.in_grid(grid),
-            None => parts,
-        }))
+        Ok(Box::new(parts.in_grid(grid)))
     }
 }
 
@@ -60,14 +54,13 @@ struct Share {
     count: usize,
     /// The parts along the axes, if they are chosen.
     grid: Option<Grid>,
-    /// The threads of each part, if they are chosen.
-    threads: Option<String>,
+    /// What runs each part.
+    part: String,
 }
 
 impl Share {
     fn new(text: &str) -> Result<Self, String> {
-        // Each part is a thread.
-        const MOST: usize = xca_cpu::Cpu::MOST_THREADS;
+        const MOST: usize = xca_cpu::Cpu::MOST_THREADS; // Each part is a thread.
         let (parts, rest) = text.split_once(':').map_or((text, None), |(parts, rest)| (parts, Some(rest)));
         let grid = Some(parts).filter(|parts| parts.contains('x')).map(str::parse::<Grid>).transpose();
         let grid = grid.map_err(|error| error.to_string())?;
@@ -75,8 +68,8 @@ impl Share {
         if !(1..=MOST).contains(&count) {
             return Err(format!("the number of parts must be a whole number from 1 to {MOST}"));
         }
-        let rest = rest.ok_or_else(|| format!("say what runs each part: parts:{parts}:cpu"))?;
-        Ok(Self { count, grid, threads: cpu::threads_of_part(rest)? })
+        let part = rest.ok_or_else(|| format!("say what runs each part: parts:{parts}:cpu"))?;
+        part::parse(part).map(|_| Self { count, grid, part: part.to_owned() })
     }
 }
 
@@ -89,10 +82,11 @@ mod tests {
     #[test]
     fn parts_are_named_with_what_runs_them() {
         let share = Share::new;
-        assert_eq!(share("7:cpu"), Ok(Share { count: 7, grid: None, threads: None }));
-        assert_eq!(share("2:cpu:5"), Ok(Share { count: 2, grid: None, threads: Some("5".to_owned()) }));
-        let grid = Some(Grid { y: 2, z: 3 });
-        assert_eq!(share("2x3:cpu"), Ok(Share { count: 6, grid, threads: None }));
+        let of = |count, grid, part: &str| Ok(Share { count, grid, part: part.to_owned() });
+        assert_eq!(share("7:cpu"), of(7, None, "cpu"));
+        assert_eq!(share("2:cpu:5"), of(2, None, "cpu:5"));
+        assert_eq!(share("2:gpu:llvm pipe"), of(2, None, "gpu:llvm pipe"));
+        assert_eq!(share("2x3:gpu"), of(6, Some(Grid { y: 2, z: 3 }), "gpu"));
         for (text, words) in [
             ("", "whole number from 1 to 1024"),
             ("0:cpu", "whole number from 1 to 1024"),
@@ -102,7 +96,7 @@ mod tests {
             ("2x:cpu", "`2x` is not a grid of parts"),
             ("2", "say what runs each part: parts:2:cpu"),
             ("2x3", "say what runs each part: parts:2x3:cpu"),
-            ("2:gpu", "not on `gpu`"),
+            ("2:mpi", "a part runs on the cpu or the gpu engine, not on `mpi`"),
             ("2:cpu:0", "must be at least 1"),
         ] {
             assert!(share(text).is_err_and(|error| error.contains(words)), "{text}");

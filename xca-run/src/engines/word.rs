@@ -132,7 +132,7 @@ mod tests {
             ("parts", "engine `parts`: write parts:N:cpu[:THREADS]"),
             ("parts:3", "say what runs each part: parts:3:cpu"),
             ("parts:0:cpu", "whole number from 1"),
-            ("parts:3:gpu", "a part runs on the cpu engine, not on `gpu`"),
+            ("parts:3:mpi", "a part runs on the cpu or the gpu engine, not on `mpi`"),
         ] {
             let said = words.parse(word).unwrap_err().to_string();
             assert!(said.contains(wanted), "{word}: {said}");

@@ -11,7 +11,7 @@ fn what_makes_no_sense_is_refused_once() {
         ("run --engine parts:2:cpu", "share it with --engine mpi:cpu, or start one process"),
         ("run --engine mpi", "engine `mpi`: write mpi:cpu[:THREADS]"),
         ("run --engine mpi:2x1:cpu", "2x1 are 2 parts, but the job has 3 processes"),
-        ("run --engine mpi:gpu", "a part runs on the cpu engine, not on `gpu`"),
+        ("run --engine mpi:parts", "a part runs on the cpu or the gpu engine, not on `parts`"),
         ("run --engine mpi:cpu --threads 2", "--threads is for --engine cpu, not for the mpi engine"),
         ("watch --engine mpi:cpu", "`watch` does not run on the mpi engine"),
         ("sweep --engine mpi:cpu", "`sweep` does not run on the mpi engine"),
