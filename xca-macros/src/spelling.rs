@@ -3,26 +3,17 @@
 
 mod chains;
 mod patterns;
+mod spelled;
 
 use chains::is_chain;
-use proc_macro2::Span;
-use quote::format_ident;
 use syn::visit_mut::VisitMut;
 use syn::{
-    Error, Expr, ExprClosure, ExprMethodCall, ExprReturn, Ident, ItemFn, Local, Pat, ReturnType, Stmt, Type,
+    Error, Expr, ExprClosure, ExprMethodCall, ExprReturn, ItemFn, Local, Pat, ReturnType, Stmt, Type,
     parse_quote,
 };
 
 pub(crate) use patterns::spell_out_matches;
-
-/// A function without iterators and names in patterns.
-pub(crate) struct Spelled {
-    pub(crate) function: ItemFn,
-    /// Names that may be references in Rust, and are values here.
-    pub(crate) references: Vec<Ident>,
-    pub(crate) errors: Vec<Error>,
-    in_closure: bool,
-}
+pub(crate) use spelled::{Spelled, is_constant, strip};
 
 /// Spells out a function.
 pub(crate) fn spell_out(function: &ItemFn) -> Spelled {
@@ -88,23 +79,4 @@ fn give_type(value: &mut Expr, type_: &Type) {
     {
         *turbofish = Some(parse_quote!(::<#type_>));
     }
-}
-
-/// Without parentheses and invisible groups.
-pub(crate) fn strip(expression: &Expr) -> &Expr {
-    match expression {
-        Expr::Paren(paren) => strip(&paren.expr),
-        Expr::Group(group) => strip(&group.expr),
-        other => other,
-    }
-}
-
-/// Whether the word is written as constants are.
-pub(crate) fn is_constant(name: &Ident) -> bool {
-    name.to_string().trim_start_matches('_').starts_with(char::is_uppercase)
-}
-
-/// A name that no name of the user can meet.
-fn hidden(name: &str) -> Ident {
-    format_ident!("__xca_{name}", span = Span::mixed_site())
 }

@@ -73,7 +73,7 @@ pub struct Ecology {
     #[parameter(range = 0.0..=1.0)]
     pub stride: Real,
     /// Places of each kind in a cell, on average.
-    #[parameter(range = 1..=1000)]
+    #[parameter(range = 1..=10_000)]
     pub places: u32,
 }
 

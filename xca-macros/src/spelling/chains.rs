@@ -1,7 +1,7 @@
 //! Iterators: loops over elements with their indices, and chains that end in a value, such as
 //! `(0..n).filter(|i| …).map(|i| …).sum::<Real>()`. A chain becomes a block with a loop.
 
-use super::{Spelled, hidden, strip};
+use super::spelled::{Spelled, hidden, strip};
 use proc_macro2::TokenStream;
 use quote::quote;
 use syn::{Error, Expr, ExprClosure, ExprForLoop, ExprMethodCall, Ident, Pat, Result, parse_quote};

@@ -1,6 +1,6 @@
 //! Names in the patterns of a `match`, and `matches!`.
 
-use super::{hidden, is_constant};
+use super::spelled::{hidden, is_constant};
 use syn::visit_mut::VisitMut;
 use syn::{Expr, ExprMatch, Ident, ItemFn, Macro, Pat, Result, Stmt, StmtMacro, Token, parse_quote};
 
