@@ -54,7 +54,7 @@ fn messages_are_those_of_the_edges() -> TestResult {
     ] {
         let grid = Grid { y: parts, z: 1 };
         let on_cpu = figures(boundary, &Parts::with_grid(cpu(1, 0)?, grid).with_balance(Balance::NEVER))?;
-        let on_gpu = figures(boundary, &Parts::with_grid(gpu()?, grid))?;
+        let on_gpu = figures(boundary, &Parts::with_grid(gpu()?, grid).with_balance(Balance::NEVER))?;
         for ((part, faces), figures) in
             neighbours.into_iter().enumerate().flat_map(|part| [(part, &on_cpu), (part, &on_gpu)])
         {
