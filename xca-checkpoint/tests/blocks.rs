@@ -53,7 +53,7 @@ const EXTENTS: [usize; 3] = [7, 6, 5];
 fn slope() -> Result<Model, ModelError> {
     Model::builder("slope")
         .extents(EXTENTS)
-        .neighbourhood(Neighbourhood::von_neumann(1))
+        .neighbourhood(Neighbourhood::moore(1))
         .boundary(Boundary::Toroidal)
         .substates::<Ground>()
         .population::<Stone>(8)
