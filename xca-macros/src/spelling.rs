@@ -7,10 +7,7 @@ mod spelled;
 
 use chains::is_chain;
 use syn::visit_mut::VisitMut;
-use syn::{
-    Error, Expr, ExprClosure, ExprMethodCall, ExprReturn, ItemFn, Local, Pat, ReturnType, Stmt, Type,
-    parse_quote,
-};
+use syn::{Error, Expr, ExprClosure, ExprMethodCall, ItemFn, Local, Pat, Stmt, Type, parse_quote};
 
 pub(crate) use patterns::spell_out_matches;
 pub(crate) use spelled::{Spelled, is_constant, strip};
@@ -21,7 +18,7 @@ pub(crate) fn spell_out(function: &ItemFn) -> Spelled {
         Spelled { function: function.clone(), references: Vec::new(), errors: Vec::new(), in_closure: false };
     let mut block = spelled.function.block.clone();
     // The type of `values.iter().sum()` at the end is that of the result.
-    if let (ReturnType::Type(_, type_), Some(Stmt::Expr(value, None))) =
+    if let (syn::ReturnType::Type(_, type_), Some(Stmt::Expr(value, None))) =
         (&function.sig.output, block.stmts.last_mut())
     {
         give_type(value, type_);
@@ -38,7 +35,7 @@ impl VisitMut for Spelled {
         self.in_closure = outside;
     }
 
-    fn visit_expr_return_mut(&mut self, return_: &mut ExprReturn) {
+    fn visit_expr_return_mut(&mut self, return_: &mut syn::ExprReturn) {
         // It would leave the whole function.
         if self.in_closure {
             self.errors.push(Error::new_spanned(return_, "a closure ends with its value, without `return`"));

@@ -7,7 +7,7 @@ use crate::ast::{ArgumentNumber, FunctionKind, Place, PlaceRoot, Projection, Sta
 use crate::spelling::strip;
 use proc_macro2::Span;
 use syn::spanned::Spanned;
-use syn::{BinOp, Error, Expr, Ident, Member, Result, UnOp};
+use syn::{BinOp, Error, Expr, ExprUnary, Ident, Member, Result, UnOp};
 
 impl Scope {
     pub(super) fn assignment(
@@ -64,14 +64,14 @@ impl Scope {
                     path.push(Projection::Element(self.expression(&index.index)?));
                     here = strip(&index.expr);
                 }
-                Expr::Unary(unary) if matches!(unary.op, UnOp::Deref(_)) => {
-                    return Err(Error::new_spanned(unary, WRITE_BY_INDEX));
-                }
                 other => {
-                    return Err(Error::new_spanned(
-                        other,
-                        "assign to a variable or to a substate of the own cell: `cell.substate = …`",
-                    ));
+                    let advice = match other {
+                        Expr::Unary(ExprUnary { op: UnOp::Deref(_), expr, .. }) if !self.is_subject(expr) => {
+                            WRITE_BY_INDEX
+                        }
+                        _ => "assign to a variable or to a substate of the own cell: `cell.substate = …`",
+                    };
+                    return Err(Error::new_spanned(other, advice));
                 }
             }
         }
