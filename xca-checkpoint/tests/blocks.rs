@@ -79,9 +79,12 @@ fn slope() -> Result<Model, ModelError> {
         .build()
 }
 
+/// Planes with their bytes.
+type PlaneBytes = Vec<(Plane, Vec<u8>)>;
+
 /// The planes of a simulation, read in blocks of up to so many bytes, and the largest block.
-fn planes(simulation: &Simulation, size: usize) -> Result<(Vec<(Plane, Vec<u8>)>, usize), RunError> {
-    let mut planes: Vec<(Plane, Vec<u8>)> = Vec::new();
+fn planes(simulation: &Simulation, size: usize) -> Result<(PlaneBytes, usize), RunError> {
+    let mut planes = PlaneBytes::new();
     let mut largest = 0;
     simulation.read_blocks(size, |plane, block| {
         largest = largest.max(block.len());

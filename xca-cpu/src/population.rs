@@ -138,7 +138,7 @@ impl Population {
                     self.counts(layout, row).for_each(|count| bytes.extend(count.to_ne_bytes()));
                 }
                 Plane::Labels(_) => {
-                    bytes.extend_from_slice(bytemuck::cast_slice(&self.items.labels[first..end]))
+                    bytes.extend_from_slice(bytemuck::cast_slice(&self.items.labels[first..end]));
                 }
                 Plane::Values(SubstateId { field, .. }) => {
                     let size = self.types[field].size();

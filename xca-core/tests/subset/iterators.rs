@@ -1,4 +1,11 @@
 //! Iterators over arrays and ranges, against the same functions run by Rust itself.
+#![allow(
+    clippy::manual_contains,
+    clippy::needless_range_loop,
+    clippy::redundant_guards,
+    clippy::suspicious_map,
+    reason = "these forms are what is tested"
+)]
 
 use crate::common::run;
 use xca_core::prelude::*;
