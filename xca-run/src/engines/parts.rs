@@ -26,7 +26,7 @@ impl EngineKind for PartsKind {
     }
 
     fn about(&self) -> &'static str {
-        "N parts of the space, each on an engine of its own; 2x3: along y and z"
+        "N parts of the space, each on an engine; 2x3: along y and z"
     }
 
     fn detail(&self) -> Option<EngineDetail> {
