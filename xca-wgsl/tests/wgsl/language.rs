@@ -162,7 +162,7 @@ fn iterate(cell: &mut Cell<State>) {
 fn iterators_are_loops() {
     accepted::<iterate>();
     let text = function(&written::<iterate>(Precision::F32), "iterate");
-    for part in ["(var i: u32 = 0u; i < 3u; i += 1u)", "_xca_elements[i]", "if weight_2 > 0.0"] {
+    for part in ["(var i: u32 = 0u; i < end; i += 1u)", "_xca_elements[i]", "if weight > 0.0"] {
         assert!(text.contains(part), "{part}\n{text}");
     }
     assert!(!text.contains("checked_index") && !text.contains("valid_neighbour"), "{text}");
