@@ -5,6 +5,7 @@ mod boltzmann;
 mod comparison;
 mod dense;
 mod engines;
+mod gpu;
 mod lammps;
 mod landslide;
 mod mathematics;
@@ -14,7 +15,7 @@ mod quiet;
 mod state;
 mod timing;
 
-use clap::{Parser, Subcommand};
+use clap::{Args, Parser, Subcommand};
 use particles::Rounds;
 use state::{Stage, State};
 use std::error::Error;
@@ -22,7 +23,7 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Duration;
-use xca_core::Precision;
+use xca_core::{Model, Precision};
 
 /// Prints a line; that it is lost is an error.
 macro_rules! say {
@@ -63,6 +64,15 @@ enum Benchmark {
         #[arg(long, default_value_t = 5)]
         steps: u64,
     },
+    /// The GPU engine against itself: a landslide with work on all cells, and corrected division and square
+    /// root.
+    Gpu {
+        #[command(flatten)]
+        map: Map,
+        /// How many steps make a round. The landslide goes on from round to round.
+        #[arg(long, default_value_t = 20)]
+        steps: u64,
+    },
     /// CADEM: a step's time in three states of the paper's benchmark, and the cost of a particle for systems
     /// of different size.
     Particles {
@@ -98,18 +108,34 @@ enum Benchmark {
     Quiet,
     /// A landslide against active cells by hand. These use one thread.
     Landslide {
-        /// A grid of altitudes; a slope of 600 x 500 cells without it.
-        #[arg(long, value_name = "FILE", requires = "debris")]
-        dem: Option<PathBuf>,
-        /// A grid of debris.
-        #[arg(long, value_name = "FILE", requires = "dem")]
-        debris: Option<PathBuf>,
+        #[command(flatten)]
+        map: Map,
         /// How many steps make a round. The landslide goes on from round to round.
         #[arg(long, default_value_t = 50)]
         steps: u64,
     },
     /// A call of each function of `xca_core::math`, on one thread.
     Mathematics,
+}
+
+/// The ground of a landslide.
+#[derive(Args, Debug)]
+struct Map {
+    /// A grid of altitudes; a slope of 600 x 500 cells without it.
+    #[arg(long, value_name = "FILE", requires = "debris")]
+    dem: Option<PathBuf>,
+    /// A grid of debris.
+    #[arg(long, value_name = "FILE", requires = "dem")]
+    debris: Option<PathBuf>,
+}
+
+impl Map {
+    fn model(self) -> Result<Model, Box<dyn Error>> {
+        match self.dem.zip(self.debris) {
+            Some((dem, debris)) => landslide::map(&dem, &debris),
+            None => Ok(landslide::slope()?),
+        }
+    }
 }
 
 fn main() -> ExitCode {
@@ -199,12 +225,14 @@ fn run(arguments: Arguments) -> Result<(), Box<dyn Error>> {
                 say!("{}", model.cost(arguments.threads, arguments.rounds)?)?;
             }
         }
-        Benchmark::Landslide { dem, debris, steps } => {
-            let model = match dem.zip(debris) {
-                Some((dem, debris)) => landslide::map(&dem, &debris)?,
-                None => landslide::slope()?,
-            };
-            say!("{}", landslide::cost(&model, arguments.threads, arguments.rounds, steps)?)?;
+        Benchmark::Landslide { map, steps } => {
+            say!("{}", landslide::cost(&map.model()?, arguments.threads, arguments.rounds, steps)?)?;
+        }
+        Benchmark::Gpu { map, steps } => {
+            say!("{}", gpu::activity(&map.model()?, arguments.rounds, steps)?)?;
+            for cost in gpu::corrections(arguments.rounds, steps)? {
+                say!("{cost}")?;
+            }
         }
         Benchmark::Mathematics => {
             for precision in [Precision::F32, Precision::F64] {

@@ -1,8 +1,7 @@
 //! Which substates a body reads and writes, and where.
 
 use crate::ast::{
-    ArgumentNumber, Block, Builtin, Expression, Function, LoopKind, Place, PlaceRoot, Projection, Reach,
-    Role, Statement,
+    ArgumentNumber, Block, Builtin, Expression, Function, LoopKind, Place, PlaceRoot, Reach, Role, Statement,
 };
 use syn::Ident;
 
@@ -88,57 +87,28 @@ impl Uses {
     }
 
     fn statement(&mut self, statement: &Statement) {
+        statement.parts().into_iter().for_each(|part| self.expression(part));
         match statement {
-            Statement::Let { value, .. }
-            | Statement::LetTuple { value, .. }
-            | Statement::Expression(value) => self.expression(value),
-            Statement::LetNeighbour { index, .. } => {
-                self.neighbours = true;
-                self.expression(index);
-            }
-            Statement::Assign { place, operator, value, .. } => {
-                self.expression(value);
-                self.place(place, operator.is_some());
-            }
+            Statement::LetNeighbour { .. } => self.neighbours = true,
+            Statement::Assign { place, operator, .. } => self.place(place, operator.is_some()),
             Statement::Loop(loop_) => {
                 self.loop_kind(&loop_.kind);
                 self.block(&loop_.body);
             }
-            Statement::Break(..) | Statement::Continue(..) => {}
-            Statement::Return(value, _) => {
-                if let Some(value) = value {
-                    self.expression(value);
-                }
-            }
-            Statement::Fault { code, value } => {
-                self.expression(code);
-                self.expression(value);
-            }
+            _ => {}
         }
     }
 
     fn loop_kind(&mut self, kind: &LoopKind) {
-        match kind {
-            LoopKind::While(condition) => self.expression(condition),
-            LoopKind::Range { range, .. } => {
-                self.expression(&range.from);
-                self.expression(&range.to);
-                if let Some(step) = &range.step {
-                    self.expression(step);
-                }
+        kind.parts().into_iter().for_each(|part| self.expression(part));
+        if let LoopKind::Others { variable, reach, radius } = kind {
+            self.neighbours |= *reach != Reach::Cell;
+            if radius.is_some() {
+                let position = Ident::new("position", variable.span());
+                let access = self.entry(&position, GroupOf::Position);
+                access.centre = true;
+                access.others = true;
             }
-            LoopKind::Elements { array, .. } => self.expression(array),
-            LoopKind::Others { variable, reach, radius } => {
-                self.neighbours |= *reach != Reach::Cell;
-                if let Some(radius) = radius {
-                    self.expression(radius);
-                    let position = Ident::new("position", variable.span());
-                    let access = self.entry(&position, GroupOf::Position);
-                    access.centre = true;
-                    access.others = true;
-                }
-            }
-            LoopKind::Forever | LoopKind::Items { .. } => {}
         }
     }
 
@@ -148,11 +118,6 @@ impl Uses {
             let access = self.entry(field, GroupOf::SUBJECT);
             access.write = true;
             access.centre |= compound || partial;
-        }
-        for projection in &place.path {
-            if let Projection::Element(index) = projection {
-                self.expression(index);
-            }
         }
     }
 
@@ -166,65 +131,33 @@ impl Uses {
             | Expression::Other { argument, field, .. } => {
                 self.entry(field, GroupOf::Argument(*argument)).others = true;
             }
-            Expression::Neighbour { argument, index, field } => {
+            Expression::Neighbour { argument, field, .. } => {
                 self.neighbours = true;
                 self.entry(field, GroupOf::Argument(*argument)).others = true;
-                self.expression(index);
             }
-            Expression::Builtin(builtin, arguments, _) => {
+            Expression::Builtin(builtin, ..) => {
                 self.opposites |= *builtin == Builtin::Opposite;
                 self.step |= matches!(builtin, Builtin::Random | Builtin::RandomBits | Builtin::Step);
                 self.directions |=
                     matches!(builtin, Builtin::Opposite | Builtin::Displacement | Builtin::Exists);
                 self.neighbours |= self.directions || *builtin == Builtin::NeighbourCount;
-                arguments.iter().for_each(|argument| self.expression(argument));
             }
-            Expression::Unary(_, value) | Expression::Cast(value, _) | Expression::Repeat(value, _) => {
-                self.expression(value);
-            }
-            Expression::Component(value, _) | Expression::Splat(_, value) => {
-                self.expression(value);
-            }
-            Expression::Binary(_, left, right) | Expression::Element(left, right) => {
-                self.expression(left);
-                self.expression(right);
-            }
-            Expression::Call { arguments, .. }
-            | Expression::Array(arguments, _)
-            | Expression::Tuple(arguments, _)
-            | Expression::Vector(_, arguments) => {
-                arguments.iter().for_each(|argument| self.expression(argument));
-            }
-            Expression::Method { receiver, arguments, .. } => {
-                self.expression(receiver);
-                arguments.iter().for_each(|argument| self.expression(argument));
-            }
-            Expression::If { condition, then, otherwise, .. } => {
-                self.expression(condition);
+            _ => {}
+        }
+        expression.parts().into_iter().for_each(|part| self.expression(part));
+        match expression {
+            Expression::If { then, otherwise, .. } => {
                 self.block(then);
-                if let Some(otherwise) = otherwise {
-                    self.block(otherwise);
-                }
+                otherwise.iter().for_each(|otherwise| self.block(otherwise));
             }
-            Expression::Match { value, arms, .. } => {
-                self.expression(value);
+            Expression::Match { arms, .. } => {
                 for arm in arms {
-                    if let Some(guard) = &arm.guard {
-                        self.expression(guard);
-                    }
+                    arm.guard.iter().for_each(|guard| self.expression(guard));
                     self.block(&arm.body);
                 }
             }
             Expression::Block(block) => self.block(block),
-            Expression::Bool(_)
-            | Expression::Integer(_)
-            | Expression::Float(_)
-            | Expression::Local(_)
-            | Expression::Constant(_)
-            | Expression::OtherLabel(_)
-            | Expression::Parameter { .. }
-            | Expression::Parameters(_)
-            | Expression::Space(_) => {}
+            _ => {}
         }
     }
 }

@@ -11,6 +11,7 @@ mod fields;
 mod library;
 mod native;
 mod parse;
+mod parts;
 mod size;
 mod spelling;
 mod states;

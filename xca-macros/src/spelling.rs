@@ -55,6 +55,7 @@ impl VisitMut for Spelled {
         let spelled = match expression {
             Expr::ForLoop(for_) => self.for_loop(for_).map(Some),
             Expr::Match(match_) => Ok(patterns::named(match_)),
+            Expr::MethodCall(call) if call.method == "contains" => self.contains(call).map(Some),
             Expr::MethodCall(call) if is_chain(call) => self.chain(call).map(Some),
             _ => return,
         };

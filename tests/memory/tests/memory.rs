@@ -205,40 +205,39 @@ fn cpu(threads: usize) -> Result<Cpu, Box<dyn Error>> {
 /// The number of steps of a run. Miri is some thousand times slower.
 const STEPS: u64 = if cfg!(miri) { 2 } else { 3 };
 
-/// The engines that are compared with the reference.
+/// The engines that are compared with each other. Miri takes longest for the reference engine, which shares no
+/// memory with anyone.
 fn engines() -> Result<Vec<Box<dyn Engine>>, Box<dyn Error>> {
-    let threads: &[usize] = if cfg!(miri) { &[2] } else { &[1, 2, 3] };
-    let mut engines: Vec<Box<dyn Engine>> = vec![Box::new(Parts::with_grid(cpu(1)?, Grid { y: 2, z: 1 }))];
+    let (mut engines, threads): (Vec<Box<dyn Engine>>, &[usize]) =
+        if cfg!(miri) { (Vec::new(), &[2]) } else { (vec![Box::new(Reference)], &[1, 2, 3]) };
     for threads in threads {
         engines.push(Box::new(cpu(*threads)?));
     }
+    engines.push(Box::new(Parts::with_grid(cpu(1)?, Grid { y: 2, z: 1 })));
     Ok(engines)
 }
 
-/// The state after some steps agrees with the reference engine, including all requests of a host.
+/// The state after some steps is the same on all engines, including all requests of a host.
 fn agrees(builder: ModelBuilder, precision: Precision) -> TestResult {
     let model = builder.watch_finite(Schedule::EveryFromStart(2)).build()?;
-    let options = RunOptions { precision, seed: 4 };
-    let mut reference = Simulation::new(&model, &Reference, options)?;
-    let start = reference.snapshot()?;
-    reference.run(STEPS)?;
-    let wanted = reference.snapshot()?;
+    let mut wanted = None;
     for engine in engines()? {
         let name = engine.name();
-        let mut simulation = Simulation::new(&model, &*engine, options)?;
-        assert!(simulation.snapshot()? == start, "{name}");
+        let mut simulation = Simulation::new(&model, &*engine, RunOptions { precision, seed: 4 })?;
+        let start = simulation.snapshot()?;
         for _ in 0..STEPS {
             simulation.step()?;
             let state = simulation.state();
             assert!(state.sum(Land::HEIGHT)?.is_finite());
             assert_eq!(state.get_cells(Land::AGE, &[[0, 0, 0], [1, 1, 0]])?.len(), 2);
         }
-        assert!(simulation.snapshot()? == wanted, "{name}");
+        let end = simulation.snapshot()?;
         simulation.restore(&start)?;
         simulation.run(STEPS)?;
-        assert!(simulation.snapshot()? == wanted, "{name}, restored");
+        assert!(simulation.snapshot()? == end, "{name}, restored");
         simulation.state().update(Land::HEIGHT, &[[1, 0, 0]], |_, height| height + 1.0)?;
         simulation.step()?;
+        assert!(*wanted.get_or_insert_with(|| [start.clone(), end.clone()]) == [start, end], "{name}");
     }
     Ok(())
 }
@@ -298,7 +297,7 @@ fn panics() -> TestResult {
     let of_items = items([4, 3, 3], Boundary::Flat).process(overstep_for_items).build()?;
     for model in [of_cells, of_items] {
         let mut faults = Vec::new();
-        for engine in [Box::new(Reference) as Box<dyn Engine>].into_iter().chain(engines()?) {
+        for engine in engines()?.into_iter().chain([Box::new(Reference) as Box<dyn Engine>]) {
             let mut simulation = Simulation::new(&model, &*engine, RunOptions::default())?;
             let Err(RunError::Fault { fault, .. }) = simulation.run(3) else { return Err("no fault".into()) };
             assert!(matches!(fault, Fault::Panicked { .. }), "{fault:?}");

@@ -46,6 +46,20 @@ fn chains(n: i32) -> i32 {
     }
     sum += 1000 * values.iter().filter(|value| **value > n).count() as i32;
     sum += (0..n).rev().step_by(2).map(|i| i.min(7)).sum::<i32>();
+    sum += (0..SIDES).map(|i| values[i] - 3).filter(|more| *more > 0).map(|more| more * more).sum::<i32>();
+    sum += values.iter().map(|value| value % 3).fold(1, |mixed, rest| (3 * mixed + rest) % 1009);
+    if values.iter().filter(|&&value| value != 4).any(|&value| value == n + 3) {
+        sum += 20_000;
+    }
+    if (0..4).map(|i| values[i] + 1).any(|value| value == n) {
+        sum += 30_000;
+    }
+    if values.contains(&(n / 2)) {
+        sum += 50_000;
+    }
+    if (2..5).contains(&n) || (7..=9).contains(&n) || !(..9).contains(&(n - 3)) {
+        sum += 70_000;
+    }
     let smallest =
         values.iter().enumerate().fold(0, |best, (i, &value)| if value < values[best] { i } else { best });
     sum + smallest as i32

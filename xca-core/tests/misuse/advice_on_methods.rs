@@ -25,9 +25,6 @@ fn numbers(cell: &mut Cell<Heat>) {
     cell.temperature = cell.temperature.clone();
     cell.temperature = cell.kind.into();
     cell.kind = u32::try_from(cell.kind);
-    if (0.0..1.0).contains(cell.temperature) {
-        cell.kind = 0;
-    }
 }
 
 #[elementary_process]

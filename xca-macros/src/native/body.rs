@@ -21,11 +21,13 @@ pub(super) struct Writer<'a> {
     pub(super) loops: usize,
     /// The loop whose turns are being written out.
     pub(super) unrolled: Option<Unrolled>,
+    /// How many draws have been written.
+    pub(super) draws: usize,
 }
 
 impl<'a> Writer<'a> {
     pub(super) fn new(function: &'a Function, uses: Option<&'a Uses>, real: TokenStream) -> Self {
-        Self { function, uses, real, searches: 0, loops: 0, unrolled: None }
+        Self { function, uses, real, searches: 0, loops: 0, unrolled: None, draws: 0 }
     }
 
     /// How the process uses a substate.

@@ -9,8 +9,31 @@ use crate::checked::checked_value;
 use crate::fields::with_real;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
+use syn::BinOp;
 use syn::spanned::Spanned;
 use xca_methods::Meaning;
+
+/// What only some cells compute.
+#[derive(Default)]
+struct Branch {
+    code: TokenStream,
+    /// Whether it draws a random number.
+    draws: bool,
+}
+
+impl Branch {
+    /// The block beside another one.
+    fn beside(&self, other: &Self) -> TokenStream {
+        let (code, rare) = (&self.code, rare());
+        if other.draws && !self.draws { quote!({ #rare #code }) } else { code.clone() }
+    }
+}
+
+/// The mark of a branch without a draw beside one with a draw. Compilers take both for equally frequent, and
+/// would not vectorise the loop, as if only few cells computed the numbers.
+fn rare() -> TokenStream {
+    quote!(::core::hint::cold_path();)
+}
 
 impl Writer<'_> {
     fn expressions(&mut self, expressions: &[Expression]) -> Vec<TokenStream> {
@@ -64,8 +87,14 @@ impl Writer<'_> {
                 quote!((#operator #value))
             }
             Expression::Binary(operator, left, right) => {
-                let (left, right) = (self.expression(left), self.expression(right));
-                quote!((#left #operator #right))
+                let left = self.expression(left);
+                let Branch { code: right, draws } = self.branch(|writer| writer.expression(right));
+                let rare = rare();
+                match operator {
+                    BinOp::And(_) if draws => quote!((if #left { #right } else { #rare false })),
+                    BinOp::Or(_) if draws => quote!((if #left { #rare true } else { #right })),
+                    _ => quote!((#left #operator #right)),
+                }
             }
             Expression::Cast(value, type_) => {
                 let value = self.expression(value);
@@ -121,16 +150,25 @@ impl Writer<'_> {
                 quote!(::xca_core::#type_::splat(#value))
             }
             Expression::If { condition, then, otherwise, span } => {
-                let (condition, then) = (self.expression(condition), self.block(then));
-                let otherwise = otherwise.as_ref().map(|otherwise| {
-                    let otherwise = self.block(otherwise);
-                    quote!(else #otherwise)
-                });
+                let condition = self.expression(condition);
+                let then = self.branch(|writer| writer.block(then));
+                let otherwise =
+                    otherwise.as_ref().map(|otherwise| self.branch(|writer| writer.block(otherwise)));
+                let otherwise = otherwise.unwrap_or_default();
+                let [then, otherwise] = [then.beside(&otherwise), otherwise.beside(&then)];
+                let otherwise = (!otherwise.is_empty()).then(|| quote!(else #otherwise));
                 quote_spanned!(*span=> if #condition #then #otherwise)
             }
             Expression::Match { value, arms, span } => self.match_(value, arms, *span),
             Expression::Block(block) => self.block(block),
         }
+    }
+
+    /// Writes what only some cells compute.
+    fn branch(&mut self, write: impl FnOnce(&mut Self) -> TokenStream) -> Branch {
+        let draws = self.draws;
+        let code = write(self);
+        Branch { code, draws: self.draws > draws }
     }
 
     /// What a substate of a struct is read from.
@@ -209,6 +247,7 @@ impl Writer<'_> {
             ["row", "x", "item", "offsets", "directions", "space", "draws"].map(|name| self.name(name));
         let cells = self.function.kind == FunctionKind::Cells;
         let real = &self.real;
+        self.draws += usize::from(matches!(builtin, Builtin::Random | Builtin::RandomBits));
         match builtin {
             Builtin::NeighbourCount => quote!(#offsets.count()),
             Builtin::Opposite => quote_spanned!(span=> #directions.opposite(#(#arguments,)* #row, #x)),

@@ -1,6 +1,6 @@
 //! Refuses a process that takes the same random number twice.
 
-use crate::ast::{Arm, Block, Builtin, Expression, LoopKind, Projection, Range, Statement};
+use crate::ast::{Arm, Block, Builtin, Expression, Statement};
 use proc_macro2::Span;
 use syn::{Error, Result};
 
@@ -81,47 +81,17 @@ impl Draws {
     }
 
     fn statement(&mut self, statement: &Statement) {
+        statement.parts().into_iter().for_each(|part| self.expression(part));
         match statement {
-            Statement::Let { value, .. }
-            | Statement::LetTuple { value, .. }
-            | Statement::LetNeighbour { index: value, .. }
-            | Statement::Expression(value) => self.expression(value),
-            Statement::Assign { place, value, .. } => {
-                for projection in &place.path {
-                    if let Projection::Element(index) = projection {
-                        self.expression(index);
-                    }
-                }
-                self.expression(value);
-            }
             Statement::Loop(loop_) => self.branch(|draws| {
-                draws.loop_kind(&loop_.kind);
+                loop_.kind.parts().into_iter().for_each(|part| draws.expression(part));
                 draws.block(&loop_.body);
             }),
-            Statement::Break(..) | Statement::Continue(..) => self.exits += 1,
-            Statement::Return(value, _) => {
-                value.iter().for_each(|value| self.expression(value));
-                self.exits += 1;
-            }
-            Statement::Fault { code, value } => {
-                self.expression(code);
-                self.expression(value);
-                self.exits += 1;
-            }
-        }
-    }
-
-    fn loop_kind(&mut self, kind: &LoopKind) {
-        match kind {
-            LoopKind::While(value) | LoopKind::Elements { array: value, .. } => self.expression(value),
-            LoopKind::Range { range: Range { from, to, step, .. }, .. } => {
-                [Some(from), Some(to), step.as_ref()]
-                    .into_iter()
-                    .flatten()
-                    .for_each(|it| self.expression(it));
-            }
-            LoopKind::Others { radius, .. } => radius.iter().for_each(|radius| self.expression(radius)),
-            LoopKind::Forever | LoopKind::Items { .. } => {}
+            Statement::Break(..)
+            | Statement::Continue(..)
+            | Statement::Return(..)
+            | Statement::Fault { .. } => self.exits += 1,
+            _ => {}
         }
     }
 
@@ -141,44 +111,21 @@ impl Draws {
 
     fn expression(&mut self, expression: &Expression) {
         match expression {
-            Expression::Builtin(builtin, arguments, _) => {
-                if matches!(builtin, Builtin::Random | Builtin::RandomBits) {
-                    self.take(arguments);
-                }
-                arguments.iter().for_each(|argument| self.expression(argument));
-            }
-            Expression::Neighbour { index: value, .. }
-            | Expression::Unary(_, value)
-            | Expression::Cast(value, _)
-            | Expression::Repeat(value, _)
-            | Expression::Component(value, _)
-            | Expression::Splat(_, value) => self.expression(value),
+            Expression::Builtin(Builtin::Random | Builtin::RandomBits, arguments, _) => self.take(arguments),
             // The second one may be skipped.
             Expression::Binary(syn::BinOp::And(_) | syn::BinOp::Or(_), left, right) => {
                 self.expression(left);
-                self.branch(|draws| draws.expression(right));
+                return self.branch(|draws| draws.expression(right));
             }
-            Expression::Binary(_, left, right) | Expression::Element(left, right) => {
-                self.expression(left);
-                self.expression(right);
+            _ => {}
+        }
+        expression.parts().into_iter().for_each(|part| self.expression(part));
+        match expression {
+            Expression::If { then, otherwise, .. } => {
+                let blocks = [Some(then), otherwise.as_ref()].into_iter().flatten();
+                blocks.for_each(|block| self.branch(|draws| draws.block(block)));
             }
-            Expression::Call { arguments, .. }
-            | Expression::Array(arguments, _)
-            | Expression::Tuple(arguments, _)
-            | Expression::Vector(_, arguments) => {
-                arguments.iter().for_each(|argument| self.expression(argument));
-            }
-            Expression::Method { receiver, arguments, .. } => {
-                self.expression(receiver);
-                arguments.iter().for_each(|argument| self.expression(argument));
-            }
-            Expression::If { condition, then, otherwise, .. } => {
-                self.expression(condition);
-                self.branch(|draws| draws.block(then));
-                otherwise.iter().for_each(|block| self.branch(|draws| draws.block(block)));
-            }
-            Expression::Match { value, arms, .. } => {
-                self.expression(value);
+            Expression::Match { arms, .. } => {
                 for Arm { guard, body, .. } in arms {
                     self.branch(|draws| {
                         guard.iter().for_each(|guard| draws.expression(guard));
@@ -187,19 +134,7 @@ impl Draws {
                 }
             }
             Expression::Block(block) => self.block(block),
-            Expression::Own(_)
-            | Expression::OfCell { .. }
-            | Expression::NamedNeighbour { .. }
-            | Expression::Other { .. }
-            | Expression::Bool(_)
-            | Expression::Integer(_)
-            | Expression::Float(_)
-            | Expression::Local(_)
-            | Expression::Constant(_)
-            | Expression::OtherLabel(_)
-            | Expression::Parameter { .. }
-            | Expression::Parameters(_)
-            | Expression::Space(_) => {}
+            _ => {}
         }
     }
 }

@@ -185,7 +185,6 @@ pub(super) fn method(method: &Ident) -> Error {
                 "there is no `Option` and no `Result` in a process, so no `{name}`; use a value and a `bool`"
             )
         }
-        "contains" => "compare with `<=` and `<`, or with `match`".to_owned(),
         "rev" | "step_by" => format!("`{name}` stands only in `for i in (a..b).{name}(…)`"),
         _ => {
             let known = METHODS.iter().map(|method| method.name);

@@ -4,7 +4,9 @@
 use super::spelled::{Spelled, hidden, strip};
 use proc_macro2::TokenStream;
 use quote::quote;
-use syn::{Error, Expr, ExprClosure, ExprForLoop, ExprMethodCall, Ident, Pat, Result, parse_quote};
+use syn::{
+    Error, Expr, ExprClosure, ExprForLoop, ExprMethodCall, Ident, Pat, RangeLimits, Result, parse_quote,
+};
 
 const ENDS: [&str; 5] = ["any", "all", "count", "sum", "fold"];
 const ITERATORS: [&str; 9] =
@@ -153,6 +155,29 @@ impl Spelled {
         let loop_: ExprForLoop = parse_quote!(for #pattern in #over { #body });
         let loop_ = self.for_loop(&loop_)?;
         Ok(parse_quote!({ let mut #result #start; #loop_ #result }))
+    }
+
+    /// Whether a range or an array contains a value.
+    pub(super) fn contains(&mut self, call: &ExprMethodCall) -> Result<Expr> {
+        let [argument] = arguments(call, "contains(&value)")?;
+        let wanted = match strip(argument) {
+            Expr::Reference(reference) => &*reference.expr,
+            other => other,
+        };
+        let (name, element, over) = (hidden("wanted"), hidden("element"), &call.receiver);
+        let is_in = if let Expr::Range(range) = strip(over) {
+            let (limits, start) = (range.limits, range.start.iter().map(|start| quote!(#start <= #name)));
+            let end = range.end.iter().map(|end| match limits {
+                RangeLimits::HalfOpen(_) => quote!(#name < #end),
+                RangeLimits::Closed(_) => quote!(#name <= #end),
+            });
+            let bounds = start.chain(end);
+            quote!(#(#bounds)&&*)
+        } else {
+            let any = self.chain(&parse_quote!(#over.iter().any(|#element| #element == #name)))?;
+            quote!(#any)
+        };
+        Ok(parse_quote!({ let #name = #wanted; #is_in }))
     }
 
     /// The turn after `map` and `filter`, of which the last one comes first.
