@@ -4,8 +4,9 @@
 use crate::timing::{Times, interleaved};
 use std::error::Error;
 use std::fmt;
+use xca_core::Precision;
+use xca_core::engine::Figure;
 use xca_core::prelude::*;
-use xca_core::{Figure, Precision};
 use xca_gpu::{Gpu, GpuOptions, Handicap};
 
 /// The cells along each side of the model of operations.
@@ -36,7 +37,7 @@ struct Number {
     x: Real,
 }
 
-#[derive(Parameters, Clone)]
+#[derive(Parameters, Clone, Debug)]
 struct Constant {
     a: Real,
 }

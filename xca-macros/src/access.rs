@@ -78,12 +78,8 @@ impl Uses {
     }
 
     fn block(&mut self, block: &Block) {
-        for statement in &block.statements {
-            self.statement(statement);
-        }
-        if let Some(value) = &block.value {
-            self.expression(value);
-        }
+        block.statements.iter().for_each(|statement| self.statement(statement));
+        block.value.iter().for_each(|value| self.expression(value));
     }
 
     fn statement(&mut self, statement: &Statement) {

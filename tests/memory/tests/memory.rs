@@ -205,8 +205,8 @@ fn cpu(threads: usize) -> Result<Cpu, Box<dyn Error>> {
 /// The number of steps of a run. Miri is some thousand times slower.
 const STEPS: u64 = if cfg!(miri) { 2 } else { 3 };
 
-/// The engines that are compared with each other. Miri takes longest for the reference engine, which shares no
-/// memory with anyone.
+/// The engines that are compared with each other. Miri would take longest for the reference engine, whose
+/// memory no thread shares.
 fn engines() -> Result<Vec<Box<dyn Engine>>, Box<dyn Error>> {
     let (mut engines, threads): (Vec<Box<dyn Engine>>, &[usize]) =
         if cfg!(miri) { (Vec::new(), &[2]) } else { (vec![Box::new(Reference)], &[1, 2, 3]) };

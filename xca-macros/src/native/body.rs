@@ -108,13 +108,10 @@ impl<'a> Writer<'a> {
                 quote!(#expression;)
             }
             Statement::Loop(loop_) => self.loop_(loop_),
-            Statement::Break(label, span) => match self.leaves(label.as_ref(), true) {
-                Some(turns) => quote_spanned!(*span=> break #turns;),
-                None => {
-                    let label = label.as_ref().map(hidden_label);
-                    quote_spanned!(*span=> break #label;)
-                }
-            },
+            Statement::Break(label, span) => {
+                let label = self.leaves(label.as_ref(), true).or_else(|| label.as_ref().map(hidden_label));
+                quote_spanned!(*span=> break #label;)
+            }
             Statement::Continue(label, span) => match self.leaves(label.as_ref(), false) {
                 Some(turn) => quote_spanned!(*span=> break #turn;),
                 None => {

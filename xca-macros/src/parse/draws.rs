@@ -74,9 +74,7 @@ impl Draws {
                 self.enter();
             }
         }
-        if let Some(value) = &block.value {
-            self.expression(value);
-        }
+        block.value.iter().for_each(|value| self.expression(value));
         self.branches.truncate(depth);
     }
 

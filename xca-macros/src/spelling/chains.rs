@@ -5,7 +5,8 @@ use super::spelled::{Spelled, hidden, strip};
 use proc_macro2::TokenStream;
 use quote::quote;
 use syn::{
-    Error, Expr, ExprClosure, ExprForLoop, ExprMethodCall, Ident, Pat, RangeLimits, Result, parse_quote,
+    Error, Expr, ExprClosure, ExprForLoop, ExprMethodCall, ExprRange, Ident, Pat, RangeLimits, Result,
+    parse_quote,
 };
 
 const ENDS: [&str; 5] = ["any", "all", "count", "sum", "fold"];
@@ -160,18 +161,12 @@ impl Spelled {
     /// Whether a range or an array contains a value.
     pub(super) fn contains(&mut self, call: &ExprMethodCall) -> Result<Expr> {
         let [argument] = arguments(call, "contains(&value)")?;
-        let wanted = match strip(argument) {
-            Expr::Reference(reference) => &*reference.expr,
-            other => other,
-        };
+        let wanted = if let Expr::Reference(inner) = strip(argument) { &inner.expr } else { argument };
         let (name, element, over) = (hidden("wanted"), hidden("element"), &call.receiver);
-        let is_in = if let Expr::Range(range) = strip(over) {
-            let (limits, start) = (range.limits, range.start.iter().map(|start| quote!(#start <= #name)));
-            let end = range.end.iter().map(|end| match limits {
-                RangeLimits::HalfOpen(_) => quote!(#name < #end),
-                RangeLimits::Closed(_) => quote!(#name <= #end),
-            });
-            let bounds = start.chain(end);
+        let is_in = if let Expr::Range(ExprRange { start, limits, end, .. }) = strip(over) {
+            let is_below = if matches!(limits, RangeLimits::HalfOpen(_)) { quote!(<) } else { quote!(<=) };
+            let start = start.iter().map(|start| quote!(#start <= #name));
+            let bounds = start.chain(end.iter().map(|end| quote!(#name #is_below #end)));
             quote!(#(#bounds)&&*)
         } else {
             let any = self.chain(&parse_quote!(#over.iter().any(|#element| #element == #name)))?;
