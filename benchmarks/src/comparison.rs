@@ -2,6 +2,7 @@
 
 use crate::timing::Times;
 use std::error::Error;
+use xca_core::engine::Figure;
 
 /// A comparison of the engine with the loop by hand.
 #[derive(Debug)]
@@ -18,6 +19,8 @@ pub(crate) struct Comparison {
     by_hand: Times,
     /// Seconds a step of the engine when it does one after the other.
     step_by_step: Option<Times>,
+    /// The mean number of steps that the engine has done together.
+    together: f64,
 }
 
 impl Comparison {
@@ -34,7 +37,13 @@ impl Comparison {
         let mut times = times.iter().map(|times| times.per(steps));
         let engine = times.next().ok_or("the engine is not there")?;
         let by_hand = times.next().ok_or("the loop by hand is not there")?;
-        Ok(Self { name, cells, bytes, engine, by_hand, step_by_step: times.next() })
+        Ok(Self { name, cells, bytes, engine, by_hand, step_by_step: times.next(), together: 1.0 })
+    }
+
+    /// With what the engine reports of its work.
+    pub(crate) fn with_figures(self, figures: &[Figure]) -> Self {
+        let together = figures.iter().find(|figure| figure.name == "steps_together");
+        Self { together: together.map_or(1.0, |figure| figure.value), ..self }
     }
 
     /// The share of the memory's bandwidth, in bytes a second, that these times reach, in per cent.
@@ -55,7 +64,7 @@ impl Comparison {
         format!(
             "{}: engine {:.2} ms a step ({:.2} to {:.2}), {:.0} % of the bandwidth; \
              by hand {:.2} ms ({:.2} to {:.2}), {:.0} %; \
-             ratio {:.3}; {:.1} million cells a second{}",
+             ratio {:.3}; {:.1} million cells a second; {:.1} steps together{}",
             self.name,
             self.engine.median() * 1e3,
             low * 1e3,
@@ -67,6 +76,7 @@ impl Comparison {
             self.share(&self.by_hand, bandwidth),
             self.engine.median() / self.by_hand.median(),
             self.cells as f64 / self.engine.median() / 1e6,
+            self.together,
             step_by_step.unwrap_or_default(),
         )
     }

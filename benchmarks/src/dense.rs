@@ -212,7 +212,9 @@ pub(crate) fn heat(
     if simulation.state().get(Heat::TEMPERATURE, [cell; 3])? != by_hand {
         return Err("the engine and the loop by hand differ".into());
     }
-    Comparison::new(format!("heat {size}^3, f64"), size * size * size, 2 * size_of::<f64>(), steps, times)
+    let bytes = 2 * size_of::<f64>();
+    let comparison = Comparison::new(format!("heat {size}^3, f64"), size * size * size, bytes, steps, times)?;
+    Ok(comparison.with_figures(&simulation.figures()))
 }
 
 /// Life on a square torus of `size` cells along each side.
@@ -259,5 +261,6 @@ pub(crate) fn life(
     if simulation.state().sum(Life::ALIVE)? != alive {
         return Err("the engine and the loop by hand differ".into());
     }
-    Comparison::new(format!("life {size}^2"), size * size, 2, steps, times)
+    let comparison = Comparison::new(format!("life {size}^2"), size * size, 2, steps, times)?;
+    Ok(comparison.with_figures(&simulation.figures()))
 }

@@ -13,10 +13,10 @@ use xca_core::{Model, Precision, Process, ProcessKind};
 /// every cache.
 const MOST: u64 = 16;
 
-/// The number of tries before a number of steps is judged.
-const TRIES: u32 = 2;
+/// The number of tries of each number of steps before they are judged.
+const TRIES: u32 = 3;
 
-/// A number of steps must take less than this share of the time of a smaller number.
+/// A number of steps must take less than this share of the time of half the number.
 const WORTH: f64 = 0.97;
 
 /// The amount of data in bytes that a pass updates before the next one follows.
@@ -40,12 +40,13 @@ pub(crate) struct Stride {
     /// The rows of a column, chosen by a test.
     column: Option<usize>,
     bytes_per_row: usize,
-    /// The current number, and its shortest time of a step so far.
-    present: Timed,
-    /// The best of the smaller numbers.
-    best: Option<Timed>,
-    /// The number of tries so far. `None` while the number is kept.
-    tries: Option<u32>,
+    /// The best number so far.
+    best: Timed,
+    /// Twice that, until one of both is better. They take turns, because other programs may slow down one of
+    /// them.
+    rival: Option<Timed>,
+    /// The number of tries of both.
+    tries: u32,
     /// The number of steps before all numbers are tried again.
     hold: u64,
     next_hold: u64,
@@ -54,12 +55,18 @@ pub(crate) struct Stride {
     leaps: u64,
 }
 
-/// A number of steps done together, with its time.
+/// A number of steps done together, with its shortest time so far.
 #[derive(Debug, Clone, Copy)]
 struct Timed {
     steps: u64,
     /// Seconds per step.
     seconds: f64,
+}
+
+impl Timed {
+    fn new(steps: u64) -> Self {
+        Self { steps, seconds: f64::INFINITY }
+    }
 }
 
 impl Stride {
@@ -87,9 +94,9 @@ impl Stride {
             lag: lag.unwrap_or(Lag::NONE),
             column,
             bytes_per_row: (bytes_per_cell(model, precision) * layout.width()).max(1),
-            present: Timed { steps: 1, seconds: f64::INFINITY },
-            best: None,
-            tries: Some(0),
+            best: Timed::new(1),
+            rival: Some(Timed::new(2)),
+            tries: 0,
             hold: 0,
             next_hold: HOLD[0],
             steps: 0,
@@ -121,7 +128,7 @@ impl Stride {
 
     /// The number of steps to do together, if `free` steps have nothing between them.
     pub(crate) fn steps(&self, free: u64) -> u64 {
-        self.fixed.unwrap_or(self.present.steps).min(self.most).min(free)
+        self.fixed.unwrap_or(self.present().steps).min(self.most).min(free)
     }
 
     /// Records the time of steps that were done together.
@@ -129,21 +136,15 @@ impl Stride {
         self.steps += steps;
         self.leaps += 1;
         self.hold = self.hold.saturating_sub(steps);
-        let Some(tries) = self.tries else {
-            if self.hold == 0 {
-                self.present = Timed { steps: 1, seconds: f64::INFINITY };
-                self.tries = Some(0);
+        if self.rival.is_none() && self.hold == 0 {
+            self.challenge(1);
+        } else if self.rival.is_some() && steps == self.present().steps {
+            let present = self.rival.as_mut().filter(|_| self.tries % 2 == 1).unwrap_or(&mut self.best);
+            present.seconds = present.seconds.min(time.as_secs_f64() / steps as f64);
+            self.tries += 1;
+            if self.tries == 2 * TRIES {
+                self.judge();
             }
-            return;
-        };
-        if steps != self.present.steps {
-            return;
-        }
-        let seconds = time.as_secs_f64() / steps as f64;
-        self.present.seconds = self.present.seconds.min(seconds);
-        self.tries = Some(tries + 1);
-        if tries + 1 == TRIES {
-            self.judge();
         }
     }
 
@@ -153,22 +154,24 @@ impl Stride {
         (self.steps > self.leaps).then(|| Figure { name: "steps_together".to_owned(), value })
     }
 
-    /// Judges the current number after enough tries: tries the next number, or keeps the best.
+    /// The number whose turn it is.
+    fn present(&self) -> Timed {
+        self.rival.filter(|_| self.tries % 2 == 1).unwrap_or(self.best)
+    }
+
+    /// Compares a number with twice the number.
+    fn challenge(&mut self, steps: u64) {
+        (self.best, self.rival, self.tries) = (Timed::new(steps), Some(Timed::new(2 * steps)), 0);
+    }
+
+    /// Judges both numbers after enough tries: compares the better one with twice of it, or keeps it.
     fn judge(&mut self) {
-        let is_better = self.best.is_none_or(|best| self.present.seconds < WORTH * best.seconds);
-        let next = 2 * self.present.steps;
-        if is_better && next <= self.most {
-            self.best = Some(self.present);
-            self.present = Timed { steps: next, seconds: f64::INFINITY };
-            self.tries = Some(0);
+        let winner = self.rival.take().filter(|rival| rival.seconds < WORTH * self.best.seconds);
+        self.best = winner.unwrap_or(self.best);
+        if winner.is_some() && 2 * self.best.steps <= self.most {
+            self.challenge(self.best.steps);
             return;
         }
-        if let Some(best) = self.best.take()
-            && !is_better
-        {
-            self.present = best;
-        }
-        self.tries = None;
         self.hold = self.next_hold;
         self.next_hold = (2 * self.next_hold).min(HOLD[1]);
     }
@@ -214,24 +217,41 @@ mod tests {
     fn the_best_number_of_steps_is_found_and_kept() {
         let mut stride = stride(10_000, 2);
         let seconds = |steps: u64| if steps <= 4 { 1.0 / steps as f64 } else { 0.4 };
-        let mut wanted = vec![1, 1, 2, 2, 4, 4, 8, 8];
+        let mut wanted = [[1, 2].repeat(3), [2, 4].repeat(3), [4, 8].repeat(3)].concat();
         wanted.extend([4; HOLD[0] as usize / 4]);
-        wanted.extend([1, 1, 2, 2]);
+        wanted.extend([1, 2, 1, 2]);
         assert_eq!(leaps(&mut stride, wanted.len(), seconds), wanted);
     }
 
     #[test]
     fn where_it_does_not_pay_steps_are_done_one_by_one() {
         let mut stride = stride(10_000, 2);
-        let mut wanted = vec![1, 1, 2, 2];
+        let mut wanted = [1, 2].repeat(3);
         wanted.extend([1; 200]);
         assert_eq!(leaps(&mut stride, wanted.len(), |_| 1.0), wanted);
+    }
+
+    /// Other programs slow the machine down for a while, by more than the steps gain.
+    #[test]
+    fn a_slow_time_does_not_decide() {
+        for slow in 0..18 {
+            let mut stride = stride(10_000, 2);
+            let mut leaps = Vec::new();
+            for leap in 0..40 {
+                let steps = stride.steps(1000);
+                let times = if (slow..slow + 3).contains(&leap) { 3.0 } else { 1.0 };
+                let seconds = times / steps.min(8) as f64;
+                stride.took(steps, Duration::from_secs_f64(seconds * steps as f64));
+                leaps.push(steps);
+            }
+            assert_eq!(leaps[39], 8, "{slow}: {leaps:?}");
+        }
     }
 
     #[test]
     fn no_more_are_done_than_there_is_room_for() {
         let most = |rows: usize, threads: usize| {
-            leaps(&mut stride(rows, threads), 13, |steps| 1.0 / steps as f64)[12]
+            leaps(&mut stride(rows, threads), 25, |steps| 1.0 / steps as f64)[24]
         };
         assert_eq!([most(3, 1), most(12, 1), most(12, 2), most(12, 8)], [1, 4, 2, 1]);
         assert_eq!(most(100_000, 4), MOST);
