@@ -19,8 +19,9 @@ pub(crate) struct Comparison {
     by_hand: Times,
     /// Seconds a step of the engine when it does one after the other.
     step_by_step: Option<Times>,
-    /// The mean number of steps that the engine has done together.
+    /// The mean number of steps that the engine has done together, and the share of cells it has worked on.
     together: f64,
+    share_of_cells: f64,
 }
 
 impl Comparison {
@@ -37,13 +38,15 @@ impl Comparison {
         let mut times = times.iter().map(|times| times.per(steps));
         let engine = times.next().ok_or("the engine is not there")?;
         let by_hand = times.next().ok_or("the loop by hand is not there")?;
-        Ok(Self { name, cells, bytes, engine, by_hand, step_by_step: times.next(), together: 1.0 })
+        let (step_by_step, together, share_of_cells) = (times.next(), 1.0, 1.0);
+        Ok(Self { name, cells, bytes, engine, by_hand, step_by_step, together, share_of_cells })
     }
 
     /// With what the engine reports of its work.
     pub(crate) fn with_figures(self, figures: &[Figure]) -> Self {
-        let together = figures.iter().find(|figure| figure.name == "steps_together");
-        Self { together: together.map_or(1.0, |figure| figure.value), ..self }
+        let value = |name: &str| figures.iter().find(|figure| figure.name == name).map(|figure| figure.value);
+        let together = value("steps_together").unwrap_or(1.0);
+        Self { together, share_of_cells: value("share_of_cells_worked_on").unwrap_or(1.0), ..self }
     }
 
     /// The share of the memory's bandwidth, in bytes a second, that these times reach, in per cent.
@@ -64,7 +67,8 @@ impl Comparison {
         format!(
             "{}: engine {:.2} ms a step ({:.2} to {:.2}), {:.0} % of the bandwidth; \
              by hand {:.2} ms ({:.2} to {:.2}), {:.0} %; \
-             ratio {:.3}; {:.1} million cells a second; {:.1} steps together{}",
+             ratio {:.3}; {:.1} million cells a second; {:.0} % of the cells worked on; \
+             {:.1} steps together{}",
             self.name,
             self.engine.median() * 1e3,
             low * 1e3,
@@ -76,6 +80,7 @@ impl Comparison {
             self.share(&self.by_hand, bandwidth),
             self.engine.median() / self.by_hand.median(),
             self.cells as f64 / self.engine.median() / 1e6,
+            100.0 * self.share_of_cells,
             self.together,
             step_by_step.unwrap_or_default(),
         )

@@ -130,8 +130,13 @@ fn heat_at([x, y, z]: [usize; 3]) -> f64 {
     ((x * 31 + y * 17 + z * 7) % 101) as f64
 }
 
-fn life_at([x, y, _]: [usize; 3]) -> u8 {
-    u8::from((x * 2_654_435_761 + y * 40_503) % 97 < 30)
+/// Three cells in ten are alive. It stays active nearly everywhere.
+pub(crate) fn soup([x, y, _]: [usize; 3]) -> u8 {
+    let mut mixed = (y as u32).wrapping_mul(0x9e37_79b9) ^ x as u32;
+    for factor in [0x7feb_352d, 0x846c_a68b] {
+        mixed = (mixed ^ (mixed >> 15)).wrapping_mul(factor);
+    }
+    u8::from((mixed >> 8) % 10 < 3)
 }
 
 /// Heat in a cube of `size` cells along each side.
@@ -148,7 +153,7 @@ pub(crate) fn heat_model(size: usize) -> Result<Model, ModelError> {
 
 /// Life on a square torus of `size` cells along each side.
 pub(crate) fn life_model(size: usize) -> Result<Model, ModelError> {
-    life_from(size, life_at)
+    life_from(size, soup)
 }
 
 /// The same from other beginnings: 1 where a cell is alive.
@@ -233,7 +238,7 @@ pub(crate) fn life(
     let mut old = vec![0_u8; line * line];
     for y in 0..size {
         for x in 0..size {
-            old[(y + 1) * line + x + 1] = life_at([x, y, 0]);
+            old[(y + 1) * line + x + 1] = soup([x, y, 0]);
         }
     }
     let mut new = old.clone();

@@ -1,7 +1,7 @@
 //! Models that are quiet nearly everywhere: the CPU engine, which leaves out what cannot change, against
 //! itself where it works on all cells.
 
-use crate::dense::life_from;
+use crate::dense::{life_from, soup};
 use crate::timing::{Times, interleaved};
 use std::error::Error;
 use std::fmt;
@@ -99,15 +99,6 @@ impl fmt::Display for Cost {
             self.share * 100.0,
         )
     }
-}
-
-/// Three cells in ten are alive.
-fn soup([x, y, _]: [usize; 3]) -> u8 {
-    let mut mixed = (y as u32).wrapping_mul(0x9e37_79b9) ^ x as u32;
-    for factor in [0x7feb_352d, 0x846c_a68b] {
-        mixed = (mixed ^ (mixed >> 15)).wrapping_mul(factor);
-    }
-    u8::from((mixed >> 8) % 10 < 3)
 }
 
 /// A fire that begins in the middle of a wood on hills.

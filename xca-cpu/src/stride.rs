@@ -5,6 +5,7 @@ use crate::choices::Choices;
 use crate::layout::Layout;
 use crate::memory::bytes_per_cell;
 use crate::wavefront::{Depth, Lag};
+use std::iter;
 use std::time::Duration;
 use xca_core::engine::Figure;
 use xca_core::{Model, Precision, Process, ProcessKind};
@@ -13,11 +14,20 @@ use xca_core::{Model, Precision, Process, ProcessKind};
 /// every cache.
 const MOST: u64 = 16;
 
-/// The number of tries of each number of steps before they are judged.
-const TRIES: u32 = 3;
+/// The number of rounds in which all numbers of steps are timed.
+const ROUNDS: u32 = 4;
 
-/// A number of steps must take less than this share of the time of half the number.
-const WORTH: f64 = 0.97;
+/// The least number of steps in the turn of a number. The first one is slow, because the caches hold what the
+/// number before has left.
+const TURN: u64 = 4;
+
+/// From this round on, numbers take no further part that are slower than the fastest by this factor. Other
+/// programs may have slowed down a number in one round.
+const JUDGED: u32 = 2;
+const TOO_SLOW: f64 = 1.2;
+
+/// A number of steps must take less than this share of the time of each smaller number.
+const WORTH: f64 = 0.95;
 
 /// The amount of data in bytes that a pass updates before the next one follows.
 const BYTES_PER_CHUNK: usize = 1 << 17;
@@ -40,13 +50,16 @@ pub(crate) struct Stride {
     /// The rows of a column, chosen by a test.
     column: Option<usize>,
     bytes_per_row: usize,
-    /// The best number so far.
-    best: Timed,
-    /// Twice that, until one of both is better. They take turns, because other programs may slow down one of
-    /// them.
-    rival: Option<Timed>,
-    /// The number of tries of both.
-    tries: u32,
+    /// The numbers that are still compared, in rising order. They take turns, because other programs may slow
+    /// down the machine for a while.
+    rivals: Vec<Timed>,
+    /// The index of the number whose turn it is, and the number of steps in this turn so far.
+    turn: usize,
+    steps_of_turn: u64,
+    /// The number of rounds so far.
+    rounds: u32,
+    /// The best number, when nothing is compared.
+    best: u64,
     /// The number of steps before all numbers are tried again.
     hold: u64,
     next_hold: u64,
@@ -61,12 +74,6 @@ struct Timed {
     steps: u64,
     /// Seconds per step.
     seconds: f64,
-}
-
-impl Timed {
-    fn new(steps: u64) -> Self {
-        Self { steps, seconds: f64::INFINITY }
-    }
 }
 
 impl Stride {
@@ -88,15 +95,18 @@ impl Stride {
             let followers = layers.checked_div(2 * blocks * lag.layers).unwrap_or(usize::MAX);
             (followers.saturating_add(1) / stages.max(1)) as u64
         });
+        let most = most.clamp(1, MOST);
         Self {
             fixed,
-            most: most.clamp(1, MOST),
+            most,
             lag: lag.unwrap_or(Lag::NONE),
             column,
             bytes_per_row: (bytes_per_cell(model, precision) * layout.width()).max(1),
-            best: Timed::new(1),
-            rival: Some(Timed::new(2)),
-            tries: 0,
+            rivals: rivals(most),
+            turn: 0,
+            steps_of_turn: 0,
+            rounds: 0,
+            best: 1,
             hold: 0,
             next_hold: HOLD[0],
             steps: 0,
@@ -128,24 +138,48 @@ impl Stride {
 
     /// The number of steps to do together, if `free` steps have nothing between them.
     pub(crate) fn steps(&self, free: u64) -> u64 {
-        self.fixed.unwrap_or(self.present().steps).min(self.most).min(free)
+        let present = self.rivals.get(self.turn).map_or(self.best, |rival| rival.steps);
+        self.fixed.unwrap_or(present).min(self.most).min(free)
     }
 
-    /// Records the time of steps that were done together.
+    /// Records the time of steps that were done together. These may be fewer than the number whose turn it
+    /// is, because of what happens between steps.
     pub(crate) fn took(&mut self, steps: u64, time: Duration) {
         self.steps += steps;
         self.leaps += 1;
-        self.hold = self.hold.saturating_sub(steps);
-        if self.rival.is_none() && self.hold == 0 {
-            self.challenge(1);
-        } else if self.rival.is_some() && steps == self.present().steps {
-            let present = self.rival.as_mut().filter(|_| self.tries % 2 == 1).unwrap_or(&mut self.best);
-            present.seconds = present.seconds.min(time.as_secs_f64() / steps as f64);
-            self.tries += 1;
-            if self.tries == 2 * TRIES {
-                self.judge();
+        if let Some(rival) = self.rivals.get_mut(self.turn) {
+            rival.seconds = rival.seconds.min(time.as_secs_f64() / steps as f64);
+            self.steps_of_turn += steps;
+            if self.steps_of_turn >= TURN {
+                self.end_turn();
             }
+            return;
         }
+        self.hold = self.hold.saturating_sub(steps);
+        if self.hold == 0 {
+            (self.rivals, self.rounds) = (rivals(self.most), 0);
+        }
+    }
+
+    /// Ends the turn of a number. After a round, judges all numbers.
+    fn end_turn(&mut self) {
+        (self.turn, self.steps_of_turn) = (self.turn + 1, 0);
+        if self.turn < self.rivals.len() {
+            return;
+        }
+        (self.turn, self.rounds) = (0, self.rounds + 1);
+        let least = self.rivals.iter().map(|rival| rival.seconds).fold(f64::INFINITY, f64::min);
+        if self.rounds >= JUDGED {
+            self.rivals.retain(|rival| rival.seconds <= TOO_SLOW * least);
+        }
+        if self.rounds < ROUNDS && self.rivals.len() > 1 {
+            return;
+        }
+        let is_worth = |rival: &&Timed| WORTH * rival.seconds <= least;
+        self.best = self.rivals.iter().find(is_worth).map_or(1, |rival| rival.steps);
+        self.rivals.clear();
+        self.hold = self.next_hold;
+        self.next_hold = (2 * self.next_hold).min(HOLD[1]);
     }
 
     /// The mean number of steps done together.
@@ -153,28 +187,12 @@ impl Stride {
         let value = self.steps as f64 / self.leaps as f64;
         (self.steps > self.leaps).then(|| Figure { name: "steps_together".to_owned(), value })
     }
+}
 
-    /// The number whose turn it is.
-    fn present(&self) -> Timed {
-        self.rival.filter(|_| self.tries % 2 == 1).unwrap_or(self.best)
-    }
-
-    /// Compares a number with twice the number.
-    fn challenge(&mut self, steps: u64) {
-        (self.best, self.rival, self.tries) = (Timed::new(steps), Some(Timed::new(2 * steps)), 0);
-    }
-
-    /// Judges both numbers after enough tries: compares the better one with twice of it, or keeps it.
-    fn judge(&mut self) {
-        let winner = self.rival.take().filter(|rival| rival.seconds < WORTH * self.best.seconds);
-        self.best = winner.unwrap_or(self.best);
-        if winner.is_some() && 2 * self.best.steps <= self.most {
-            self.challenge(self.best.steps);
-            return;
-        }
-        self.hold = self.next_hold;
-        self.next_hold = (2 * self.next_hold).min(HOLD[1]);
-    }
+/// All numbers up to a largest one, not timed yet.
+fn rivals(most: u64) -> Vec<Timed> {
+    let powers = iter::successors(Some(1), |steps| Some(2 * steps)).take_while(|steps| *steps <= most);
+    powers.map(|steps| Timed { steps, seconds: f64::INFINITY }).collect()
 }
 
 #[cfg(test)]
@@ -213,33 +231,40 @@ mod tests {
         leaps
     }
 
+    /// The leaps of a round.
+    const ALL: [u64; 9] = [1, 1, 1, 1, 2, 2, 4, 8, 16];
+
     #[test]
     fn the_best_number_of_steps_is_found_and_kept() {
         let mut stride = stride(10_000, 2);
-        let seconds = |steps: u64| if steps <= 4 { 1.0 / steps as f64 } else { 0.4 };
-        let mut wanted = [[1, 2].repeat(3), [2, 4].repeat(3), [4, 8].repeat(3)].concat();
+        // Two steps together gain nothing, four do.
+        let seconds = |steps: u64| [1.0, 1.0, 0.25, 0.4, 0.4][steps.ilog2() as usize];
+        let mut wanted = ALL.repeat(2);
         wanted.extend([4; HOLD[0] as usize / 4]);
-        wanted.extend([1, 2, 1, 2]);
+        wanted.extend(ALL);
         assert_eq!(leaps(&mut stride, wanted.len(), seconds), wanted);
     }
 
     #[test]
     fn where_it_does_not_pay_steps_are_done_one_by_one() {
-        let mut stride = stride(10_000, 2);
-        let mut wanted = [1, 2].repeat(3);
-        wanted.extend([1; 200]);
-        assert_eq!(leaps(&mut stride, wanted.len(), |_| 1.0), wanted);
+        for seconds in [1.0, 0.96] {
+            let mut stride = stride(10_000, 2);
+            let mut wanted = ALL.repeat(4);
+            wanted.extend([1; 200]);
+            let seconds = |steps| if steps == 1 { 1.0 } else { seconds };
+            assert_eq!(leaps(&mut stride, wanted.len(), seconds), wanted);
+        }
     }
 
     /// Other programs slow the machine down for a while, by more than the steps gain.
     #[test]
     fn a_slow_time_does_not_decide() {
-        for slow in 0..18 {
+        for slow in 0..24 {
             let mut stride = stride(10_000, 2);
             let mut leaps = Vec::new();
             for leap in 0..40 {
                 let steps = stride.steps(1000);
-                let times = if (slow..slow + 3).contains(&leap) { 3.0 } else { 1.0 };
+                let times = if (slow..slow + 8).contains(&leap) { 3.0 } else { 1.0 };
                 let seconds = times / steps.min(8) as f64;
                 stride.took(steps, Duration::from_secs_f64(seconds * steps as f64));
                 leaps.push(steps);
@@ -248,10 +273,27 @@ mod tests {
         }
     }
 
+    /// Something happens after every ten steps.
+    #[test]
+    fn numbers_are_also_compared_where_steps_are_cut_short() {
+        let mut stride = stride(10_000, 2);
+        let mut leaps = Vec::new();
+        while leaps.len() < 60 {
+            let mut left = 10;
+            while left > 0 {
+                let steps = stride.steps(left);
+                stride.took(steps, Duration::from_secs_f64(1.0));
+                leaps.push(steps);
+                left -= steps;
+            }
+        }
+        assert_eq!(leaps[25..45], [10; 20], "{leaps:?}");
+    }
+
     #[test]
     fn no_more_are_done_than_there_is_room_for() {
         let most = |rows: usize, threads: usize| {
-            leaps(&mut stride(rows, threads), 25, |steps| 1.0 / steps as f64)[24]
+            leaps(&mut stride(rows, threads), 30, |steps| 1.0 / steps as f64)[29]
         };
         assert_eq!([most(3, 1), most(12, 1), most(12, 2), most(12, 8)], [1, 4, 2, 1]);
         assert_eq!(most(100_000, 4), MOST);
