@@ -62,7 +62,7 @@ impl Job {
                 |from| mailbox.receive(from, 0, Kind::Place).and_then(|bytes| Place::from_bytes(&bytes));
             places.extend((1..size).map(|from| place(from).unwrap_or_else(|| unknown.clone())));
         } else {
-            mailbox.lock().send(0, number(0, Kind::Place), &places[0].bytes());
+            mailbox.lock().send(0, number(0, Kind::Place), places[0].bytes());
         }
         let stopped = AtomicBool::new(rank == 0);
         let attendant = (size > 1).then(|| Attendant::start(mailbox.clone()));
@@ -149,7 +149,7 @@ impl Job {
                             }
                             Err(reason) => Opened::declined(&reason),
                         };
-                        self.0.mailbox.lock().send(0, number(0, Kind::Opened), &reply);
+                        self.0.mailbox.lock().send(0, number(0, Kind::Opened), reply);
                         continue;
                     }
                     Order::Start(beginning) => beginning,
@@ -174,7 +174,7 @@ impl Job {
 impl Inner {
     fn order(&self, order: &Order) {
         let bytes = order.bytes();
-        (1..self.size).for_each(|to| self.mailbox.lock().send(to, number(0, Kind::Order), &bytes));
+        (1..self.size).for_each(|to| self.mailbox.lock().send(to, number(0, Kind::Order), bytes.clone()));
     }
 }
 

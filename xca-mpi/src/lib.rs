@@ -19,6 +19,8 @@ mod opened;
 mod order;
 mod place;
 mod ranks;
+#[cfg(feature = "mpi")]
+mod sending;
 mod tag;
 mod wire;
 

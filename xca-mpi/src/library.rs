@@ -1,11 +1,11 @@
 //! MPI itself: the only file that calls it.
 
+use crate::sending::Sending;
 use crate::wire::{Piece, Wire};
 use mpi::Threading;
 use mpi::environment::{self, Universe};
-use mpi::request::scope;
 use mpi::topology::SimpleCommunicator;
-use mpi::traits::{Communicator, CommunicatorCollectives, Destination, MatchedReceiveVec, Source};
+use mpi::traits::{Communicator, CommunicatorCollectives, MatchedReceiveVec, Source};
 use std::thread;
 
 /// All processes of an MPI job. Dropping it ends MPI for this process, which begins only once.
@@ -15,6 +15,8 @@ pub struct Library {
     on_this_machine: usize,
     number_on_this_machine: usize,
     machine: String,
+    /// What the other processes have not taken in yet.
+    sending: Vec<Sending>,
     /// Ends MPI when it is dropped.
     _universe: Universe,
 }
@@ -57,6 +59,7 @@ impl Library {
             on_this_machine: machine.size() as usize,
             number_on_this_machine: machine.rank() as usize,
             machine: environment::processor_name().unwrap_or_else(|_| "unknown".to_owned()),
+            sending: Vec::new(),
             _universe: universe,
         })
     }
@@ -89,22 +92,14 @@ impl Wire for Library {
         self.machine.clone()
     }
 
-    fn send(&mut self, to: usize, tag: i32, bytes: &[u8], arrived: &mut dyn FnMut(Piece)) {
+    fn send(&mut self, to: usize, tag: i32, bytes: Vec<u8>) {
         let world = SimpleCommunicator::world();
-        let to = world.process_at_rank(to as i32);
-        scope(|scope| {
-            let mut request = to.immediate_send_with_tag(scope, bytes, tag);
-            loop {
-                match request.test() {
-                    Ok(_) => return,
-                    Err(pending) => request = pending,
-                }
-                match poll(&world) {
-                    Some(piece) => arrived(piece),
-                    None => thread::yield_now(),
-                }
-            }
-        });
+        self.sending.push(Sending::begin(&world.process_at_rank(to as i32), tag, bytes));
+    }
+
+    fn is_sending(&mut self) -> bool {
+        self.sending.retain_mut(|message| !message.is_sent());
+        !self.sending.is_empty()
     }
 
     fn poll(&mut self) -> Option<Piece> {
@@ -113,6 +108,12 @@ impl Wire for Library {
 
     fn finish(&mut self, arrived: &mut dyn FnMut(Piece)) {
         let world = SimpleCommunicator::world();
+        while self.is_sending() {
+            match poll(&world) {
+                Some(piece) => arrived(piece),
+                None => thread::yield_now(),
+            }
+        }
         let mut request = world.immediate_barrier();
         while let Err(pending) = request.test() {
             request = pending;

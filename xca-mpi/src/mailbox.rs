@@ -56,14 +56,16 @@ impl Mailbox {
         Self { wire, arrived: Arrived { full, begun: HashMap::new(), whole: HashMap::new() } }
     }
 
-    pub(crate) fn send(&mut self, to: usize, tag: i32, bytes: &[u8]) {
-        let Self { wire, arrived } = self;
-        let (full, mut rest) = (arrived.full, bytes);
-        while let Some((piece, after)) = rest.split_at_checked(full) {
-            wire.send(to, tag, piece, &mut |piece| arrived.take_in(piece));
+    /// Begins to send a message.
+    pub(crate) fn send(&mut self, to: usize, tag: i32, bytes: Vec<u8>) {
+        let full = self.arrived.full;
+        let mut rest = bytes;
+        while rest.len() >= full {
+            let after = rest.split_off(full);
+            self.wire.send(to, tag, rest);
             rest = after;
         }
-        wire.send(to, tag, rest, &mut |piece| arrived.take_in(piece));
+        self.wire.send(to, tag, rest);
     }
 
     /// Whether a message from a process with a tag has arrived.
@@ -112,13 +114,26 @@ pub(crate) mod tests {
         to: Vec<Sender<Piece>>,
         from: Receiver<Piece>,
         all: Arc<Barrier>,
+        /// Pieces that the next call of `is_sending` sends, like MPI those that are large. `None` if all are
+        /// sent at once.
+        late: Option<Vec<(usize, Piece)>>,
     }
 
     impl Threads {
         pub(crate) fn connect(size: usize) -> Vec<Box<dyn Wire>> {
+            Self::all(size, || None)
+        }
+
+        /// With pieces that need further calls to be sent.
+        pub(crate) fn connect_late(size: usize) -> Vec<Box<dyn Wire>> {
+            Self::all(size, || Some(Vec::new()))
+        }
+
+        fn all(size: usize, late: fn() -> Option<Vec<(usize, Piece)>>) -> Vec<Box<dyn Wire>> {
             let (to, from): (Vec<_>, Vec<_>) = (0..size).map(|_| channel()).unzip();
             let all = Arc::new(Barrier::new(size));
-            let wire = |(rank, from)| Self { rank, to: to.clone(), from, all: Arc::clone(&all) };
+            let wire =
+                |(rank, from)| Self { rank, to: to.clone(), from, all: Arc::clone(&all), late: late() };
             from.into_iter().enumerate().map(wire).map(|wire| Box::new(wire) as Box<dyn Wire>).collect()
         }
     }
@@ -144,9 +159,19 @@ pub(crate) mod tests {
             format!("machine {}", self.rank / 2)
         }
 
-        fn send(&mut self, to: usize, tag: i32, bytes: &[u8], _arrived: &mut dyn FnMut(Piece)) {
-            let piece = Piece { from: self.rank, tag, bytes: bytes.to_vec() };
-            self.to[to].send(piece).expect("all are there until the end");
+        fn send(&mut self, to: usize, tag: i32, bytes: Vec<u8>) {
+            let piece = Piece { from: self.rank, tag, bytes };
+            match &mut self.late {
+                Some(late) => late.push((to, piece)),
+                None => self.to[to].send(piece).expect("all are there until the end"),
+            }
+        }
+
+        fn is_sending(&mut self) -> bool {
+            for (to, piece) in self.late.iter_mut().flat_map(|late| late.drain(..)) {
+                self.to[to].send(piece).expect("all are there until the end");
+            }
+            false
         }
 
         fn poll(&mut self) -> Option<Piece> {
@@ -154,6 +179,7 @@ pub(crate) mod tests {
         }
 
         fn finish(&mut self, arrived: &mut dyn FnMut(Piece)) {
+            self.is_sending();
             self.all.wait();
             self.from.try_iter().for_each(arrived);
         }
@@ -171,9 +197,9 @@ pub(crate) mod tests {
             (wires.next().unwrap(), wires.next().unwrap(), wires.next().unwrap());
         let message = |length: u8| (0..length).collect::<Vec<u8>>();
         for length in [0, 3, 4, 5, 8, 11] {
-            first.send(0, 7, &message(length));
-            first.send(0, 8, &message(length + 1));
-            second.send(0, 7, &message(length + 2));
+            first.send(0, 7, message(length));
+            first.send(0, 8, message(length + 1));
+            second.send(0, 7, message(length + 2));
         }
         for length in [0, 3, 4, 5, 8, 11] {
             assert_eq!(host.take(2, 7), Some(message(length + 2)));
@@ -181,8 +207,8 @@ pub(crate) mod tests {
             assert_eq!(host.take(1, 7), Some(message(length)));
         }
         assert_eq!(host.take(1, 7), None);
-        first.send(0, 7, &[1]);
-        first.send(0, 8, &[2]);
+        first.send(0, 7, vec![1]);
+        first.send(0, 8, vec![2]);
         assert_eq!(host.take(2, 7), None);
         host.forget(|tag| tag == 7);
         assert_eq!((host.take(1, 7), host.take(1, 8)), (None, Some(vec![2])));

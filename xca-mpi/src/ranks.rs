@@ -100,7 +100,7 @@ impl Transport for Ranks {
         if self.has_ended {
             return Err(TransportError::Ended { part: self.rank });
         }
-        self.mailbox.lock().send(to, number(self.execution, Kind::Part(tag)), &bytes);
+        self.mailbox.lock().send(to, number(self.execution, Kind::Part(tag)), bytes);
         Ok(())
     }
 
@@ -115,7 +115,7 @@ impl Transport for Ranks {
         }
         self.has_ended = true;
         for to in (0..self.size).filter(|to| *to != self.rank) {
-            self.mailbox.lock().send(to, number(self.execution, Kind::Ended), &[]);
+            self.mailbox.lock().send(to, number(self.execution, Kind::Ended), Vec::new());
         }
     }
 }

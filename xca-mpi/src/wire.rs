@@ -19,9 +19,11 @@ pub trait Wire: Send {
     /// The name of this machine.
     fn machine(&self) -> String;
 
-    /// Sends a piece, and hands on what arrives meanwhile: two processes that send to each other do not wait
-    /// for each other.
-    fn send(&mut self, to: usize, tag: i32, bytes: &[u8], arrived: &mut dyn FnMut(Piece));
+    /// Begins to send a piece. Other calls go on with it.
+    fn send(&mut self, to: usize, tag: i32, bytes: Vec<u8>);
+
+    /// Goes on sending. Whether a piece still waits for its receiver.
+    fn is_sending(&mut self) -> bool;
 
     /// A piece that has arrived; nothing where there is none now.
     fn poll(&mut self) -> Option<Piece>;

@@ -4,6 +4,7 @@ use super::Job;
 use crate::engine::Mpi;
 use crate::mailbox::tests::Threads;
 use crate::place::Place;
+use crate::wire::Wire;
 use std::num::NonZeroU64;
 use std::thread;
 use xca_core::engine::{Execution, StartError};
@@ -47,8 +48,16 @@ fn part(word: &str, place: &Place) -> Result<Box<dyn Engine>, String> {
 
 /// What the host comes to in a job of so many processes, whose others make this model.
 fn hosted<T>(size: usize, model: fn(Precision) -> Result<Model, String>, work: impl FnOnce(Job) -> T) -> T {
+    hosted_on(Threads::connect(size), model, work)
+}
+
+fn hosted_on<T>(
+    wires: Vec<Box<dyn Wire>>,
+    model: fn(Precision) -> Result<Model, String>,
+    work: impl FnOnce(Job) -> T,
+) -> T {
     thread::scope(|scope| {
-        let mut wires = Threads::connect(size).into_iter();
+        let mut wires = wires.into_iter();
         let own = wires.next().unwrap();
         for wire in wires {
             scope.spawn(move || {
@@ -73,6 +82,14 @@ fn processes_come_to_what_one_comes_to() {
         let got = hosted(size, |_| Ok(life(20)), |job| after(&Mpi::new(job, &part, "1").unwrap(), 25));
         assert!(got == wanted, "{size} processes");
     }
+}
+
+/// Messages that each need further calls to be sent.
+#[test]
+fn late_messages_arrive() {
+    let wires = Threads::connect_late(3);
+    let got = hosted_on(wires, |_| Ok(life(20)), |job| after(&Mpi::new(job, &part, "1").unwrap(), 25));
+    assert!(got == after(&Reference, 25));
 }
 
 /// A soup in a few rows of many: the bounds of the processes move to it.
