@@ -15,12 +15,12 @@ pub(crate) struct Dense {
     pub(crate) next: Option<Buffer>,
     /// Whether a process of the model reads the substate elsewhere, and therefore the halo.
     pub(crate) read_elsewhere: bool,
-    halo: Halo,
+    pub(crate) halo: Halo,
 }
 
 /// The part of a plane's halo that is up to date.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Halo {
+pub(crate) enum Halo {
     /// The whole halo.
     Whole,
     /// The continuation of the rows along x.
@@ -63,16 +63,21 @@ impl Dense {
     /// Records a pass that wrote all rows, and continued them into the halo if a process reads it there. The
     /// continuation is along x, or with `whole` beyond all faces.
     pub(crate) fn written(&mut self, second: bool, whole: bool) {
-        if let Some(next) = &mut self.next
-            && second
-        {
-            std::mem::swap(&mut self.current, next);
-        }
+        self.swap(second);
         self.halo = match (self.read_elsewhere, whole) {
             (false, _) => Halo::Stale,
             (true, false) => Halo::Rows,
             (true, true) => Halo::Whole,
         };
+    }
+
+    /// Swaps the buffers, after a pass that wrote to the second one.
+    pub(crate) fn swap(&mut self, second: bool) {
+        if let Some(next) = &mut self.next
+            && second
+        {
+            std::mem::swap(&mut self.current, next);
+        }
     }
 
     /// Updates the halo. Values beyond flat faces never change.

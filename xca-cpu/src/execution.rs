@@ -40,7 +40,7 @@ pub(crate) struct CpuExecution {
     pub(crate) groups: Vec<Group>,
     /// The tiles in which processes over cells are due. `None` for a model without such processes.
     pub(crate) activity: Option<Activity>,
-    stride: Stride,
+    pub(crate) stride: Stride,
     reductions: Mutex<Reductions>,
     /// The stages of a step in which all processes run.
     stages: Vec<Stage>,
@@ -165,13 +165,17 @@ impl CpuExecution {
     }
 
     /// The number of steps to do together next, out of `left`.
-    fn together(&self, left: u64) -> u64 {
+    pub(crate) fn together(&self, left: u64) -> u64 {
         let free = self.activity.as_ref().map_or(u64::MAX, Activity::steps_without);
         self.stride.steps(left.min(free)).max(1)
     }
 
-    /// Does `steps` steps together: all processes in all cells.
-    fn run_together(&mut self, steps: u64, context: &StepContext<'_>) -> Result<(), Interruption> {
+    /// The passes of `steps` steps that are done together. All work on all cells.
+    pub(crate) fn passes_together<'a>(
+        &mut self,
+        steps: u64,
+        context: &StepContext<'a>,
+    ) -> Vec<(StepContext<'a>, Stage)> {
         let contexts = (0..steps).map(|done| StepContext { step: context.step + done, ..*context });
         let all = 0..self.model.processes().len();
         let due = contexts.flat_map(|context| {
@@ -182,8 +186,13 @@ impl CpuExecution {
         if let Some(activity) = &mut self.activity {
             due.iter().for_each(|(_, stage)| activity.worked_on_all(stage));
         }
-        let stages = due.iter().map(|(context, processes)| StageOfStep { processes, context: *context });
-        let stages: Vec<StageOfStep<'_>> = stages.collect();
+        due
+    }
+
+    /// Does `steps` steps together: all processes in all cells.
+    fn run_together(&mut self, steps: u64, context: &StepContext<'_>) -> Result<(), Interruption> {
+        let due = self.passes_together(steps, context);
+        let stages: Vec<StageOfStep<'_>> = due.iter().map(StageOfStep::new).collect();
         let ground = Ground { model: &self.model, layout: &self.layout, precision: self.precision };
         let groups = &mut self.groups;
         let depth = self.stride.depth(stages.len());

@@ -172,16 +172,25 @@ impl Layout {
         along(2, z).flat_map(move |z| along(1, y).map(move |y| z * height + y))
     }
 
-    /// The distance that a pass must keep from the previous pass. `None` if the halo is wider than the space.
+    /// The distance that a pass must keep from the previous pass. `None` if the halo is wider than the space,
+    /// or other parts lie beside layers and not only before and after them.
     pub(crate) fn lag(&self) -> Option<Lag> {
         let [_, height, depth] = self.extents;
         let [_, along, up] = self.reach;
-        let is_ring = |axis: usize| self.boundaries[Face::ALONG[axis][0]] == Boundary::Toroidal;
-        if along > height || up > depth || self.borders != Faces::all(false) {
+        let borders = |axis: usize| Face::ALONG[axis].map(|face| self.borders[face]);
+        let has_border = |axis: usize| borders(axis) != [false; 2];
+        let is_ring =
+            |axis: usize| self.boundaries[Face::ALONG[axis][0]] == Boundary::Toroidal && !has_border(axis);
+        let of_layers = if depth == 1 { 1 } else { 2 };
+        if along > height || up > depth || has_border(3 - of_layers) {
             return None;
         }
         if depth == 1 {
-            return Some(Lag { layers: along, is_ring: along > 0 && is_ring(1), ..Lag::NONE });
+            let (is_ring, borders) = (along > 0 && is_ring(1), borders(1));
+            return Some(Lag { layers: along, is_ring, borders, ..Lag::NONE });
+        }
+        if up == 0 && has_border(2) {
+            return None;
         }
         if up == 0 {
             // On a torus along y, the first rows of a layer see its last rows.
@@ -189,7 +198,7 @@ impl Layout {
             return Some(Lag { layers, ..Lag::NONE });
         }
         let along = (along == 0 || !is_ring(1)).then_some(along);
-        Some(Lag { layer: height, layers: up, is_ring: is_ring(2), along })
+        Some(Lag { layer: height, layers: up, is_ring: is_ring(2), along, borders: borders(2) })
     }
 
     /// The indices y and z in the part of the halo lines that repeat a row.

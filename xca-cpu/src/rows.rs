@@ -17,6 +17,7 @@ mod tools;
 
 use crate::activity::{Activity, DueRow};
 use crate::blocks::{blocks, blocks_of_due, long_blocks};
+use crate::dense::Halo;
 use crate::group::{Group, population};
 use crate::population::Population;
 use crate::wavefront::{Depth, Piece, Wavefront};
@@ -151,6 +152,58 @@ pub(crate) fn run_in_wake(
     let blocks = long_blocks(ground.layout, rayon::current_num_threads(), depth);
     let found = work(ground, groups, &ready, &Wavefront::new(depth, blocks), Selection::default());
     conclude(groups, &ready, found).map(drop)
+}
+
+/// Like [`run_in_wake`], in a part of a space: without the layers at its borders, which [`run_at_borders`] does
+/// pass by pass. Which buffers hold the state, and what is known of halos, is then as before the first pass.
+pub(crate) fn run_within_borders(
+    ground: Ground<'_>,
+    groups: &mut [Group],
+    stages: &[StageOfStep<'_>],
+    depth: Depth,
+) -> Result<(), FirstFault> {
+    let planes = |groups: &[Group]| -> Vec<Vec<Halo>> {
+        let of_group = |group: &Group| match group {
+            Group::Cells(planes) => planes.iter().map(|plane| plane.halo).collect(),
+            Group::Population(_) => Vec::new(),
+        };
+        groups.iter().map(of_group).collect()
+    };
+    let halos = planes(groups);
+    let ready: Vec<Ready<'_>> = stages.iter().map(|stage| Ready::in_wake(ground, groups, *stage)).collect();
+    let blocks = long_blocks(ground.layout, rayon::current_num_threads(), depth);
+    let found = work(ground, groups, &ready, &Wavefront::new(depth, blocks), Selection::default());
+    for &(substate, second) in ready.iter().flat_map(|ready| &ready.written) {
+        if let Group::Cells(planes) = &mut groups[substate.group] {
+            planes[substate.field].swap(second);
+        }
+    }
+    for (group, halos) in groups.iter_mut().zip(halos) {
+        if let Group::Cells(planes) = group {
+            planes.iter_mut().zip(halos).for_each(|(plane, halo)| plane.halo = halo);
+        }
+    }
+    conclude(groups, &ready, found).map(drop)
+}
+
+/// Runs a pass over the layers that [`run_within_borders`] has left out of it.
+pub(crate) fn run_at_borders(
+    ground: Ground<'_>,
+    groups: &mut [Group],
+    (stage, pass): (StageOfStep<'_>, usize),
+    depth: Depth,
+) -> Result<(), FirstFault> {
+    let ready = [Ready::new(ground, groups, stage, None)];
+    let layer = depth.lag.layer;
+    let share = |layers: Range<usize>| {
+        let rows = layers.start * layer..layers.end * layer;
+        let length = rows.len().div_ceil(4 * rayon::current_num_threads()).max(1);
+        let end = rows.end;
+        rows.step_by(length).map(move |start| start..(start + length).min(end))
+    };
+    let blocks = depth.layers_at_borders(pass, ground.layout.rows() / layer).flat_map(share).collect();
+    let found = work(ground, groups, &ready, &Wavefront::of_one_pass(blocks), Selection::default());
+    conclude(groups, &ready, found).map(drop).map_err(|first| FirstFault { pass, ..first })
 }
 
 /// The blocks of rows for the threads: those of the due rows, or of all.

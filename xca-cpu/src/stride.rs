@@ -93,7 +93,8 @@ impl Stride {
             let blocks = if fixed.is_some() { 1 } else { 2 * threads };
             let layers = layout.rows() / lag.layer;
             let followers = layers.checked_div(2 * blocks * lag.layers).unwrap_or(usize::MAX);
-            (followers.saturating_add(1) / stages.max(1)) as u64
+            let passes = if lag.has_border() { followers } else { followers.saturating_add(1) };
+            (passes / stages.max(1)) as u64
         });
         let most = most.clamp(1, MOST);
         Self {

@@ -7,6 +7,9 @@
 //! beyond belong to another block. The undone layers on both sides of each cut form a gap, which is done
 //! afterwards. All blocks can run at the same time, then all gaps.
 //!
+//! In a part of a space, blocks end at its borders in the same way. The layers that are left there are done
+//! pass by pass, each with the edges of the other part after the previous pass.
+//!
 //! If a few layers exceed the cache, a block is done in columns, one after the other. In each later pass a
 //! column shifts towards the first row, as far as rows see each other. It then needs nothing from later
 //! columns, and overwrites nothing that they need.
@@ -25,11 +28,19 @@ pub(crate) struct Lag {
     /// The largest distance between rows that see each other, in a layer or in layers that see each other.
     /// `None` if all rows may see each other, which excludes columns.
     pub(crate) along: Option<usize>,
+    /// Whether another part of the space lies before the first layer, and after the last one.
+    pub(crate) borders: [bool; 2],
 }
 
 impl Lag {
+    /// Whether another part of the space lies before the first layer or after the last one.
+    pub(crate) fn has_border(self) -> bool {
+        self.borders != [false; 2]
+    }
+
     /// For passes that do not affect each other.
-    pub(crate) const NONE: Self = Self { layer: 1, layers: 0, is_ring: false, along: None };
+    pub(crate) const NONE: Self =
+        Self { layer: 1, layers: 0, is_ring: false, along: None, borders: [false; 2] };
 }
 
 /// The number of consecutive passes, and their distances.
@@ -44,9 +55,19 @@ pub(crate) struct Depth {
 }
 
 impl Depth {
-    /// The least number of layers in a block. The gaps at its two ends must not overlap.
+    /// The least number of layers in a block. The gaps at its two ends must not overlap, nor what is left at
+    /// borders.
     pub(crate) fn least_block(self) -> usize {
-        (2 * self.passes.saturating_sub(1) * self.lag.layers).max(1)
+        let passes = if self.lag.has_border() { self.passes } else { self.passes.saturating_sub(1) };
+        (2 * passes * self.lag.layers).max(1)
+    }
+
+    /// The layers that blocks and gaps leave out in a pass: each pass leaves out more, because it sees what
+    /// the one before has left out. `layers` is the number of all layers.
+    pub(crate) fn layers_at_borders(self, pass: usize, layers: usize) -> impl Iterator<Item = Range<usize>> {
+        let Lag { layers: lag, borders: [low, high], .. } = self.lag;
+        let width = lag * (pass + 1);
+        [low.then_some(0..width), high.then_some(layers - width..layers)].into_iter().flatten()
     }
 
     /// The columns of a layer, by index.
@@ -119,11 +140,16 @@ impl Wavefront {
         let lag = lag as isize;
         let layers = self.layers();
         let is_cut = |layer: usize| passes > 1 && (is_ring || !(layer == 0 || layer == layers));
+        let [low, high] = self.depth.lag.borders;
         let block = |block: &Range<usize>| {
-            let slope = |layer: usize| if is_cut(layer) { lag } else { 0 };
+            // The first pass ends before a border too, as it would see another part there.
+            let edge = |layer: usize, is_border: bool, sign: isize| Edge {
+                layer: layer as isize + if is_border { sign * lag } else { 0 },
+                slope: if is_border || is_cut(layer) { sign * lag } else { 0 },
+            };
             Piece {
-                low: Edge { layer: block.start as isize, slope: slope(block.start) },
-                high: Edge { layer: block.end as isize, slope: -slope(block.end) },
+                low: edge(block.start, low && block.start == 0, 1),
+                high: edge(block.end, high && block.end == layers, -1),
                 first: 0,
             }
         };
@@ -231,10 +257,11 @@ mod tests {
     #[test]
     fn no_row_notices_in_whatever_order_the_pieces_are_worked_on() {
         let mut chance = Chance(1);
-        let (mut cuts, mut columns) = (0, 0);
+        let (mut cuts, mut columns, mut at_borders) = (0, 0, 0);
         for case in 0..600 {
             let (layer, along) = (1 + chance.below(7), (case % 3 > 0).then(|| chance.below(3)));
-            let lag = Lag { layer, layers: chance.below(4), is_ring: case % 2 == 0, along };
+            let borders = [case % 4 == 1, case % 8 < 4].map(|is_border| is_border && case % 2 == 1);
+            let lag = Lag { layer, layers: chance.below(4), is_ring: case % 2 == 0, along, borders };
             let column = along.map(|_| 1 + chance.below(4));
             let depth = Depth { passes: 1 + chance.below(5), lag, chunk: 1 + chance.below(7), column };
             columns += depth.columns().len() - 1;
@@ -258,9 +285,16 @@ mod tests {
                     }
                 }
             }
+            for pass in 0..depth.passes {
+                for layers in depth.layers_at_borders(pass, wavefront.layers()) {
+                    let rows = layers.start * layer..layers.end * layer;
+                    at_borders += rows.len();
+                    check(&Portion { pass, rows }, &mut done, lag);
+                }
+            }
             assert!(done.iter().all(|done| *done == depth.passes), "{depth:?} {lengths:?} {done:?}");
         }
-        assert!(cuts > 300 && columns > 600, "{cuts} {columns}");
+        assert!(cuts > 300 && columns > 600 && at_borders > 5000, "{cuts} {columns} {at_borders}");
     }
 
     #[test]
@@ -292,7 +326,7 @@ mod tests {
 
     #[test]
     fn columns_are_shifted_from_pass_to_pass() {
-        let lag = Lag { layer: 10, layers: 1, is_ring: false, along: Some(1) };
+        let lag = Lag { layer: 10, layers: 1, along: Some(1), ..Lag::NONE };
         let depth = Depth { passes: 2, lag, chunk: 1, column: Some(6) };
         let first = [(0, 0..6), (0, 10..16), (1, 0..5), (1, 10..15)];
         let second = [(0, 6..10), (0, 16..20), (1, 5..10), (1, 15..20)];

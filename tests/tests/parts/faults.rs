@@ -3,6 +3,7 @@
 use crate::borders::{Behind, Manner};
 use crate::{TestResult, count, cpu};
 use std::error::Error;
+use std::num::NonZeroU64;
 use xca_core::prelude::*;
 use xca_parts::Parts;
 
@@ -92,7 +93,12 @@ fn the_first_fault_of_parts_far_from_each_other() -> TestResult {
             for parts in [2, 3, 6, 12] {
                 let engine = cpu(1, number % 3)?;
                 let late = Behind { engine: engine.clone(), manner: Manner::Late };
-                for parts in [Parts::new(engine, count(parts)?), Parts::new(late, count(parts)?)] {
+                let together = cpu(1, 0)?.with_stride(NonZeroU64::MIN.saturating_add(1 + number as u64));
+                for parts in [
+                    Parts::new(engine, count(parts)?),
+                    Parts::new(late, count(parts)?),
+                    Parts::new(together, count(parts)?),
+                ] {
                     assert_eq!(outcome(&model, &parts)?, wanted, "{fuses:?} {boundary} {parts:?}");
                 }
             }

@@ -10,6 +10,7 @@ mod lists;
 mod models;
 mod moves;
 mod traffic;
+mod wakes;
 
 use borders::{Behind, Manner};
 use models::{Site, life, wood};

@@ -1,6 +1,7 @@
 //! The input of passes.
 
 use crate::layout::Layout;
+use crate::stages::Stage;
 use xca_core::engine::StepContext;
 use xca_core::{Model, Precision};
 
@@ -9,6 +10,12 @@ use xca_core::{Model, Precision};
 pub(crate) struct StageOfStep<'a> {
     pub(crate) processes: &'a [usize],
     pub(crate) context: StepContext<'a>,
+}
+
+impl<'a> StageOfStep<'a> {
+    pub(crate) fn new((context, processes): &'a (StepContext<'a>, Stage)) -> Self {
+        Self { processes, context: *context }
+    }
 }
 
 /// The common input of passes.
