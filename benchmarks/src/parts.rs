@@ -74,7 +74,7 @@ impl Engine for Late {
             engine: self.name().to_owned(),
             reason: error.to_string(),
         };
-        let grid = Grid::into_parts(model.geometry(), 2, self.name())?;
+        let grid = Grid::into_parts(model, 2, self.name())?;
         let start = Instant::now();
         let late = |channels| Box::new(Delayed { channels, delay: self.delay, start });
         let [own, second] = <[Channels; 2]>::try_from(Channels::connect(2))

@@ -118,10 +118,11 @@ impl Work<'_> {
                 return Ok(None);
             }
             let begin = Instant::now();
-            let result = simulation.run(batch.steps.min(wanted - simulation.step_number()));
+            let steps = batch.steps.min(wanted - simulation.step_number());
+            let result = simulation.run(steps);
             *done = simulation.step_number();
             result?;
-            batch.adapt(begin.elapsed());
+            batch.adapt(steps, begin.elapsed());
         }
         simulation.finish()?;
         check_finite(&simulation)?;

@@ -92,10 +92,10 @@ impl Engine for Mpi {
     }
 
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {
-        let (geometry, size) = (model.geometry(), self.job.size());
+        let size = self.job.size();
         let grid = match self.grid {
-            None => Grid::into_parts(geometry, size, NAME)?,
-            Some(grid) => grid.check(geometry, NAME).map(|()| grid)?,
+            None => Grid::into_parts(model, size, NAME)?,
+            Some(grid) => grid.check(model.geometry(), NAME).map(|()| grid)?,
         };
         if grid.count() != size {
             let reason = format!("{grid} are {} parts, but the job has {size} processes", grid.count());

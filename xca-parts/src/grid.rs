@@ -2,8 +2,9 @@
 
 use std::fmt::{Display, Formatter};
 use std::str::FromStr;
-use xca_core::Geometry;
 use xca_core::engine::StartError;
+use xca_core::model::{Group, GroupKind};
+use xca_core::{Geometry, Model};
 
 /// The numbers of parts along y and along z. As text, `2x3` is two parts along y and three along z.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,13 +27,23 @@ impl Grid {
     pub const WHOLE: Self = Self { y: 1, z: 1 };
 
     /// A grid of `parts` parts, none of which has to be thinner than the reach of the model. It cuts along
-    /// the longer of y and z, or along y if they are equal. Without room for this, it cuts along the other
-    /// axis, or along both. `None` if there is no such grid.
-    pub fn with_parts(geometry: &Geometry, parts: usize) -> Option<Self> {
+    /// the longer of y and z. If they are equal, it cuts models of cells along z, because parts of whole
+    /// layers can do several steps together, and models with items along y, because these fall along z.
+    /// Without room for this, it cuts along the other axis, or along both. `None` if there is no such grid.
+    pub fn with_parts(model: &Model, parts: usize) -> Option<Self> {
+        let is_of_items = |group: &Group| matches!(group.kind(), GroupKind::Population { .. });
+        Self::of_space(model.geometry(), parts, model.groups().iter().any(is_of_items))
+    }
+
+    fn of_space(geometry: &Geometry, parts: usize, has_items: bool) -> Option<Self> {
         let [_, height, depth] = geometry.extents();
         let along_longer = |along: usize| {
             let across = parts / along;
-            if height >= depth { Self { y: along, z: across } } else { Self { y: across, z: along } }
+            if height > depth || (height == depth && has_items) {
+                Self { y: along, z: across }
+            } else {
+                Self { y: across, z: along }
+            }
         };
         let both = (2..parts).rev().filter(|along| parts.is_multiple_of(*along));
         [parts, 1].into_iter().chain(both).map(along_longer).find(|grid| grid.fits(geometry))
@@ -42,8 +53,9 @@ impl Grid {
     ///
     /// # Errors
     /// [`StartError::NoParts`] if there is no such grid.
-    pub fn into_parts(geometry: &Geometry, parts: usize, engine: &str) -> Result<Self, StartError> {
-        Self::with_parts(geometry, parts).ok_or_else(|| no_room(geometry, &format!("{parts} parts"), engine))
+    pub fn into_parts(model: &Model, parts: usize, engine: &str) -> Result<Self, StartError> {
+        let no_room = || no_room(model.geometry(), &format!("{parts} parts"), engine);
+        Self::with_parts(model, parts).ok_or_else(no_room)
     }
 
     /// Checks that a space has room for the parts. `engine` is the name in the error message.
@@ -119,10 +131,16 @@ mod tests {
         let space = |extents, reach| {
             Geometry::new(extents, 1.0, Faces::all(Boundary::Flat), Neighbourhood::moore(reach))
         };
-        let grid = |extents, reach, parts| {
-            Grid::with_parts(&space(extents, reach), parts).map(|grid| grid.to_string())
+        let of_space = |extents, reach, parts, has_items| {
+            Grid::of_space(&space(extents, reach), parts, has_items).map(|grid| grid.to_string())
         };
-        assert_eq!(grid([9, 12, 12], 1, 4).as_deref(), Some("4x1"));
+        assert_eq!(of_space([9, 12, 12], 1, 4, true).as_deref(), Some("4x1"));
+        assert_eq!(of_space([9, 12, 12], 1, 4, false).as_deref(), Some("1x4"));
+        let grid = |extents, reach, parts| {
+            let [one, other] = [true, false].map(|has_items| of_space(extents, reach, parts, has_items));
+            assert_eq!(one, other);
+            one
+        };
         assert_eq!(grid([9, 11, 12], 1, 4).as_deref(), Some("1x4"));
         // There is no room along the longer axis alone.
         assert_eq!(grid([9, 12, 9], 3, 6).as_deref(), Some("3x2"));

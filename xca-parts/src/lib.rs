@@ -38,7 +38,7 @@ use std::num::NonZeroUsize;
 use std::sync::Arc;
 use std::thread::Builder;
 use xca_core::engine::{Engine, Execution, StartError};
-use xca_core::{Geometry, Model, Precision};
+use xca_core::{Model, Precision};
 
 /// An engine made of several engines. Each runs a part of the space on its own thread.
 #[derive(Debug, Clone)]
@@ -108,14 +108,14 @@ impl Parts {
     }
 
     /// The numbers of parts of a model's space.
-    fn grid(&self, geometry: &Geometry) -> Result<Grid, StartError> {
+    fn grid(&self, model: &Model) -> Result<Grid, StartError> {
         match self.number {
-            Number::Exactly(parts) => Grid::into_parts(geometry, parts, NAME),
+            Number::Exactly(parts) => Grid::into_parts(model, parts, NAME),
             Number::AtMost(parts) => {
-                let grid = (1..=parts).rev().find_map(|parts| Grid::with_parts(geometry, parts));
+                let grid = (1..=parts).rev().find_map(|parts| Grid::with_parts(model, parts));
                 Ok(grid.unwrap_or(Grid::WHOLE))
             }
-            Number::Grid(grid) => grid.check(geometry, NAME).map(|()| grid),
+            Number::Grid(grid) => grid.check(model.geometry(), NAME).map(|()| grid),
         }
     }
 }
@@ -153,7 +153,7 @@ impl Engine for Parts {
     }
 
     fn start(&self, model: &Model, precision: Precision) -> Result<Box<dyn Execution>, StartError> {
-        let shared = Shared::even(model, precision, self.grid(model.geometry())?);
+        let shared = Shared::even(model, precision, self.grid(model)?);
         let mut ends = Channels::connect(shared.cut.count()).into_iter();
         let own = ends.next().ok_or_else(|| other("there is no part"))?;
         let mut threads = Vec::new();

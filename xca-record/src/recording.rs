@@ -130,9 +130,10 @@ impl Recording {
         while self.is_unfinished() && !monitor.is_interrupted() {
             let done = self.simulation.step_number();
             let begin = Instant::now();
-            let result = self.simulation.run(batch.steps.min(self.next_output(done) - done));
+            let steps = batch.steps.min(self.next_output(done) - done);
+            let result = self.simulation.run(steps);
             self.stepping += begin.elapsed();
-            batch.adapt(begin.elapsed());
+            batch.adapt(steps, begin.elapsed());
             result?;
             let done = self.simulation.step_number();
             monitor.at(done);

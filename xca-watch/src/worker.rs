@@ -66,12 +66,17 @@ pub(super) struct Worker<'a> {
 }
 
 /// What a run has shown so far.
-#[derive(Default)]
 struct Earlier {
     batch: Batch,
     /// The scale, and the look that it is of.
     scale: Option<(Look, [f64; 2])>,
     measured: Option<Measured>,
+}
+
+impl Earlier {
+    fn new() -> Self {
+        Self { batch: Batch::brief(), scale: None, measured: None }
+    }
 }
 
 struct Measured {
@@ -90,12 +95,12 @@ impl Worker<'_> {
         answers: &Sender<Result<News, Failure>>,
     ) {
         let mut simulation = first;
-        let mut earlier = Earlier::default();
+        let mut earlier = Earlier::new();
         while let Ok(order) = orders.recv() {
             if order.advance == Advance::Restart {
                 // Both at once may not fit into memory.
                 drop(simulation);
-                earlier = Earlier::default();
+                earlier = Earlier::new();
                 match Simulation::new(self.recorder.model(), self.engine, self.options) {
                     Ok(new) => simulation = new,
                     Err(error) => {
@@ -158,10 +163,7 @@ impl Worker<'_> {
             let steps = batch.steps.min(to - simulation.step_number());
             let start = Instant::now();
             simulation.run(steps)?;
-            // A part of a batch says nothing of how long a larger one takes.
-            if steps == batch.steps {
-                batch.adapt(start.elapsed());
-            }
+            batch.adapt(steps, start.elapsed());
             self.shared.done.store(simulation.step_number(), Ordering::Relaxed);
         }
         Ok(())

@@ -34,9 +34,12 @@ fn burn(charge: &mut Cell<Charge>) {
     }
 }
 
-const EXTENTS: [usize; 3] = [4, 12, 1];
+const EXTENTS: [usize; 3] = [4, 12 * APART, 1];
 
-/// A row, and the number of steps to its fault.
+/// Room for steps together.
+const APART: usize = 4;
+
+/// A row out of every fourth, and the number of steps to its fault.
 type Fuse = (usize, u32);
 
 fn model(boundary: Boundary, fuses: &'static [Fuse]) -> Result<Model, ModelError> {
@@ -49,7 +52,7 @@ fn model(boundary: Boundary, fuses: &'static [Fuse]) -> Result<Model, ModelError
         .fault_text(3, "it burns")
         .fill(|site| {
             let [x, y, _] = site.cell();
-            let here = fuses.iter().find(|(row, _)| x == 1 && *row == y);
+            let here = fuses.iter().find(|(row, _)| x == 1 && *row * APART == y);
             Charge { fuse: here.map_or(0, |(_, steps)| *steps), heat: (7 * x + 13 * y) as u32 }
         })
         .build()

@@ -42,8 +42,9 @@ impl States for Running<'_> {
             }
             let next = every.next(done).min(wanted);
             let begin = Instant::now();
-            simulation.run(batch.steps.min(next - done))?;
-            batch.adapt(begin.elapsed());
+            let steps = batch.steps.min(next - done);
+            simulation.run(steps)?;
+            batch.adapt(steps, begin.elapsed());
         }
     }
 }
