@@ -114,7 +114,8 @@ pub use model::{InitialError, Model, ModelBuilder, ModelError};
 pub use parameter_set::ParameterSet;
 pub use reference::Reference;
 pub use simulation::{
-    GroupSnapshot, ItemCounts, Outcome, Outline, RunError, RunOptions, Simulation, Snapshot, SnapshotError,
+    Batch, GroupSnapshot, ItemCounts, Outcome, Outline, RunError, RunOptions, Simulation, Snapshot,
+    SnapshotError,
 };
 pub use site::Site;
 pub use state::{Item, State, StateError};

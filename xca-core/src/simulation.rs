@@ -1,11 +1,13 @@
 //! A model on an engine.
 
+mod batch;
 mod blocks;
 mod finite;
 mod outputs;
 mod restore;
 mod snapshot;
 
+pub use batch::Batch;
 pub use snapshot::{GroupSnapshot, ItemCounts, Outline, Snapshot, SnapshotError};
 
 use crate::engine::{Engine, EngineFailure, Execution, Fault, Figure, Interruption, StartError, StepContext};

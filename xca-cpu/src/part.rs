@@ -76,8 +76,8 @@ impl CpuExecution {
         stages.iter().try_for_each(|stage| self.run_stage_of_part(stage, leaves_out, context))
     }
 
-    /// Does `steps` steps together, first in the layers that need nothing of other parts, then pass by pass at
-    /// the borders. The messages are those of steps one by one, so other parts can do other numbers together.
+    /// Does `steps` steps together, first in the layers that need nothing of other parts, then pass by pass
+    /// at the borders. The messages are those of steps one by one, so other parts can do other numbers together.
     fn run_together_in_part(&mut self, steps: u64, context: &StepContext<'_>) -> Result<(), (u64, Stopped)> {
         let due = self.passes_together(steps, context);
         let passes: Vec<StageOfStep<'_>> = due.iter().map(StageOfStep::new).collect();

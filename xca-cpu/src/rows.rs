@@ -154,8 +154,8 @@ pub(crate) fn run_in_wake(
     conclude(groups, &ready, found).map(drop)
 }
 
-/// Like [`run_in_wake`], in a part of a space: without the layers at its borders, which [`run_at_borders`] does
-/// pass by pass. Which buffers hold the state, and what is known of halos, is then as before the first pass.
+/// Like [`run_in_wake`], in a part of a space: without the layers at its borders, which [`run_at_borders`]
+/// does pass by pass. The buffers and what is known of halos are then as before the first pass.
 pub(crate) fn run_within_borders(
     ground: Ground<'_>,
     groups: &mut [Group],

@@ -6,11 +6,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::thread;
 use std::time::{Duration, Instant};
-use xca_core::{Engine, Precision, RunOptions, Simulation};
+use xca_core::{Batch, Engine, Precision, RunOptions, Simulation};
 use xca_record::Failure;
 use xca_record::SetUp;
 use xca_record::record::Recorder;
-use xca_record::recording::{Batch, check_finite};
+use xca_record::recording::check_finite;
 
 /// How often the calling thread looks whether it should end.
 const PATIENCE: Duration = Duration::from_millis(50);
@@ -112,7 +112,7 @@ impl Work<'_> {
         let recorder = Recorder::new(set_up)?;
         let options = RunOptions { precision: self.precision, seed: member.seed };
         let mut simulation = Simulation::new(recorder.model(), engine, options)?;
-        let mut batch = Batch::default();
+        let mut batch = Batch::long();
         while simulation.step_number() < wanted && simulation.stop_reason().is_none() {
             if stop.load(Ordering::Relaxed) {
                 return Ok(None);

@@ -1,11 +1,9 @@
 //! A run under way: the steps, and what is written meanwhile.
 
-mod batch;
 mod checkpoints;
 mod finite;
 
 #[doc(hidden)]
-pub use batch::Batch;
 pub(crate) use checkpoints::Checkpoints;
 pub use finite::check as check_finite;
 
@@ -17,7 +15,7 @@ use crate::report::{self, Earlier, Report};
 use std::path::Path;
 use std::time::{Duration, Instant};
 use xca_checkpoint::{Description, Origin};
-use xca_core::Simulation;
+use xca_core::{Batch, Simulation};
 use xca_io::numbers::significant;
 
 /// A run in progress. [`crate::Run::begin`] and [`crate::Run::resume`] start one.
@@ -126,7 +124,7 @@ impl Recording {
             self.recorder.begin(self.folder.clone(), &mut self.simulation)?;
         }
         monitor.begin(self.simulation.step_number());
-        let mut batch = Batch::default();
+        let mut batch = Batch::long();
         while self.is_unfinished() && !monitor.is_interrupted() {
             let done = self.simulation.step_number();
             let begin = Instant::now();

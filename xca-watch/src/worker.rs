@@ -4,9 +4,8 @@
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender};
 use std::time::{Duration, Instant};
-use xca_core::{Engine, RunOptions, Simulation, Snapshot};
+use xca_core::{Batch, Engine, RunOptions, Simulation, Snapshot};
 use xca_record::record::{Look, Recorder, Sight};
-use xca_record::recording::Batch;
 use xca_record::{Failure, Observable};
 
 /// The next picture comes after this time even if not all steps to it are done.

@@ -4,9 +4,8 @@ use super::film::{Look, States};
 use crate::command::voice::Voice;
 use crate::interrupt::Interrupt;
 use std::time::Instant;
-use xca_core::{Engine, RunOptions, Simulation};
+use xca_core::{Batch, Engine, RunOptions, Simulation};
 use xca_record::record::Drawing;
-use xca_record::recording::Batch;
 use xca_record::{Failure, Outputs};
 
 /// A run from its beginning, each time that its states are wanted.
@@ -29,7 +28,7 @@ impl States for Running<'_> {
         let mut simulation = Simulation::new(self.drawing.model(), self.engine, self.options)?;
         let line = self.voice.line(self.is_known.then_some(wanted));
         line.message(doing);
-        let mut batch = Batch::default();
+        let mut batch = Batch::long();
         loop {
             let done = simulation.step_number();
             line.at(done);
