@@ -9,7 +9,6 @@ use crate::rows::{self, Begun, FirstFault, Ground, Rows, StageOfStep};
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
-use xca_core::Model;
 use xca_core::engine::{Interruption, Phase, STEPS_TO_AGREE, StepContext, Stopped, agree};
 
 impl CpuExecution {
@@ -77,7 +76,8 @@ impl CpuExecution {
     }
 
     /// Does `steps` steps together, first in the layers that need nothing of other parts, then pass by pass
-    /// at the borders. The messages are those of steps one by one, so other parts can do other numbers together.
+    /// at the borders. The messages are those of steps one by one, so other parts can do other numbers
+    /// together.
     fn run_together_in_part(&mut self, steps: u64, context: &StepContext<'_>) -> Result<(), (u64, Stopped)> {
         let due = self.passes_together(steps, context);
         let passes: Vec<StageOfStep<'_>> = due.iter().map(StageOfStep::new).collect();
@@ -101,7 +101,6 @@ impl CpuExecution {
             if let Some(counts) = counts {
                 counts.ran(model, pass.processes, groups, false);
             }
-            others_wrote(model, pass.processes, groups);
             first_fault = first(first_fault, result.err());
             // Other parts still need the edges of all passes before the fault, to find earlier faults.
             if first_fault.as_ref().is_some_and(|fault| fault.pass == number) {
@@ -138,7 +137,13 @@ impl CpuExecution {
                 threads.run(|| ghosts::clear(population, layout));
             }
         }
-        others_wrote(model, stage, groups);
+        for found in stage.iter().flat_map(|&number| &model.plan().process(number).uses) {
+            if found.written
+                && let Group::Cells(planes) = &mut groups[found.substate.group]
+            {
+                planes[found.substate.field].others_wrote();
+            }
+        }
         let mut movers = result?;
         if let (Some((number, group)), Some(edges)) = (migration, edges)
             && let Group::Population(population) = &mut groups[group]
@@ -185,17 +190,6 @@ impl CpuExecution {
             departure = crossing::depart(migration, population, layout, edges, begun.movers())?;
         }
         Ok(Overlap { begun: Some(begun), departure })
-    }
-}
-
-/// Records that other parts have run processes too.
-fn others_wrote(model: &Model, processes: &[usize], groups: &mut [Group]) {
-    for found in processes.iter().flat_map(|&number| &model.plan().process(number).uses) {
-        if found.written
-            && let Group::Cells(planes) = &mut groups[found.substate.group]
-        {
-            planes[found.substate.field].others_wrote();
-        }
     }
 }
 

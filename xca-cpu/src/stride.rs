@@ -301,6 +301,21 @@ mod tests {
         assert_eq!(stride(10_000, 2).steps(0), 0);
     }
 
+    /// What is left at two borders must not overlap.
+    #[test]
+    fn borders_need_room_too() {
+        let builder = Model::builder("rows").extents([4, 30, 1]).neighbourhood(Neighbourhood::moore_2d(1));
+        let model = builder.substates::<Site>().process(smooth).build().unwrap();
+        let most = |rows: std::ops::Range<usize>| {
+            let part = xca_core::engine::Part { y: rows, z: 0..1 };
+            let layout = crate::layout::Layout::of_part(model.geometry(), &part);
+            let choices = Choices { stride: Some(16), ..Choices::default() };
+            Stride::new((&model, &layout, Precision::F64), 1, 1, choices).steps(1000)
+        };
+        assert_eq!([most(10..11), most(10..14), most(10..15), most(0..10)], [1, 2, 2, 5]);
+        assert_eq!(most(0..30), 15 + 1);
+    }
+
     #[test]
     fn columns_hold_what_fits_in_a_cache() {
         let column = |extents: [usize; 3], boundary, passes| {

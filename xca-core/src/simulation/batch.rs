@@ -41,8 +41,8 @@ pub struct Batch {
 }
 
 impl Batch {
-    /// Batches of 0.1 to 0.4 seconds. That is long enough for an engine to do steps together, and for parts of
-    /// a space to run on without their host. `mpirun` kills processes a second after an interrupt.
+    /// Batches of 0.1 to 0.4 seconds. That is long enough for an engine to do steps together, and for parts
+    /// of a space to run on without their host. `mpirun` kills processes a second after an interrupt.
     pub fn long() -> Self {
         Self { steps: 1, wanted: 100..400 }
     }
