@@ -21,7 +21,7 @@ use xca_core::{Model, ParameterSet, ProcessKind};
 
 /// The number of cells in a tile. Few, because fronts are narrow, but enough to be worth the start of a
 /// kernel.
-const CELLS_PER_TILE: usize = 32;
+const CELLS_PER_TILE: usize = 16;
 
 /// The places where a model is active.
 pub(crate) struct Activity {
@@ -336,7 +336,8 @@ impl Activity {
             }
             changes.last[row] = self.time;
             beside.clear();
-            beside.extend(self.layout.rows_around(row));
+            // Faster than `extend`, which takes the rows one by one.
+            self.layout.rows_around(row).for_each(|row| beside.push(row));
             for user in &woken {
                 let due = &self.processes[user.process].due;
                 if user.elsewhere {

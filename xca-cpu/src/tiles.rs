@@ -19,23 +19,31 @@ pub(crate) struct Tiles {
     reach: usize,
     /// Whether the row is a ring.
     is_ring: bool,
+    /// The number of tiles in a row.
+    count: usize,
+    /// The number of words for a row.
+    words: usize,
 }
 
 impl Tiles {
     /// Tiles of `width` cells.
     pub(crate) fn new(geometry: &Geometry, layout: &Layout, width: usize) -> Self {
-        let is_ring = geometry.toroidal()[0];
-        Self { width, cells: layout.width(), reach: layout.reach()[0], is_ring }
+        Self::of_row([width, layout.width()], layout.reach()[0], geometry.toroidal()[0])
+    }
+
+    fn of_row([width, cells]: [usize; 2], reach: usize, is_ring: bool) -> Self {
+        let count = cells.div_ceil(width);
+        Self { width, cells, reach, is_ring, count, words: count.div_ceil(BITS) }
     }
 
     /// The number of tiles in a row.
     pub(crate) fn count(&self) -> usize {
-        self.cells.div_ceil(self.width)
+        self.count
     }
 
     /// The number of words for a row.
     pub(crate) fn words(&self) -> usize {
-        self.count().div_ceil(BITS)
+        self.words
     }
 
     /// A word of a row with all tiles marked.
@@ -49,9 +57,10 @@ impl Tiles {
         tiles.start * self.width..(tiles.end * self.width).min(self.cells)
     }
 
-    /// The number of cells at each end of a tile that other tiles see.
-    pub(crate) fn reach(&self) -> usize {
-        self.reach
+    /// The cells at both ends of a tile that other tiles see.
+    pub(crate) fn ends(&self, tile: &Range<usize>) -> [Range<usize>; 2] {
+        let reach = self.reach.min(tile.len());
+        [tile.start..tile.start + reach, tile.end - reach..tile.end]
     }
 
     /// Marks a tile.
@@ -172,7 +181,7 @@ mod tests {
     use super::Tiles;
 
     fn tiles(width: usize, cells: usize, reach: usize, is_ring: bool) -> Tiles {
-        Tiles { width, cells, reach, is_ring }
+        Tiles::of_row([width, cells], reach, is_ring)
     }
 
     fn bits(words: &[u64], count: usize) -> Vec<usize> {

@@ -79,42 +79,50 @@ impl Pass<'_> {
     }
 }
 
-/// The bytes of a piece in each plane that a process writes. Includes the earlier bytes if they are in other
-/// memory.
-fn planes<'a>(shared: &'a Shared, piece: &Cells) -> impl Iterator<Item = Plane<'a>> {
+/// The bytes of a piece in each plane that a process writes. The earlier ones are in other memory, or else
+/// copied in `kept`.
+fn planes<'a>(shared: &'a Shared, piece: &Cells, kept: &'a [u8]) -> impl Iterator<Item = Plane<'a>> {
     let element = shared.memory.element;
     let (first, bytes) = (piece.first * element, piece.length * element);
-    let planes = if shared.write.is_null() { 0 } else { shared.memory.length };
     let [read_stride, write_stride] = match shared.memory.of {
         MemoryOf::Cells { read_stride, write_stride, .. } => [read_stride, write_stride],
         MemoryOf::Items { .. } => [0, 0],
     };
-    (0..planes).map(move |number| {
+    (0..written_planes(shared)).map(move |number| {
         // SAFETY: the cells of the piece, in a plane that the process writes, and in the one that it reads
         // where this is another. They are this thread's alone, as the row is; what it reads no one writes.
         // The kernel has not begun or has ended.
         unsafe {
             let now = shared.write.wrapping_add(first + number * write_stride * element).cast_const();
             let before = shared.read.wrapping_add(first + number * read_stride * element);
-            let apart = !shared.read.is_null();
+            let is_apart = !shared.read.is_null();
             Plane {
                 now: std::slice::from_raw_parts(now, bytes),
-                before: apart.then(|| std::slice::from_raw_parts(before, bytes)),
+                before: match kept.get(number * bytes..(number + 1) * bytes) {
+                    _ if is_apart => std::slice::from_raw_parts(before, bytes),
+                    Some(kept) => kept,
+                    None => &[],
+                },
             }
         }
     })
 }
 
+/// The number of planes that a process writes.
+fn written_planes(shared: &Shared) -> usize {
+    if shared.write.is_null() { 0 } else { shared.memory.length }
+}
+
 /// A piece of a plane.
 struct Plane<'a> {
     now: &'a [u8],
-    before: Option<&'a [u8]>,
+    before: &'a [u8],
 }
 
 /// Copies the values that a process is about to overwrite in place.
 fn keep(shared: &Shared, piece: &Cells, before: &mut Vec<u8>) {
-    for plane in planes(shared, piece).filter(|plane| plane.before.is_none()) {
-        before.extend_from_slice(plane.now);
+    if shared.read.is_null() {
+        planes(shared, piece, &[]).for_each(|plane| before.extend_from_slice(plane.now));
     }
 }
 
@@ -122,42 +130,42 @@ fn keep(shared: &Shared, piece: &Cells, before: &mut Vec<u8>) {
 fn compare<'a>(
     shared: &Shared,
     piece: &Cells,
-    mut kept: &'a [u8],
+    kept: &'a [u8],
     (tiles, run): (&Tiles, &Range<usize>),
     [here, around]: &mut [Vec<u64>; 2],
 ) -> &'a [u8] {
     let element = shared.memory.element;
-    for plane in planes(shared, piece) {
-        let before = match plane.before {
-            Some(before) => before,
-            None => {
-                let (before, rest) = kept.split_at(plane.now.len());
-                kept = rest;
-                before
-            }
-        };
-        for tile in run.clone() {
-            let cells = tiles.cells(&(tile..tile + 1));
-            let start = piece.origin[0] as usize;
+    let copies = if shared.read.is_null() { written_planes(shared) } else { 0 };
+    let (kept, rest) = kept.split_at(copies * piece.length * element);
+    for tile in run.clone() {
+        let cells = tiles.cells(&(tile..tile + 1));
+        let [low, high] = tiles.ends(&cells);
+        let [mut changed, mut changed_low, mut changed_high] = [false; 3];
+        for Plane { now, before } in planes(shared, piece, kept) {
             let differs = |cells: &Range<usize>| {
-                let bytes = (cells.start - start) * element..(cells.end - start) * element;
-                plane.now[bytes.clone()] != before[bytes]
+                let [start, end] = [cells.start, cells.end].map(|x| (x - piece.origin[0] as usize) * element);
+                now[start..end] != before[start..end]
             };
             if differs(&cells) {
-                Tiles::mark(here, tile);
-                // Few tiles see a change in the middle of another tile.
-                let ends = [cells.start, cells.end.saturating_sub(tiles.reach()).max(cells.start)];
-                let [low, high] = ends.map(|end| end..(end + tiles.reach()).min(cells.end));
-                let seen = if cells.len() <= 2 * tiles.reach() {
-                    cells
-                } else {
-                    let start = if differs(&low) { cells.start } else { low.end };
-                    let end = if differs(&high) { cells.end } else { high.start };
-                    start..end
-                };
-                tiles.mark_around(around, &seen);
+                changed = true;
+                changed_low = changed_low || differs(&low);
+                changed_high = changed_high || differs(&high);
+            }
+            if changed_low && changed_high {
+                break;
             }
         }
+        if changed {
+            Tiles::mark(here, tile);
+            Tiles::mark(around, tile);
+        }
+        // Few tiles see a change in the middle of another tile.
+        if changed_low {
+            tiles.mark_around(around, &low);
+        }
+        if changed_high {
+            tiles.mark_around(around, &high);
+        }
     }
-    kept
+    rest
 }
