@@ -3,7 +3,7 @@
 
 use super::pass::Pass;
 use super::prepared::{Prepared, Shared};
-use super::tools::{Cells, Work};
+use super::tools::{Cells, Pieces, Work};
 use crate::activity::Activity;
 use crate::population::Population;
 use crate::tiles::Tiles;
@@ -31,17 +31,16 @@ impl Pass<'_> {
     ) -> Done {
         let tiles = activity.tiles();
         let mut pieces = std::mem::take(&mut work.pieces);
-        activity.take(prepared.index, row, &mut pieces.due);
-        pieces.changes.resize_with(prepared.substates.len(), Default::default);
-        for marks in pieces.changes.iter_mut().flatten() {
-            marks.clear();
-            marks.resize(tiles.words(), 0);
-        }
+        let Pieces { due, before: kept, changes } = &mut pieces;
+        activity.take(prepared.index, row, due);
+        let written = || prepared.substates.iter().filter(|shared| !shared.write.is_null());
+        changes.clear();
+        changes.resize(2 * tiles.words() * prepared.substates.len(), 0);
         // One tile at a time: if a cell requests a random number, only its tile stays due.
         let most = if prepared.process.uses_step { 1 } else { usize::MAX };
         let mut done = Done::default();
         let mut from = 0;
-        while let Some(run) = tiles.next(&pieces.due, from, most) {
+        while let Some(run) = tiles.next(due, from, most) {
             from = run.end;
             let Range { start, end } = tiles.cells(&run);
             let [_, y, z] = cells.origin;
@@ -52,23 +51,24 @@ impl Pass<'_> {
                 length: end - start,
                 own: cells.own,
             };
-            pieces.before.clear();
-            prepared.substates.iter().for_each(|shared| keep(shared, &piece, &mut pieces.before));
+            kept.clear();
+            written().for_each(|shared| keep(shared, &piece, kept));
             let outcome = self.run_row(prepared, &piece, population, work);
             if outcome.asked_for_step {
                 run.clone().for_each(|tile| activity.keep(prepared.index, row, tile));
             }
             done.cells += piece.length;
             done.widest = done.widest.max(outcome.widest);
-            let mut before = &pieces.before[..];
-            for (shared, changes) in prepared.substates.iter().zip(&mut pieces.changes) {
-                before = compare(shared, &piece, before, (tiles, &run), changes);
+            let mut before = &kept[..];
+            for (shared, changes) in written().zip(changes.chunks_exact_mut(2 * tiles.words())) {
+                before = compare(shared, &piece, before, (tiles, &run), changes.split_at_mut(tiles.words()));
             }
         }
-        if done.cells > 0 {
+        if done.cells > 0 && prepared.continues {
             self.continue_row(prepared, row);
         }
-        for (shared, [here, around]) in prepared.substates.iter().zip(&pieces.changes) {
+        for (shared, changes) in written().zip(changes.chunks_exact(2 * tiles.words())) {
+            let (here, around) = changes.split_at(tiles.words());
             if here.iter().any(|word| *word != 0) {
                 let following = self.prepared[prepared.number + 1..].iter().map(|prepared| prepared.index);
                 activity.change(shared.substate, row, [here, around], following);
@@ -79,7 +79,7 @@ impl Pass<'_> {
     }
 }
 
-/// The bytes of a piece in each plane that a process writes. The earlier ones are in other memory, or else
+/// The bytes of a piece in each plane of a substate that a process writes. The earlier ones are in other memory, or else
 /// copied in `kept`.
 fn planes<'a>(shared: &'a Shared, piece: &Cells, kept: &'a [u8]) -> impl Iterator<Item = Plane<'a>> {
     let element = shared.memory.element;
@@ -88,7 +88,7 @@ fn planes<'a>(shared: &'a Shared, piece: &Cells, kept: &'a [u8]) -> impl Iterato
         MemoryOf::Cells { read_stride, write_stride, .. } => [read_stride, write_stride],
         MemoryOf::Items { .. } => [0, 0],
     };
-    (0..written_planes(shared)).map(move |number| {
+    (0..shared.memory.length).map(move |number| {
         // SAFETY: the cells of the piece, in a plane that the process writes, and in the one that it reads
         // where this is another. They are this thread's alone, as the row is; what it reads no one writes.
         // The kernel has not begun or has ended.
@@ -108,11 +108,6 @@ fn planes<'a>(shared: &'a Shared, piece: &Cells, kept: &'a [u8]) -> impl Iterato
     })
 }
 
-/// The number of planes that a process writes.
-fn written_planes(shared: &Shared) -> usize {
-    if shared.write.is_null() { 0 } else { shared.memory.length }
-}
-
 /// A piece of a plane.
 struct Plane<'a> {
     now: &'a [u8],
@@ -126,16 +121,17 @@ fn keep(shared: &Shared, piece: &Cells, before: &mut Vec<u8>) {
     }
 }
 
-/// Marks the tiles in which a substate has changed. Returns the unused rest of the copies.
+/// Marks the tiles in which a substate has changed, and those that see the change. Returns the unused rest of
+/// the copies.
 fn compare<'a>(
     shared: &Shared,
     piece: &Cells,
     kept: &'a [u8],
     (tiles, run): (&Tiles, &Range<usize>),
-    [here, around]: &mut [Vec<u64>; 2],
+    (here, around): (&mut [u64], &mut [u64]),
 ) -> &'a [u8] {
     let element = shared.memory.element;
-    let copies = if shared.read.is_null() { written_planes(shared) } else { 0 };
+    let copies = if shared.read.is_null() { shared.memory.length } else { 0 };
     let (kept, rest) = kept.split_at(copies * piece.length * element);
     for tile in run.clone() {
         let cells = tiles.cells(&(tile..tile + 1));

@@ -40,6 +40,7 @@ pub(super) struct Pieces {
     pub(super) due: Vec<u64>,
     /// The values of a piece before a process overwrote them in place.
     pub(super) before: Vec<u8>,
-    /// For each substate of the process, the tiles that have changed and the tiles that see the change.
-    pub(super) changes: Vec<[Vec<u64>; 2]>,
+    /// For each substate that the process writes, the tiles that have changed and then the tiles that see the
+    /// change.
+    pub(super) changes: Vec<u64>,
 }
