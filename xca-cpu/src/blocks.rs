@@ -60,6 +60,9 @@ const TILES_PER_BLOCK: usize = 48;
 
 /// Blocks of indices into `due` with about the same work.
 pub(crate) fn blocks_of_due(due: &[DueRow], threads: usize) -> Vec<Range<usize>> {
+    if threads == 1 {
+        return (!due.is_empty()).then_some(0..due.len()).into_iter().collect();
+    }
     let tiles: usize = due.iter().map(|row| row.tiles).sum();
     let share = (tiles / (threads * BLOCKS_PER_THREAD)).max(TILES_PER_BLOCK);
     let mut blocks = Vec::new();

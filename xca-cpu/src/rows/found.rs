@@ -11,7 +11,8 @@ pub(super) struct Found {
     pub(super) movers: Vec<Mover>,
     /// The measures of the measured populations, in their order.
     pub(super) motions: Vec<Motion>,
-    /// The largest search radius of each process.
+    /// The largest search radius of each process, by its index in the pass. Processes after the last one that
+    /// searches may be missing.
     pub(super) widest: Vec<f64>,
     /// The number of updated cells, counted for each process.
     pub(super) worked: u64,
@@ -46,9 +47,19 @@ impl Found {
         self.worked += other.worked;
         self.movers.extend(other.movers);
         self.motions.iter_mut().zip(other.motions).for_each(|(all, one)| *all = all.and(one));
-        self.widest.iter_mut().zip(other.widest).for_each(|(all, one)| *all = all.max(one));
+        other.widest.into_iter().enumerate().for_each(|(process, radius)| self.searched(process, radius));
         if let Some(FirstFault { process, cell, fault, .. }) = other.fault {
             self.keep(process, cell, fault);
+        }
+    }
+
+    /// Records that a process has searched within a radius, 0 for none.
+    pub(super) fn searched(&mut self, process: usize, radius: f64) {
+        if radius > 0.0 {
+            if self.widest.len() <= process {
+                self.widest.resize(process + 1, 0.0);
+            }
+            self.widest[process] = self.widest[process].max(radius);
         }
     }
 

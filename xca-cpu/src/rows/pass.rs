@@ -7,7 +7,7 @@ use super::now::{Now, Report};
 use super::prepare::Ready;
 use super::prepared::Prepared;
 use super::search::{Measured, Searches};
-use super::tools::{Cells, Outcome, Pieces, Work};
+use super::tools::{Cells, Outcome, Work};
 use crate::activity::{Activity, DueRow};
 use crate::group::{Group, population};
 use crate::layout::Layout;
@@ -16,7 +16,7 @@ use crate::population::Population;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use xca_core::engine::Fault;
-use xca_core::kernel::{Frame, Row, RowItems, STAY, Scratch, StoppedAt};
+use xca_core::kernel::{Frame, Row, RowItems, STAY, StoppedAt};
 use xca_core::{Model, Parity, ProcessKind, Stream};
 
 /// The places where processes are due.
@@ -108,7 +108,6 @@ impl<'a> Pass<'a> {
     pub(super) fn nothing(&self) -> Found {
         Found {
             motions: vec![Motion::NONE; self.measured.len()],
-            widest: vec![0.0; self.prepared.len()],
             ..Found::default()
         }
     }
@@ -144,13 +143,7 @@ impl<'a> Pass<'a> {
     /// Runs the first processes of the pass over rows.
     fn rows(&self, rows: Range<usize>, processes: usize, now: &Now, found: &mut Found) {
         let model = self.model;
-        let mut work = Work {
-            entries: Vec::new(),
-            answers: Vec::new(),
-            scratch: Scratch::default(),
-            pieces: Pieces::default(),
-            now,
-        };
+        let mut work = Work::begin(now);
         let populations: Vec<Option<&Population>> =
             self.prepared.iter().map(|prepared| self.population(prepared)).collect();
         let Selection { followed, only } = self.selection;
@@ -170,8 +163,8 @@ impl<'a> Pass<'a> {
                     continue;
                 }
                 if prepared.process.kind == ProcessKind::Migration {
-                    work.answers.clear();
-                    work.answers.resize(own.1 - own.0, STAY);
+                    work.buffers.answers.clear();
+                    work.buffers.answers.resize(own.1 - own.0, STAY);
                 }
                 let cells = Cells { row, first, origin, length: self.layout.width(), own };
                 let widest = match followed {
@@ -189,7 +182,7 @@ impl<'a> Pass<'a> {
                         outcome.widest
                     }
                 };
-                found.widest[number] = found.widest[number].max(widest);
+                found.searched(number, widest);
                 if let Some(fault) = now.reported.get() {
                     found.keep(
                         prepared.index,
@@ -198,14 +191,15 @@ impl<'a> Pass<'a> {
                     );
                 }
                 if let (ProcessKind::Migration, Some(population)) = (prepared.process.kind, population) {
-                    self.collect_movers(population, row, &work.answers, &mut found.movers);
+                    self.collect_movers(population, row, &work.buffers.answers, &mut found.movers);
                 }
             }
             for (measured, motion) in self.measured.iter().zip(&mut found.motions) {
-                let now = measured.measure_row(model, self.layout, self.groups, row, &work.answers);
+                let now = measured.measure_row(model, self.layout, self.groups, row, &work.buffers.answers);
                 *motion = motion.and(now);
             }
         }
+        work.end();
     }
 
     fn population(&self, prepared: &Prepared<'_>) -> Option<&Population> {
@@ -251,8 +245,8 @@ impl<'a> Pass<'a> {
         first_answer: usize,
         work: &mut Work<'_>,
     ) -> Outcome {
-        work.entries.clear();
-        work.entries.extend(prepared.substates.iter().map(|shared| shared.entry(cells.first, cells.own.0)));
+        work.buffers.entries.clear();
+        work.buffers.entries.extend(prepared.substates.iter().map(|shared| shared.entry(cells.first, cells.own.0)));
         let near = population.and_then(|population| {
             let radius = self.searches.listed[prepared.population?]?;
             let lists = population.lists.as_ref().filter(|lists| lists.are_whole(cells.row))?;
@@ -269,7 +263,7 @@ impl<'a> Pass<'a> {
         });
         let migrates = prepared.process.kind == ProcessKind::Migration;
         let destinations =
-            migrates.then(|| &mut work.answers[first_answer..first_answer + cells.own.1 - cells.own.0]);
+            migrates.then(|| &mut work.buffers.answers[first_answer..first_answer + cells.own.1 - cells.own.0]);
         // SAFETY:
         // - `entries` follow the process's accesses, in buffers that are aligned for every scalar and hold
         //   values of the schema's types.
@@ -285,7 +279,7 @@ impl<'a> Pass<'a> {
         // - `starts` and `ends` are padded like planes and hold ranges of items; those of a row's cells are
         //   the row's own items.
         let row = unsafe {
-            Row::new(frame, &work.entries, items, destinations, &work.scratch, cells.origin, cells.length)
+            Row::new(frame, &work.buffers.entries, items, destinations, &work.buffers.scratch, cells.origin, cells.length)
         };
         let report = Report { row: &row, now: work.now };
         (prepared.kernel)(report.row);

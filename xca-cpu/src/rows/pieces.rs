@@ -30,7 +30,7 @@ impl Pass<'_> {
         work: &mut Work<'_>,
     ) -> Done {
         let tiles = activity.tiles();
-        let mut pieces = std::mem::take(&mut work.pieces);
+        let mut pieces = std::mem::take(&mut work.buffers.pieces);
         let Pieces { due, before: kept, changes } = &mut pieces;
         activity.take(prepared.index, row, due);
         let written = || prepared.substates.iter().filter(|shared| !shared.write.is_null());
@@ -74,7 +74,7 @@ impl Pass<'_> {
                 activity.change(shared.substate, row, [here, around], following);
             }
         }
-        work.pieces = pieces;
+        work.buffers.pieces = pieces;
         done
     }
 }

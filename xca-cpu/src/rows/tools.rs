@@ -1,6 +1,7 @@
 //! The buffers that a thread keeps from row to row, and the input of a kernel.
 
 use super::now::Now;
+use std::cell::Cell;
 use xca_core::kernel::{Entry, Scratch};
 
 /// The outcome of a kernel in some cells.
@@ -12,14 +13,37 @@ pub(super) struct Outcome {
     pub(super) asked_for_step: bool,
 }
 
-/// Buffers kept from row to row.
+/// The work of a thread in some rows.
 pub(super) struct Work<'a> {
+    pub(super) buffers: Buffers,
+    pub(super) now: &'a Now,
+}
+
+/// Buffers that a thread keeps from row to row.
+#[derive(Default)]
+pub(super) struct Buffers {
     pub(super) entries: Vec<Entry>,
     /// The results of a migration for the items of a row.
     pub(super) answers: Vec<u32>,
     pub(super) scratch: Scratch,
     pub(super) pieces: Pieces,
-    pub(super) now: &'a Now,
+}
+
+thread_local! {
+    /// The buffers of this thread between blocks of rows. Blocks can be small, and new buffers expensive.
+    static SPARE: Cell<Buffers> = Cell::default();
+}
+
+impl<'a> Work<'a> {
+    /// Begins with the buffers of this thread.
+    pub(super) fn begin(now: &'a Now) -> Self {
+        Self { buffers: SPARE.take(), now }
+    }
+
+    /// Keeps the buffers for the next rows.
+    pub(super) fn end(self) {
+        SPARE.set(self.buffers);
+    }
 }
 
 /// The cells for a kernel.
