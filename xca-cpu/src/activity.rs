@@ -326,26 +326,18 @@ impl Activity {
             .iter()
             .filter(|user| self.processes[user.process].scope == Scope::Due && wakes(user))
             .collect();
-        let mut beside = Vec::new();
-        let [mut here, mut around] = [Vec::new(), Vec::new()];
-        for row in rows {
-            changes.here.take(row, &mut here);
-            changes.around.take(row, &mut around);
-            if here.iter().all(|word| *word == 0) {
-                continue;
-            }
+        for row in rows.filter(|row| changes.here.is_marked(*row)) {
             changes.last[row] = self.time;
-            beside.clear();
-            // Faster than `extend`, which takes the rows one by one.
-            self.layout.rows_around(row).for_each(|row| beside.push(row));
             for user in &woken {
                 let due = &self.processes[user.process].due;
                 if user.elsewhere {
-                    beside.iter().for_each(|beside| due.add(*beside, around.iter().copied()));
+                    self.layout.rows_around(row).for_each(|beside| due.add_row(beside, (&changes.around, row)));
                 } else {
-                    due.add(row, here.iter().copied());
+                    due.add_row(row, (&changes.here, row));
                 }
             }
+            changes.here.clear(row);
+            changes.around.clear(row);
         }
     }
 

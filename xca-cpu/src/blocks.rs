@@ -58,7 +58,7 @@ fn blocks_of_same_work(layout: &Layout, populations: &[&Population], count: usiz
 /// The number of tiles that are worth the start of a block.
 const TILES_PER_BLOCK: usize = 48;
 
-/// Blocks of indices into `due` with about the same work.
+/// Blocks of indices into `due` with about the same work. One thread needs only one.
 pub(crate) fn blocks_of_due(due: &[DueRow], threads: usize) -> Vec<Range<usize>> {
     if threads == 1 {
         return (!due.is_empty()).then_some(0..due.len()).into_iter().collect();
@@ -154,7 +154,8 @@ mod tests {
     fn due_rows_are_shared_in_blocks_that_are_worth_it() {
         let due: Vec<DueRow> = (0..500).map(|row| DueRow { row: 3 * row, tiles: 1 + row % 7 }).collect();
         let tiles = |blocks: &Range<usize>| due[blocks.clone()].iter().map(|row| row.tiles).sum::<usize>();
-        for threads in [1, 2, 16] {
+        assert_eq!(blocks_of_due(&due, 1), vec![0..500]);
+        for threads in [2, 16] {
             let blocks = blocks_of_due(&due, threads);
             assert_eq!(blocks.iter().cloned().flatten().collect::<Vec<_>>(), (0..500).collect::<Vec<_>>());
             let (last, others) = blocks.split_last().unwrap();
@@ -163,7 +164,7 @@ mod tests {
             assert!(others.iter().all(|block| (share..share + 7).contains(&tiles(block))));
             assert!(tiles(last) < share + 7);
         }
-        assert_eq!(blocks_of_due(&[], 2), []);
+        assert_eq!([1, 2].map(|threads| blocks_of_due(&[], threads)), [vec![], vec![]]);
     }
 
     #[test]

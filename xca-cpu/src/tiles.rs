@@ -95,15 +95,22 @@ impl Tiles {
 
     /// The next marked tile of a row and the marked tiles after it, at most `most`.
     pub(crate) fn next(&self, words: &[u64], from: usize, most: usize) -> Option<Range<usize>> {
-        let is_marked = |tile: usize| words[tile / BITS] >> (tile % BITS) & 1 == 1;
-        let mut start = from;
-        while start < self.count() && !is_marked(start) {
-            let rest = words[start / BITS] >> (start % BITS);
-            start += if rest == 0 { BITS - start % BITS } else { rest.trailing_zeros() as usize };
+        let start = self.first(words, from, false)?;
+        let end = self.first(words, start, true).unwrap_or(self.count);
+        Some(start..end.min(start.saturating_add(most)))
+    }
+
+    /// The first tile from `from` on that is marked, or with `inverted` not marked.
+    fn first(&self, words: &[u64], from: usize, inverted: bool) -> Option<usize> {
+        let mut from = from;
+        while from < self.count {
+            let word = if inverted { !words[from / BITS] } else { words[from / BITS] } >> (from % BITS);
+            if word != 0 {
+                return Some(from + word.trailing_zeros() as usize).filter(|tile| *tile < self.count);
+            }
+            from += BITS - from % BITS;
         }
-        let last = start.saturating_add(most).min(self.count());
-        let end = (start..last).find(|tile| !is_marked(*tile)).unwrap_or(last);
-        (start < end).then_some(start..end)
+        None
     }
 }
 
@@ -153,6 +160,21 @@ impl Marks {
         for (word, marks) in self.row(row).iter().zip(marks) {
             word.store(word.load(Ordering::Relaxed) | marks, Ordering::Relaxed);
         }
+    }
+
+    /// Adds the marks of a row of other marks to a row.
+    pub(crate) fn add_row(&self, row: usize, (others, other): (&Self, usize)) {
+        self.add(row, others.row(other).iter().map(|word| word.load(Ordering::Relaxed)));
+    }
+
+    /// Whether a tile of a row is marked.
+    pub(crate) fn is_marked(&self, row: usize) -> bool {
+        self.row(row).iter().any(|word| word.load(Ordering::Relaxed) != 0)
+    }
+
+    /// Clears the marks of a row.
+    pub(crate) fn clear(&self, row: usize) {
+        self.row(row).iter().for_each(|word| word.store(0, Ordering::Relaxed));
     }
 
     /// Adds a mark to a tile.
