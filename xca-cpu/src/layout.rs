@@ -166,8 +166,10 @@ impl Layout {
             let is_ring = self.boundaries[low] == Boundary::Toroidal && !self.borders[low];
             (-reach..=reach).filter_map(move |step| {
                 let place = index + step;
-                let inside = (0..extent).contains(&place);
-                (inside || is_ring).then(|| place.rem_euclid(extent) as usize)
+                match (0..extent).contains(&place) {
+                    true => Some(place as usize),
+                    false => is_ring.then(|| place.rem_euclid(extent) as usize),
+                }
             })
         };
         along(2, z).flat_map(move |z| along(1, y).map(move |y| z * height + y))
