@@ -60,14 +60,14 @@ enum Scope {
     Items,
 }
 
-/// The changes of a substate in a pass.
+/// The changes of a substate.
 struct Changes {
     users: Vec<User>,
-    here: Marks,
-    /// The tiles along x that see the changes.
+    /// The tiles along x that see the changes of a pass. Only for the process of the pass that reads the
+    /// substate elsewhere. Its due tiles cannot be marked before all rows have taken theirs.
     around: Marks,
     /// The time of the last change of each row.
-    last: Vec<u64>,
+    last: Vec<AtomicU64>,
     /// The time of the last change of all rows.
     replaced: u64,
 }
@@ -79,6 +79,13 @@ struct User {
     reads: bool,
     elsewhere: bool,
     writes: bool,
+}
+
+impl User {
+    /// Whether the process sees its own changes only after the pass.
+    fn is_late(&self) -> bool {
+        self.elsewhere && self.writes
+    }
 }
 
 /// The number of updated cells, counted for each process, and the number of all cells.
@@ -118,14 +125,9 @@ impl Activity {
         let changes = |group: usize, field: usize| {
             let users = users(model, SubstateId { group, field });
             // An unused substate needs no marks.
-            let rows = if users.is_empty() { 0 } else { rows };
-            Changes {
-                users,
-                here: Marks::new(&tiles, rows),
-                around: Marks::new(&tiles, rows),
-                last: vec![0; rows],
-                replaced: 0,
-            }
+            let [marked, followed] =
+                [users.iter().any(User::is_late), !users.is_empty()].map(|is| if is { rows } else { 0 });
+            Changes { users, around: Marks::new(&tiles, marked), last: zeros(followed), replaced: 0 }
         };
         let substates = model.groups().iter().enumerate().map(|(number, group)| {
             (0..group.schema().fields.len()).map(|field| changes(number, field)).collect()
@@ -134,7 +136,7 @@ impl Activity {
         let parameters = Vec::new();
         let (work, past) = (Work::default(), Work::default());
         let layout = layout.clone();
-        let of_rows = (0..rows).map(|_| AtomicU64::new(0)).collect();
+        let of_rows = zeros(rows);
         let mut activity =
             Self { tiles, layout, processes, substates, parameters, pace, time: 0, work, past, of_rows };
         activity.wake();
@@ -163,7 +165,8 @@ impl Activity {
     /// The time of the last change of a substate in a row, as far as changes are tracked.
     pub(crate) fn last_change(&self, substate: SubstateId, row: usize) -> u64 {
         let changes = &self.substates[substate.group][substate.field];
-        changes.last.get(row).map_or(changes.replaced, |last| changes.replaced.max(*last))
+        let last = changes.last.get(row).map_or(0, |last| last.load(Ordering::Relaxed));
+        changes.replaced.max(last)
     }
 
     /// Makes everything due, because everything may have changed.
@@ -280,64 +283,47 @@ impl Activity {
         }
     }
 
-    /// Records the tiles of a row in which a process has changed a substate. `around` are the tiles along x
-    /// that see the change. Later processes of the pass become due in the row if they use the substate.
+    /// Records the tiles of a row in which a substate has changed. `around` are the tiles along x that see
+    /// the change. Processes become due. `writer` is the process that has changed it, if one has, by its
+    /// index in the list of processes of the pass.
     pub(crate) fn change(
         &self,
         substate: SubstateId,
         row: usize,
         [here, around]: [&[u64]; 2],
-        following: impl Iterator<Item = usize>,
+        (processes, writer): (&[usize], Option<usize>),
     ) {
         let changes = &self.substates[substate.group][substate.field];
-        changes.here.add(row, here.iter().copied());
-        changes.around.add(row, around.iter().copied());
-        for process in following {
-            if self.processes[process].scope == Scope::Due
-                && changes.users.iter().any(|user| user.process == process)
-            {
-                self.processes[process].due.add(row, here.iter().copied());
+        changes.last[row].store(self.time + 1, Ordering::Relaxed);
+        for user in &changes.users {
+            let Followed { scope: Scope::Due, due, .. } = &self.processes[user.process] else { continue };
+            let place = processes.iter().position(|process| *process == user.process);
+            match (place, user.elsewhere) {
+                // No row takes the due tiles of this process in this pass.
+                (None, true) => self.layout.rows_around(row).for_each(|row| due.add_shared(row, around)),
+                (None, false) => due.add_shared(row, here),
+                (Some(place), true) if Some(place) == writer => {
+                    changes.around.add(row, around.iter().copied());
+                }
+                // The process has made the change without reading the old value.
+                (Some(place), false) if Some(place) == writer && !user.reads => {}
+                // The other processes of the pass run before or after this one in the row.
+                (Some(_), _) => due.add(row, here.iter().copied()),
             }
         }
     }
 
-    /// Spreads the changes of a substate after a pass. Processes become due in the changed rows, and in the
-    /// rows that see them.
-    pub(crate) fn spread(
-        &mut self,
-        substate: SubstateId,
-        processes: &[usize],
-        rows: impl Iterator<Item = usize>,
-    ) {
+    /// Ends a pass over these rows.
+    pub(crate) fn end_pass(&mut self, processes: &[usize], rows: impl Iterator<Item = usize> + Clone) {
         self.time += 1;
-        let changes = &mut self.substates[substate.group][substate.field];
-        let place = |process: usize| processes.iter().position(|one| *one == process);
-        let writers = changes.users.iter().filter(|user| user.writes).filter_map(|user| place(user.process));
-        let writers: Vec<usize> = writers.collect();
-        let last = writers.iter().copied().max();
-        let wakes = |user: &User| match place(user.process) {
-            // This process has seen the change already, or made it without reading the old value.
-            Some(number) if Some(number) > last => false,
-            Some(number) if writers == [number] => user.reads,
-            _ => true,
-        };
-        let woken: Vec<&User> = changes
-            .users
-            .iter()
-            .filter(|user| self.processes[user.process].scope == Scope::Due && wakes(user))
-            .collect();
-        for row in rows.filter(|row| changes.here.is_marked(*row)) {
-            changes.last[row] = self.time;
-            for user in &woken {
+        for Changes { users, around, .. } in self.substates.iter().flatten() {
+            for user in users.iter().filter(|user| user.is_late() && processes.contains(&user.process)) {
                 let due = &self.processes[user.process].due;
-                if user.elsewhere {
-                    self.layout.rows_around(row).for_each(|beside| due.add_row(beside, (&changes.around, row)));
-                } else {
-                    due.add_row(row, (&changes.here, row));
+                for row in rows.clone().filter(|row| around.is_marked(*row)) {
+                    self.layout.rows_around(row).for_each(|beside| due.add_row(beside, (around, row)));
+                    around.clear(row);
                 }
             }
-            changes.here.clear(row);
-            changes.around.clear(row);
         }
     }
 
@@ -367,9 +353,9 @@ impl Activity {
             let x = cell % width;
             self.tiles.mark_cell(&mut here, x);
             self.tiles.mark_around(&mut around, &Range { start: x, end: x + 1 });
-            self.change(substate, layout.row_of(*cell), [&here, &around], std::iter::empty());
+            self.change(substate, layout.row_of(*cell), [&here, &around], (&[], None));
         }
-        self.spread(substate, &[], cells.iter().map(|cell| layout.row_of(*cell)));
+        self.time += 1;
     }
 
     /// Records a change of a substate in a line of the halo that another part has sent. `differs` tells which
@@ -410,6 +396,10 @@ pub(crate) struct DueRow {
     pub(crate) row: usize,
     /// The number of due tiles, over all processes.
     pub(crate) tiles: usize,
+}
+
+fn zeros(count: usize) -> Vec<AtomicU64> {
+    (0..count).map(|_| AtomicU64::new(0)).collect()
 }
 
 fn users(model: &Model, substate: SubstateId) -> Vec<User> {

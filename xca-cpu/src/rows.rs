@@ -85,7 +85,11 @@ pub(crate) fn begin(
     let ready = [Ready::of_first_rows(ground, groups, stage)];
     let order = Wavefront::of_one_pass(blocks_of(ground, groups, stage.processes, due.as_deref()));
     let selection = Selection {
-        followed: activity.map(|activity| Followed { activity, due: due.as_deref() }),
+        followed: activity.map(|activity| Followed {
+            activity,
+            processes: stage.processes,
+            due: due.as_deref(),
+        }),
         only: Some(first.only()),
     };
     let found = work(ground, groups, &ready, &order, selection).into_iter().next().unwrap_or_default();
@@ -118,7 +122,11 @@ pub(crate) fn run(
     };
     let ready = [Ready::new(ground, groups, stage, searches)];
     let order = Wavefront::of_one_pass(blocks_of(ground, groups, stage.processes, due.as_deref()));
-    let followed = activity.as_deref().map(|activity| Followed { activity, due: due.as_deref() });
+    let followed = activity.as_deref().map(|activity| Followed {
+        activity,
+        processes: stage.processes,
+        due: due.as_deref(),
+    });
     let only = rest.as_ref().map(Rows::only);
     let mut found = work(ground, groups, &ready, &order, Selection { followed, only });
     if let (Some(found), Some(before)) = (found.first_mut(), found_before) {
@@ -128,15 +136,12 @@ pub(crate) fn run(
     let movers = conclude(groups, &ready, found)?;
     let Some(activity) = activity else { return Ok(movers) };
     activity.worked(stage.processes, worked);
-    let written = ready.iter().flat_map(|ready| &ready.written);
-    for (substate, _) in written.filter(|(one, _)| matches!(groups[one.group], Group::Cells(_))) {
-        match &due {
-            Some(due) => {
-                let due = due_before.iter().flatten().chain(due);
-                activity.spread(*substate, stage.processes, due.map(|due| due.row));
-            }
-            None => activity.spread(*substate, stage.processes, 0..ground.layout.rows()),
+    match &due {
+        Some(due) => {
+            let due = due_before.iter().flatten().chain(due);
+            activity.end_pass(stage.processes, due.map(|due| due.row));
         }
+        None => activity.end_pass(stage.processes, 0..ground.layout.rows()),
     }
     Ok(movers)
 }

@@ -114,7 +114,7 @@ impl Tiles {
     }
 }
 
-/// Marks on the tiles of all rows. Threads set marks in their own rows.
+/// Marks on the tiles of all rows. Unless a method says otherwise, threads set marks in their own rows.
 #[derive(Debug)]
 pub(crate) struct Marks {
     words: Vec<AtomicU64>,
@@ -159,6 +159,16 @@ impl Marks {
     pub(crate) fn add(&self, row: usize, marks: impl IntoIterator<Item = u64>) {
         for (word, marks) in self.row(row).iter().zip(marks) {
             word.store(word.load(Ordering::Relaxed) | marks, Ordering::Relaxed);
+        }
+    }
+
+    /// Adds marks to a row, which other threads may do at the same time.
+    pub(crate) fn add_shared(&self, row: usize, marks: &[u64]) {
+        for (word, marks) in self.row(row).iter().zip(marks) {
+            // A read is cheaper, and the rows beside have often made the same marks.
+            if word.load(Ordering::Relaxed) & marks != *marks {
+                word.fetch_or(*marks, Ordering::Relaxed);
+            }
         }
     }
 

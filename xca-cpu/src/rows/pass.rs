@@ -23,6 +23,8 @@ use xca_core::{Model, Parity, ProcessKind, Stream};
 #[derive(Clone, Copy)]
 pub(super) struct Followed<'a> {
     pub(super) activity: &'a Activity,
+    /// The processes of the pass.
+    pub(super) processes: &'a [usize],
     /// The due rows. `None` if all rows are needed.
     pub(super) due: Option<&'a [DueRow]>,
 }
@@ -106,10 +108,7 @@ impl<'a> Pass<'a> {
 
     /// The findings of a pass without rows.
     pub(super) fn nothing(&self) -> Found {
-        Found {
-            motions: vec![Motion::NONE; self.measured.len()],
-            ..Found::default()
-        }
+        Found { motions: vec![Motion::NONE; self.measured.len()], ..Found::default() }
     }
 
     /// Runs all processes over some rows, one row after the other. `rows` are rows, or indices into the due
@@ -168,10 +167,10 @@ impl<'a> Pass<'a> {
                 }
                 let cells = Cells { row, first, origin, length: self.layout.width(), own };
                 let widest = match followed {
-                    Some(Followed { activity, .. }) if prepared.process.kind == ProcessKind::Cells => {
-                        let done = self.run_pieces(activity, prepared, (row, &cells), *population, &mut work);
+                    Some(followed) if prepared.process.kind == ProcessKind::Cells => {
+                        let done = self.run_pieces(followed, prepared, (row, &cells), *population, &mut work);
                         found.worked += done.cells as u64;
-                        activity.worked_in(row, done.cells);
+                        followed.activity.worked_in(row, done.cells);
                         done.widest
                     }
                     _ => {
@@ -246,7 +245,9 @@ impl<'a> Pass<'a> {
         work: &mut Work<'_>,
     ) -> Outcome {
         work.buffers.entries.clear();
-        work.buffers.entries.extend(prepared.substates.iter().map(|shared| shared.entry(cells.first, cells.own.0)));
+        work.buffers
+            .entries
+            .extend(prepared.substates.iter().map(|shared| shared.entry(cells.first, cells.own.0)));
         let near = population.and_then(|population| {
             let radius = self.searches.listed[prepared.population?]?;
             let lists = population.lists.as_ref().filter(|lists| lists.are_whole(cells.row))?;
@@ -262,8 +263,8 @@ impl<'a> Pass<'a> {
             near: near.as_ref(),
         });
         let migrates = prepared.process.kind == ProcessKind::Migration;
-        let destinations =
-            migrates.then(|| &mut work.buffers.answers[first_answer..first_answer + cells.own.1 - cells.own.0]);
+        let destinations = migrates
+            .then(|| &mut work.buffers.answers[first_answer..first_answer + cells.own.1 - cells.own.0]);
         // SAFETY:
         // - `entries` follow the process's accesses, in buffers that are aligned for every scalar and hold
         //   values of the schema's types.
@@ -279,7 +280,15 @@ impl<'a> Pass<'a> {
         // - `starts` and `ends` are padded like planes and hold ranges of items; those of a row's cells are
         //   the row's own items.
         let row = unsafe {
-            Row::new(frame, &work.buffers.entries, items, destinations, &work.buffers.scratch, cells.origin, cells.length)
+            Row::new(
+                frame,
+                &work.buffers.entries,
+                items,
+                destinations,
+                &work.buffers.scratch,
+                cells.origin,
+                cells.length,
+            )
         };
         let report = Report { row: &row, now: work.now };
         (prepared.kernel)(report.row);

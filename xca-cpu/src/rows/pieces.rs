@@ -1,10 +1,9 @@
 //! Processes over cells in the due pieces of a row, and their changes there.
 #![allow(unsafe_code)]
 
-use super::pass::Pass;
+use super::pass::{Followed, Pass};
 use super::prepared::{Prepared, Shared};
 use super::tools::{Cells, Pieces, Work};
-use crate::activity::Activity;
 use crate::population::Population;
 use crate::tiles::Tiles;
 use std::ops::Range;
@@ -23,7 +22,7 @@ impl Pass<'_> {
     /// Runs a process over the due cells of a row.
     pub(super) fn run_pieces(
         &self,
-        activity: &Activity,
+        Followed { activity, processes, .. }: Followed<'_>,
         prepared: &Prepared<'_>,
         (row, cells): (usize, &Cells),
         population: Option<&Population>,
@@ -70,8 +69,7 @@ impl Pass<'_> {
         for (shared, changes) in written().zip(changes.chunks_exact(2 * tiles.words())) {
             let (here, around) = changes.split_at(tiles.words());
             if here.iter().any(|word| *word != 0) {
-                let following = self.prepared[prepared.number + 1..].iter().map(|prepared| prepared.index);
-                activity.change(shared.substate, row, [here, around], following);
+                activity.change(shared.substate, row, [here, around], (processes, Some(prepared.number)));
             }
         }
         work.buffers.pieces = pieces;
