@@ -14,6 +14,7 @@ struct Site {
     fuel: u32,
     lit: u32,
     trail: [u32; 2],
+    haze: u32,
     ember: u32,
     age: u32,
     traffic: u32,
@@ -107,6 +108,13 @@ fn smoke(cell: &mut Cell<Site>) {
     cell.trail[0] = sum;
 }
 
+/// Sees the two elements of an array change at different times.
+#[elementary_process]
+fn drift(cell: &mut Cell<Site>) {
+    let last = cell.neighbour_count() - 1;
+    cell.haze = cell.neighbour(1).trail[0] % 1000 + cell.neighbour(last).trail[1];
+}
+
 /// Reads items, so it always runs.
 #[elementary_process]
 fn count(cell: &mut Cell<Site>, walkers: &Slots<Walker>) {
@@ -160,7 +168,7 @@ fn wood(
         .parameters(Rule { catch: 3 })
         .process((ignite, glow, burn, cool))
         .process_every(3, rekindle)
-        .process((stamp, smoke));
+        .process((stamp, smoke, drift));
     let builder = if walkers {
         let builder = builder.population::<Walker>(9).items_may_leave::<Walker>();
         builder.process((walk, settle)).process((count, wear))
@@ -184,7 +192,7 @@ fn wood(
             state.fill(|site| {
                 let fuel = number(site.cell(), 1, 6);
                 let lit = u32::from(number(site.cell(), 2, 60) == 0) * 4;
-                Site { fuel, lit, trail: [0; 2], ember: 0, age: 0, traffic: 0, worn: 0 }
+                Site { fuel, lit, trail: [0; 2], haze: 0, ember: 0, age: 0, traffic: 0, worn: 0 }
             })?;
             if walkers {
                 let item = |label: u32| {
@@ -344,10 +352,28 @@ fn a_glider_is_all_that_is_worked_on() -> TestResult {
 fn a_glider_comes_back() -> TestResult {
     const GLIDER: [[usize; 3]; 5] = [[1, 0, 0], [2, 1, 0], [0, 2, 0], [1, 2, 0], [2, 2, 0]];
     let model = life::model(|cell| GLIDER.contains(&cell))?;
-    let mut simulation = Simulation::new(&model, &Cpu::with_threads(2)?, RunOptions::default())?;
+    let mut simulation = Simulation::new(&model, &forced((16, 2))?, RunOptions::default())?;
     let first = simulation.state().read(life::Life::ALIVE)?;
     simulation.run(1024)?;
     assert!(simulation.state().read(life::Life::ALIVE)? == first);
+    Ok(())
+}
+
+/// The sums of rows are kept until a row changes.
+#[test]
+fn sums_follow_a_pattern_that_grows() -> TestResult {
+    const PENTOMINO: [[usize; 3]; 5] =
+        [[101, 100, 0], [102, 100, 0], [100, 101, 0], [101, 101, 0], [101, 102, 0]];
+    let model = life::model(|cell| PENTOMINO.contains(&cell))?;
+    let mut simulation = Simulation::new(&model, &forced((16, 2))?, RunOptions::default())?;
+    let mut most = 0;
+    for _ in 0..200 {
+        simulation.step()?;
+        let alive: i64 = simulation.state().read(life::Life::ALIVE)?.into_iter().map(i64::from).sum();
+        assert_eq!(simulation.state().sum(life::Life::ALIVE)?, alive);
+        most = most.max(alive);
+    }
+    assert!(most > 50, "{most}");
     Ok(())
 }
 
