@@ -12,7 +12,7 @@
 use crate::choices::LeaveOut;
 use crate::layout::Layout;
 use crate::pace::{Pace, Step};
-use crate::tiles::{Marks, Tiles};
+use crate::tiles::{BITS, Marks, Tiles, zeros};
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
@@ -259,10 +259,20 @@ impl Activity {
         if processes.iter().any(|process| self.processes[*process].scope != Scope::Due) {
             return None;
         }
-        let mut tiles = vec![0; self.layout.rows()];
-        processes.iter().for_each(|process| self.processes[*process].due.count_rows(&mut tiles));
-        let rows = tiles.into_iter().enumerate().map(|(row, tiles)| DueRow { row, tiles });
-        Some(rows.filter(|row| row.tiles > 0).collect())
+        let marks = || processes.iter().map(|process| &self.processes[*process].due);
+        let mut rows = Vec::new();
+        for number in 0..self.layout.rows().div_ceil(BITS) {
+            let mut left = marks().fold(0, |all, due| all | due.rows(number));
+            while left != 0 {
+                let row = BITS * number + left.trailing_zeros() as usize;
+                left &= left - 1;
+                let tiles = marks().map(|due| due.count_row(row)).sum();
+                if tiles > 0 {
+                    rows.push(DueRow { row, tiles });
+                }
+            }
+        }
+        Some(rows)
     }
 
     /// Takes the due tiles of a process in a row. They are not due any more.
@@ -396,10 +406,6 @@ pub(crate) struct DueRow {
     pub(crate) row: usize,
     /// The number of due tiles, over all processes.
     pub(crate) tiles: usize,
-}
-
-fn zeros(count: usize) -> Vec<AtomicU64> {
-    (0..count).map(|_| AtomicU64::new(0)).collect()
 }
 
 fn users(model: &Model, substate: SubstateId) -> Vec<User> {

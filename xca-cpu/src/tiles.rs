@@ -5,8 +5,8 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 use xca_core::Geometry;
 
-/// The number of tiles in a word.
-const BITS: usize = u64::BITS as usize;
+/// The number of tiles, or of rows, in a word.
+pub(crate) const BITS: usize = u64::BITS as usize;
 
 /// The tiles of rows. A row has a bit for each tile, in as many words as needed.
 #[derive(Debug, Clone)]
@@ -119,13 +119,16 @@ impl Tiles {
 pub(crate) struct Marks {
     words: Vec<AtomicU64>,
     of_row: usize,
+    /// A bit for each row: whether it may have marks. Most rows of most models have none.
+    rows: Vec<AtomicU64>,
 }
 
 impl Marks {
     /// No marks.
     pub(crate) fn new(tiles: &Tiles, rows: usize) -> Self {
         let of_row = tiles.words();
-        Self { words: (0..rows * of_row).map(|_| AtomicU64::new(0)).collect(), of_row }
+        let [words, rows] = [rows * of_row, rows.div_ceil(BITS)].map(zeros);
+        Self { words, of_row, rows }
     }
 
     /// Marks all tiles.
@@ -133,6 +136,8 @@ impl Marks {
         for row in self.words.chunks_exact_mut(self.of_row) {
             row.iter_mut().enumerate().for_each(|(number, word)| *word.get_mut() = tiles.full(number));
         }
+        let rows = self.words.len() / self.of_row;
+        (0..rows).for_each(|row| self.notice(row));
     }
 
     fn row(&self, row: usize) -> &[AtomicU64] {
@@ -144,19 +149,31 @@ impl Marks {
         self.words.iter().map(marked).sum()
     }
 
-    /// Adds the number of marked tiles of each row.
-    pub(crate) fn count_rows(&self, tiles: &mut [usize]) {
-        if self.of_row == 1 {
-            tiles.iter_mut().zip(&self.words).for_each(|(tiles, word)| *tiles += marked(word));
-            return;
+    /// The rows that may have marks, as bits, in 64 rows from `64 * number` on.
+    pub(crate) fn rows(&self, number: usize) -> u64 {
+        self.rows[number].load(Ordering::Relaxed)
+    }
+
+    /// The number of marked tiles of a row. No other thread may use the marks meanwhile.
+    pub(crate) fn count_row(&self, row: usize) -> usize {
+        let count = self.row(row).iter().map(marked).sum();
+        if count == 0 {
+            self.rows[row / BITS].fetch_and(!(1 << (row % BITS)), Ordering::Relaxed);
         }
-        for (tiles, words) in tiles.iter_mut().zip(self.words.chunks_exact(self.of_row)) {
-            *tiles += words.iter().map(marked).sum::<usize>();
+        count
+    }
+
+    /// Records that a row may have marks.
+    fn notice(&self, row: usize) {
+        let (word, bit) = (&self.rows[row / BITS], 1 << (row % BITS));
+        if word.load(Ordering::Relaxed) & bit == 0 {
+            word.fetch_or(bit, Ordering::Relaxed);
         }
     }
 
     /// Adds marks to a row.
     pub(crate) fn add(&self, row: usize, marks: impl IntoIterator<Item = u64>) {
+        self.notice(row);
         for (word, marks) in self.row(row).iter().zip(marks) {
             word.store(word.load(Ordering::Relaxed) | marks, Ordering::Relaxed);
         }
@@ -164,6 +181,7 @@ impl Marks {
 
     /// Adds marks to a row, which other threads may do at the same time.
     pub(crate) fn add_shared(&self, row: usize, marks: &[u64]) {
+        self.notice(row);
         for (word, marks) in self.row(row).iter().zip(marks) {
             // A read is cheaper, and the rows beside have often made the same marks.
             if word.load(Ordering::Relaxed) & marks != *marks {
@@ -189,6 +207,7 @@ impl Marks {
 
     /// Adds a mark to a tile.
     pub(crate) fn add_tile(&self, row: usize, tile: usize) {
+        self.notice(row);
         let word = &self.row(row)[tile / BITS];
         word.store(word.load(Ordering::Relaxed) | 1 << (tile % BITS), Ordering::Relaxed);
     }
@@ -203,6 +222,10 @@ impl Marks {
     }
 }
 
+pub(crate) fn zeros(count: usize) -> Vec<AtomicU64> {
+    (0..count).map(|_| AtomicU64::new(0)).collect()
+}
+
 /// The number of bits set in a word.
 fn marked(word: &AtomicU64) -> usize {
     word.load(Ordering::Relaxed).count_ones() as usize
@@ -210,7 +233,7 @@ fn marked(word: &AtomicU64) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::Tiles;
+    use super::{Marks, Tiles};
 
     fn tiles(width: usize, cells: usize, reach: usize, is_ring: bool) -> Tiles {
         Tiles::of_row([width, cells], reach, is_ring)
@@ -264,5 +287,22 @@ mod tests {
         }
         assert_eq!(tiles.cells(&(199..201)), 398..401);
         assert_eq!((0..4).map(|word| tiles.full(word).count_ones()).sum::<u32>(), 201);
+    }
+
+    #[test]
+    fn rows_with_marks_are_noticed_until_they_have_none() {
+        let tiles = tiles(2, 401, 1, false);
+        let marks = Marks::new(&tiles, 130);
+        marks.add_tile(0, 200);
+        marks.add_shared(63, &[0, 3, 0, 1]);
+        marks.add_row(64, (&marks, 63));
+        marks.add(129, [1]);
+        let noticed = || [0, 1, 2].map(|number| marks.rows(number));
+        assert_eq!(noticed(), [1 | 1 << 63, 1, 2]);
+        assert_eq!([0, 63, 64, 129].map(|row| marks.count_row(row)), [1, 3, 3, 1]);
+        assert_eq!(noticed(), [1 | 1 << 63, 1, 2]);
+        marks.clear(63);
+        assert_eq!(marks.count_row(63), 0);
+        assert_eq!(noticed(), [1, 1, 2]);
     }
 }
