@@ -285,7 +285,7 @@ impl<'a> Pass<'a> {
                 &work.buffers.entries,
                 items,
                 destinations,
-                &work.buffers.scratch,
+                &work.scratch,
                 cells.origin,
                 cells.length,
             )

@@ -16,6 +16,8 @@ pub(super) struct Outcome {
 /// The work of a thread in some rows.
 pub(super) struct Work<'a> {
     pub(super) buffers: Buffers,
+    /// The results of searches, which are those of this pass.
+    pub(super) scratch: Scratch,
     pub(super) now: &'a Now,
 }
 
@@ -25,7 +27,6 @@ pub(super) struct Buffers {
     pub(super) entries: Vec<Entry>,
     /// The results of a migration for the items of a row.
     pub(super) answers: Vec<u32>,
-    pub(super) scratch: Scratch,
     pub(super) pieces: Pieces,
 }
 
@@ -37,7 +38,7 @@ thread_local! {
 impl<'a> Work<'a> {
     /// Begins with the buffers of this thread.
     pub(super) fn begin(now: &'a Now) -> Self {
-        Self { buffers: SPARE.take(), now }
+        Self { buffers: SPARE.take(), scratch: Scratch::default(), now }
     }
 
     /// Keeps the buffers for the next rows.
