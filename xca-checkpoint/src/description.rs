@@ -141,15 +141,33 @@ impl Description {
     /// Whether a run can have this description, with `data` bytes of data. The checksum does not ensure this,
     /// because it can be forged.
     pub(super) fn makes_sense(&self, data: u64) -> bool {
+        let space = self.cells();
         let components = self.parameters.iter().flat_map(|parameter| &parameter.components);
         let mut substates = self.groups.iter().flat_map(|group| &group.substates);
         // Each cell has at least one byte.
-        let has_mask = self.missing.is_empty() || self.cells().is_some_and(|cells| cells as u64 <= data);
+        let has_mask = self.missing.is_empty() || space.is_some_and(|cells| cells as u64 <= data);
         self.step <= self.run.steps_wanted
             && self.recorded.can_be_after(self.step)
             && components.into_iter().all(|component| !component.0.is_nan())
             && substates.all(SubstateShape::makes_sense)
             && has_mask
+            && self.groups.iter().all(|group| Some(group.kind.cells()) == space)
+            && self.data_bytes() == u128::from(data)
+    }
+
+    /// The state without its planes.
+    pub(super) fn outline(&self) -> Outline {
+        let counts = |group: &GroupShape| match group.kind {
+            Kind::Cells { .. } => None,
+            Kind::Items { items, left, .. } => Some(ItemCounts { items, left }),
+        };
+        Outline {
+            step: self.step,
+            populations: self.groups.iter().map(counts).collect(),
+            parameters: self.parameters.iter().map(Parameter::bits).collect(),
+            stop: self.stop.clone(),
+            broken: false,
+        }
     }
 
     /// The mask of the cells without ground. `None` if all cells have ground.
@@ -162,17 +180,26 @@ impl Description {
         Some(mask)
     }
 
-    /// The size of the data in bytes.
-    pub(super) fn data_bytes(&self) -> usize {
-        let number = size_of::<u32>();
+    /// The size of the data in bytes, which no description can make overflow.
+    pub(super) fn data_bytes(&self) -> u128 {
+        let number = size_of::<u32>() as u128;
         let of_group = |group: &GroupShape| {
-            let size: usize = group.substates.iter().map(|substate| substate.stored.size()).sum();
+            let size: u128 = group.substates.iter().map(|substate| substate.stored.size() as u128).sum();
             match group.kind {
-                Kind::Cells { cells } => cells * size,
-                Kind::Items { cells, items, .. } => cells * number + items * (number + size),
+                Kind::Cells { cells } => cells as u128 * size,
+                Kind::Items { cells, items, .. } => cells as u128 * number + items as u128 * (number + size),
             }
         };
         self.groups.iter().map(of_group).sum()
+    }
+}
+
+impl Kind {
+    /// The number of cells.
+    fn cells(self) -> usize {
+        match self {
+            Self::Cells { cells } | Self::Items { cells, .. } => cells,
+        }
     }
 }
 

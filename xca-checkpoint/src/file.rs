@@ -2,11 +2,10 @@
 
 use super::Description;
 use super::planes::{self, PlaneError, PlaneWriter, Planes};
-use std::io::{self, BufReader, Read, Seek, Write};
+use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 use xca_core::{EngineFailure, Snapshot};
 use xca_io::atomic::{WriteError, write_atomically};
-use xca_io::regular_file;
 
 /// The version of the format.
 const FORMAT: u32 = 1;
@@ -19,6 +18,9 @@ const LONGEST_LINE: u64 = 100;
 
 /// The size of the checksum, a CRC-32, in bytes.
 const CHECKSUM: u64 = 4;
+
+/// What is wrong with a checkpoint whose parts contradict each other.
+const MISMATCH: &str = "its data do not match its description";
 
 /// A checkpoint that cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -116,22 +118,21 @@ impl Lengths {
     }
 }
 
-/// Reads the description and the state of a checkpoint. Checks the checksum first.
-pub(super) fn read(path: &Path) -> Result<(Description, Snapshot), CheckpointError> {
-    let failed = |source| CheckpointError::Read { path: path.to_owned(), source };
-    let file = regular_file::open(path).map_err(failed)?;
-    let found = file.metadata().map_err(failed)?.len();
-    read_from(path, BufReader::with_capacity(1 << 18, file), found)
+/// The beginning of a checkpoint. The next bytes of the file are its data.
+pub(super) struct Opened {
+    pub(super) description: Description,
+    /// The place of the data in the file.
+    pub(super) start: u64,
 }
 
-/// Like [`read`], for a file that is open and has `found` bytes.
-pub(super) fn read_from(
+/// Opens a file that has `found` bytes. Checks the checksum, and the size of the data.
+pub(super) fn open(
     path: &Path,
-    mut file: impl Read + Seek,
+    file: &mut (impl Read + Seek),
     found: u64,
-) -> Result<(Description, Snapshot), CheckpointError> {
+) -> Result<Opened, CheckpointError> {
     let failed = |source| CheckpointError::Read { path: path.to_owned(), source };
-    let lengths = first_line(path, &mut file, found)?;
+    let lengths = first_line(path, file, found)?;
     let altered = |what: String| CheckpointError::Altered { path: path.to_owned(), what };
     let wanted = lengths.whole().ok_or_else(|| altered("its first line is invalid".to_owned()))?;
     if found < wanted {
@@ -153,12 +154,30 @@ pub(super) fn read_from(
     file.by_ref().take(lengths.description).read_to_end(&mut description).map_err(failed)?;
     let description: Description = serde_json::from_slice(&description)
         .map_err(|error| altered(format!("its description is invalid: {error}")))?;
-    let snapshot = planes::read(&description, &mut file, lengths.data);
-    let snapshot = snapshot.map_err(|error| match error.kind() {
-        io::ErrorKind::InvalidData => altered("its data do not match its description".to_owned()),
-        _ => failed(error),
-    })?;
-    Ok((description, snapshot))
+    if !description.makes_sense(lengths.data) {
+        return Err(altered(MISMATCH.to_owned()));
+    }
+    Ok(Opened { description, start: lengths.line + lengths.description })
+}
+
+/// Reads the state of a checkpoint that has been opened.
+pub(super) fn read(
+    path: &Path,
+    description: &Description,
+    file: impl Read,
+) -> Result<Snapshot, CheckpointError> {
+    planes::read(description, file).map_err(|error| unread(path, error))
+}
+
+/// The error for data that cannot be read, or that do not match their description.
+pub(super) fn unread(path: &Path, error: io::Error) -> CheckpointError {
+    let path = path.to_owned();
+    match error.kind() {
+        io::ErrorKind::InvalidData | io::ErrorKind::UnexpectedEof => {
+            CheckpointError::Altered { path, what: MISMATCH.to_owned() }
+        }
+        _ => CheckpointError::Read { path, source: error },
+    }
 }
 
 fn first_line(path: &Path, file: &mut impl Read, found: u64) -> Result<Lengths, CheckpointError> {

@@ -4,6 +4,7 @@
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
+mod checkpoint_file;
 pub mod components;
 mod description;
 mod file;
@@ -17,6 +18,7 @@ mod outputs;
 mod planes;
 mod recorded;
 
+pub use checkpoint_file::{CheckpointFile, ResumeError};
 pub use description::{Description, GroupShape, Kind};
 pub use file::{CheckpointError, CheckpointWriteError};
 pub use folder::{CHECKPOINTS, CheckpointFolder};
@@ -48,8 +50,7 @@ impl Checkpoint {
 
     /// Reads a file. A damaged file is an error.
     pub fn read(path: &Path) -> Result<Self, CheckpointError> {
-        let (description, snapshot) = file::read(path)?;
-        Ok(Self { description, snapshot })
+        CheckpointFile::open(path)?.read()
     }
 }
 

@@ -4,11 +4,11 @@ use super::Description;
 use super::description::{GroupShape, Kind};
 use std::io::{self, Read, Write};
 use xca_core::engine::{EngineFailure, Plane, Population, SubstateId};
-use xca_core::{GroupSnapshot, Simulation, Snapshot};
+use xca_core::{GroupSnapshot, Outline, Simulation, Snapshot, StoredType};
 
 /// The size of the blocks in which the planes of a simulation are read. Smaller ones would cost messages
 /// between the parts of a space, larger ones memory of their host.
-const BLOCK: usize = 1 << 22;
+pub(super) const BLOCK: usize = 1 << 22;
 
 /// A state whose planes can be written.
 pub(super) trait Planes {
@@ -51,7 +51,7 @@ pub(super) struct PlaneWriter<'a, W> {
     description: &'a Description,
     file: &'a mut W,
     /// The number of bytes.
-    written: usize,
+    written: u128,
 }
 
 impl<'a, W: Write> PlaneWriter<'a, W> {
@@ -61,36 +61,30 @@ impl<'a, W: Write> PlaneWriter<'a, W> {
 
     /// Adds bytes of a plane, which are in the byte order of this machine.
     fn add(&mut self, plane: Plane, bytes: &[u8]) -> Result<(), PlaneError> {
-        let group = self.description.groups.get(plane.group());
-        let size = match plane {
-            Plane::Counts(_) | Plane::Labels(_) => group.map(|_| size_of::<u32>()),
-            Plane::Values(SubstateId { field, .. }) => {
-                group.and_then(|group| group.substates.get(field)).map(|field| field.stored.scalar.size())
-            }
-        };
         // What is not described is not in the file.
-        let Some(size) = size else { return Ok(()) };
-        self.written += bytes.len();
-        let written = if cfg!(target_endian = "little") {
-            self.file.write_all(bytes)
-        } else {
-            self.file.write_all(&turned(bytes.to_vec(), size))
-        };
-        written.map_err(PlaneError::Write)
+        let Some(size) = size_of_numbers(self.description, plane) else { return Ok(()) };
+        self.written += bytes.len() as u128;
+        if cfg!(target_endian = "little") {
+            return self.file.write_all(bytes).map_err(PlaneError::Write);
+        }
+        let mut turned = bytes.to_vec();
+        turn(&mut turned, size);
+        self.file.write_all(&turned).map_err(PlaneError::Write)
+    }
+}
+
+/// The size of a number of a plane. `None` if the plane is not described.
+pub(super) fn size_of_numbers(description: &Description, plane: Plane) -> Option<usize> {
+    let group = description.groups.get(plane.group())?;
+    match plane {
+        Plane::Counts(_) | Plane::Labels(_) => Some(size_of::<u32>()),
+        Plane::Values(SubstateId { field, .. }) => Some(group.substates.get(field)?.stored.scalar.size()),
     }
 }
 
 /// Reverses the bytes of each number of `size` bytes.
-fn turned(mut bytes: Vec<u8>, size: usize) -> Vec<u8> {
+fn turn(bytes: &mut [u8], size: usize) {
     bytes.chunks_exact_mut(size).for_each(<[u8]>::reverse);
-    bytes
-}
-
-/// A reader of the data of a file, plane by plane.
-struct Data<R> {
-    file: R,
-    /// The number of bytes left.
-    left: u64,
 }
 
 /// The error for data that contradicts its description.
@@ -98,72 +92,66 @@ fn inconsistent() -> io::Error {
     io::ErrorKind::InvalidData.into()
 }
 
-impl<R: Read> Data<R> {
-    /// Reads the next plane of `count` values. Allocates no more than the file has.
-    fn plane(&mut self, count: usize, components: usize, size: usize) -> io::Result<Vec<u8>> {
-        let length = count.checked_mul(components).and_then(|numbers| numbers.checked_mul(size));
-        let left = length.and_then(|length| self.left.checked_sub(length as u64));
-        let (Some(length), Some(left)) = (length, left) else { return Err(inconsistent()) };
-        self.left = left;
-        let mut bytes = vec![0; length];
-        self.file.read_exact(&mut bytes)?;
-        Ok(if cfg!(target_endian = "little") { bytes } else { turned(bytes, size) })
+/// Reads the next bytes of a plane, which has numbers of `size` bytes.
+pub(super) fn read_block(file: &mut impl Read, size: usize, block: &mut [u8]) -> io::Result<()> {
+    file.read_exact(block)?;
+    if cfg!(target_endian = "big") {
+        turn(block, size);
     }
-
-    fn numbers(&mut self, count: usize) -> io::Result<Vec<u32>> {
-        let bytes = self.plane(count, 1, size_of::<u32>())?;
-        Ok(bytes.as_chunks().0.iter().map(|bytes| u32::from_ne_bytes(*bytes)).collect())
-    }
-
-    fn substates(&mut self, shape: &GroupShape, count: usize) -> io::Result<Vec<Vec<u8>>> {
-        let stored = shape.substates.iter().map(|substate| substate.stored);
-        stored.map(|stored| self.plane(count, stored.components(), stored.scalar.size())).collect()
-    }
+    Ok(())
 }
 
-/// Reads a snapshot from the next `length` bytes of a file.
+/// Reads the next plane of `count` values.
+fn read_plane(file: &mut impl Read, count: usize, stored: StoredType) -> io::Result<Vec<u8>> {
+    let mut bytes = vec![0; count * stored.size()];
+    read_block(file, stored.scalar.size(), &mut bytes)?;
+    Ok(bytes)
+}
+
+fn read_numbers(file: &mut impl Read, count: usize) -> io::Result<Vec<u32>> {
+    let mut numbers = vec![0; count];
+    read_block(file, size_of::<u32>(), bytemuck::cast_slice_mut::<u32, u8>(&mut numbers))?;
+    Ok(numbers)
+}
+
+fn read_substates(file: &mut impl Read, shape: &GroupShape, count: usize) -> io::Result<Vec<Vec<u8>>> {
+    shape.substates.iter().map(|substate| read_plane(file, count, substate.stored)).collect()
+}
+
+/// Reads a snapshot from the data of a file, which has as many bytes as the description says.
 ///
 /// # Errors
 /// Those of the system, and [`io::ErrorKind::InvalidData`] if the data contradicts the description.
-pub(super) fn read(description: &Description, file: impl Read, length: u64) -> io::Result<Snapshot> {
-    let space = description.cells().ok_or_else(inconsistent)?;
-    if !description.makes_sense(length) {
-        return Err(inconsistent());
-    }
-    let mut data = Data { file, left: length };
+pub(super) fn read(description: &Description, mut file: impl Read) -> io::Result<Snapshot> {
     let mut groups = Vec::new();
     for shape in &description.groups {
         groups.push(match shape.kind {
-            Kind::Cells { cells } | Kind::Items { cells, .. } if cells != space => return Err(inconsistent()),
-            Kind::Cells { cells } => GroupSnapshot::Cells(data.substates(shape, cells)?),
+            Kind::Cells { cells } => GroupSnapshot::Cells(read_substates(&mut file, shape, cells)?),
             Kind::Items { cells, items, left, .. } => {
-                let (counts, labels) = (data.numbers(cells)?, data.numbers(items)?);
+                let counts = read_numbers(&mut file, cells)?;
+                let labels = read_numbers(&mut file, items)?;
                 if counts.iter().map(|count| u64::from(*count)).sum::<u64>() != items as u64 {
                     return Err(inconsistent());
                 }
-                let fields = data.substates(shape, items)?;
+                let fields = read_substates(&mut file, shape, items)?;
                 GroupSnapshot::Population(Population { counts, labels, fields }, left)
             }
         });
     }
-    if data.left > 0 {
-        return Err(inconsistent());
-    }
-    Ok(Snapshot {
-        step: description.step,
-        groups,
-        parameters: description.parameters.iter().map(super::Parameter::bits).collect(),
-        stop: description.stop.clone(),
-        broken: false,
-    })
+    let Outline { step, parameters, stop, broken, .. } = description.outline();
+    Ok(Snapshot { step, groups, parameters, stop, broken })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::turned;
+    use super::turn;
 
     #[test]
     fn bytes_can_be_turned() {
+        let turned = |mut bytes: Vec<u8>, size| {
+            turn(&mut bytes, size);
+            bytes
+        };
         assert_eq!(turned(vec![1, 2, 3, 4, 5, 6, 7, 8], 4), [4, 3, 2, 1, 8, 7, 6, 5]);
         assert_eq!(turned(vec![1, 2], 1), [1, 2]);
     }

@@ -177,7 +177,11 @@ fn no_part_and_no_bit_can_be_missing_or_wrong() {
     let path = folder.path().join("a.checkpoint");
     checkpoint(&simulation()).write(&path).unwrap();
     let whole = fs::read(&path).unwrap();
-    let read = |bytes: &[u8]| file::read_from(&path, Cursor::new(bytes), bytes.len() as u64).map(|_| ());
+    let read = |bytes: &[u8]| {
+        let mut file = Cursor::new(bytes);
+        let opened = file::open(&path, &mut file, bytes.len() as u64)?;
+        file::read(&path, &opened.description, file).map(drop)
+    };
     read(&whole).unwrap();
     for length in 0..whole.len() {
         let error = read(&whole[..length]).unwrap_err();

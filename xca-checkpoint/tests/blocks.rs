@@ -1,10 +1,14 @@
-//! Parts of a space give their state in blocks of rows, and take cells so. The bytes are those of one engine.
+//! Parts of a space give their state in blocks of rows, and take cells so. The bytes are those of one engine,
+//! and a run goes on from them on any.
 
 use std::error::Error;
 use std::fs;
 use std::path::Path;
-use xca_checkpoint::{Checkpoint, CheckpointFolder, Description, Identity, Origin, Outputs, Recorded};
-use xca_core::engine::Plane;
+use xca_checkpoint::{
+    Checkpoint, CheckpointFile, CheckpointFolder, Description, Identity, Origin, Outputs, Recorded,
+};
+use xca_core::Outline;
+use xca_core::engine::{Plane, SubstateId};
 use xca_core::prelude::*;
 use xca_cpu::Cpu;
 use xca_io::atomic::OutputFolder;
@@ -169,12 +173,126 @@ fn checkpoints_of_parts_are_those_of_one_engine() -> TestResult {
             simulation.run(3)?;
             let run = folder.path().join(format!("{precision} {cut:?}"));
             assert!(checkpoint(&simulation, &run)? == wanted, "{precision} {cut:?}");
-            let read = Checkpoint::read(&CheckpointFolder::of_run(&run)[0])?;
-            let resumed = Simulation::resume(&model, &parts([1, 2])?, options, &read.snapshot)?;
-            assert!(resumed.snapshot()? == reference.snapshot()?, "{precision} {cut:?}");
+            let path = &CheckpointFolder::of_run(&run)[0];
+            let file = CheckpointFile::open(path)?;
+            assert_eq!(*file.description(), description(&reference));
+            for on in CUTS {
+                let resumed = file.resume(&model, &parts(on)?, options)?;
+                assert!(resumed.snapshot()? == reference.snapshot()?, "{precision} {cut:?} on {on:?}");
+            }
+            assert!(file.resume(&model, &Reference, options)?.snapshot()? == reference.snapshot()?);
+            assert!(Checkpoint::read(path)?.snapshot == reference.snapshot()?, "{precision} {cut:?}");
         }
     }
     Ok(())
+}
+
+/// A simulation in the state of these planes, read in blocks of up to so many bytes, and the largest block.
+fn resumed(
+    (model, engine, options): (&Model, &dyn Engine, RunOptions),
+    outline: &Outline,
+    planes: &PlaneBytes,
+    size: usize,
+) -> Result<(Simulation, usize), RunError> {
+    let (mut done, mut largest) = ((0, 0), 0);
+    let read = |plane: Plane, block: &mut [u8]| {
+        let (place, start) = done;
+        let (wanted, bytes) = &planes[place];
+        assert_eq!(plane, *wanted);
+        let end = start + block.len();
+        block.copy_from_slice(&bytes[start..end]);
+        done = if end == bytes.len() { (place + 1, 0) } else { (place, end) };
+        if !matches!(plane, Plane::Counts(_) | Plane::Labels(_)) {
+            largest = largest.max(block.len());
+        }
+        Ok::<(), RunError>(())
+    };
+    let simulation = Simulation::resume_blocks(model, engine, options, outline, size, read)?;
+    assert_eq!(done, (planes.len(), 0));
+    Ok((simulation, largest))
+}
+
+#[test]
+fn a_run_goes_on_from_blocks_of_any_size() -> TestResult {
+    let model = slope()?;
+    for precision in [Precision::F32, Precision::F64] {
+        let options = RunOptions { precision, seed: 7 };
+        let mut first = Simulation::new(&model, &Reference, options)?;
+        first.run(3)?;
+        let (outline, (planes, _)) = (first.outline(), planes(&first, 1)?);
+        first.run(2)?;
+        let mut engines: Vec<(String, Box<dyn Engine>)> = vec![("reference".to_owned(), Box::new(Reference))];
+        engines.push(("cpu".to_owned(), Box::new(Cpu::with_threads(2)?)));
+        for cut in CUTS {
+            engines.push((format!("{cut:?}"), Box::new(parts(cut)?)));
+        }
+        for (name, engine) in &engines {
+            for size in [1, 100, 999, usize::MAX] {
+                let (mut simulation, _) = resumed((&model, &**engine, options), &outline, &planes, size)?;
+                assert_eq!(simulation.outline(), outline);
+                simulation.run(2)?;
+                assert!(simulation.snapshot()? == first.snapshot()?, "{name} {precision}, blocks of {size}");
+            }
+        }
+    }
+    Ok(())
+}
+
+#[derive(Substates, Clone, Copy)]
+struct Water {
+    depth: [Real; 3],
+}
+
+/// A host needs no more of the cells at once than a block, or a row.
+#[test]
+fn parts_take_cells_in_blocks() -> TestResult {
+    let model = Model::builder("lake").extents([7, 6, 5]).substates::<Water>().build()?;
+    let options = RunOptions::default();
+    let outline = Simulation::new(&model, &Reference, options)?.outline();
+    let planes = vec![(Plane::Values(SubstateId { group: 0, field: 0 }), vec![0; 7 * 6 * 5 * 24])];
+    let largest = |engine: &dyn Engine, size: usize| -> Result<usize, RunError> {
+        resumed((&model, engine, options), &outline, &planes, size).map(|(_, largest)| largest)
+    };
+    for engine in [&parts([2, 2])? as &dyn Engine, &Cpu::with_threads(1)?] {
+        let wanted = [7 * 24, 7 * 24, 2 * 7 * 24, 7 * 6 * 5 * 24];
+        for (size, wanted) in [1, 335, 336, usize::MAX].into_iter().zip(wanted) {
+            assert_eq!(largest(engine, size)?, wanted, "{size}");
+        }
+    }
+    assert_eq!(largest(&Reference, 1)?, 7 * 6 * 5 * 24, "takes whole planes");
+    Ok(())
+}
+
+/// Whatever an engine relies on is checked, and the message tells what is wrong.
+#[test]
+fn planes_of_another_state_are_refused() -> TestResult {
+    let model = slope()?;
+    let options = RunOptions::default();
+    let first = Simulation::new(&model, &Reference, options)?;
+    let (outline, (planes, _)) = (first.outline(), planes(&first, 1)?);
+    let refused = |outline: &Outline, planes: &PlaneBytes| -> Result<(), Box<dyn Error>> {
+        for engine in [&Reference as &dyn Engine, &Cpu::with_threads(2)?, &parts([2, 2])?] {
+            let result = resumed((&model, engine, options), outline, planes, 100);
+            let name = engine.name();
+            let Err(error) = result else { return Err(format!("{name} takes it").into()) };
+            assert!(matches!(error, RunError::Snapshot(_)), "{name}: {error}");
+        }
+        Ok(())
+    };
+    let changed = |place: usize, byte: usize, to: u8| {
+        let mut planes = planes.clone();
+        planes[place].1[byte] = to;
+        planes
+    };
+    refused(&outline, &changed(3, 20, 2))?;
+    // More stones in a cell than there are, and a label twice.
+    refused(&outline, &changed(4, 0, 7))?;
+    let label = planes[5].1[0];
+    refused(&outline, &changed(5, 4, label))?;
+    refused(&Outline { broken: true, ..outline.clone() }, &planes)?;
+    refused(&Outline { populations: vec![None; 2], ..outline.clone() }, &planes)?;
+    refused(&Outline { populations: Vec::new(), ..outline.clone() }, &planes)?;
+    refused(&Outline { parameters: vec![vec![0]], ..outline }, &planes)
 }
 
 /// `fill` replaces all cells in a later step too.

@@ -19,14 +19,17 @@ use std::sync::Arc;
 use xca_core::engine::{Border, EngineFailure, Part, SubstateId};
 use xca_core::{Face, Faces, Model};
 
+/// Room at the end of a message, for what a border appends to it.
+const MARGIN: usize = 16;
+
 /// A part of a space, and its connection to the others.
 pub(crate) struct Edges {
     pub(crate) part: Part,
     pub(crate) border: Box<dyn Border>,
     /// Whether each row sees another part.
     pub(crate) at_border: Arc<[bool]>,
-    /// The last message across each face, by group and field. The halo does not show what has changed,
-    /// because planes with a second buffer have two halos.
+    /// The last message across each face, by group and field, while changes are followed. The halo does not
+    /// show what has changed, because planes with a second buffer have two halos.
     received: Vec<Vec<Faces<Vec<u8>>>>,
 }
 
@@ -129,7 +132,7 @@ impl Edges {
             return Ok(());
         }
         for face in faces(layout, axis) {
-            let mut bytes = Vec::new();
+            let mut bytes = Vec::with_capacity(exchange.edge(groups, layout, face) + MARGIN);
             for substate in &exchange.planes {
                 if let Group::Cells(planes) = &groups[substate.group] {
                     planes[substate.field].pack(layout, face, &mut bytes);
@@ -173,7 +176,9 @@ impl Edges {
                         follow(activity, (*substate, plane), (layout, face), before, edge);
                     }
                     before.clear();
-                    before.extend_from_slice(edge);
+                    if activity.is_some() {
+                        before.extend_from_slice(edge);
+                    }
                 }
             }
             if !rest.is_empty() {
@@ -185,6 +190,15 @@ impl Edges {
 }
 
 impl Exchange {
+    /// The size of the message of planes across a face, in bytes.
+    fn edge(&self, groups: &[Group], layout: &Layout, face: Face) -> usize {
+        let of_plane = |substate: &SubstateId| match &groups[substate.group] {
+            Group::Cells(planes) => planes[substate.field].edge(layout, face),
+            Group::Population(_) => 0,
+        };
+        self.planes.iter().map(of_plane).sum()
+    }
+
     /// Changes all planes of the exchange, in parallel.
     fn fill(&self, groups: &mut [Group], threads: &Threads, change: impl Fn(&mut Dense) + Sync) {
         if self.planes.is_empty() {

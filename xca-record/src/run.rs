@@ -8,7 +8,9 @@ use crate::report::{Earlier, ReadReportError, Report};
 use crate::set_up::{SetUp, SetUpError};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use xca_checkpoint::{Checkpoint, CheckpointError, CheckpointFolder, Difference, Identity, Origin, Outputs};
+use xca_checkpoint::{
+    CheckpointError, CheckpointFile, CheckpointFolder, Difference, Identity, Origin, Outputs, ResumeError,
+};
 use xca_core::{Engine, Model, ModelError, RunError, RunOptions, Simulation};
 use xca_io::atomic::WriteError;
 
@@ -99,13 +101,20 @@ pub enum BeginError {
     Record(#[from] RecordError),
 }
 
+impl From<ResumeError> for BeginError {
+    fn from(error: ResumeError) -> Self {
+        match error {
+            ResumeError::Checkpoint(error) => Self::Checkpoint(error),
+            ResumeError::Run(error) => Self::Start(error),
+        }
+    }
+}
+
 /// Where a run goes on.
 #[derive(Debug)]
 pub struct Resumed<'a> {
     /// The file.
-    pub path: &'a Path,
-    /// What it holds.
-    pub checkpoint: &'a Checkpoint,
+    pub checkpoint: &'a CheckpointFile,
     /// What `run.json` tells of the run until then.
     pub earlier: Earlier,
 }
@@ -298,9 +307,9 @@ impl Run {
         let folder = folder.as_ref();
         let latest = CheckpointFolder::of_run(folder).into_iter().next();
         let path = latest.ok_or_else(|| BeginError::NoCheckpoint { folder: folder.to_owned() })?;
-        let checkpoint = Checkpoint::read(&path)?;
+        let checkpoint = CheckpointFile::open(&path)?;
         let earlier = Earlier::read(&folder.join(REPORT))?.unwrap_or_default();
-        let resumed = Resumed { path: &path, checkpoint: &checkpoint, earlier };
+        let resumed = Resumed { checkpoint: &checkpoint, earlier };
         self.resume_from(folder, engine, resumed)
     }
 
@@ -325,10 +334,10 @@ impl Run {
         mut self,
         folder: &Path,
         engine: &dyn Engine,
-        Resumed { path, checkpoint, earlier }: Resumed<'_>,
+        Resumed { checkpoint, earlier }: Resumed<'_>,
     ) -> Result<Recording, BeginError> {
         let begin = Instant::now();
-        let Checkpoint { description, snapshot } = checkpoint;
+        let (path, description) = (checkpoint.path(), checkpoint.description());
         if self.steps < description.step {
             return Err(BeginError::Past { done: description.step, steps: self.steps });
         }
@@ -354,7 +363,7 @@ impl Run {
         }
         let mut report = self.report(engine, &origin);
         let folder = RunFolder::open(folder)?;
-        let simulation = Simulation::resume(self.recorder.model(), engine, self.options, snapshot)?;
+        let simulation = checkpoint.resume(self.recorder.model(), engine, self.options)?;
         let checkpoints =
             self.checkpoint_every.map(|interval| Checkpoints::new(interval, &folder, Some(path)));
         let checkpoints = checkpoints.transpose()?;

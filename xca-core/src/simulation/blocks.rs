@@ -1,9 +1,9 @@
 //! The whole state block by block, for files that need not be in memory as a whole.
 
-use super::Simulation;
 use super::snapshot::{GroupSnapshot, ItemCounts, Outline};
-use crate::engine::{EngineFailure, Plane, SubstateId};
-use crate::model::{Group, GroupKind};
+use super::{RunError, RunOptions, Simulation};
+use crate::engine::{Engine, EngineFailure, Plane, Population, SubstateId};
+use crate::model::{Group, GroupKind, Model};
 use std::ops::Range;
 
 impl Simulation {
@@ -100,6 +100,103 @@ impl Simulation {
                 start = end;
             }
         }
+        Ok(())
+    }
+
+    /// Starts a model on an engine in a state whose planes are read block by block: in the order, and with
+    /// the bytes, of [`Self::read_blocks`]. An engine that takes rows gets blocks of whole rows of cells, of
+    /// up to `size` bytes if a row has no more. Others get whole planes, and populations are whole on any
+    /// engine.
+    ///
+    /// ```
+    /// use xca_core::prelude::*;
+    ///
+    /// #[derive(Substates, Clone)]
+    /// struct Site {
+    ///     age: u32,
+    /// }
+    ///
+    /// let model = Model::builder("site").extents([8, 8, 1]).substates::<Site>().build()?;
+    /// let outline = Simulation::new(&model, &Reference, RunOptions::default())?.outline();
+    /// let mut ages = (0..64_u32).flat_map(u32::to_ne_bytes);
+    /// let read = |_, block: &mut [u8]| {
+    ///     block.iter_mut().zip(&mut ages).for_each(|(byte, next)| *byte = next);
+    ///     Ok::<(), RunError>(())
+    /// };
+    /// let options = RunOptions::default();
+    /// let mut simulation = Simulation::resume_blocks(&model, &Reference, options, &outline, 64, read)?;
+    /// assert_eq!(simulation.state().get(Site::AGE, [7, 7, 0])?, 63);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Returns an error if the engine cannot run the model, as [`Self::restore`], or that of `read`.
+    pub fn resume_blocks<E: From<RunError>>(
+        model: &Model,
+        engine: &dyn Engine,
+        options: RunOptions,
+        outline: &Outline,
+        size: usize,
+        mut read: impl FnMut(Plane, &mut [u8]) -> Result<(), E>,
+    ) -> Result<Self, E> {
+        outline.check(model, options.precision).map_err(RunError::from)?;
+        let mut simulation = Self::empty(model, engine, options)?;
+        for (group, population) in outline.populations.iter().enumerate() {
+            match population {
+                None => simulation.read_cells_of(group, size, &mut read)?,
+                Some(counts) => simulation.read_items_of(group, *counts, &mut read)?,
+            }
+        }
+        simulation.take_over(outline);
+        Ok(simulation)
+    }
+
+    /// Reads the substates of cells of a group.
+    fn read_cells_of<E: From<RunError>>(
+        &mut self,
+        group: usize,
+        size: usize,
+        read: &mut impl FnMut(Plane, &mut [u8]) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let [width, height, depth] = self.model.geometry().extents();
+        let stored = self.model.groups()[group].stored(self.options.precision);
+        let mut block = Vec::new();
+        for (field, stored) in stored.iter().enumerate() {
+            let substate = SubstateId { group, field };
+            let by_rows = self.execution.write_rows(substate, 0..0, &[]).map_err(RunError::from)?;
+            let length = width * stored.size();
+            let most = if by_rows { (size / length.max(1)).max(1) } else { height * depth };
+            for start in (0..height * depth).step_by(most) {
+                let rows = start..(start + most).min(height * depth);
+                block.resize(rows.len() * length, 0);
+                read(Plane::Values(substate), &mut block)?;
+                let written = match by_rows {
+                    true => self.execution.write_rows(substate, rows, &block).map(drop),
+                    false => self.execution.write(substate, &block),
+                };
+                written.map_err(|failure| self.unfit(failure))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads the items of a population.
+    fn read_items_of<E: From<RunError>>(
+        &mut self,
+        group: usize,
+        ItemCounts { items, left }: ItemCounts,
+        read: &mut impl FnMut(Plane, &mut [u8]) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let (mut counts, mut labels) = (vec![0; self.model.geometry().cells()], vec![0; items]);
+        read(Plane::Counts(group), bytemuck::cast_slice_mut::<u32, u8>(&mut counts))?;
+        read(Plane::Labels(group), bytemuck::cast_slice_mut::<u32, u8>(&mut labels))?;
+        let mut fields = Vec::new();
+        for (field, stored) in self.model.groups()[group].stored(self.options.precision).iter().enumerate() {
+            let mut values = vec![0; items * stored.size()];
+            read(Plane::Values(SubstateId { group, field }), &mut values)?;
+            fields.push(values);
+        }
+        self.put_items(group, &Population { counts, labels, fields }, left)?;
         Ok(())
     }
 

@@ -1,8 +1,8 @@
 //! Takes the whole state out of a simulation, and puts it back into one.
 
-use super::snapshot::{GroupSnapshot, Snapshot, does_not_fit};
+use super::snapshot::{GroupSnapshot, Outline, Snapshot, does_not_fit};
 use super::{RunError, RunOptions, Simulation};
-use crate::engine::{Engine, EngineFailure, Fault, SubstateId};
+use crate::engine::{Engine, EngineFailure, Fault, Population, SubstateId};
 use crate::model::{Group, GroupKind, Model};
 
 impl Simulation {
@@ -111,20 +111,42 @@ impl Simulation {
                         self.execution.write(SubstateId { group, field }, values)?;
                     }
                 }
-                GroupSnapshot::Population(population, left) => {
-                    let set = self.execution.set_population(group, population);
-                    set.map_err(|fault| match fault {
-                        Fault::Engine(failure) => RunError::Engine(failure),
-                        other => does_not_fit(&self.model, other.to_string()).into(),
-                    })?;
-                    self.left_before[group] = left.wrapping_sub(self.execution.left(group));
-                }
+                GroupSnapshot::Population(population, left) => self.put_items(group, population, *left)?,
             }
         }
-        self.parameters.set_bits(&snapshot.parameters);
-        self.step = snapshot.step;
-        self.stop.clone_from(&snapshot.stop);
-        self.faulty = None;
+        self.take_over(&snapshot.outline());
         Ok(())
+    }
+
+    /// Replaces the items of a population, `left` of which have left before.
+    pub(super) fn put_items(
+        &mut self,
+        group: usize,
+        population: &Population,
+        left: u64,
+    ) -> Result<(), RunError> {
+        let set = self.execution.set_population(group, population);
+        set.map_err(|fault| match fault {
+            Fault::Engine(failure) => self.unfit(failure),
+            other => does_not_fit(&self.model, other.to_string()).into(),
+        })?;
+        self.left_before[group] = left.wrapping_sub(self.execution.left(group));
+        Ok(())
+    }
+
+    /// The error of an engine that takes over a state.
+    pub(super) fn unfit(&self, failure: EngineFailure) -> RunError {
+        match failure {
+            EngineFailure::Input(error) => does_not_fit(&self.model, error.to_string()).into(),
+            other => other.into(),
+        }
+    }
+
+    /// Takes over what a state has besides its planes.
+    pub(super) fn take_over(&mut self, outline: &Outline) {
+        self.parameters.set_bits(&outline.parameters);
+        self.step = outline.step;
+        self.stop.clone_from(&outline.stop);
+        self.faulty = None;
     }
 }

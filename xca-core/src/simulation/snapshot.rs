@@ -2,7 +2,7 @@
 
 use crate::engine::input::{wrong_fields, wrong_items};
 use crate::engine::{Part, Population};
-use crate::model::{GroupKind, Model};
+use crate::model::{Group, GroupKind, Model};
 use xca_process::ParameterValue;
 use xca_values::{Field, Precision};
 
@@ -125,46 +125,62 @@ impl Snapshot {
 
     /// Checks that a simulation of this model can go on from here: what engines rely on.
     pub(super) fn check(&self, model: &Model, precision: Precision) -> Result<(), SnapshotError> {
-        if self.broken {
-            return Err(SnapshotError::Unfinished { step: self.step + 1 });
-        }
-        self.mismatch(model, precision).map_or(Ok(()), |reason| Err(does_not_fit(model, reason)))
-    }
-
-    fn mismatch(&self, model: &Model, precision: Precision) -> Option<String> {
-        let groups = model.groups();
-        if self.groups.len() != groups.len() {
-            return Some(format!("it has {} structs of substates, not {}", self.groups.len(), groups.len()));
-        }
+        self.outline().check(model, precision)?;
         let (cells, whole) = (model.geometry().cells(), Part::whole(model.geometry()));
-        let mut pairs = self.groups.iter().zip(groups);
-        let of_groups = pairs.find_map(|(state, group)| {
-            let name = group.schema().name;
+        for (state, group) in self.groups.iter().zip(model.groups()) {
             let reason = match (state, group.kind()) {
-                (GroupSnapshot::Cells(fields), GroupKind::Cells { .. }) => {
-                    wrong_fields(fields, group, precision, cells)
-                }
                 (GroupSnapshot::Population(population, _), GroupKind::Population { slots, .. }) => {
                     wrong_items(population, group, precision, *slots, (model, &whole))
                 }
-                _ => Some("the one belong to cells, the other are a population".to_owned()),
+                (GroupSnapshot::Cells(fields), _) => wrong_fields(fields, group, precision, cells),
+                (GroupSnapshot::Population(..), _) => None,
             };
-            reason.map(|reason| format!("`{name}`: {reason}"))
-        });
-        of_groups.or_else(|| {
-            let fields: Vec<&'static Field> = model.parameters().fields().collect();
-            let names: Vec<&str> = model.parameters().schemas().map(|schema| schema.name).collect();
-            let others = || Some(format!("its parameters are not those of {}", names.join(" and ")));
-            if self.parameters.len() != fields.len() {
-                return others();
-            }
-            self.parameters.iter().zip(fields).find_map(|(bits, field)| {
-                let numbers = bits.iter().map(|number| f64::from_bits(*number)).collect();
-                match ParameterValue::from_components(field.value_type, numbers) {
-                    None => others(),
-                    Some(value) => value.check(field, precision).err().map(|error| error.to_string()),
-                }
-            })
+            of_group(group, reason).map_or(Ok(()), |reason| Err(does_not_fit(model, reason)))?;
+        }
+        Ok(())
+    }
+}
+
+impl Outline {
+    /// Checks that a simulation of this model can go on from here, but for the planes.
+    pub(super) fn check(&self, model: &Model, precision: Precision) -> Result<(), SnapshotError> {
+        if self.broken {
+            return Err(SnapshotError::Unfinished { step: self.step + 1 });
+        }
+        let reason = self.other_groups(model).or_else(|| self.other_parameters(model, precision));
+        reason.map_or(Ok(()), |reason| Err(does_not_fit(model, reason)))
+    }
+
+    fn other_groups(&self, model: &Model) -> Option<String> {
+        let (found, groups) = (&self.populations, model.groups());
+        if found.len() != groups.len() {
+            return Some(format!("it has {} structs of substates, not {}", found.len(), groups.len()));
+        }
+        found.iter().zip(groups).find_map(|(population, group)| {
+            let is_population = matches!(group.kind(), GroupKind::Population { .. });
+            let reason = "the one belong to cells, the other are a population".to_owned();
+            of_group(group, (population.is_some() != is_population).then_some(reason))
         })
     }
+
+    fn other_parameters(&self, model: &Model, precision: Precision) -> Option<String> {
+        let fields: Vec<&'static Field> = model.parameters().fields().collect();
+        let names: Vec<&str> = model.parameters().schemas().map(|schema| schema.name).collect();
+        let others = || Some(format!("its parameters are not those of {}", names.join(" and ")));
+        if self.parameters.len() != fields.len() {
+            return others();
+        }
+        self.parameters.iter().zip(fields).find_map(|(bits, field)| {
+            let numbers = bits.iter().map(|number| f64::from_bits(*number)).collect();
+            match ParameterValue::from_components(field.value_type, numbers) {
+                None => others(),
+                Some(value) => value.check(field, precision).err().map(|error| error.to_string()),
+            }
+        })
+    }
+}
+
+/// A reason with the name of the group.
+fn of_group(group: &Group, reason: Option<String>) -> Option<String> {
+    reason.map(|reason| format!("`{}`: {reason}", group.schema().name))
 }

@@ -14,7 +14,7 @@ use super::outcome::{Ended, Unable};
 use crate::terminal::{self, short_lines};
 use findings::{Findings, Inside, Listed};
 use std::path::Path;
-use xca_checkpoint::{Checkpoint, CheckpointFolder};
+use xca_checkpoint::{Checkpoint, CheckpointFile, CheckpointFolder};
 use xca_record::record::REPORT;
 use xca_record::report::{self, Earlier};
 
@@ -49,8 +49,11 @@ fn in_folder(definition: &Definition<'_>, arguments: &InspectArguments) -> Resul
     }
     let (mut state, mut checkpoints) = (None, Vec::new());
     for path in CheckpointFolder::of_run(&arguments.path) {
-        let read = Checkpoint::read(&path);
-        if let (None, Ok(checkpoint)) = (&state, &read) {
+        let read = match state {
+            None => Checkpoint::read(&path).map(Some),
+            Some(_) => CheckpointFile::open(&path).map(|_| None),
+        };
+        if let Ok(Some(checkpoint)) = &read {
             state = Some(inside(&path, checkpoint, arguments)?);
         }
         checkpoints.push(Listed { path, problem: read.err().map(|error| error.to_string()) });

@@ -16,7 +16,7 @@ use crate::called;
 use crate::engines::EngineChoice;
 use serde_json::json;
 use std::path::{Path, PathBuf};
-use xca_checkpoint::{Checkpoint, CheckpointError, CheckpointFolder, Description, Difference};
+use xca_checkpoint::{CheckpointError, CheckpointFile, CheckpointFolder, Description, Difference};
 use xca_core::Model;
 use xca_io::numbers::counted;
 use xca_record::Failure;
@@ -51,14 +51,14 @@ pub(super) fn resume(
     }
     let path = chosen(arguments)?;
     let found = Found { definition, arguments, path: &path };
-    let checkpoint = Checkpoint::read(&path).map_err(|error| found.refused(error.into(), None, false))?;
+    let checkpoint = CheckpointFile::open(&path).map_err(|error| found.refused(error.into(), None, false))?;
     let begun = found.begun(&checkpoint, &earlier)?;
     let on = on.or_as_begun(&begun.engine);
     definition.engines.check([&*on.name], NAME).map_err(Unable::refused)?;
     if let Some(helper) = on.helper(definition)? {
         return help(&*helper, || found.model(&checkpoint, &begun));
     }
-    found.under_way(checkpoint, earlier, &begun, &on)?.go()
+    found.under_way(&checkpoint, earlier, &begun, &on)?.go()
 }
 
 /// A report that may be of someone else is not replaced; a lost one is no obstacle.
@@ -87,8 +87,8 @@ struct Found<'a> {
 
 impl Found<'_> {
     /// The run as it was begun.
-    fn begun(&self, checkpoint: &Checkpoint, earlier: &Earlier) -> Result<RunInvocation<'_>, Unable> {
-        let description = &checkpoint.description;
+    fn begun(&self, checkpoint: &CheckpointFile, earlier: &Earlier) -> Result<RunInvocation<'_>, Unable> {
+        let description = checkpoint.description();
         let of_program = description.run.other_program(self.definition.identity());
         self.same(of_program, description)?;
         self.same(earlier.difference(&description.run.command_line), description)?;
@@ -96,8 +96,8 @@ impl Found<'_> {
     }
 
     /// The model alone.
-    fn model(&self, checkpoint: &Checkpoint, begun: &RunInvocation<'_>) -> Result<Model, Unable> {
-        let there = WorkingDirectory::enter(&checkpoint.description.run.directory)?;
+    fn model(&self, checkpoint: &CheckpointFile, begun: &RunInvocation<'_>) -> Result<Model, Unable> {
+        let there = WorkingDirectory::enter(&checkpoint.description().run.directory)?;
         let run = described(begun)?;
         drop(there);
         Ok(self.with_slots(run)?.model().clone())
@@ -113,12 +113,12 @@ impl Found<'_> {
     /// Puts the run together as it was.
     fn under_way(
         &self,
-        checkpoint: Checkpoint,
+        checkpoint: &CheckpointFile,
         earlier: Earlier,
         begun: &RunInvocation<'_>,
         on: &EngineChoice,
     ) -> Result<UnderWay, Unable> {
-        let description = &checkpoint.description;
+        let description = checkpoint.description();
         let there = WorkingDirectory::enter(&description.run.directory)?;
         let Prepared { engine, mut run } = Prepared::new(begun, on)?;
         drop(there);
@@ -136,7 +136,7 @@ impl Found<'_> {
         if self.arguments.allow_rounding {
             run = run.allow_rounding();
         }
-        let resumed = Resumed { path: self.path, checkpoint: &checkpoint, earlier };
+        let resumed = Resumed { checkpoint, earlier };
         let recording = run.resume_from(&self.arguments.folder, &*engine, resumed);
         let recording = recording.map_err(|error| self.not_resumed(error, description))?;
         Ok(UnderWay { recording, voice: self.arguments.voice, note: engine.note() })
@@ -186,8 +186,8 @@ impl Found<'_> {
     /// as a changed input file, is that of all its checkpoints.
     fn refused(&self, error: Failure, description: Option<&Description>, is_of_run: bool) -> Unable {
         let might_do = |path: &PathBuf| {
-            let other = Checkpoint::read(path).map(|other| other.description);
-            other.is_ok_and(|other| {
+            CheckpointFile::open(path).is_ok_and(|other| {
+                let other = other.description();
                 other.run.other_program(self.definition.identity()).is_none()
                     && description.is_none_or(|refused| {
                         refused.run != other.run || (!is_of_run && refused.step > other.step)
