@@ -1,11 +1,11 @@
-//! The host fills cells and writes checkpoints without the memory for a whole state.
+//! The host fills cells, writes checkpoints and resumes from them without the memory for a whole state.
 //!
 //! The parts are threads of this process, so its memory is that of the parts and of the host. It is the only
 //! test here, because tests of one process share its memory.
 
 use std::error::Error;
 use std::fs;
-use xca_checkpoint::{CheckpointFolder, Description, Identity, Origin, Outputs, Recorded};
+use xca_checkpoint::{CheckpointFile, CheckpointFolder, Description, Identity, Origin, Outputs, Recorded};
 use xca_core::prelude::*;
 use xca_cpu::Cpu;
 use xca_io::atomic::OutputFolder;
@@ -41,7 +41,7 @@ fn the_host_needs_no_memory_for_a_whole_state() -> Result<(), Box<dyn Error>> {
         .fill(|site| Rock { heat: site.cell()[2] as f64, stress: [site.cell()[1] as f64; 7] })
         .build()?;
     let parts = Parts::with_grid(Cpu::with_threads(1)?, Grid { y: 2, z: 1 }).with_balance(Balance::NEVER);
-    let simulation = Simulation::new(&model, &parts, RunOptions::default())?;
+    let mut simulation = Simulation::new(&model, &parts, RunOptions::default())?;
     assert!(simulation.memory() as u64 >= STATE);
     let filled = peak().ok_or("no peak")? - start;
     assert!(filled <= STATE + ROOM, "filling took {filled} bytes");
@@ -57,6 +57,13 @@ fn the_host_needs_no_memory_for_a_whole_state() -> Result<(), Box<dyn Error>> {
     assert!(fs::metadata(path)?.len() > STATE);
     let written = peak().ok_or("no peak")? - start;
     assert!(written <= STATE + ROOM, "the checkpoint took {written} bytes");
+
+    let wanted = simulation.state().sum(Rock::HEAT)?;
+    drop(simulation);
+    let mut simulation = CheckpointFile::open(path)?.resume(&model, &parts, options)?;
+    assert_eq!(simulation.state().sum(Rock::HEAT)?, wanted);
+    let resumed = peak().ok_or("no peak")? - start;
+    assert!(resumed <= STATE + ROOM, "resuming took {resumed} bytes");
 
     // A whole state shows in this figure.
     let snapshot = simulation.snapshot()?;
