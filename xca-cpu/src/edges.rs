@@ -31,6 +31,9 @@ pub(crate) struct Edges {
     /// The last message across each face, by group and field, while changes are followed. The halo does not
     /// show what has changed, because planes with a second buffer have two halos.
     received: Vec<Vec<Faces<Vec<u8>>>>,
+    /// Messages that have been read, for the bytes of the next ones. New memory is expensive: the system
+    /// clears it.
+    read: Vec<Vec<u8>>,
 }
 
 /// An exchange under way: this part has sent its edges along the first axis.
@@ -46,7 +49,7 @@ impl Edges {
     pub(crate) fn new(model: &Model, layout: &Layout, part: Part, border: Box<dyn Border>) -> Self {
         let fields = model.groups().iter().map(|group| group.schema().fields.len());
         let received = fields.map(|fields| vec![Faces::default(); fields]).collect();
-        Self { part, border, at_border: rows_at_borders(layout).into(), received }
+        Self { part, border, at_border: rows_at_borders(layout).into(), received, read: Vec::new() }
     }
 
     /// Sends what other parts see along the first axis. The halo is then complete for rows that see no other
@@ -132,7 +135,9 @@ impl Edges {
             return Ok(());
         }
         for face in faces(layout, axis) {
-            let mut bytes = Vec::with_capacity(exchange.edge(groups, layout, face) + MARGIN);
+            let mut bytes = self.read.pop().unwrap_or_default();
+            bytes.clear();
+            bytes.reserve(exchange.edge(groups, layout, face) + MARGIN);
             for substate in &exchange.planes {
                 if let Group::Cells(planes) = &groups[substate.group] {
                     planes[substate.field].pack(layout, face, &mut bytes);
@@ -183,6 +188,9 @@ impl Edges {
             }
             if !rest.is_empty() {
                 return Err(mismatch());
+            }
+            if self.read.len() < Face::ALL.len() {
+                self.read.push(bytes);
             }
         }
         Ok(())

@@ -273,6 +273,12 @@ impl Layout {
         [x, y || z]
     }
 
+    /// Whether halo cells repeat cells of the part: along x, where they continue rows, and along y or z.
+    pub(crate) fn halo_repeats(&self) -> [bool; 2] {
+        let [x, y, z] = [0, 1, 2].map(|axis| self.fills(axis, false));
+        [x, y || z]
+    }
+
     /// The halo cells that continue a row, if they depend on the space. For each cell, its index and that of
     /// its source, counted from the row's first cell.
     pub(crate) fn continuation(&self) -> Vec<(isize, isize)> {

@@ -56,7 +56,7 @@ impl<'a> Ready<'a> {
         let searches = search::prepare(model, layout, precision, groups, stage.processes);
         let ready = Self::prepare(ground, groups, stage, searches);
         ready.settle(groups, true);
-        Self { continues_lines: layout.halo_follows()[1], ..ready }
+        Self { continues_lines: layout.halo_repeats()[1], ..ready }
     }
 
     fn prepare(

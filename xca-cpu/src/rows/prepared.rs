@@ -73,8 +73,8 @@ pub(super) fn prepare<'a>(
     let accesses = process.access.iter().zip(&plan.accesses);
     let substates: Vec<Shared> =
         accesses.map(|(access, &substate)| shared(layout, groups, access, substate, written)).collect();
-    let halo_follows = layout.halo_follows() != [false; 2];
-    let continues = halo_follows && substates.iter().any(|shared| shared.continued);
+    let halo_repeats = layout.halo_repeats() != [false; 2];
+    let continues = halo_repeats && substates.iter().any(|shared| shared.continued);
     let (kernel, population) = (process.kernel(precision), plan.population);
     Prepared { process, index, number, kernel, substates, continues, population }
 }
