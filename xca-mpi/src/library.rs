@@ -1,11 +1,13 @@
 //! MPI itself: the only file that calls it.
 
 use crate::sending::Sending;
+use crate::spare::Spare;
 use crate::wire::{Piece, Wire};
 use mpi::Threading;
 use mpi::environment::{self, Universe};
 use mpi::topology::SimpleCommunicator;
-use mpi::traits::{Communicator, CommunicatorCollectives, MatchedReceiveVec, Source};
+use mpi::traits::{Communicator, CommunicatorCollectives, Equivalence, Source};
+use std::mem::take;
 use std::thread;
 
 /// All processes of an MPI job. Dropping it ends MPI for this process, which begins only once.
@@ -17,6 +19,7 @@ pub struct Library {
     machine: String,
     /// What the other processes have not taken in yet.
     sending: Vec<Sending>,
+    spare: Spare,
     /// Ends MPI when it is dropped.
     _universe: Universe,
 }
@@ -60,15 +63,10 @@ impl Library {
             number_on_this_machine: machine.rank() as usize,
             machine: environment::processor_name().unwrap_or_else(|_| "unknown".to_owned()),
             sending: Vec::new(),
+            spare: Spare::default(),
             _universe: universe,
         })
     }
-}
-
-fn poll(world: &SimpleCommunicator) -> Option<Piece> {
-    let arrived = world.any_process().immediate_matched_probe()?;
-    let (bytes, status) = arrived.matched_receive_vec::<u8>();
-    Some(Piece { from: status.source_rank() as usize, tag: status.tag(), bytes })
 }
 
 impl Wire for Library {
@@ -98,18 +96,27 @@ impl Wire for Library {
     }
 
     fn is_sending(&mut self) -> bool {
-        self.sending.retain_mut(|message| !message.is_sent());
+        for message in take(&mut self.sending) {
+            match message.go_on() {
+                Ok(bytes) => self.spare.keep(bytes),
+                Err(message) => self.sending.push(message),
+            }
+        }
         !self.sending.is_empty()
     }
 
     fn poll(&mut self) -> Option<Piece> {
-        poll(&SimpleCommunicator::world())
+        let (message, status) = SimpleCommunicator::world().any_process().immediate_matched_probe()?;
+        let length = usize::try_from(status.count(u8::equivalent_datatype())).unwrap_or(0);
+        let mut bytes = self.spare.take(length);
+        message.matched_receive_into(&mut bytes[..]);
+        Some(Piece { from: status.source_rank() as usize, tag: status.tag(), bytes })
     }
 
     fn finish(&mut self, arrived: &mut dyn FnMut(Piece)) {
         let world = SimpleCommunicator::world();
         while self.is_sending() {
-            match poll(&world) {
+            match self.poll() {
                 Some(piece) => arrived(piece),
                 None => thread::yield_now(),
             }
@@ -117,7 +124,7 @@ impl Wire for Library {
         let mut request = world.immediate_barrier();
         while let Err(pending) = request.test() {
             request = pending;
-            match poll(&world) {
+            match self.poll() {
                 Some(piece) => arrived(piece),
                 None => thread::yield_now(),
             }

@@ -27,10 +27,10 @@ impl Sending {
         Self { request: Some(to.immediate_send_with_tag(StaticScope, lent, tag)), bytes }
     }
 
-    /// Whether MPI has sent the bytes.
-    pub(crate) fn is_sent(&mut self) -> bool {
+    /// Goes on sending. Returns the bytes when MPI has sent them.
+    pub(crate) fn go_on(mut self) -> Result<Vec<u8>, Self> {
         self.request = self.request.take().and_then(|request| request.test().err());
-        self.request.is_none()
+        if self.request.is_none() { Ok(take(&mut self.bytes)) } else { Err(self) }
     }
 }
 
