@@ -32,6 +32,13 @@ pub enum ResumeError {
     Run(#[from] RunError),
 }
 
+impl Checkpoint {
+    /// Reads a file. A damaged file is an error.
+    pub fn read(path: &Path) -> Result<Self, CheckpointError> {
+        CheckpointFile::open(path)?.read()
+    }
+}
+
 impl CheckpointFile {
     /// Opens a file, and checks that it is whole.
     ///

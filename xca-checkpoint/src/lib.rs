@@ -4,6 +4,7 @@
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
+mod checkpoint;
 mod checkpoint_file;
 pub mod components;
 mod description;
@@ -18,6 +19,7 @@ mod outputs;
 mod planes;
 mod recorded;
 
+pub use checkpoint::Checkpoint;
 pub use checkpoint_file::{CheckpointFile, ResumeError};
 pub use description::{Description, GroupShape, Kind};
 pub use file::{CheckpointError, CheckpointWriteError};
@@ -29,30 +31,6 @@ pub use numbers::Exact;
 pub use origin::{Difference, Origin, Parameter, other_model, other_program};
 pub use outputs::Outputs;
 pub use recorded::{Quantity, Recorded};
-
-use std::path::Path;
-use xca_core::Snapshot;
-
-/// A run at some step.
-#[derive(Debug, Clone)]
-pub struct Checkpoint {
-    /// The description in the file.
-    pub description: Description,
-    /// The state.
-    pub snapshot: Snapshot,
-}
-
-impl Checkpoint {
-    /// Writes the file. Overwrites an earlier one.
-    pub fn write(&self, path: &Path) -> Result<(), CheckpointWriteError> {
-        file::write(path, &self.description, &self.snapshot)
-    }
-
-    /// Reads a file. A damaged file is an error.
-    pub fn read(path: &Path) -> Result<Self, CheckpointError> {
-        CheckpointFile::open(path)?.read()
-    }
-}
 
 #[cfg(test)]
 mod tests;

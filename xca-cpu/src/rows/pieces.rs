@@ -77,8 +77,8 @@ impl Pass<'_> {
     }
 }
 
-/// The bytes of a piece in each plane of a substate that a process writes. The earlier ones are in other memory, or else
-/// copied in `kept`.
+/// The bytes of a piece in each plane of a substate that a process writes. The earlier ones are in other
+/// memory, or else copied in `kept`.
 fn planes<'a>(shared: &'a Shared, piece: &Cells, kept: &'a [u8]) -> impl Iterator<Item = Plane<'a>> {
     let element = shared.memory.element;
     let (first, bytes) = (piece.first * element, piece.length * element);

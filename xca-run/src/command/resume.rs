@@ -19,11 +19,9 @@ use std::path::{Path, PathBuf};
 use xca_checkpoint::{CheckpointError, CheckpointFile, CheckpointFolder, Description, Difference};
 use xca_core::Model;
 use xca_io::numbers::counted;
-use xca_record::Failure;
 use xca_record::record::REPORT;
-use xca_record::report;
-use xca_record::report::Earlier;
-use xca_record::{BeginError, ReadReportError, Resumed, Run};
+use xca_record::report::{self, Earlier};
+use xca_record::{BeginError, Failure, ReadReportError, Resumed, Run};
 
 /// Goes on with a run.
 pub(super) fn resume(
