@@ -268,6 +268,34 @@ fn forged_checkpoints_are_refused() {
     }
 }
 
+/// The checksum can be right although the description tells of more or fewer data than there are.
+#[test]
+fn data_of_another_size_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.checkpoint");
+    checkpoint(&simulation()).write(&path).unwrap();
+    let bytes = fs::read(&path).unwrap();
+    let altered = |from: &str, to: &str| {
+        let place = bytes.windows(from.len()).position(|part| part == from.as_bytes()).unwrap();
+        let mut forged = bytes.clone();
+        forged[place..place + from.len()].copy_from_slice(to.as_bytes());
+        let end = forged.len() - 4;
+        let sum = crc32fast::hash(&forged[..end]);
+        forged[end..].copy_from_slice(&sum.to_le_bytes());
+        fs::write(&path, forged).unwrap();
+        Checkpoint::read(&path)
+    };
+    assert!(altered("\"items\": 2", "\"items\": 2").is_ok());
+    for (from, to) in [("\"items\": 2", "\"items\": 1"), ("\"items\": 2", "\"items\": 9")] {
+        let read = altered(from, to);
+        assert!(matches!(read, Err(CheckpointError::Altered { .. })), "{to}: {read:?}");
+    }
+    // More than fit into memory.
+    let (from, to) = ("\"items\": 2,\n      \"left\": 0", "\"items\":9999999999,\"left\":0");
+    let read = altered(from, to);
+    assert!(matches!(read, Err(CheckpointError::Altered { .. })), "{read:?}");
+}
+
 /// What a recorder keeps after recording these steps.
 fn recorded(steps: &[u64]) -> Recorded {
     let text = serde_json::json!({
