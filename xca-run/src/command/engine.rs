@@ -68,17 +68,12 @@ pub(super) fn given(engines: &Engines, matches: &ArgMatches) -> EngineOptions {
     given
 }
 
-/// The engine that the command line chooses for a subcommand.
-pub(super) fn chosen(
-    engines: &Engines,
-    matches: &ArgMatches,
-    subcommand: &str,
-) -> Result<EngineChoice, Unable> {
+/// The engine that the command line chooses.
+pub(super) fn chosen(engines: &Engines, matches: &ArgMatches) -> Result<EngineChoice, Unable> {
     let word = matches
         .get_one::<EngineChoice>(ENGINE)
         .cloned()
         .ok_or_else(|| Unable::refused("no engine is given"))?;
-    engines.check([&*word.name], subcommand).map_err(Unable::refused)?;
     word.with(&given(engines, matches)).map_err(Unable::refused)
 }
 

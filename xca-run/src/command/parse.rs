@@ -1,6 +1,6 @@
 //! From the words of a command line to what they mean.
 
-use super::choice::{Choice, RunInvocation, parsed};
+use super::choice::{Choice, RunArguments, RunInvocation, parsed};
 use super::compare::CompareArguments;
 use super::definition::Definition;
 use super::engine::{OtherChoice, chosen, given};
@@ -65,7 +65,17 @@ pub(super) fn invocation<'a>(
             arguments.splice(place..place, from_file);
         }
     }
-    complete(definition, &command, &arguments)
+    let invocation = complete(definition, &command, &arguments)?;
+    // An earlier run may have used an engine that this process cannot: `resume` can choose another.
+    let (engine, subcommand) = match &invocation {
+        Invocation::Run(run) => (&run.engine, run::NAME),
+        Invocation::Render(run, _) => (&run.engine, render::NAME),
+        Invocation::Watch(run, _) => (&run.engine, watch::NAME),
+        Invocation::Sweep(_, engine, _) => (engine, sweep::NAME),
+        _ => return Ok(invocation),
+    };
+    definition.engines.check([&*engine.name], subcommand).map_err(Unable::refused)?;
+    Ok(invocation)
 }
 
 /// Reads a command line to which nothing is to be added: that of an earlier run, as a file of this kind tells
@@ -95,12 +105,9 @@ fn complete<'a>(
 ) -> Result<Invocation<'a>, Unable> {
     let matches = command.clone().try_get_matches_from(arguments).map_err(Unable::CommandLine)?;
     match matches.subcommand() {
-        Some((run::NAME, matches)) => Ok(Invocation::Run(Box::new(RunInvocation {
-            model: Choice::new(definition, matches)?,
-            engine: chosen(definition.engines, matches, run::NAME)?,
-            run: parsed(matches)?,
-            command_line: words(arguments),
-        }))),
+        Some((run::NAME, matches)) => {
+            Ok(Invocation::Run(run_of(definition, matches, parsed(matches)?, arguments)?))
+        }
         Some((compare::NAME, matches)) => Ok(Invocation::Compare(
             Box::new(Choice::new(definition, matches)?),
             Box::new(parsed(matches)?),
@@ -108,7 +115,7 @@ fn complete<'a>(
             words(arguments),
         )),
         Some((sweep::NAME, matches)) => {
-            let on = chosen(definition.engines, matches, sweep::NAME)?;
+            let on = chosen(definition.engines, matches)?;
             Ok(Invocation::Sweep(Box::new(Choice::new(definition, matches)?), on, parsed(matches)?))
         }
         Some((render::NAME, matches)) => {
@@ -117,23 +124,13 @@ fn complete<'a>(
                 render::check_saved(command, matches, &path)?;
                 return Ok(Invocation::Draw(definition, path, render, words(arguments)));
             }
-            let run = RunInvocation {
-                model: Choice::new(definition, matches)?,
-                engine: chosen(definition.engines, matches, render::NAME)?,
-                run: render.as_of_run(),
-                command_line: words(arguments),
-            };
-            Ok(Invocation::Render(Box::new(run), render))
+            let run = run_of(definition, matches, render.as_of_run(), arguments)?;
+            Ok(Invocation::Render(run, render))
         }
         Some((watch::NAME, matches)) => {
             let watch: WatchArguments = parsed(matches)?;
-            let run = RunInvocation {
-                model: Choice::new(definition, matches)?,
-                engine: chosen(definition.engines, matches, watch::NAME)?,
-                run: watch.as_of_run(),
-                command_line: words(arguments),
-            };
-            Ok(Invocation::Watch(Box::new(run), watch))
+            let run = run_of(definition, matches, watch.as_of_run(), arguments)?;
+            Ok(Invocation::Watch(run, watch))
         }
         Some((list::NAME, matches)) => {
             Ok(Invocation::List(Box::new(Choice::new(definition, matches)?), parsed(matches)?))
@@ -146,6 +143,16 @@ fn complete<'a>(
         }
         _ => Err(Unable::refused("no command is given")),
     }
+}
+
+fn run_of<'a>(
+    definition: &'a Definition<'a>,
+    matches: &ArgMatches,
+    run: RunArguments,
+    arguments: &[OsString],
+) -> Result<Box<RunInvocation<'a>>, Unable> {
+    let (model, engine) = (Choice::new(definition, matches)?, chosen(definition.engines, matches)?);
+    Ok(Box::new(RunInvocation { model, engine, run, command_line: words(arguments) }))
 }
 
 fn words(arguments: &[OsString]) -> Vec<String> {
