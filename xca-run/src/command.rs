@@ -43,8 +43,7 @@ use std::panic::{self, AssertUnwindSafe};
 use std::process::ExitCode;
 use std::sync::{Mutex, PoisonError};
 use std::thread;
-use xca_record::Failure;
-use xca_record::SetUp;
+use xca_record::{Failure, SetUp};
 
 /// The exit code of a run that failed.
 const FAILED: u8 = 1;

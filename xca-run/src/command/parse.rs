@@ -1,6 +1,7 @@
 //! From the words of a command line to what they mean.
 
-use super::choice::{Choice, RunArguments, RunInvocation, parsed};
+use super::arguments::RunArguments;
+use super::choice::{Choice, RunInvocation, parsed};
 use super::compare::CompareArguments;
 use super::definition::Definition;
 use super::engine::{OtherChoice, chosen, given};
@@ -15,9 +16,8 @@ use super::sweep::SweepArguments;
 use super::watch::WatchArguments;
 use super::{clashes, compare, config, inspect, list, new, render, resume, run, sweep, watch};
 use crate::engines::{EngineChoice, EngineOptions};
-use clap::ArgMatches;
-use clap::Command;
 use clap::error::ErrorKind;
+use clap::{ArgMatches, Command};
 use std::ffi::OsString;
 use std::path::PathBuf;
 

@@ -80,6 +80,25 @@ fn checkpoints_know_no_ranks() {
     }
 }
 
+/// A run that began on one machine goes on on ranks.
+#[test]
+fn ranks_go_on_with_a_run_of_one_machine() {
+    let place = Workplace::new();
+    let options = "--case published --steps 60 --every 9 --checkpoint-every 25";
+    place.succeed(CADEM, &format!("{options} --out whole"));
+    place.succeed(CADEM, &format!("{options} --engine cpu:1 --out here"));
+    let wanted = checkpoints(&place.path("here"));
+    let [(older, _), (latest, _)] = &wanted[..] else { panic!("two checkpoints are kept") };
+    fs::remove_file(place.path("here/checkpoints").join(latest)).unwrap();
+    let words = format!("resume here --checkpoint here/checkpoints/{older}");
+    let refused = run(&place, 2, CADEM, &words);
+    let said = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(said.contains("a launcher started 2 processes, and each would run the whole model"), "{said}");
+    succeed(&place, 2, CADEM, &format!("{words} --engine mpi:cpu:1"));
+    assert_same_results(&place.path("whole"), &place.path("here"), "from one machine");
+    assert!(checkpoints(&place.path("here")) == wanted);
+}
+
 /// Several executions, some of them at the same time, also in another precision.
 #[test]
 fn ranks_are_compared_with_other_engines() {
