@@ -1,8 +1,7 @@
 //! How the user started this program, for hints that name a command.
 
-use std::env;
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::{env, fs};
 
 /// A command of this program that the user can paste, such as `./life resume out/life`. Without the words of
 /// the process it starts with the name of the program.
