@@ -8,7 +8,7 @@ use toml::{Table, Value};
 type TestResult = Result<(), Box<dyn Error>>;
 
 /// For each member, the members that it may depend on. A new member finds its place here first.
-const DIRECTIONS: [(&str, &[&str]); 31] = [
+const DIRECTIONS: [(&str, &[&str]); 33] = [
     ("xca-methods", &[]),
     ("xca-macros", &["xca-methods"]),
     ("xca-values", &[]),
@@ -20,10 +20,12 @@ const DIRECTIONS: [(&str, &[&str]); 31] = [
     ("xca-parts", &["xca-core"]),
     ("xca-mpi", &["xca-core", "xca-parts"]),
     ("xca-io", &[]),
+    ("xca-machine", &["xca-io"]),
     ("xca-picture", &["xca-io"]),
     ("xca-checkpoint", &["xca-core", "xca-io", "xca-wgsl"]),
-    ("xca-record", &["xca-core", "xca-io", "xca-checkpoint", "xca-picture"]),
-    ("xca-compare", &["xca-core", "xca-checkpoint", "xca-record"]),
+    ("xca-observe", &["xca-core", "xca-checkpoint"]),
+    ("xca-record", &["xca-core", "xca-io", "xca-machine", "xca-checkpoint", "xca-observe", "xca-picture"]),
+    ("xca-compare", &["xca-core", "xca-machine", "xca-checkpoint", "xca-record"]),
     ("xca-ensemble", &["xca-core", "xca-io", "xca-checkpoint", "xca-record"]),
     ("xca-report", &["xca-core", "xca-io", "xca-checkpoint", "xca-record", "xca-compare", "xca-ensemble"]),
     ("xca-watch", &["xca-core", "xca-io", "xca-picture", "xca-record"]),
@@ -36,6 +38,7 @@ const DIRECTIONS: [(&str, &[&str]); 31] = [
             "xca-parts",
             "xca-mpi",
             "xca-io",
+            "xca-machine",
             "xca-checkpoint",
             "xca-picture",
             "xca-record",

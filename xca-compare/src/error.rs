@@ -1,7 +1,7 @@
 //! Errors of comparisons.
 
 use xca_core::RunError;
-use xca_record::machine::NotEnoughMemory;
+use xca_machine::NotEnoughMemory;
 use xca_record::record::RecordError;
 
 /// A comparison that cannot be completed.

@@ -27,8 +27,8 @@ use lane::Lane;
 use plan::{Plan, Watch};
 use std::time::Duration;
 use xca_core::{Engine, Precision};
+use xca_machine::check_memory;
 use xca_record::Monitor;
-use xca_record::machine::check_memory;
 use xca_record::record::Recorder;
 use xca_record::{SetUp, SetUpError};
 
@@ -194,7 +194,8 @@ impl Comparison {
         let plan = self.plan();
         // A snapshot of the start and one of the end.
         let memory_of = |it: &Contender| {
-            it.engine.least_memory(model, it.precision) + model.output_memory(it.precision, |_| 0)
+            it.engine.least_memory(model, it.precision)
+                + model.output_memory(it.precision, model.geometry().cells(), |_| 0)
         };
         let memory = self.contenders.iter().map(memory_of).sum();
         check_memory(memory, "this model on all these engines at once")?;
@@ -205,14 +206,14 @@ impl Comparison {
             lanes.push(Lane::start(model, contender, plan.seed, initial.as_ref())?);
         }
         for lane in &mut lanes {
-            lane.findings.observables[0] = self.recorder.measure(&mut lane.simulation, &lane.initial)?;
+            lane.findings.observables[0] = self.recorder.measure(&mut lane.simulation)?;
         }
         monitor.begin(0);
         let mut watch = Watch { monitor, done: 0 };
         let done = lockstep::run(model, &mut lanes, &plan, &mut watch)?;
         for lane in &mut lanes {
-            if let (Some(end), false) = (&lane.findings.end, lane.has_failed()) {
-                lane.findings.observables[1] = self.recorder.measure(&mut lane.simulation, end)?;
+            if lane.findings.end.is_some() && !lane.has_failed() {
+                lane.findings.observables[1] = self.recorder.measure(&mut lane.simulation)?;
             }
         }
         timing::run(&mut lanes, done, plan.repeats, &mut watch)?;

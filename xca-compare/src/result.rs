@@ -11,7 +11,6 @@ use std::collections::BTreeMap;
 use xca_checkpoint::ModelReport;
 use xca_core::model::GroupKind;
 use xca_core::{GroupSnapshot, Model, Precision, Snapshot};
-use xca_record::machine;
 use xca_record::report::{self, Host};
 
 /// The program that is compared.
@@ -177,9 +176,9 @@ impl ComparisonReport {
             model: ModelReport::new(model),
             parameters: report::of_parameters(model.parameters()),
             host: report::of_host(),
-            hardware: machine::processor(),
-            memory_bytes: machine::memory(),
-            peak_memory_bytes: machine::peak_memory(),
+            hardware: xca_machine::processor(),
+            memory_bytes: xca_machine::memory(),
+            peak_memory_bytes: xca_machine::peak_memory(),
             ended: report::now(),
             seed: plan.seed,
             steps,

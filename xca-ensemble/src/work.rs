@@ -126,10 +126,9 @@ impl Work<'_> {
         }
         simulation.finish()?;
         check_finite(&simulation)?;
-        let snapshot = simulation.snapshot()?;
-        let observables = recorder.measure(&mut simulation, &snapshot)?;
+        let observables = recorder.measure(&mut simulation)?;
         let end = simulation.stop_reason().map_or(End::Done, |reason| End::Stopped(reason.to_owned()));
-        Ok(Some(Finished { member: member.clone(), end, steps: snapshot.step, observables }))
+        Ok(Some(Finished { member: member.clone(), end, steps: simulation.step_number(), observables }))
     }
 }
 

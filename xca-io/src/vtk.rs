@@ -18,6 +18,7 @@ mod blocks;
 mod collection;
 mod dense;
 mod hexagons;
+mod number_type;
 mod particles;
 mod read;
 mod values;
@@ -29,12 +30,13 @@ use super::atomic::WriteError;
 pub use collection::Collection;
 pub use dense::{GHOST_TYPE, Grid, ghost_types, write_dense};
 pub use hexagons::{HexagonGrid, write_hexagons};
+pub use number_type::NumberType;
 pub use particles::write_particles;
 pub use read::{
-    DenseFile, HexagonFile, ListedFile, NumberType, ParticleFile, PolyDataFile, ReadArray, ReadVtkError,
-    read_collection, read_dense, read_hexagons, read_particles, read_poly_data,
+    DenseFile, HexagonFile, ListedFile, ParticleFile, PolyDataFile, ReadArray, ReadVtkError, read_collection,
+    read_dense, read_hexagons, read_particles, read_poly_data,
 };
-pub use values::{DataArray, Values};
+pub use values::{DataArray, ValueSource, Values};
 
 /// Data that cannot be written as a VTK file.
 #[derive(Debug, thiserror::Error)]

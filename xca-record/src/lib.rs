@@ -50,13 +50,11 @@
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
+mod failure;
 pub mod format;
 mod interval;
 mod items_file;
-#[doc(hidden)]
-pub mod machine;
 mod monitor;
-mod observable;
 mod place;
 #[doc(hidden)]
 pub mod record;
@@ -68,11 +66,10 @@ mod run;
 mod set_up;
 mod view;
 
+pub use failure::Failure;
 pub use interval::Interval;
 pub use items_file::{ReadItem, read_items};
-pub use machine::{NotEnoughMemory, check_memory};
 pub use monitor::Monitor;
-pub use observable::{Failure, Observable};
 pub use record::{FolderError, Kind as FolderKind, RecordError};
 pub use recording::{Outcome, Recording};
 pub use report::ReadReportError;
@@ -83,3 +80,7 @@ pub use set_up::{FinalWarning, SetUp, SetUpError};
 pub use view::{CellView, ItemView, ViewError};
 #[doc(no_inline)]
 pub use xca_checkpoint::{CheckpointError, InputFile, Outputs};
+#[doc(no_inline)]
+pub use xca_machine::{NotEnoughMemory, check_memory};
+#[doc(no_inline)]
+pub use xca_observe::Observable;

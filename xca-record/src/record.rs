@@ -6,7 +6,7 @@ mod folder;
 mod items;
 pub(crate) mod layer;
 mod look;
-mod measure;
+mod outputs;
 mod painting;
 mod panel;
 mod recorded;
@@ -15,6 +15,7 @@ mod saved_run;
 mod seen;
 mod shown;
 mod sight;
+mod source;
 mod substate_values;
 mod typed;
 mod values;
@@ -32,18 +33,20 @@ pub use saved_run::SavedRun;
 pub use seen::Seen;
 pub(crate) use shown::Shown;
 pub use sight::{Sight, Subject};
-pub use substate_values::SubstateValues;
+pub(crate) use source::Source;
+pub use substate_values::{CellSubstate, SubstateValues};
 pub(crate) use typed::{NoValue, retyped};
 pub use values::Plane;
 
+use crate::failure::Failure;
 use crate::format::{self, Formats, RecordedState};
-use crate::machine::{NotEnoughMemory, check_memory};
-use crate::observable::{Failure, Observable};
 use crate::set_up::{SetUp, SetUpError};
 use crate::view::complete;
-use xca_core::{Model, ModelError, RunError, Simulation, Snapshot};
+use xca_core::{Model, ModelError, RunError, Simulation};
 use xca_io::atomic::WriteError;
 use xca_io::table_csv::{SeriesError, SeriesWriter};
+use xca_machine::{NotEnoughMemory, check_memory};
+use xca_observe::Observable;
 use xca_picture::PictureError;
 
 /// A part of a run's record that cannot be made or written.
@@ -160,63 +163,55 @@ impl Recorder {
     /// Records the initial state.
     pub fn begin(&mut self, folder: RunFolder, simulation: &mut Simulation) -> Result<(), RecordError> {
         self.folder = Some(folder);
-        let snapshot = self.record(simulation)?;
-        self.write(simulation, &snapshot, |writer, state| writer.begin(state))
+        self.record(simulation)?;
+        self.write(simulation, |writer, state| writer.begin(state))
     }
 
     /// Records the present state as a row of observables and by the formats, unless that is done already.
-    pub fn record(&mut self, simulation: &mut Simulation) -> Result<Snapshot, RecordError> {
-        check_memory(simulation.output_memory(), "the outputs of this state")?;
-        let snapshot = simulation.snapshot()?;
-        if self.steps.last() != Some(&snapshot.step) {
-            self.observe(simulation, &snapshot)?;
-            self.write(simulation, &snapshot, |writer, state| writer.record(state))?;
-            self.steps.push(snapshot.step);
+    pub fn record(&mut self, simulation: &mut Simulation) -> Result<(), RecordError> {
+        check_memory(self.memory_of_outputs(simulation), "the outputs of this state")?;
+        if self.steps.last() != Some(&simulation.step_number()) {
+            self.observe(simulation)?;
+            self.write(simulation, |writer, state| writer.record(state))?;
+            self.steps.push(simulation.step_number());
         }
-        Ok(snapshot)
+        Ok(())
     }
 
     /// Records the final state.
     pub fn finish(&mut self, simulation: &mut Simulation) -> Result<(), RecordError> {
-        let snapshot = self.record(simulation)?;
-        self.write(simulation, &snapshot, |writer, state| writer.finish(state))
+        self.record(simulation)?;
+        self.write(simulation, |writer, state| writer.finish(state))
     }
 
     /// Hands a state to the formats that are chosen.
     fn write(
         &mut self,
         simulation: &Simulation,
-        snapshot: &Snapshot,
         write: fn(&mut dyn format::Writer, RecordedState<'_>) -> Result<(), Failure>,
     ) -> Result<(), RecordError> {
         let Some(folder) = &self.folder else { return Ok(()) };
-        let subject = self.set_up.subject(&self.shown);
-        let state = RecordedState { subject, snapshot, precision: simulation.options().precision, folder };
+        let (subject, precision) = (self.set_up.subject(&self.shown), simulation.options().precision);
+        let state = RecordedState { subject, source: Source::Simulation(simulation), precision, folder };
         let mut writers = self.formats.writers();
         writers.try_for_each(|writer| write(&mut **writer, state)).map_err(RecordError::Format)
     }
 
-    /// The observables of the present state, of which a snapshot was taken.
-    pub fn measure(
-        &self,
-        simulation: &mut Simulation,
-        snapshot: &Snapshot,
-    ) -> Result<Vec<Observable>, RecordError> {
-        let step = snapshot.step;
+    /// The observables of the present state.
+    pub fn measure(&self, simulation: &mut Simulation) -> Result<Vec<Observable>, RecordError> {
+        let step = simulation.step_number();
         match &self.set_up.observe {
             Some(observe) => {
                 observe(&simulation.state()).map_err(|source| RecordError::Observe { step, source })
             }
-            None => {
-                let (model, precision) = (simulation.model(), simulation.options().precision);
-                Ok(measure::measure(model, precision, snapshot, self.set_up.missing()))
-            }
+            None => xca_observe::measure(simulation, self.set_up.missing())
+                .map_err(|failure| RecordError::State(failure.into())),
         }
     }
 
-    fn observe(&mut self, simulation: &mut Simulation, snapshot: &Snapshot) -> Result<(), RecordError> {
-        let step = snapshot.step;
-        let observables = self.measure(simulation, snapshot)?;
+    fn observe(&mut self, simulation: &mut Simulation) -> Result<(), RecordError> {
+        let step = simulation.step_number();
+        let observables = self.measure(simulation)?;
         let names = |observables: &[Observable]| -> Vec<String> {
             observables.iter().map(|observable| observable.name.clone()).collect()
         };

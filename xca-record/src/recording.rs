@@ -7,9 +7,8 @@ mod finite;
 pub(crate) use checkpoints::Checkpoints;
 pub use finite::check as check_finite;
 
-use crate::machine::peak_memory;
+use crate::failure::Failure;
 use crate::monitor::Monitor;
-use crate::observable::{Failure, Observable};
 use crate::record::{Recorder, RunFolder};
 use crate::report::{self, Earlier, Report};
 use std::path::Path;
@@ -17,6 +16,8 @@ use std::time::{Duration, Instant};
 use xca_checkpoint::{Description, Origin};
 use xca_core::{Batch, Simulation};
 use xca_io::numbers::significant;
+use xca_machine::peak_memory;
+use xca_observe::Observable;
 
 /// A run in progress. [`crate::Run::begin`] and [`crate::Run::resume`] start one.
 #[derive(Debug)]

@@ -4,8 +4,6 @@ mod earlier;
 
 pub use earlier::{Earlier, ReadReportError, parts, read};
 
-use crate::machine::cores;
-use crate::observable::Observable;
 use crate::set_up::SetUp;
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -18,6 +16,8 @@ use xca_checkpoint::{Identity, InputFile, ModelReport, Origin, Outputs};
 use xca_core::{Engine, Model, ParameterSet, ParameterValue, Precision, ValueType};
 use xca_io::atomic::{WriteError, write_atomically};
 use xca_io::map::{self, Placement};
+use xca_machine::cores;
+use xca_observe::Observable;
 
 /// The report of a run.
 #[derive(Debug, Clone, Serialize)]

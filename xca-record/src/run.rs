@@ -1,7 +1,7 @@
 //! How a model is run and recorded.
 
+use crate::failure::Failure;
 use crate::interval::Interval;
-use crate::observable::Failure;
 use crate::record::{Claim, FolderError, Kind, REPORT, RecordError, Recorder, RunFolder};
 use crate::recording::{Checkpoints, Recording, check_finite};
 use crate::report::{Earlier, ReadReportError, Report};
@@ -219,6 +219,12 @@ impl Run {
     /// The model.
     pub fn model(&self) -> &Model {
         self.recorder.model()
+    }
+
+    /// An estimate of the bytes that it takes on an engine, with its outputs and without items.
+    #[doc(hidden)]
+    pub fn least_memory(&self, engine: &dyn Engine) -> u128 {
+        self.recorder.least_memory(engine, self.options.precision)
     }
 
     #[doc(hidden)]

@@ -1,7 +1,7 @@
 //! A model with what its program shows of it.
 
+use crate::failure::Failure;
 use crate::format::{Formats, Subject, Writer, is_row};
-use crate::observable::{Failure, Observable};
 use crate::place::{place_of, unplaced};
 use crate::record::Shown;
 use crate::view::{AnyView, CellView, ItemView, ViewError};
@@ -12,6 +12,7 @@ use xca_checkpoint::InputFile;
 use xca_checkpoint::Outputs;
 use xca_core::{Model, State, Substates};
 use xca_io::map::{CoarsePlace, Map, MapUnit, Placement, PlacementDifference};
+use xca_observe::Observable;
 
 type Observe = dyn Fn(&State<'_>) -> Result<Vec<Observable>, Failure> + Send + Sync;
 

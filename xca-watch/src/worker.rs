@@ -4,7 +4,7 @@
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender};
 use std::time::{Duration, Instant};
-use xca_core::{Batch, Engine, RunOptions, Simulation, Snapshot};
+use xca_core::{Batch, Engine, RunOptions, Simulation};
 use xca_record::record::{Look, Recorder, Sight};
 use xca_record::{Failure, Observable};
 
@@ -131,13 +131,11 @@ impl Worker<'_> {
         };
         let to = to.min(self.wanted.unwrap_or(u64::MAX));
         self.advance(simulation, to, patience, &mut earlier.batch)?;
-        let snapshot = simulation.snapshot()?;
-        let step = snapshot.step;
+        let step = simulation.step_number();
         self.shared.done.store(step, Ordering::Relaxed);
         let is_patient = !matches!(order.advance, Advance::ToMultiple(_));
-        let (observables, observed) =
-            self.measured(simulation, &snapshot, is_patient, &mut earlier.measured)?;
-        let sight = self.sight(order, simulation, &snapshot, &mut earlier.scale)?;
+        let (observables, observed) = self.measured(simulation, is_patient, &mut earlier.measured)?;
+        let sight = self.sight(order, simulation, &mut earlier.scale)?;
         let end = match (simulation.stop_reason(), self.wanted) {
             (Some(reason), _) => Some(format!("ended: {reason}")),
             (None, Some(wanted)) if step >= wanted => Some("ended: all steps are done".to_owned()),
@@ -173,18 +171,18 @@ impl Worker<'_> {
     fn measured(
         &self,
         simulation: &mut Simulation,
-        snapshot: &Snapshot,
         is_patient: bool,
         last: &mut Option<Measured>,
     ) -> Result<(Vec<Observable>, u64), Failure> {
+        let step = simulation.step_number();
         let is_due = |last: &Measured| {
-            last.step != snapshot.step && (is_patient || last.end.elapsed() >= last.took * MEASURING)
+            last.step != step && (is_patient || last.end.elapsed() >= last.took * MEASURING)
         };
         if last.as_ref().is_none_or(is_due) {
             let begin = Instant::now();
-            let observables = self.recorder.measure(simulation, snapshot)?;
+            let observables = self.recorder.measure(simulation)?;
             let (end, took) = (Instant::now(), begin.elapsed());
-            *last = Some(Measured { observables, step: snapshot.step, end, took });
+            *last = Some(Measured { observables, step, end, took });
         }
         Ok(last.as_ref().map(|last| (last.observables.clone(), last.step)).unwrap_or_default())
     }
@@ -193,7 +191,6 @@ impl Worker<'_> {
         &self,
         order: &Order,
         simulation: &Simulation,
-        snapshot: &Snapshot,
         scale: &mut Option<(Look, [f64; 2])>,
     ) -> Result<Sight, Failure> {
         // All layers have the same scale.
@@ -202,8 +199,7 @@ impl Worker<'_> {
         let earlier = earlier.map(|(_, range)| *range);
         // The next substate may be one of items, which have no layers.
         let drawing = self.recorder.sighting(&order.look).or_else(|_| self.recorder.sighting(&of_scale))?;
-        let (model, precision) = (simulation.model(), simulation.options().precision);
-        let sight = drawing.sight(model, precision, snapshot, earlier).ok_or("there is nothing to see")?;
+        let sight = drawing.sight(simulation, earlier)?.ok_or("there is nothing to see")?;
         *scale = sight.range.map(|range| (of_scale, range));
         Ok(sight)
     }

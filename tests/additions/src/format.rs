@@ -50,12 +50,12 @@ impl Writer for Json {
     fn record(&mut self, state: RecordedState<'_>) -> Result<(), Failure> {
         for view in state.subject().views() {
             let Some(cells) = state.cells(view) else { continue };
-            let substates = cells.substates();
-            let substates = substates.iter().map(|substate| Substate {
-                name: substate.field().name.to_owned(),
-                values: substate.values().component(0),
-            });
-            let layer = Layer { time: state.time(), cells: cells.extents(), substates: substates.collect() };
+            let mut substates = Vec::new();
+            for substate in cells.substates() {
+                let (name, values) = (substate.field().name.to_owned(), substate.values()?.component(0));
+                substates.push(Substate { name, values });
+            }
+            let layer = Layer { time: state.time(), cells: cells.extents(), substates };
             let file = OutputFile::of_view(Moment::Each, view, "json");
             fs::write(state.path(&file), serde_json::to_string(&layer)?)?;
         }

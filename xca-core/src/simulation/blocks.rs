@@ -2,7 +2,7 @@
 
 use super::snapshot::{GroupSnapshot, ItemCounts, Outline};
 use super::{RunError, RunOptions, Simulation};
-use crate::engine::{Engine, EngineFailure, Plane, Population, SubstateId};
+use crate::engine::{Engine, EngineFailure, Plane, Population, SubstateId, check_plane};
 use crate::model::{Group, GroupKind, Model};
 use std::ops::Range;
 
@@ -69,6 +69,44 @@ impl Simulation {
             }
         }
         Ok(())
+    }
+
+    /// Passes on all values of a substate: of cells in blocks as those of [`Self::read_blocks`], of items at
+    /// once.
+    ///
+    /// # Errors
+    /// As [`Self::read_blocks`], or if there is no such substate.
+    pub fn read_substate<E: From<EngineFailure>>(
+        &self,
+        substate: SubstateId,
+        size: usize,
+        mut take: impl FnMut(&[u8]) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let plane = Plane::Values(substate);
+        check_plane(&self.model, plane).map_err(EngineFailure::Input)?;
+        let is_of_cells = matches!(self.model.groups()[substate.group].kind(), GroupKind::Cells { .. });
+        if is_of_cells && self.execution.read_rows(plane, 0..0)?.is_some() {
+            self.read_rows_of(&[plane], size, &mut |_, block| take(block))
+        } else {
+            take(&self.execution.read(substate)?)
+        }
+    }
+
+    /// The values of a substate in the cells with these linear indices, in their order.
+    ///
+    /// # Errors
+    /// Returns an error if there is no such substate or cell, or the engine lost its state.
+    pub fn read_cells(&self, substate: SubstateId, cells: &[usize]) -> Result<Vec<u8>, EngineFailure> {
+        self.execution.read_cells(substate, cells)
+    }
+
+    /// All items of the population with this number among the groups.
+    ///
+    /// # Errors
+    /// Returns an error if there is no such population, or the engine lost its state.
+    pub fn read_population(&self, group: usize) -> Result<Population, EngineFailure> {
+        check_plane(&self.model, Plane::Labels(group)).map_err(EngineFailure::Input)?;
+        self.execution.population(group)
     }
 
     /// Passes on the planes of a group by rows.

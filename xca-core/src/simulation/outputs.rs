@@ -1,6 +1,5 @@
 //! The memory that outputs of a state take.
 
-use super::Simulation;
 use crate::model::{GroupKind, Model};
 use xca_values::Precision;
 
@@ -8,11 +7,12 @@ use xca_values::Precision;
 const PICTURES: u128 = 32 << 20;
 
 impl Model {
-    /// The bytes that outputs of a state take beside the state: a snapshot, a copy of it, pictures, and the
-    /// numbers of the largest substate of cells, or of all substates of the largest population, as `f64`. An
-    /// estimate: observables may take more. `items` gives the number of items of the group with this number.
-    pub fn output_memory(&self, precision: Precision, items: impl Fn(usize) -> usize) -> u128 {
-        let cells = self.geometry().cells() as u128;
+    /// The bytes that outputs of a state take beside the state: two copies of what they hold at once, the
+    /// numbers of the largest substate of cells, or of all substates of the largest population, as `f64`, and
+    /// pictures. An estimate: observables may take more. `cells` is the number of cells that they hold at
+    /// once, and `items` gives the number of items of the group with this number.
+    pub fn output_memory(&self, precision: Precision, cells: usize, items: impl Fn(usize) -> usize) -> u128 {
+        let cells = cells as u128;
         let (mut copies, mut numbers) = (0, 0);
         for (number, group) in self.groups().iter().enumerate() {
             let stored = group.stored(precision);
@@ -27,13 +27,6 @@ impl Model {
             numbers = numbers.max(owners * 8 * together as u128);
         }
         2 * copies + numbers + PICTURES
-    }
-}
-
-impl Simulation {
-    /// The bytes that outputs of the present state take, see [`Model::output_memory`].
-    pub fn output_memory(&self) -> u128 {
-        self.model.output_memory(self.options.precision, |group| self.execution.items(group))
     }
 }
 
@@ -60,10 +53,11 @@ mod tests {
     fn by_hand() {
         let model = Model::builder("ground").extents([5, 4, 1]).substates::<Ground>().population::<Grain>(9);
         let model = model.populate(|_| [Grain { mass: 1.0, kind: 2 }; 3]).build().unwrap();
-        let options = RunOptions { precision: Precision::F32, ..RunOptions::default() };
-        let simulation = Simulation::new(&model, &Reference, options).unwrap();
         let copies = 20 * (2 * 4 + 1) + 60 * (4 + 1);
-        assert_eq!(simulation.output_memory() - PICTURES, 2 * copies + 60 * 8 * 4);
-        assert_eq!(model.output_memory(Precision::F64, |_| 0) - PICTURES, 2 * 20 * 17 + 20 * 8 * 2);
+        assert_eq!(
+            model.output_memory(Precision::F32, 20, |group| 60 * group) - PICTURES,
+            2 * copies + 60 * 8 * 4
+        );
+        assert_eq!(model.output_memory(Precision::F64, 7, |_| 0) - PICTURES, 2 * 7 * 17 + 7 * 8 * 2);
     }
 }

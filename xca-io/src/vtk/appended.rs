@@ -1,7 +1,7 @@
 //! The layout of VTK XML files: a head of XML, then the blocks of values that it refers to.
 
 use std::fmt::Write as _;
-use std::io::{self, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 
 use super::blocks::{Blocks, COMPRESSOR};
 use super::values::DataArray;
@@ -22,16 +22,29 @@ pub(super) fn head(kind: &str) -> String {
     format!("<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" {attributes} compressor=\"{COMPRESSOR}\">\n")
 }
 
-/// The values at the end of a file.
+/// The place of an offset in the head. The offset is known once all earlier values are compressed, so it is
+/// written into this room later.
+const OFFSET: &str = "offset=\"                    \"";
+
+/// The values at the end of a file, in the order of their elements in the head.
 #[derive(Default)]
-pub(super) struct Appended {
-    /// The bytes as they appear in the file.
-    blocks: Vec<u8>,
+pub(super) struct Appended<'a> {
+    values: Vec<Appendix<'a>>,
 }
 
-impl Appended {
+/// Writes the values of an array.
+type WriteValues<'a> = dyn FnOnce(&mut dyn Write) -> io::Result<()> + 'a;
+
+/// The values of an array.
+struct Appendix<'a> {
+    /// The number of bytes.
+    length: usize,
+    write: Box<WriteValues<'a>>,
+}
+
+impl<'a> Appended<'a> {
     /// Appends the values of an array and returns its element.
-    pub(super) fn array(&mut self, array: &DataArray<'_>) -> io::Result<String> {
+    pub(super) fn array(&mut self, array: &DataArray<'a>) -> String {
         let mut attributes = format!(
             r#"type="{}" Name="{}" NumberOfComponents="{}""#,
             array.values.vtk_type(),
@@ -42,59 +55,69 @@ impl Appended {
             // Writing to a string cannot fail.
             let _ = write!(attributes, r#"{COMPONENT_NAME}{number}="{}""#, escaped(name));
         }
-        self.append(&attributes, |out| array.values.write_to(out))
+        let values = array.values;
+        self.append(&attributes, values.bytes(), move |out| values.write_to(out))
     }
 
-    /// Appends integers and returns their element.
-    pub(super) fn count(&mut self, name: &str, mut numbers: impl Iterator<Item = i32>) -> io::Result<String> {
-        let numbers = |out: &mut Blocks| numbers.try_for_each(|number| out.write_all(&number.to_le_bytes()));
-        self.append(&format!(r#"type="Int32" Name="{name}""#), numbers)
+    /// Appends as many integers as there are and returns their element.
+    pub(super) fn count(
+        &mut self,
+        name: &str,
+        mut numbers: impl ExactSizeIterator<Item = i32> + 'a,
+    ) -> String {
+        let length = size_of::<i32>() * numbers.len();
+        self.append(&format!(r#"type="Int32" Name="{name}""#), length, move |out| {
+            numbers.try_for_each(|number| out.write_all(&number.to_le_bytes()))
+        })
     }
 
     /// The elements of point or cell data (`kind`). ParaView colours by the first scalars.
-    pub(super) fn data(&mut self, kind: &str, arrays: &[DataArray<'_>]) -> io::Result<String> {
+    pub(super) fn data(&mut self, kind: &str, arrays: &[DataArray<'a>]) -> String {
         let scalars = arrays.iter().find(|array| array.values.components() == 1);
         let scalars =
             scalars.map(|array| format!(r#" Scalars="{}""#, escaped(array.name))).unwrap_or_default();
-        let elements = arrays.iter().map(|array| self.array(array)).collect::<io::Result<String>>()?;
-        Ok(format!("<{kind}{scalars}>\n{elements}</{kind}>\n"))
+        let elements: String = arrays.iter().map(|array| self.array(array)).collect();
+        format!("<{kind}{scalars}>\n{elements}</{kind}>\n")
     }
 
     /// The element that holds the time of the file, the names of the states of its arrays, and `others`.
-    pub(super) fn field_data(
-        &mut self,
-        time: f64,
-        arrays: &[DataArray<'_>],
-        others: &str,
-    ) -> io::Result<String> {
+    pub(super) fn field_data(&mut self, time: f64, arrays: &[DataArray<'_>], others: &str) -> String {
         let attributes = r#"type="Float64" Name="TimeValue" NumberOfTuples="1""#;
-        let array = self.append(attributes, |out| out.write_all(&time.to_le_bytes()))?;
+        let array = self.append(attributes, size_of::<f64>(), move |out| out.write_all(&time.to_le_bytes()));
         let states = arrays.iter().filter(|array| !array.states.is_empty()).map(names_of_states);
-        Ok(format!("<FieldData>\n{array}{}{others}</FieldData>\n", states.collect::<String>()))
+        format!("<FieldData>\n{array}{}{others}</FieldData>\n", states.collect::<String>())
     }
 
     fn append(
         &mut self,
         attributes: &str,
-        values: impl FnOnce(&mut Blocks) -> io::Result<()>,
-    ) -> io::Result<String> {
-        let offset = self.blocks.len();
-        let mut blocks = Blocks::default();
-        values(&mut blocks)?;
-        self.blocks.append(&mut blocks.finish()?);
-        Ok(format!("<DataArray {attributes} format=\"appended\" offset=\"{offset}\"/>\n"))
+        length: usize,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()> + 'a,
+    ) -> String {
+        self.values.push(Appendix { length, write: Box::new(write) });
+        format!("<DataArray {attributes} format=\"appended\" {OFFSET}/>\n")
     }
 
     /// Writes a file: `content` makes the element named `kind`, and appends its values.
     pub(super) fn write(
-        out: &mut dyn Write,
+        out: &mut (impl Write + Seek),
         kind: &str,
-        content: impl FnOnce(&mut Self) -> io::Result<String>,
+        content: impl FnOnce(&mut Self) -> String,
     ) -> io::Result<()> {
         let mut appended = Self::default();
-        let content = content(&mut appended)?;
-        write!(out, "{}{content}{DATA}", head(kind))?;
-        out.write_all(&appended.blocks)?;
+        let text = format!("{}{}{DATA}", head(kind), content(&mut appended));
+        out.write_all(text.as_bytes())?;
+        let start = text.len() as u64;
+        let mut end = start;
+        for ((place, _), Appendix { length, write }) in text.match_indices(OFFSET).zip(appended.values) {
+            out.seek(SeekFrom::Start(place as u64))?;
+            let offset = format!("offset=\"{}\"", end - start);
+            write!(out, "{offset:width$}", width = OFFSET.len())?;
+            out.seek(SeekFrom::Start(end))?;
+            let mut blocks = Blocks::new(out, length)?;
+            write(&mut blocks)?;
+            end += blocks.finish()?;
+        }
         out.write_all(END.as_bytes())
     }
 }

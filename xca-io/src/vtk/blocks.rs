@@ -11,7 +11,7 @@ use crate::deflate::can_hold;
 use flate2::Compression;
 use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
-use std::io::{self, Read, Write};
+use std::io::{self, Read, Seek, SeekFrom, Write};
 
 /// The name of this compression in the head of a file.
 pub(super) const COMPRESSOR: &str = "vtkZLibDataCompressor";
@@ -19,46 +19,70 @@ pub(super) const COMPRESSOR: &str = "vtkZLibDataCompressor";
 /// The uncompressed length of a block in bytes.
 const BLOCK: usize = 1 << 18;
 
-/// A compressor of values.
-#[derive(Default)]
-pub(super) struct Blocks {
+/// A compressor of values, which writes each block once it is complete.
+pub(super) struct Blocks<'a, W> {
+    out: &'a mut W,
     /// Bytes that are not compressed yet: less than a block.
     pending: Vec<u8>,
-    lengths: Vec<u64>,
-    streams: Vec<u8>,
+    /// The number of uncompressed bytes that are still to come.
+    left: usize,
+    /// The header. The lengths of streams are added one by one.
+    header: Vec<u64>,
+    /// The number of bytes of the header in the file, and of all streams so far.
+    room: u64,
+    written: u64,
 }
 
-impl Blocks {
-    fn compress(&mut self, block: &[u8]) -> io::Result<()> {
-        let before = self.streams.len();
-        let mut encoder = ZlibEncoder::new(&mut self.streams, Compression::fast());
-        encoder.write_all(block)?;
-        encoder.finish()?;
-        self.lengths.push((self.streams.len() - before) as u64);
+impl<'a, W: Write + Seek> Blocks<'a, W> {
+    /// Begins with `length` bytes of values at the present place of a file, and leaves room for the header.
+    pub(super) fn new(out: &'a mut W, length: usize) -> io::Result<Self> {
+        let count = length.div_ceil(BLOCK);
+        let header = [count, BLOCK, length % BLOCK].map(|number| number as u64).to_vec();
+        let room = (header.len() + count) * size_of::<u64>();
+        io::copy(&mut io::repeat(0).take(room as u64), out)?;
+        Ok(Self { out, pending: Vec::new(), left: length, header, room: room as u64, written: 0 })
+    }
+
+    fn compress(&mut self) -> io::Result<()> {
+        let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
+        encoder.write_all(&self.pending)?;
+        let stream = encoder.finish()?;
+        self.pending.clear();
+        self.out.write_all(&stream)?;
+        self.header.push(stream.len() as u64);
+        self.written += stream.len() as u64;
         Ok(())
     }
 
-    /// Returns all bytes as they appear in a file.
-    pub(super) fn finish(mut self) -> io::Result<Vec<u8>> {
-        let rest = std::mem::take(&mut self.pending);
-        if !rest.is_empty() {
-            self.compress(&rest)?;
+    /// Completes the header. Returns the number of bytes that all take in the file.
+    pub(super) fn finish(mut self) -> io::Result<u64> {
+        if self.left > 0 {
+            return Err(wrong_length());
         }
-        let numbers = [self.lengths.len() as u64, BLOCK as u64, rest.len() as u64];
-        let numbers = numbers.into_iter().chain(self.lengths);
-        let mut bytes: Vec<u8> = numbers.flat_map(u64::to_le_bytes).collect();
-        bytes.append(&mut self.streams);
-        Ok(bytes)
+        if !self.pending.is_empty() {
+            self.compress()?;
+        }
+        let header: Vec<u8> = self.header.iter().flat_map(|number| number.to_le_bytes()).collect();
+        let all = self.room + self.written;
+        let back = |bytes: u64| i64::try_from(bytes).map_err(io::Error::other);
+        self.out.seek(SeekFrom::Current(-back(all)?))?;
+        self.out.write_all(&header)?;
+        self.out.seek(SeekFrom::Current(back(self.written)?))?;
+        Ok(all)
     }
 }
 
-impl Write for Blocks {
+fn wrong_length() -> io::Error {
+    io::Error::new(io::ErrorKind::InvalidData, "a source of values did not give as many as it said")
+}
+
+impl<W: Write + Seek> Write for Blocks<'_, W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let (now, _) = bytes.split_at(bytes.len().min(BLOCK - self.pending.len()));
+        self.left = self.left.checked_sub(now.len()).ok_or_else(wrong_length)?;
         self.pending.extend_from_slice(now);
         if self.pending.len() == BLOCK {
-            let block = std::mem::take(&mut self.pending);
-            self.compress(&block)?;
+            self.compress()?;
         }
         Ok(now.len())
     }
@@ -169,9 +193,29 @@ mod tests {
     use super::*;
 
     fn compressed(values: &[u8]) -> Vec<u8> {
-        let mut blocks = Blocks::default();
+        let mut file = io::Cursor::new(Vec::new());
+        // What stands before the values stays.
+        file.write_all(b"head").unwrap();
+        let mut blocks = Blocks::new(&mut file, values.len()).unwrap();
         blocks.write_all(values).unwrap();
-        blocks.finish().unwrap()
+        let length = blocks.finish().unwrap();
+        let end = file.position();
+        let file = file.into_inner();
+        assert_eq!((end, &file[..4], file.len() as u64), (4 + length, &b"head"[..], 4 + length));
+        file[4..].to_vec()
+    }
+
+    #[test]
+    fn a_source_that_gives_other_numbers_of_values_is_refused() {
+        for (said, given) in
+            [(BLOCK + 3, BLOCK + 2), (BLOCK + 3, BLOCK + 4), (0, 1), (1, 0), (BLOCK, BLOCK + 1)]
+        {
+            let mut file = io::Cursor::new(Vec::new());
+            let mut blocks = Blocks::new(&mut file, said).unwrap();
+            let written = blocks.write_all(&vec![1; given]);
+            let written = written.and_then(|()| blocks.finish().map(drop));
+            assert_eq!(written.unwrap_err().kind(), io::ErrorKind::InvalidData, "{said} {given}");
+        }
     }
 
     fn numbers(bytes: &[u8], count: usize) -> Vec<u64> {

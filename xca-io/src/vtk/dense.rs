@@ -70,25 +70,27 @@ pub fn write_dense(path: &Path, time: f64, grid: &Grid, arrays: &[DataArray<'_>]
 
     let [nx, ny, nz] = grid.cells;
     let extent = format!("0 {nx} 0 {ny} 0 {nz}");
-    let content = |appended: &mut Appended| {
-        Ok(format!(
-            "<ImageData WholeExtent=\"{extent}\" Origin=\"{origin}\" Spacing=\"{spacing}\">\n{time}\
+    write_atomically(path, |file| {
+        Appended::write(file, "ImageData", |appended| {
+            format!(
+                "<ImageData WholeExtent=\"{extent}\" Origin=\"{origin}\" Spacing=\"{spacing}\">\n{time}\
          <Piece Extent=\"{extent}\">\n{data}</Piece>\n</ImageData>\n",
-            origin = joined(&grid.origin),
-            spacing = joined(&grid.spacing),
-            time = appended.field_data(time, arrays, "")?,
-            data = appended.data("CellData", arrays)?,
-        ))
-    };
-    write_atomically(path, |file| Appended::write(file, "ImageData", content))?;
+                origin = joined(&grid.origin),
+                spacing = joined(&grid.spacing),
+                time = appended.field_data(time, arrays, ""),
+                data = appended.data("CellData", arrays),
+            )
+        })
+    })?;
     Ok(())
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::{NumberType, ValueSource, Values};
     use super::*;
     use std::fs;
-    use std::io::Read;
+    use std::io::{self, Read};
 
     #[test]
     fn the_bytes_are_those_of_the_format() {
@@ -101,11 +103,11 @@ mod tests {
 <VTKFile type="ImageData" version="1.0" byte_order="LittleEndian" header_type="UInt64" compressor="vtkZLibDataCompressor">
 <ImageData WholeExtent="0 3 0 2 0 1" Origin="0.0 -0.5 0.0" Spacing="0.1 0.25 1e-7">
 <FieldData>
-<DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" format="appended" offset="0"/>
+<DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" format="appended" offset="0"                   />
 </FieldData>
 <Piece Extent="0 3 0 2 0 1">
 <CellData Scalars="alive">
-<DataArray type="UInt8" Name="alive" NumberOfComponents="1" format="appended" offset="AT"/>
+<DataArray type="UInt8" Name="alive" NumberOfComponents="1" format="appended" offset="AT"                  />
 </CellData>
 </Piece>
 </ImageData>
@@ -128,6 +130,44 @@ _"#;
             let mut found = Vec::new();
             flate2::read::ZlibDecoder::new(&block[32..]).read_to_end(&mut found).unwrap();
             assert_eq!((found.as_slice(), block[32]), (values, 0x78));
+        }
+    }
+
+    /// Numbers that are made while they are written.
+    #[derive(Debug)]
+    struct Counted {
+        given: u32,
+        fails: bool,
+    }
+
+    impl ValueSource for Counted {
+        fn write_to(&self, out: &mut dyn io::Write) -> io::Result<()> {
+            (0..self.given).try_for_each(|number| out.write_all(&number.to_le_bytes()))?;
+            if self.fails { Err(io::Error::other("the source is dry")) } else { Ok(()) }
+        }
+    }
+
+    #[test]
+    fn values_of_a_source_are_written_like_others() {
+        let folder = tempfile::tempdir().unwrap();
+        let grid = Grid::cubic([30, 50, 100], 0.5);
+        let (whole, made) = (folder.path().join("whole.vti"), folder.path().join("made.vti"));
+        let numbers: Vec<u32> = (0..3 * 150_000).collect();
+        let marks = vec![7_u8; 150_000];
+        let write = |path: &Path, values: Values<'_>| {
+            let arrays = [DataArray::new("number", values), DataArray::new("mark", &marks[..])];
+            write_dense(path, 1.0, &grid, &arrays)
+        };
+        write(&whole, Values::interleaved(3, &numbers[..])).unwrap();
+        let counted = |given: u32, fails: bool| {
+            write(&made, Values::of_source(NumberType::U32, 3, 150_000, &Counted { given, fails }))
+        };
+        counted(450_000, false).unwrap();
+        assert!(fs::read(&whole).unwrap() == fs::read(&made).unwrap());
+        fs::remove_file(&made).unwrap();
+        for (given, fails) in [(449_999, false), (450_001, false), (10, true)] {
+            assert!(matches!(counted(given, fails), Err(VtkError::Write(_))), "{given}");
+            assert!(!made.exists());
         }
     }
 

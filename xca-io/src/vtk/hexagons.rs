@@ -118,21 +118,22 @@ pub fn write_hexagons(
         numbers_as_text(SIDE, &[grid.side]),
         numbers_as_text(STAGGER_AXIS, &[axis]),
     ];
-    let content = |appended: &mut Appended| {
-        Ok(format!(
-            "<PolyData>\n{time}\
+    write_atomically(path, |file| {
+        Appended::write(file, "PolyData", |appended| {
+            format!(
+                "<PolyData>\n{time}\
          <Piece NumberOfPoints=\"{corners}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" \
          NumberOfPolys=\"{n}\">\n\
          <Points>\n{points}</Points>\n\
          <Polys>\n{connectivity}{offsets}</Polys>\n\
          {data}</Piece>\n</PolyData>\n",
-            time = appended.field_data(time, arrays, &fields.concat())?,
-            points = appended.array(&points)?,
-            connectivity = appended.count("connectivity", 0..corners)?,
-            offsets = appended.count("offsets", (1..=n).map(|cell| cell * CORNERS as i32))?,
-            data = appended.data("CellData", arrays)?,
-        ))
-    };
-    write_atomically(path, |file| Appended::write(file, "PolyData", content))?;
+                time = appended.field_data(time, arrays, &fields.concat()),
+                points = appended.array(&points),
+                connectivity = appended.count("connectivity", 0..corners),
+                offsets = appended.count("offsets", (0..n).map(|cell| (cell + 1) * CORNERS as i32)),
+                data = appended.data("CellData", arrays),
+            )
+        })
+    })?;
     Ok(())
 }

@@ -47,22 +47,23 @@ pub fn write_particles(
     let n = i32::try_from(positions.len())
         .map_err(|_| VtkError::TooMany { path: path.to_owned(), found: positions.len() })?;
 
-    let content = |appended: &mut Appended| {
-        Ok(format!(
-            "<PolyData>\n{time}\
+    write_atomically(path, |file| {
+        Appended::write(file, "PolyData", |appended| {
+            format!(
+                "<PolyData>\n{time}\
          <Piece NumberOfPoints=\"{n}\" NumberOfVerts=\"{n}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" \
          NumberOfPolys=\"0\">\n\
          <Points>\n{points}</Points>\n\
          <Verts>\n{connectivity}{offsets}</Verts>\n\
          {data}</Piece>\n</PolyData>\n",
-            time = appended.field_data(time, arrays, "")?,
-            points = appended.array(&points)?,
-            connectivity = appended.count("connectivity", 0..n)?,
-            offsets = appended.count("offsets", 1..=n)?,
-            data = appended.data("PointData", arrays)?,
-        ))
-    };
-    write_atomically(path, |file| Appended::write(file, "PolyData", content))?;
+                time = appended.field_data(time, arrays, ""),
+                points = appended.array(&points),
+                connectivity = appended.count("connectivity", 0..n),
+                offsets = appended.count("offsets", (0..n).map(|point| point + 1)),
+                data = appended.data("PointData", arrays),
+            )
+        })
+    })?;
     Ok(())
 }
 

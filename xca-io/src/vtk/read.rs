@@ -13,13 +13,13 @@ use super::appended::{DATA, END, STATES_OF, head, is_as_text, read_names, read_n
 use super::blocks::{Broken, Source};
 use super::dense::{GHOST_TYPE, hidden_cells};
 use super::hexagons::{self, CORNER, CORNERS, EXTENTS, SIDE, STAGGER_AXIS};
-use super::{Grid, HexagonGrid};
+use super::{Grid, HexagonGrid, NumberType};
 use crate::deflate::can_hold;
 use crate::regular_file;
 use element::{Element, TIME, attribute};
 
 pub use collection::{ListedFile, read_collection};
-pub use found::{DenseFile, HexagonFile, NumberType, ParticleFile, PolyDataFile, ReadArray};
+pub use found::{DenseFile, HexagonFile, ParticleFile, PolyDataFile, ReadArray};
 
 /// The longest head of XML, in bytes.
 const LONGEST_HEAD: u64 = 1 << 24;

@@ -1,10 +1,12 @@
 //! Arrays of values in VTK files.
 
 use std::collections::HashSet;
+use std::fmt;
 use std::io::{self, Write};
 use std::path::Path;
 
 use super::VtkError;
+use super::number_type::NumberType;
 
 /// The values of an array: scalars, or vectors stored one after the other.
 ///
@@ -23,6 +25,25 @@ enum Data<'a> {
     U32(&'a [u32]),
     F32(&'a [f32]),
     F64(&'a [f64]),
+    Source(Source<'a>),
+}
+
+/// Values that are not in memory as a whole.
+#[derive(Debug, Clone, Copy)]
+struct Source<'a> {
+    values: &'a dyn ValueSource,
+    numbers: NumberType,
+    /// The number of scalars.
+    scalars: usize,
+}
+
+/// Values that are made, or read, while they are written.
+pub trait ValueSource: fmt::Debug {
+    /// Writes all scalars in little-endian order.
+    ///
+    /// # Errors
+    /// The error of `out`, or the reason why there are no values.
+    fn write_to(&self, out: &mut dyn Write) -> io::Result<()>;
 }
 
 macro_rules! from_slices {
@@ -47,6 +68,18 @@ impl<'a> Values<'a> {
     #[must_use]
     pub fn interleaved(components: usize, values: impl Into<Self>) -> Self {
         Self { components, ..values.into() }
+    }
+
+    /// `count` vectors of `components` numbers of this type. Their source is asked once the file is written.
+    #[must_use]
+    pub fn of_source(
+        numbers: NumberType,
+        components: usize,
+        count: usize,
+        values: &'a dyn ValueSource,
+    ) -> Self {
+        let scalars = count.saturating_mul(components);
+        Self { data: Data::Source(Source { values, numbers, scalars }), components }
     }
 
     /// The number of scalars or vectors. An incomplete vector counts as one.
@@ -74,22 +107,33 @@ impl<'a> Values<'a> {
             Data::U32(v) => v.len(),
             Data::F32(v) => v.len(),
             Data::F64(v) => v.len(),
+            Data::Source(source) => source.scalars,
+        }
+    }
+
+    fn numbers(&self) -> NumberType {
+        match self.data {
+            Data::U8(_) => NumberType::U8,
+            Data::I32(_) => NumberType::I32,
+            Data::U32(_) => NumberType::U32,
+            Data::F32(_) => NumberType::F32,
+            Data::F64(_) => NumberType::F64,
+            Data::Source(source) => source.numbers,
         }
     }
 
     /// The name of the scalar type in VTK.
     pub(super) fn vtk_type(&self) -> &'static str {
-        match self.data {
-            Data::U8(_) => "UInt8",
-            Data::I32(_) => "Int32",
-            Data::U32(_) => "UInt32",
-            Data::F32(_) => "Float32",
-            Data::F64(_) => "Float64",
-        }
+        self.numbers().vtk_name()
+    }
+
+    /// The number of bytes of all scalars.
+    pub(super) fn bytes(&self) -> usize {
+        self.scalars().saturating_mul(self.numbers().size())
     }
 
     pub(super) fn is_float(&self) -> bool {
-        matches!(self.data, Data::F32(_) | Data::F64(_))
+        matches!(self.numbers(), NumberType::F32 | NumberType::F64)
     }
 
     /// Writes the scalars in little-endian order.
@@ -100,6 +144,7 @@ impl<'a> Values<'a> {
             Data::U32(v) => write_little_endian(out, v, u32::to_le_bytes),
             Data::F32(v) => write_little_endian(out, v, f32::to_le_bytes),
             Data::F64(v) => write_little_endian(out, v, f64::to_le_bytes),
+            Data::Source(source) => source.values.write_to(out),
         }
     }
 

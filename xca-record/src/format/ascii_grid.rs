@@ -1,7 +1,7 @@
 //! The final state of a layer of cells as ESRI ASCII grids.
 
 use super::{Moment, OutputFile, RecordedState, SavedState, SavedView, Subject, View, Writer};
-use crate::observable::Failure;
+use crate::failure::Failure;
 use crate::record::layer;
 use xca_io::ascii_grid;
 
@@ -29,7 +29,7 @@ impl Writer for AsciiGrids {
 
     fn finish(&mut self, state: RecordedState<'_>) -> Result<(), Failure> {
         for band in layer::bands(state.subject().model()) {
-            if let Some(raster) = band.raster(state) {
+            if let Some(raster) = band.raster(state)? {
                 let file = OutputFile::named(Moment::Last, &band.name, "asc");
                 ascii_grid::write(&state.path(&file), &raster)?;
             }

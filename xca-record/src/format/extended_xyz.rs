@@ -1,7 +1,7 @@
 //! All states of the items as extended XYZ.
 
 use super::{Moment, OutputFile, RecordedState, SavedState, SavedView, Subject, View, Writer};
-use crate::observable::Failure;
+use crate::failure::Failure;
 use crate::record::{ItemState, NoValue, Plane, SubstateValues, retyped};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -46,7 +46,7 @@ impl Writer for ExtendedXyz {
 
     fn record(&mut self, state: RecordedState<'_>) -> Result<(), Failure> {
         for view in state.subject().views() {
-            if let Some(items) = state.items(view) {
+            if let Some(items) = state.items(view)? {
                 write(state, view, &items)?;
             }
         }

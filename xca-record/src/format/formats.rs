@@ -8,7 +8,7 @@ use super::space_time::SpaceTime;
 use super::table::ItemTable;
 use super::vtk::Vtk;
 use super::{SavedState, Writer};
-use crate::observable::Failure;
+use crate::failure::Failure;
 use std::path::Path;
 
 /// All formats that a run can have, and which of them it has.

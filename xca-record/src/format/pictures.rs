@@ -1,7 +1,7 @@
 //! Pictures of the first and the final state.
 
 use super::{Moment, OutputFile, RecordedState, ResumedRun, Subject, View, Writer};
-use crate::observable::Failure;
+use crate::failure::Failure;
 use crate::record::Frame;
 use serde_json::Value;
 use xca_checkpoint::Exact;
@@ -24,13 +24,13 @@ fn file(moment: Moment, view: View<'_>) -> OutputFile {
 
 impl Pictures {
     fn draw(&mut self, moment: Moment, state: RecordedState<'_>) -> Result<(), Failure> {
-        let RecordedState { subject, snapshot, precision, .. } = state;
+        let subject = state.subject();
         let model = subject.model();
         self.scales.resize(subject.shown.len(), None);
         for view in subject.views() {
-            let Some(seen) = view.shown.seen(model, precision, snapshot) else { continue };
+            let seen = state.seen(view)?;
             let scale = &mut self.scales[view.number()];
-            let caption = view.shown.whole_caption(subject, &seen, snapshot.step);
+            let caption = view.shown.whole_caption(subject, &seen, state.step());
             let frame = Frame { title: subject.title(), caption: &caption, range: *scale, size: None };
             if let Some(picture) = view.shown.paint(model, &seen, frame)? {
                 picture.write(&state.path(&file(moment, view)))?;

@@ -1,16 +1,16 @@
 //! A state, as a format is given it.
 
 use super::{OutputFile, Subject, View};
-use crate::record::{CellState, ItemState, Plane, RunFolder};
+use crate::record::{CellState, ItemState, Plane, RunFolder, Seen, Source};
 use std::path::PathBuf;
 use xca_core::engine::SubstateId;
-use xca_core::{GroupSnapshot, Precision, Snapshot};
+use xca_core::{EngineFailure, Precision};
 
 /// A state that is recorded.
 #[derive(Debug, Clone, Copy)]
 pub struct RecordedState<'a> {
     pub(crate) subject: Subject<'a>,
-    pub(crate) snapshot: &'a Snapshot,
+    pub(crate) source: Source<'a>,
     pub(crate) precision: Precision,
     pub(crate) folder: &'a RunFolder,
 }
@@ -23,12 +23,12 @@ impl<'a> RecordedState<'a> {
 
     /// The number of steps done.
     pub fn step(&self) -> u64 {
-        self.snapshot.step
+        self.source.step()
     }
 
     /// The simulated time.
     pub fn time(&self) -> f64 {
-        self.subject.time(self.snapshot.step)
+        self.subject.time(self.source.step())
     }
 
     /// What `Real` is.
@@ -38,27 +38,33 @@ impl<'a> RecordedState<'a> {
 
     /// Where a file goes.
     pub fn path(&self, file: &OutputFile) -> PathBuf {
-        file.path(self.folder, self.snapshot.step)
+        file.path(self.folder, self.source.step())
     }
 
     /// What a view shows of cells; nothing where it shows items.
     pub fn cells(&self, view: View<'a>) -> Option<CellState<'a>> {
-        view.shown.cells(self.subject.model(), self.precision, self.snapshot)
+        view.shown.cells(self.subject.model(), self.precision, self.source)
     }
 
     /// What a view shows of items; nothing where it shows cells.
-    pub fn items(&self, view: View<'a>) -> Option<ItemState<'a>> {
-        view.shown.items(self.subject.model(), self.precision, self.snapshot)
+    ///
+    /// # Errors
+    /// Where the engine has lost its state.
+    pub fn items(&self, view: View<'a>) -> Result<Option<ItemState<'a>>, EngineFailure> {
+        view.shown.items(self.subject.model(), self.precision, self.source)
     }
 
-    /// The values of a substate of cells, of whichever view; nothing of one of items.
-    pub fn values(&self, substate: SubstateId) -> Option<Plane> {
-        match self.snapshot.groups.get(substate.group)? {
-            GroupSnapshot::Cells(fields) => {
-                let stored = self.subject.model().stored(substate, self.precision);
-                Some(Plane::all(stored, fields.get(substate.field)?))
-            }
-            GroupSnapshot::Population(..) => None,
-        }
+    /// All values of a substate, of whichever view.
+    ///
+    /// # Errors
+    /// Where there is no such substate, or the engine has lost its state.
+    pub fn values(&self, substate: SubstateId) -> Result<Plane, EngineFailure> {
+        let stored = self.subject.model().stored(substate, self.precision);
+        Ok(Plane::all(stored, &self.source.values(substate)?))
+    }
+
+    /// What a view draws.
+    pub(crate) fn seen(&self, view: View<'_>) -> Result<Seen, EngineFailure> {
+        view.shown.seen(self.subject.model(), self.precision, self.source)
     }
 }

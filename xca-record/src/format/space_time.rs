@@ -1,7 +1,7 @@
 //! Models of one row, as pictures of space and time.
 
 use super::{Moment, OutputFile, RecordedState, ResumedRun, Subject, View, Writer};
-use crate::observable::Failure;
+use crate::failure::Failure;
 use crate::record::{Frame, Seen};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -79,10 +79,8 @@ impl Writer for SpaceTime {
     }
 
     fn record(&mut self, state: RecordedState<'_>) -> Result<(), Failure> {
-        let RecordedState { subject, snapshot, precision, .. } = state;
-        for view in subject.views() {
-            let seen = view.shown.seen(subject.model(), precision, snapshot);
-            let Some(Seen::Cells { is_float, values, .. }) = seen else { continue };
+        for view in state.subject().views().filter(|view| !view.shows_items()) {
+            let Seen::Cells { is_float, values, .. } = state.seen(view)? else { continue };
             let history = self.histories.entry(view.number()).or_default();
             history.is_float = is_float;
             history.rows.push(values.into_iter().map(Exact).collect());

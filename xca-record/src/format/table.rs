@@ -1,7 +1,7 @@
 //! A table of the items of the final state, exact: [`crate::read_items`] reads it back.
 
 use super::{Moment, OutputFile, RecordedState, Subject, View, Writer};
-use crate::observable::Failure;
+use crate::failure::Failure;
 use xca_io::particle_csv::{self, Column};
 
 /// `final.csv` of the first population that is saved, `final_NAME.csv` of the others.
@@ -32,7 +32,7 @@ impl Writer for ItemTable {
 
     fn finish(&mut self, state: RecordedState<'_>) -> Result<(), Failure> {
         for view in state.subject().views() {
-            let Some(items) = state.items(view) else { continue };
+            let Some(items) = state.items(view)? else { continue };
             let table = items.table();
             let columns: Vec<(&str, Column<'_>)> = table
                 .iter()

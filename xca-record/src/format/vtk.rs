@@ -1,9 +1,8 @@
 //! VTK files of each state, and the list of them that ParaView opens.
 
 use super::{Moment, OutputFile, RecordedState, ResumedRun, SavedState, Subject, View, Writer};
-use crate::machine::free_memory;
-use crate::observable::Failure;
-use crate::record::{CellState, ItemState, SubstateValues, lattice};
+use crate::failure::Failure;
+use crate::record::{CellState, CellSubstate, ItemState, SubstateValues, lattice};
 use serde_json::Value;
 use std::path::Path;
 use xca_io::lattice::Lattice;
@@ -11,6 +10,7 @@ use xca_io::vtk::{
     Collection, DataArray, GHOST_TYPE, Grid, HexagonGrid, PolyDataFile, ghost_types, read_dense,
     read_poly_data, write_dense, write_hexagons, write_particles,
 };
+use xca_machine::free_memory;
 
 /// `.vti` of cells, `.vtp` of items and hexagons, and a `.pvd` for each view.
 #[derive(Debug, Default)]
@@ -42,7 +42,7 @@ impl Writer for Vtk {
     fn record(&mut self, state: RecordedState<'_>) -> Result<(), Failure> {
         for view in state.subject().views() {
             let [frame, list] = files(state.subject(), view).map(|file| state.path(&file));
-            if let Some(items) = state.items(view) {
+            if let Some(items) = state.items(view)? {
                 write_items(&frame, state.time(), &items)?;
             } else if let Some(cells) = state.cells(view) {
                 write_cells(&frame, state.time(), &cells)?;
@@ -79,7 +79,7 @@ fn write_cells(path: &Path, time: f64, cells: &CellState<'_>) -> Result<(), Fail
     let substates = cells.substates();
     let ghosts = cells.missing().map(ghost_types);
     let ghosts = ghosts.as_deref().map(|ghosts| DataArray::new(GHOST_TYPE, ghosts));
-    let arrays: Vec<DataArray<'_>> = substates.iter().map(SubstateValues::array).chain(ghosts).collect();
+    let arrays: Vec<DataArray<'_>> = substates.iter().map(CellSubstate::array).chain(ghosts).collect();
     let (extents, side, corner) = (cells.extents(), cells.side(), cells.corner());
     let [x, y] = corner;
     match cells.lattice() {

@@ -1,7 +1,7 @@
 //! What a format has to do.
 
 use super::{Moment, OutputFile, RecordedState, ResumedRun, SavedState, SavedView, Subject, View};
-use crate::observable::Failure;
+use crate::failure::Failure;
 use serde_json::Value;
 use std::fmt;
 use std::path::Path;
@@ -37,7 +37,7 @@ use std::path::Path;
 ///
 ///     fn record(&mut self, state: RecordedState<'_>) -> Result<(), Failure> {
 ///         for view in state.subject().views() {
-///             if let Some(items) = state.items(view) {
+///             if let Some(items) = state.items(view)? {
 ///                 let file = OutputFile::of_view(Moment::Each, view, "txt");
 ///                 std::fs::write(state.path(&file), items.labels().len().to_string())?;
 ///             }

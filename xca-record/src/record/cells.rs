@@ -1,23 +1,25 @@
 //! Substates of cells: what is saved, and what is drawn of them.
 
 use super::seen::Seen;
-use super::substate_values::SubstateValues;
+use super::source::Source;
+use super::substate_values::CellSubstate;
 use super::values::Plane;
 use crate::view::{AnyCellView, Quantity, StoredBytes};
 use xca_checkpoint::components::{DrawnPart, Part};
+use xca_core::engine::SubstateId;
 use xca_core::model::Group;
-use xca_core::{Geometry, Parity, Precision, StoredScalar, StoredType};
+use xca_core::{EngineFailure, Field, Geometry, Model, Parity, Precision, StoredScalar, StoredType};
 use xca_io::lattice::Lattice;
 
 /// What a view shows of cells in one state: their substates.
 #[derive(Debug)]
 pub struct CellState<'a> {
     view: &'a AnyCellView,
+    number: usize,
     group: &'a Group,
     geometry: &'a Geometry,
     precision: Precision,
-    /// The stored bytes of each substate.
-    fields: &'a [Vec<u8>],
+    source: Source<'a>,
     /// The lower corner of the space on the map, and the cells without ground.
     ground: Ground<'a>,
 }
@@ -30,15 +32,16 @@ pub(super) struct Ground<'a> {
 }
 
 impl<'a> CellState<'a> {
+    /// What a view shows of the group with this number.
     pub(super) fn new(
         view: &'a AnyCellView,
-        group: &'a Group,
-        geometry: &'a Geometry,
-        precision: Precision,
-        fields: &'a [Vec<u8>],
+        number: usize,
+        model: &'a Model,
+        (precision, source): (Precision, Source<'a>),
         ground: Ground<'a>,
     ) -> Self {
-        Self { view, group, geometry, precision, fields, ground }
+        let (group, geometry) = (&model.groups()[number], model.geometry());
+        Self { view, number, group, geometry, precision, source, ground }
     }
 
     /// How many cells there are along each axis.
@@ -66,46 +69,52 @@ impl<'a> CellState<'a> {
         self.ground.missing
     }
 
-    /// All substates, the index along x fastest. Where there is no ground, floats are NaN and whole
-    /// numbers 0.
-    pub fn substates(&self) -> Vec<SubstateValues> {
-        let fields = self.group.schema().fields.iter().zip(self.fields);
-        let values = fields.map(|(field, bytes)| {
-            let plane = Plane::all(field.value_type.stored(self.precision), bytes);
-            SubstateValues::new(field, plane.without(self.ground.missing))
-        });
-        values.collect()
+    /// All substates.
+    pub fn substates(&self) -> Vec<CellSubstate<'a>> {
+        let fields = self.group.schema().fields.iter().enumerate();
+        let substate = |(number, field): (usize, &'static Field)| {
+            let (stored, cells) = (field.value_type.stored(self.precision), self.geometry.cells());
+            let of = (self.source, self.substate(number));
+            CellSubstate::new(field, of, stored, cells, self.ground.missing)
+        };
+        fields.map(substate).collect()
+    }
+
+    fn substate(&self, field: usize) -> SubstateId {
+        SubstateId { group: self.number, field }
     }
 
     /// What is drawn.
-    pub(super) fn seen(&self) -> Seen {
+    pub(super) fn seen(&self) -> Result<Seen, EngineFailure> {
         let schema = self.group.schema();
-        let plane = |field: usize| {
-            let stored = schema.fields.get(field)?.value_type.stored(self.precision);
-            Some(drawn(self.view, self.geometry, stored, self.fields.get(field)?))
+        let stored = self.group.stored(self.precision);
+        let cells: Vec<usize> = drawn_cells(self.view, self.geometry).collect();
+        let bytes = |field: usize| {
+            let substate = self.substate(field);
+            // All are drawn in their order.
+            if cells.len() == self.geometry.cells() {
+                self.source.values(substate)
+            } else {
+                self.source.values_in(substate, stored[field].size(), &cells)
+            }
         };
+        let plane = |field: usize| Ok::<Plane, EngineFailure>(Plane::all(stored[field], &bytes(field)?));
         let drawn = match self.view.quantity() {
             Quantity::Part(Part { field, component }) => {
-                let definition = schema.fields.get(field).zip(plane(field));
-                definition.map(|(definition, plane)| {
-                    DrawnValues::of_part(&plane, DrawnPart::of(definition.value_type, component))
-                })
+                let part = DrawnPart::of(schema.fields[field].value_type, component);
+                DrawnValues::of_part(&plane(field)?, part)
             }
             Quantity::Computed(computation) => {
-                let fields = schema.fields.iter().zip(self.fields);
-                let fields: Vec<StoredBytes<'_>> = fields
-                    .map(|(field, bytes)| StoredBytes {
-                        stored: field.value_type.stored(self.precision),
-                        bytes,
-                    })
-                    .collect();
-                let cells = drawn_cells(self.view, self.geometry);
-                Some(DrawnValues::of_numbers(computation.values(self.precision, &fields, cells)))
+                let all = (0..stored.len()).map(bytes).collect::<Result<Vec<_>, _>>()?;
+                let fields = stored.iter().zip(&all);
+                let fields: Vec<StoredBytes<'_>> =
+                    fields.map(|(stored, bytes)| StoredBytes { stored: *stored, bytes }).collect();
+                DrawnValues::of_numbers(computation.values(self.precision, &fields, 0..cells.len()))
             }
         };
-        let heights = self.view.relief.and_then(|(field, _)| plane(field));
+        let heights = self.view.relief.map(|(field, _)| plane(field)).transpose()?;
         let hidden = self.ground.missing.map(|missing| drawn_mask(self.view, self.geometry, missing));
-        seen(drawn.unwrap_or_default(), heights, hidden)
+        Ok(seen(drawn, heights, hidden))
     }
 }
 

@@ -6,8 +6,9 @@ use super::panel::Panel;
 use super::saved::SavedError;
 use super::saved_run::SavedRun;
 use super::seen::{Seen, wider};
+use super::source::Source;
 use super::{RecordError, Recorder};
-use xca_core::{Model, Precision, Snapshot};
+use xca_core::{EngineFailure, Model, Precision, Simulation, Snapshot};
 use xca_picture::{PanelPicture, Picture};
 
 /// What is drawn of every state: one panel, or several side by side.
@@ -62,9 +63,17 @@ impl Drawing<'_> {
     }
 
     /// What is drawn of a state: for each panel what it shows.
-    pub fn seen(&self, precision: Precision, snapshot: &Snapshot) -> Vec<Seen> {
-        let panels = self.panels.iter();
-        panels.filter_map(|panel| panel.shown.seen(self.model(), precision, snapshot)).collect()
+    pub fn seen(&self, simulation: &Simulation) -> Result<Vec<Seen>, EngineFailure> {
+        self.seen_of(simulation.options().precision, Source::Simulation(simulation))
+    }
+
+    /// As [`Drawing::seen`], of a snapshot.
+    pub fn seen_at(&self, precision: Precision, snapshot: &Snapshot) -> Result<Vec<Seen>, EngineFailure> {
+        self.seen_of(precision, Source::Snapshot(snapshot))
+    }
+
+    fn seen_of(&self, precision: Precision, source: Source<'_>) -> Result<Vec<Seen>, EngineFailure> {
+        self.panels.iter().map(|panel| panel.shown.seen(self.model(), precision, source)).collect()
     }
 
     /// The name of a view that is drawn and that no format of the run gives back, if there is one.

@@ -5,6 +5,7 @@ use super::seen::Seen;
 use super::substate_values::SubstateValues;
 use super::values::Plane;
 use crate::view::{AnyItemView, Quantity, StoredBytes, TableColumn};
+use std::borrow::Cow;
 use xca_checkpoint::components::{DrawnPart, Part};
 use xca_core::engine::Population;
 use xca_core::model::Group;
@@ -20,7 +21,7 @@ pub struct ItemState<'a> {
     geometry: &'a Geometry,
     precision: Precision,
     stored: Vec<StoredType>,
-    population: &'a Population,
+    population: Cow<'a, Population>,
     /// The places of the items in the population.
     which: Vec<usize>,
     labels: Vec<u32>,
@@ -45,7 +46,7 @@ impl<'a> ItemState<'a> {
         group: &'a Group,
         geometry: &'a Geometry,
         precision: Precision,
-        population: &'a Population,
+        population: Cow<'a, Population>,
         corner: [f64; 2],
     ) -> Self {
         let stored = group.stored(precision);

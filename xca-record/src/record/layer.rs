@@ -1,12 +1,12 @@
 //! The substates of a layer of cells, component by component, as a geographic information system takes them.
 
 use super::typed::{NoValue, typed};
+use crate::failure::Failure;
 use crate::format::{Moment, OutputFile, RecordedState, SavedState, SavedView, Subject, View};
-use crate::observable::Failure;
 use std::path::PathBuf;
 use xca_core::engine::SubstateId;
 use xca_core::model::GroupKind;
-use xca_core::{Model, StoredScalar};
+use xca_core::{EngineFailure, Model, StoredScalar};
 use xca_io::map::{Map, PlacementDifference};
 use xca_io::raster::Raster;
 
@@ -81,11 +81,13 @@ pub(crate) fn bands(model: &Model) -> Vec<Band> {
 
 impl Band {
     /// Its values at their place on the map; NaN where there is no ground.
-    pub(crate) fn raster(&self, state: RecordedState<'_>) -> Option<Raster> {
+    pub(crate) fn raster(&self, state: RecordedState<'_>) -> Result<Option<Raster>, EngineFailure> {
         let (place, map) = (state.subject().placement(), state.subject().map);
         let coordinate_system = map.and_then(Map::coordinate_system).cloned();
-        let raster = Raster::new(place.extents, place.side, self.values(state)?)?;
-        Some(raster.with_corner(place.corner).with_coordinate_system(coordinate_system))
+        let raster = Raster::new(place.extents, place.side, self.values(state)?);
+        let placed =
+            |raster: Raster| raster.with_corner(place.corner).with_coordinate_system(coordinate_system);
+        Ok(raster.map(placed))
     }
 
     /// Whether `f32` holds all its values.
@@ -95,13 +97,13 @@ impl Band {
     }
 
     /// The lowest row first; NaN where there is no ground.
-    fn values(&self, state: RecordedState<'_>) -> Option<Vec<f64>> {
+    fn values(&self, state: RecordedState<'_>) -> Result<Vec<f64>, EngineFailure> {
         let mut values = state.values(self.substate)?.component(self.component);
         if state.subject().model().stored(self.substate, state.precision()).scalar == StoredScalar::F32 {
             values.iter_mut().for_each(|value| *value = with_digits_of_f32(*value));
         }
         mask(&mut values, state.subject().missing());
-        Some(values)
+        Ok(values)
     }
 }
 

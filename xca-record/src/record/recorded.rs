@@ -3,12 +3,12 @@
 use super::folder::remove;
 use super::{RecordError, Recorder, RunFolder, SERIES};
 use crate::format::{Moment, ResumedRun};
-use crate::observable::Observable;
 use serde_json::Value;
 use std::collections::HashSet;
 use std::path::PathBuf;
 use xca_checkpoint::{Exact, Quantity, Recorded};
 use xca_io::table_csv::SeriesWriter;
+use xca_observe::Observable;
 
 /// An observable to the last bit.
 fn quantity(Observable { name, unit, value, is_conserved }: &Observable) -> Quantity {

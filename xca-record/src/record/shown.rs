@@ -3,8 +3,9 @@
 use super::cells::{CellState, Ground};
 use super::items::ItemState;
 use super::seen::Seen;
-use crate::view::AnyView;
-use xca_core::{Geometry, GroupSnapshot, Model, Precision, Snapshot};
+use super::source::Source;
+use crate::view::{AnyCellView, AnyItemView, AnyView};
+use xca_core::{EngineFailure, Geometry, Model, Precision};
 use xca_io::map::{Map, MapUnit};
 
 /// How lengths of a space are measured.
@@ -47,15 +48,23 @@ impl Shown {
         &'a self,
         model: &'a Model,
         precision: Precision,
-        snapshot: &'a Snapshot,
-    ) -> Option<ItemState<'a>> {
-        let (group, geometry) = (&model.groups()[self.group], model.geometry());
-        match (&self.view, &snapshot.groups[self.group]) {
-            (AnyView::Items(view), GroupSnapshot::Population(population, _)) => {
-                Some(ItemState::new(view, group, geometry, precision, population, self.ground().corner))
-            }
-            _ => None,
+        source: Source<'a>,
+    ) -> Result<Option<ItemState<'a>>, EngineFailure> {
+        match &self.view {
+            AnyView::Items(view) => self.items_of(view, model, precision, source).map(Some),
+            AnyView::Cells(_) => Ok(None),
         }
+    }
+
+    fn items_of<'a>(
+        &'a self,
+        view: &'a AnyItemView,
+        model: &'a Model,
+        precision: Precision,
+        source: Source<'a>,
+    ) -> Result<ItemState<'a>, EngineFailure> {
+        let (group, population) = (&model.groups()[self.group], source.population(self.group)?);
+        Ok(ItemState::new(view, group, model.geometry(), precision, population, self.ground().corner))
     }
 
     /// The substates of cells, if it is a view of these.
@@ -63,15 +72,22 @@ impl Shown {
         &'a self,
         model: &'a Model,
         precision: Precision,
-        snapshot: &'a Snapshot,
+        source: Source<'a>,
     ) -> Option<CellState<'a>> {
-        let (group, geometry) = (&model.groups()[self.group], model.geometry());
-        match (&self.view, &snapshot.groups[self.group]) {
-            (AnyView::Cells(view), GroupSnapshot::Cells(fields)) => {
-                Some(CellState::new(view, group, geometry, precision, fields, self.ground()))
-            }
-            _ => None,
+        match &self.view {
+            AnyView::Cells(view) => Some(self.cells_of(view, model, precision, source)),
+            AnyView::Items(_) => None,
         }
+    }
+
+    fn cells_of<'a>(
+        &'a self,
+        view: &'a AnyCellView,
+        model: &'a Model,
+        precision: Precision,
+        source: Source<'a>,
+    ) -> CellState<'a> {
+        CellState::new(view, self.group, model, (precision, source), self.ground())
     }
 
     /// A view of the same group and the same place.
@@ -101,9 +117,16 @@ impl Shown {
     }
 
     /// What it draws of a state.
-    pub(crate) fn seen(&self, model: &Model, precision: Precision, snapshot: &Snapshot) -> Option<Seen> {
-        let items = self.items(model, precision, snapshot).map(|items| items.seen());
-        items.or_else(|| self.cells(model, precision, snapshot).map(|cells| cells.seen()))
+    pub(crate) fn seen(
+        &self,
+        model: &Model,
+        precision: Precision,
+        source: Source<'_>,
+    ) -> Result<Seen, EngineFailure> {
+        match &self.view {
+            AnyView::Items(view) => Ok(self.items_of(view, model, precision, source)?.seen()),
+            AnyView::Cells(view) => self.cells_of(view, model, precision, source).seen(),
+        }
     }
 }
 

@@ -5,10 +5,11 @@ use super::look::{Look, LookError};
 use super::painting::Field;
 use super::panel::Panel;
 use super::seen::{Seen, wider};
+use super::source::Source;
 use super::{Recorder, Shown};
 use crate::view::{AnyView, Quantity};
 use xca_checkpoint::components::{Part, name_of};
-use xca_core::{Model, Precision, Snapshot};
+use xca_core::{EngineFailure, Simulation};
 use xca_picture::{Category, ColourMap, Scalar};
 
 /// What is seen of one state.
@@ -81,11 +82,10 @@ impl Panel {
     /// What a state shows on the scale of the states before, which is widened where it goes beyond.
     pub fn sight(
         &self,
-        model: &Model,
-        precision: Precision,
-        snapshot: &Snapshot,
+        simulation: &Simulation,
         earlier: Option<[f64; 2]>,
-    ) -> Option<Sight> {
+    ) -> Result<Option<Sight>, EngineFailure> {
+        let (model, precision) = (simulation.model(), simulation.options().precision);
         let (group, geometry) = (&model.groups()[self.shown.group], model.geometry());
         let schema = group.schema();
         // What is computed has no other name than its label.
@@ -95,10 +95,10 @@ impl Panel {
             }
             None => label.to_owned(),
         };
-        let seen = self.shown.seen(model, precision, snapshot)?;
+        let seen = self.shown.seen(model, precision, Source::Simulation(simulation))?;
         let present = seen.range();
         let range = earlier.map_or(present, |earlier| Some(wider(earlier, present)));
-        match (&self.shown.view, seen) {
+        Ok(match (&self.shown.view, seen) {
             (AnyView::Cells(view), Seen::Cells { is_float, values, hidden, .. }) => {
                 let label = view.label(schema);
                 let field = Field {
@@ -139,6 +139,6 @@ impl Panel {
                 Some(Sight { subject, values, hidden: None, substate, label, map, kinds, range })
             }
             _ => None,
-        }
+        })
     }
 }

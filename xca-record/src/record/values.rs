@@ -16,6 +16,30 @@ pub(super) fn stored_of(array: &ReadArray) -> StoredType {
     StoredType { scalar, lanes: 1, length: u32::try_from(array.components).unwrap_or(u32::MAX) }
 }
 
+/// The type of stored numbers in a file.
+pub(super) fn number_type(scalar: StoredScalar) -> NumberType {
+    match scalar {
+        StoredScalar::U8 => NumberType::U8,
+        StoredScalar::I32 => NumberType::I32,
+        StoredScalar::U32 => NumberType::U32,
+        StoredScalar::F32 => NumberType::F32,
+        StoredScalar::F64 => NumberType::F64,
+    }
+}
+
+/// Makes stored values NaN, or 0 if they are whole numbers, where the mask is true.
+pub(super) fn hide(values: &mut [u8], stored: StoredType, missing: &[bool]) {
+    let nothing = match stored.scalar {
+        StoredScalar::F32 => f32::NAN.to_ne_bytes().to_vec(),
+        StoredScalar::F64 => f64::NAN.to_ne_bytes().to_vec(),
+        StoredScalar::U8 | StoredScalar::I32 | StoredScalar::U32 => vec![0; stored.scalar.size()],
+    };
+    let values = values.chunks_exact_mut(stored.size()).zip(missing);
+    for (value, _) in values.filter(|(_, is_missing)| **is_missing) {
+        value.chunks_exact_mut(nothing.len()).for_each(|number| number.copy_from_slice(&nothing));
+    }
+}
+
 /// The values of a substate of cells or items.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plane {
@@ -65,23 +89,6 @@ impl Plane {
             StoredScalar::F64 => Numbers::F64(decoded(bytes, f64::from_ne_bytes)),
         };
         Self { numbers, components: stored.components() }
-    }
-
-    /// The same values, but NaN, or 0 of whole numbers, where the mask is true.
-    pub fn without(mut self, missing: Option<&[bool]>) -> Self {
-        fn clear<T: Copy>(numbers: &mut [T], components: usize, missing: &[bool], nothing: T) {
-            let values = numbers.chunks_mut(components).zip(missing);
-            values.filter(|(_, is_missing)| **is_missing).for_each(|(value, _)| value.fill(nothing));
-        }
-        let (components, missing) = (self.components, missing.unwrap_or_default());
-        match &mut self.numbers {
-            Numbers::U8(numbers) => clear(numbers, components, missing, 0),
-            Numbers::I32(numbers) => clear(numbers, components, missing, 0),
-            Numbers::U32(numbers) => clear(numbers, components, missing, 0),
-            Numbers::F32(numbers) => clear(numbers, components, missing, f32::NAN),
-            Numbers::F64(numbers) => clear(numbers, components, missing, f64::NAN),
-        }
-        self
     }
 
     /// Points.
@@ -228,12 +235,15 @@ mod tests {
 
     #[test]
     fn cells_without_ground_lose_their_values() {
-        let bytes: Vec<u8> = [3.0_f32, -4.0, 0.5, 0.0].iter().flat_map(|x| x.to_ne_bytes()).collect();
-        let plane = Plane::all(VECTOR, &bytes).without(Some(&[true, false]));
+        let mut bytes: Vec<u8> = [3.0_f32, -4.0, 0.5, 0.0].iter().flat_map(|x| x.to_ne_bytes()).collect();
+        hide(&mut bytes, VECTOR, &[true, false]);
+        let plane = Plane::all(VECTOR, &bytes);
         assert!(plane.value(0).iter().all(|number| number.is_nan()));
         assert_eq!(plane.value(1), [0.5, 0.0]);
         let stored = StoredType { scalar: StoredScalar::U8, lanes: 1, length: 1 };
-        assert_eq!(Plane::all(stored, &[7, 8]).without(Some(&[false, true])).component(0), [7.0, 0.0]);
+        let mut bytes = [7, 8];
+        hide(&mut bytes, stored, &[false, true]);
+        assert_eq!(bytes, [7, 0]);
         let points = Plane::points(vec![[1.0, 2.0, 3.0]]).shifted([10.0, -2.0]);
         assert_eq!(points.to_points(), [[11.0, 0.0, 3.0]]);
     }

@@ -1,6 +1,6 @@
 //! The check for NaN and infinities before a state is written.
 
-use crate::observable::Failure;
+use crate::failure::Failure;
 use xca_core::{Fault, RunError, Simulation};
 
 /// A state that should not be written.

@@ -8,8 +8,8 @@ use crate::engines::EngineChoice;
 use crate::program::Given;
 use crate::terminal;
 use xca_checkpoint::Identity;
-use xca_core::{Engine, Model, Precision, RunError, RunOptions};
-use xca_record::machine::check_memory;
+use xca_core::{Engine, RunError, RunOptions};
+use xca_machine::check_memory;
 use xca_record::record::FolderError;
 use xca_record::{BeginError, Run, SetUp};
 
@@ -84,13 +84,12 @@ fn set_up_of(invocation: &RunInvocation<'_>, given: &Given) -> Result<SetUp, Una
 /// The model, where the machine has room for it.
 fn set_up(invocation: &RunInvocation<'_>, engine: &dyn Engine, given: &Given) -> Result<SetUp, Unable> {
     let set_up = set_up_of(invocation, given)?;
-    check_room(engine, &set_up.model, given.precision)?;
+    check_room(engine, set_up.least_memory(engine, given.precision))?;
     Ok(set_up)
 }
 
-/// Refuses a model that the machine has no room for.
-pub(super) fn check_room(engine: &dyn Engine, model: &Model, precision: Precision) -> Result<(), Unable> {
-    let memory = engine.least_memory(model, precision) + model.output_memory(precision, |_| 0);
+/// Refuses a run that the machine has no room for, which takes so many bytes.
+pub(super) fn check_room(engine: &dyn Engine, memory: u128) -> Result<(), Unable> {
     check_memory(memory, &format!("this run on the {} engine", engine.name())).map_err(Unable::refused)
 }
 

@@ -123,7 +123,7 @@ impl Found<'_> {
         run = run.steps(self.steps(description, &earlier)?);
         run = self.with_slots(run)?;
         if self.arguments.slots.is_some() {
-            check_room(&*engine, run.model(), run.run_options().precision)?;
+            check_room(&*engine, run.least_memory(&*engine))?;
         }
         if let Some(interval) = self.arguments.checkpoint_every {
             run = run.checkpoint_every(interval);

@@ -25,7 +25,7 @@ use xca_core::Engine;
 use xca_ensemble::{End, Ensemble, EnsembleError, EnsembleMonitor, Finished, MEMBERS, Member, SUMMARY};
 use xca_io::atomic::write_atomically;
 use xca_io::numbers::{counted, duration_text};
-use xca_record::machine::{check_memory, cores};
+use xca_machine::{check_memory, cores};
 use xca_record::record::LockedFolder;
 use xca_record::{Failure, SetUp};
 use xca_report::ensemble::{self, PAGE};

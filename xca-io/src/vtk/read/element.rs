@@ -1,7 +1,8 @@
 //! The description of an array in the head of a file.
 
 use super::super::appended::{COMPONENT_NAME, unescaped};
-use super::found::{NumberType, ReadArray};
+use super::super::number_type::NumberType;
+use super::found::ReadArray;
 
 /// The name of the array with the time.
 pub(super) const TIME: &str = "TimeValue";
@@ -29,14 +30,7 @@ pub(super) struct Element {
 impl Element {
     /// Parses a line of the head. `count` is the number of values.
     pub(super) fn new(element: &str, count: usize) -> Option<Self> {
-        let (numbers, size) = match attribute(element, "type")?.as_str() {
-            "UInt8" => (NumberType::U8, 1),
-            "Int32" => (NumberType::I32, 4),
-            "UInt32" => (NumberType::U32, 4),
-            "Float32" => (NumberType::F32, 4),
-            "Float64" => (NumberType::F64, 8),
-            _ => return None,
-        };
+        let numbers = NumberType::with_vtk_name(&attribute(element, "type")?)?;
         let number = |name: &str| attribute(element, name).map(|text| text.parse::<usize>());
         let components = number("NumberOfComponents").unwrap_or(Ok(1)).ok()?;
         if !(1..=MOST_COMPONENTS).contains(&components) {
@@ -51,7 +45,7 @@ impl Element {
         } else {
             Some(count).filter(|count| given.is_none_or(|given| given == *count))?
         };
-        let length = count.checked_mul(components)?.checked_mul(size)?;
+        let length = count.checked_mul(components)?.checked_mul(numbers.size())?;
         let component_names = component_names(element, components)?;
         let offset = number("offset")?.ok()?;
         Some(Self { name, numbers, components, component_names, offset, length })

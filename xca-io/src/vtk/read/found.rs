@@ -1,17 +1,6 @@
 //! The content of VTK files.
 
-use super::{Grid, HexagonGrid};
-
-/// The type of the numbers of an array.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names say it")]
-pub enum NumberType {
-    U8,
-    I32,
-    U32,
-    F32,
-    F64,
-}
+use super::{Grid, HexagonGrid, NumberType};
 
 /// An array with its values.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -82,21 +71,6 @@ pub struct ParticleFile {
     pub positions: ReadArray,
     /// One value for each particle.
     pub arrays: Vec<ReadArray>,
-}
-
-impl NumberType {
-    /// Converts the little-endian numbers of a file to the byte order of this machine.
-    pub(super) fn of_this_machine(self, mut bytes: Vec<u8>) -> Vec<u8> {
-        let size = match self {
-            Self::U8 => 1,
-            Self::I32 | Self::U32 | Self::F32 => 4,
-            Self::F64 => 8,
-        };
-        if cfg!(target_endian = "big") {
-            bytes.chunks_exact_mut(size).for_each(<[u8]>::reverse);
-        }
-        bytes
-    }
 }
 
 /// The suffix of the name of a component that the file does not name.

@@ -33,7 +33,7 @@ impl States for Running<'_> {
             let done = simulation.step_number();
             line.at(done);
             if every.is_due(done) {
-                look(done, &self.drawing.seen(self.options.precision, &simulation.snapshot()?))?;
+                look(done, &self.drawing.seen(&simulation)?)?;
             }
             if done >= wanted || simulation.stop_reason().is_some() || self.interrupt.is_raised() {
                 line.finish();

@@ -183,7 +183,7 @@ fn checkpoint(
         return Err(Unable::refused(format!("the state in {} does not fit this model", path.display())));
     }
     let drawing = arguments.drawing(&recorder)?;
-    let seen = drawing.seen(precision, &snapshot);
+    let seen = drawing.seen_at(precision, &snapshot).map_err(Unable::failed)?;
     let mut scales = drawing.fixed_scales();
     drawing.widen(&mut scales, &seen);
     let out = arguments.out.clone().unwrap_or_else(|| {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// What sets a limit to the memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Limit {
+pub(crate) enum Limit {
     Machine,
     /// `ulimit -v`.
     Process,
@@ -15,7 +15,7 @@ pub(super) enum Limit {
 }
 
 impl Limit {
-    pub(super) fn words(self) -> &'static str {
+    pub(crate) fn words(self) -> &'static str {
         match self {
             Self::Machine => "this machine has",
             Self::Process => "the limit of this process (ulimit -v) has",
@@ -26,13 +26,13 @@ impl Limit {
 
 /// The bytes that are left below a limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Free {
-    pub(super) bytes: u64,
-    pub(super) limit: Limit,
+pub(crate) struct Free {
+    pub(crate) bytes: u64,
+    pub(crate) limit: Limit,
 }
 
 /// The least of what the limits leave; `root` is where the file system begins.
-pub(super) fn free_memory(root: &Path) -> Option<Free> {
+pub(crate) fn free_memory(root: &Path) -> Option<Free> {
     let machine = kilobytes(&root.join("proc/meminfo"), "MemAvailable:");
     let all = [
         machine.map(|bytes| Free { bytes, limit: Limit::Machine }),

@@ -1,4 +1,16 @@
-//! What is known of the machine and of the memory that this process has used.
+//! The machine: the memory that is left, and the memory that this process has used; the processor and its
+//! cores.
+//!
+//! ```
+//! use xca_machine::check_memory;
+//!
+//! let refusal = check_memory(1 << 62, "a space of that size").err().map(|error| error.to_string());
+//! if cfg!(target_os = "linux") {
+//!     assert!(refusal.is_some_and(|text| text.starts_with("a space of that size would need 4.61e9 GB")));
+//! }
+//! ```
+
+#![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
 mod limits;
 mod table;

@@ -1,12 +1,9 @@
 //! Quantities that a run reports.
 
-/// Any error. Its causes are shown below it, each on a line of its own.
-pub type Failure = Box<dyn std::error::Error + Send + Sync>;
-
 /// A quantity of the whole state, as `observables.csv` and the report show it.
 ///
 /// ```
-/// use xca_record::Observable;
+/// use xca_observe::Observable;
 ///
 /// let energy = Observable::new("kinetic energy", "J", 2.0).conserved();
 /// assert_eq!(energy.drift(2.5), Some(0.25));
