@@ -1,4 +1,4 @@
-//! Parts of a space give their state in blocks of rows, and take cells so. The bytes are those of one engine,
+//! Parts of a space give their state in blocks of rows, and take it so. The bytes are those of one engine,
 //! and a run goes on from them on any.
 
 use std::error::Error;
@@ -202,9 +202,7 @@ fn resumed(
         let end = start + block.len();
         block.copy_from_slice(&bytes[start..end]);
         done = if end == bytes.len() { (place + 1, 0) } else { (place, end) };
-        if !matches!(plane, Plane::Counts(_) | Plane::Labels(_)) {
-            largest = largest.max(block.len());
-        }
+        largest = largest.max(block.len());
         Ok::<(), RunError>(())
     };
     let simulation = Simulation::resume_blocks(model, engine, options, outline, size, read)?;
@@ -241,6 +239,35 @@ fn a_run_goes_on_from_blocks_of_any_size() -> TestResult {
 #[derive(Substates, Clone, Copy)]
 struct Water {
     depth: [Real; 3],
+}
+
+/// Neither items, whether they come from a checkpoint or are set anew.
+#[test]
+fn parts_take_items_in_blocks() -> TestResult {
+    let model = slope()?;
+    let options = RunOptions::default();
+    let mut reference = Simulation::new(&model, &Reference, options)?;
+    let (outline, (planes, _)) = (reference.outline(), planes(&reference, 1)?);
+    // The cells of a row, or 15 stones in the fullest, each with a position.
+    let (_, largest) = resumed((&model, &parts([2, 2])?, options), &outline, &planes, 1)?;
+    assert!(largest < 500, "{largest}");
+    let (_, whole) = resumed((&model, &Reference, options), &outline, &planes, 1)?;
+    assert!(whole > 2000, "{whole}");
+    reference.run(4)?;
+    let stones: Vec<Item<Stone>> = reference.state().items()?;
+    for cut in CUTS {
+        let mut simulation = Simulation::new(&model, &parts(cut)?, options)?;
+        // In any order.
+        simulation.state().set_items(stones.iter().rev().cloned().collect())?;
+        assert!(simulation.snapshot()?.groups[1] == reference.snapshot()?.groups[1], "{cut:?}");
+        let full = |site: &Site| if site.cell() == [3, 5, 4] { 9 } else { 1 };
+        let stone = |site: Site| vec![Stone { position: site.centre(), mass: 1.0, hops: 0 }; full(&site)];
+        let error = simulation.state().populate(stone).unwrap_err().to_string();
+        let wanted = Simulation::new(&model, &Reference, options)?.state().populate(stone).unwrap_err();
+        assert_eq!(error, wanted.to_string());
+        assert!(simulation.snapshot()?.groups[1] == reference.snapshot()?.groups[1], "{cut:?}: as before");
+    }
+    Ok(())
 }
 
 /// A host needs no more of the cells at once than a block, or a row.
@@ -289,6 +316,10 @@ fn planes_of_another_state_are_refused() -> TestResult {
     refused(&outline, &changed(4, 0, 7))?;
     let label = planes[5].1[0];
     refused(&outline, &changed(5, 4, label))?;
+    // The labels of a cell in another order.
+    let mut reversed = planes.clone();
+    reversed[5].1 = planes[5].1.as_chunks::<4>().0.iter().rev().copied().collect::<Vec<_>>().into_flattened();
+    refused(&outline, &reversed)?;
     refused(&Outline { broken: true, ..outline.clone() }, &planes)?;
     refused(&Outline { populations: vec![None; 2], ..outline.clone() }, &planes)?;
     refused(&Outline { populations: Vec::new(), ..outline.clone() }, &planes)?;
@@ -320,7 +351,7 @@ fn cells_are_filled_again() -> TestResult {
     Ok(())
 }
 
-/// A host holds the whole state for each output, so a program refuses a model by all of its cells.
+/// The parts are in one process, so a program refuses a model by all of its cells.
 #[test]
 fn the_least_memory_counts_all_cells() -> TestResult {
     let model = Model::builder("wide").extents([64, 30, 20]).substates::<Ground>().build()?;

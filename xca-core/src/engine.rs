@@ -20,6 +20,7 @@ pub use input::{
     check_cells, check_cells_of_part, check_plane, check_population, check_population_of_part,
     check_substate, check_values, check_values_of_cells, check_values_of_part, check_values_of_rows,
 };
+pub(crate) use input::full_cell;
 pub use input_error::InputError;
 pub use part::{Part, PartError};
 pub use plane::Plane;

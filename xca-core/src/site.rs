@@ -44,11 +44,6 @@ pub(crate) struct Sites<'a> {
 }
 
 impl<'a> Sites<'a> {
-    /// All sites by linear index.
-    pub(crate) fn iter(self) -> impl Iterator<Item = Site> + 'a {
-        self.within(0..self.geometry.cells())
-    }
-
     /// The sites with these linear indices.
     pub(crate) fn within(self, cells: Range<usize>) -> impl Iterator<Item = Site> + 'a {
         cells.map(move |linear| {

@@ -5,6 +5,7 @@ mod error;
 mod expressions;
 mod initial;
 mod parameters;
+mod rows;
 
 pub use error::StateError;
 
@@ -244,17 +245,15 @@ impl State<'_> {
         }
         let geometry = self.geometry();
         items.sort_unstable_by_key(|item| (geometry.linear(item.cell), item.label));
-        let types = self.structure.groups()[group].stored(self.precision);
-        let mut fields: Vec<Vec<u8>> =
-            types.iter().map(|stored| vec![0; stored.size() * items.len()]).collect();
-        for (index, item) in items.iter().enumerate() {
-            for (field, (bytes, stored)) in fields.iter_mut().zip(&types).enumerate() {
-                let size = stored.size();
-                item.state.encode(field, self.precision, &mut bytes[index * size..(index + 1) * size]);
-            }
-        }
-        let labels = items.iter().map(|item| item.label).collect();
-        Ok(self.execution.set_population(group, &Population { counts, labels, fields })?)
+        let width = geometry.extents()[0];
+        let mut items = items.into_iter();
+        self.set_items_of_rows(group, |state, rows| {
+            let counts = counts[rows.start * width..rows.end * width].to_vec();
+            let count = counts.iter().map(|count| *count as usize).sum();
+            let (labels, states): (Vec<u32>, Vec<S>) =
+                items.by_ref().take(count).map(|item| (item.label, item.state)).unzip();
+            Population { counts, labels, fields: state.encoded(group, states.into_iter()) }
+        })
     }
 
     /// The number of items of a population.

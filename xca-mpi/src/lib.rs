@@ -21,6 +21,7 @@ mod place;
 mod ranks;
 #[cfg(feature = "mpi")]
 mod sending;
+#[cfg(feature = "mpi")]
 mod spare;
 mod tag;
 mod wire;

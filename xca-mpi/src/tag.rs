@@ -42,6 +42,7 @@ pub(crate) fn number(execution: u32, kind: Kind) -> i32 {
             Face::Top => 11,
         },
         Kind::Opened => 12,
+        Kind::Part(Tag::Rows) => 13,
     };
     // At most 2^24, which each MPI library takes in practice.
     (execution % EXECUTIONS * EACH) as i32 + kind
@@ -56,7 +57,7 @@ mod tests {
 
     #[test]
     fn each_kind_in_each_execution_has_its_number() {
-        let parts = [Tag::Command, Tag::Reply, Tag::Least].into_iter().chain(Face::ALL.map(Tag::Edge));
+        let parts = [Tag::Command, Tag::Reply, Tag::Least, Tag::Rows].into_iter().chain(Face::ALL.map(Tag::Edge));
         let kinds: Vec<Kind> =
             parts.map(Kind::Part).chain([Kind::Ended, Kind::Order, Kind::Place, Kind::Opened]).collect();
         let all = |execution: u32| kinds.iter().map(move |kind| number(execution, *kind));

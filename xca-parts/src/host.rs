@@ -1,10 +1,13 @@
 //! The host: presents the state of all parts to a simulation.
 
+mod counts;
+
 use crate::balance::{Balance, Balancer, Cost};
 use crate::cells::CellsOfPart;
+use crate::collected::numbers;
 use crate::crew::Crew;
 use crate::cut::Cut;
-use crate::message::{Census, Command, Moment, Reply};
+use crate::message::{Command, Moment, Reply};
 use crate::rows::{Lengths, Rows};
 use crate::shared::Shared;
 use crate::transport::Transport;
@@ -12,7 +15,7 @@ use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use xca_core::engine::{
-    EngineFailure, Execution, Fault, Figure, Interruption, Part, Plane, Population, RowWork, StepContext,
+    EngineFailure, Execution, Fault, Figure, InputError, Interruption, Part, Plane, Population, StepContext,
     SubstateId, check_cells, check_plane, check_population, check_substate, check_values,
     check_values_of_cells, check_values_of_rows,
 };
@@ -30,6 +33,8 @@ pub(crate) struct Host {
     left: Vec<u64>,
     /// Of each population, the items that were set. There are no more than these.
     items: Vec<usize>,
+    /// Of each population, the numbers of items in the rows that are collected.
+    collected: Vec<Vec<usize>>,
     /// The threads of other parts in this process. They end after the host.
     threads: Vec<JoinHandle<()>>,
 }
@@ -47,7 +52,8 @@ impl Host {
         let rows = Rows::new(shared.model.geometry(), &shared.cut);
         let balancer = Balancer::new(&shared.model, balance);
         let groups = shared.model.groups().len();
-        Ok(Self { shared, rows, crew, balancer, left: vec![0; groups], items: vec![0; groups], threads })
+        let (left, items, collected) = (vec![0; groups], vec![0; groups], vec![Vec::new(); groups]);
+        Ok(Self { shared, rows, crew, balancer, left, items, collected, threads })
     }
 
     fn crew(&self) -> MutexGuard<'_, Crew> {
@@ -105,21 +111,6 @@ impl Host {
         group.is_some_and(|group| matches!(group.kind(), GroupKind::Population { .. }))
     }
 
-    /// The number of items in each row. `None` for a group of cells.
-    fn items_of_rows(&self, group: usize) -> Result<Option<Vec<usize>>, EngineFailure> {
-        if !self.is_population(group) {
-            return Ok(None);
-        }
-        let items = |reply| match reply {
-            Reply::ItemsOfRows { items } => Some(items),
-            _ => None,
-        };
-        let replies = self.ask(&Command::ItemsOfRows { group })?;
-        let parts: Option<Vec<Vec<usize>>> = replies.into_iter().map(items).collect();
-        let items = parts.and_then(|parts| self.rows.gather(&parts, Lengths::Same(1)));
-        items.map(Some).ok_or_else(|| self.garbled())
-    }
-
     /// The size of each row of a substate, in bytes.
     fn lengths<'a>(&self, substate: SubstateId, items: &'a Option<Vec<usize>>) -> Lengths<'a> {
         self.row_lengths(self.size(substate), items)
@@ -131,38 +122,6 @@ impl Host {
             Some(items) => Lengths::Each(items, size),
             None => Lengths::Same(self.shared.model.geometry().extents()[0] * size),
         }
-    }
-
-    /// The census of a population over all parts.
-    fn census(&self, group: usize) -> Result<Census, EngineFailure> {
-        if !self.is_population(group) {
-            return Ok(Census::default());
-        }
-        let mut all = Census::default();
-        for reply in self.ask(&Command::Census { group })? {
-            let Reply::Census { census } = reply else { return Err(self.garbled()) };
-            all.items += census.items;
-            all.left += census.left;
-            all.largest_occupancy = all.largest_occupancy.max(census.largest_occupancy);
-        }
-        all.left += self.left[group];
-        Ok(all)
-    }
-
-    /// The work of each row since the executions started.
-    fn work(&self) -> Result<RowWork, EngineFailure> {
-        let work = |reply| match reply {
-            Reply::Work { work } => Some((work.cells, work.items)),
-            _ => None,
-        };
-        let parts = self.ask(&Command::Work)?.into_iter().map(work).collect::<Option<_>>();
-        let (cells, items): (Vec<Vec<u64>>, Vec<Vec<u64>>) = parts.ok_or_else(|| self.garbled())?;
-        if cells.iter().any(Vec::is_empty) {
-            return Ok(RowWork::default());
-        }
-        let gather = |parts: &[Vec<u64>]| self.rows.gather(parts, Lengths::Same(1));
-        let work = gather(&cells).zip(gather(&items)).map(|(cells, items)| RowWork { cells, items });
-        work.ok_or_else(|| self.garbled())
     }
 
     /// Moves the bounds of parts if that pays.
@@ -181,35 +140,16 @@ impl Host {
         cut.map_or(Ok(()), |cut| self.move_bounds(cut))
     }
 
-    /// Moves the bounds of parts: takes the whole state from the parts, lets them start anew, and gives it
-    /// back. An execution has no other memory, so nothing else changes.
+    /// Moves the bounds of parts. The parts give each other their rows, and start anew with these. An execution
+    /// has no other memory, so nothing else changes.
     fn move_bounds(&mut self, cut: Cut) -> Result<(), EngineFailure> {
-        let model = self.shared.model.clone();
-        let mut groups = Vec::with_capacity(model.groups().len());
-        for (group, definition) in model.groups().iter().enumerate() {
-            groups.push(if self.is_population(group) {
-                self.left[group] = self.census(group)?.left;
-                Moved::Items(self.population(group)?)
-            } else {
-                let fields = 0..definition.schema().fields.len();
-                let read = fields.map(|field| self.read(SubstateId { group, field }));
-                Moved::Cells(read.collect::<Result<_, _>>()?)
-            });
+        for group in 0..self.left.len() {
+            self.left[group] = self.census(group)?.left;
         }
-        self.ask(&Command::Restart { cut: cut.clone() })?;
-        self.rows = Rows::new(model.geometry(), &cut);
+        self.ask(&Command::Move { cut: cut.clone() })?;
+        self.rows = Rows::new(self.shared.model.geometry(), &cut);
         self.shared.cut = cut;
         self.balancer.moved();
-        for (group, moved) in groups.into_iter().enumerate() {
-            match moved {
-                Moved::Items(population) => self.scatter_items(group, &population)?,
-                Moved::Cells(fields) => {
-                    for (field, values) in fields.into_iter().enumerate() {
-                        self.write(SubstateId { group, field }, &values)?;
-                    }
-                }
-            }
-        }
         Ok(())
     }
 
@@ -227,13 +167,6 @@ impl Host {
         };
         replies.into_iter().map(values).collect::<Option<_>>().ok_or_else(|| self.garbled())
     }
-}
-
-/// The state of a group while the bounds of parts move.
-enum Moved {
-    /// The values of each field.
-    Cells(Vec<Vec<u8>>),
-    Items(Population),
 }
 
 /// The bounds of a part, for reports.
@@ -375,6 +308,62 @@ impl Execution for Host {
         self.items[group] = population.labels.len();
         self.balancer.set(group, &self.rows.items(&population.counts));
         Ok(self.scatter_items(group, population)?)
+    }
+
+    fn collect_items(
+        &mut self,
+        plane: Plane,
+        rows: Range<usize>,
+        bytes: &[u8],
+    ) -> Result<bool, EngineFailure> {
+        let group = plane.group();
+        check_plane(&self.shared.model, plane)?;
+        check_plane(&self.shared.model, Plane::Counts(group))?;
+        if rows.is_empty() {
+            return Ok(true);
+        }
+        let of_rows = &mut self.collected[group];
+        let (size, items) = match plane {
+            Plane::Counts(_) => {
+                of_rows.truncate(rows.start);
+                of_rows.extend(self.rows.items(&numbers(bytes)));
+                (size_of::<u32>(), None)
+            }
+            Plane::Labels(_) => (size_of::<u32>(), Some(of_rows)),
+            Plane::Values(substate) => {
+                (self.shared.model.stored(substate, self.shared.precision).size(), Some(of_rows))
+            }
+        };
+        let items = items.map(|items| items.get(rows.clone()).unwrap_or_default().to_vec());
+        let lengths = self.row_lengths(size, &items);
+        let (wanted, given) = (lengths.sum(rows.len()), bytes.len());
+        if given != wanted {
+            let substates = self.shared.model.groups()[group].schema().name;
+            let reason = format!("the items of rows {rows:?} have {given} bytes, not {wanted}");
+            return Err(EngineFailure::Input(InputError::Items { substates, reason }));
+        }
+        let begins = rows.start == 0;
+        let parts = self.rows.scatter_rows(rows, bytes, lengths);
+        let command = |bytes| Command::CollectItems { plane, begins, bytes };
+        self.change(parts.into_iter().map(command).collect()).map(|()| true)
+    }
+
+    fn set_collected_items(&mut self, group: usize) -> Result<(), Fault> {
+        let items = std::mem::take(&mut self.collected[group]);
+        self.items[group] = items.iter().sum();
+        self.balancer.set(group, &items);
+        for reply in self.ask(&Command::SetCollectedItems { group })? {
+            match reply {
+                Reply::Done => {}
+                Reply::Fault { fault, .. } => return Err(fault.fault(&self.shared.model)),
+                Reply::Refused { reason } => {
+                    let substates = self.shared.model.groups()[group].schema().name;
+                    return Err(InputError::Items { substates, reason }.into());
+                }
+                _ => return Err(self.garbled().into()),
+            }
+        }
+        Ok(())
     }
 
     fn items(&self, group: usize) -> usize {

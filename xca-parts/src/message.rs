@@ -60,6 +60,18 @@ pub(crate) enum Command {
         group: usize,
         population: Population,
     },
+    /// Takes the bytes of a plane of a population in the next own rows, to replace its items by. `begins`
+    /// for the first rows.
+    CollectItems {
+        plane: Plane,
+        begins: bool,
+        #[serde(with = "serde_bytes")]
+        bytes: Vec<u8>,
+    },
+    /// Replaces the items of a population by those that were collected.
+    SetCollectedItems {
+        group: usize,
+    },
     /// Requests the number of items in each row.
     ItemsOfRows {
         group: usize,
@@ -69,8 +81,8 @@ pub(crate) enum Command {
     },
     /// Requests the work of each row since the start.
     Work,
-    /// Drops the state, and starts a new one with other bounds.
-    Restart {
+    /// Moves the bounds of parts, and the state with them.
+    Move {
         cut: Cut,
     },
     Memory,
@@ -100,6 +112,10 @@ pub(crate) enum Reply {
     Fault {
         done: u64,
         fault: FaultMessage,
+    },
+    /// The items that were collected are none of the model's.
+    Refused {
+        reason: String,
     },
     /// Another part has the first fault, or has failed.
     Elsewhere {

@@ -1,11 +1,11 @@
-//! The rows of each part: gathers and scatters their data.
+//! Rows and their parts: gathers and scatters their data.
 
 use crate::cut::Cut;
 use std::ops::Range;
 use xca_core::Geometry;
 use xca_core::engine::Population;
 
-/// The part of each row of the whole space.
+/// Rows, in their order, and the part that each belongs to.
 pub(crate) struct Rows {
     owners: Vec<usize>,
     parts: usize,
@@ -28,13 +28,35 @@ impl Lengths<'_> {
             Self::Each(counts, size) => counts.get(row).map_or(0, |count| count * size),
         }
     }
+
+    /// The number of values in the first rows.
+    pub(crate) fn sum(self, rows: usize) -> usize {
+        (0..rows).map(|row| self.of(row)).sum()
+    }
 }
 
 impl Rows {
+    /// All rows of the space.
     pub(crate) fn new(geometry: &Geometry, cut: &Cut) -> Self {
-        let [width, height, depth] = geometry.extents();
+        let [_, height, depth] = geometry.extents();
+        Self::of(geometry, 0..height * depth, cut)
+    }
+
+    /// Some rows of the space.
+    pub(crate) fn of(geometry: &Geometry, rows: impl Iterator<Item = usize>, cut: &Cut) -> Self {
+        let [width, height, _] = geometry.extents();
         let owner = |row: usize| cut.part_of([row % height, row / height]);
-        Self { owners: (0..height * depth).map(owner).collect(), parts: cut.count(), width }
+        Self { owners: rows.map(owner).collect(), parts: cut.count(), width }
+    }
+
+    /// The number of parts.
+    pub(crate) fn parts(&self) -> usize {
+        self.parts
+    }
+
+    /// Whether some of the rows belong to this part.
+    pub(crate) fn has(&self, part: usize) -> bool {
+        self.owners.contains(&part)
     }
 
     /// Gathers the data of all parts. `None` if the lengths do not match.

@@ -68,6 +68,8 @@ pub enum Tag {
     Edge(Face),
     /// A number, for the minimum.
     Least,
+    /// Rows that go to another part.
+    Rows,
 }
 
 /// A message that did not arrive.

@@ -1,10 +1,12 @@
 //! A part of the space, which carries out the commands of the host.
 
 use crate::border::{Link, PartBorder, broken};
+use crate::collected::CollectedItems;
 use crate::cut::Cut;
 use crate::fault::FaultMessage;
 use crate::greeting::Greeting;
 use crate::message::{Census, Command, Moment, Reply, decode, encode};
+use crate::relocation::Relocation;
 use crate::rows::items_of_rows;
 use crate::shared::Shared;
 use crate::traffic::Traffic;
@@ -14,9 +16,9 @@ use std::any::Any;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
-use xca_core::engine::{EngineFailure, Execution, Fault, Plane, StepContext};
+use xca_core::engine::{EngineFailure, Execution, Fault, Plane, Population, StepContext, SubstateId};
 use xca_core::model::{Group, GroupKind};
-use xca_core::{Engine, Model, ParameterSet, Precision, StartError};
+use xca_core::{Engine, Model, ParameterSet, Precision, StartError, StoredType};
 
 /// A part of the space.
 pub(crate) struct Worker {
@@ -25,8 +27,11 @@ pub(crate) struct Worker {
     parameters: ParameterSet,
     engine: Arc<dyn Engine>,
     link: Link,
+    cut: Cut,
     /// `None` after a start that has failed.
     execution: Option<Box<dyn Execution>>,
+    /// Of each group, the items that are to replace those of the execution.
+    collected: Vec<CollectedItems>,
     traffic: Traffic,
 }
 
@@ -34,22 +39,72 @@ impl Worker {
     pub(crate) fn start(engine: Arc<dyn Engine>, shared: &Shared, link: Link) -> Result<Self, StartError> {
         let Shared { model, precision, cut } = shared.clone();
         let (parameters, traffic) = (model.parameters().clone(), Traffic::default());
-        let mut worker = Self { model, precision, parameters, engine, link, execution: None, traffic };
-        worker.restart(&cut)?;
+        let collected = Vec::new();
+        let execution = None;
+        let mut worker =
+            Self { model, precision, parameters, engine, link, cut, execution, collected, traffic };
+        worker.begin()?;
         Ok(worker)
     }
 
-    /// Starts the part of this worker in a cut. The state begins anew.
-    fn restart(&mut self, cut: &Cut) -> Result<(), StartError> {
-        // There may not be memory for both states.
-        self.execution = None;
-        let part = cut.part(self.link.lock().number());
-        let border = PartBorder::new(self.link.clone(), self.model.geometry(), cut, self.traffic.clone());
+    /// Starts the part of this worker. The state begins anew.
+    fn begin(&mut self) -> Result<(), StartError> {
+        let part = self.cut.part(self.link.lock().number());
+        let (link, traffic) = (self.link.clone(), self.traffic.clone());
+        let border = PartBorder::new(link, self.model.geometry(), &self.cut, traffic);
         let start = || self.engine.start_part(&self.model, self.precision, &part, Box::new(border));
         let execution = catch_unwind(AssertUnwindSafe(start)).unwrap_or_else(|panic| {
             Err(StartError::Other { engine: self.engine.name().to_owned(), reason: text(&*panic) })
         })?;
         self.execution = Some(execution);
+        Ok(())
+    }
+
+    /// Moves the bounds of the part: gives others the rows that become theirs, starts anew, and takes what
+    /// others give.
+    fn move_to(&mut self, cut: Cut) -> Result<(), EngineFailure> {
+        let model = self.model.clone();
+        let relocation = Relocation::new(self.link.clone(), model.geometry(), &self.cut, &cut);
+        let width = model.geometry().extents()[0];
+        let sizes = |group: &Group| -> Vec<usize> {
+            group.stored(self.precision).into_iter().map(StoredType::size).collect()
+        };
+        let sizes: Vec<Vec<usize>> = model.groups().iter().map(sizes).collect();
+        let mut kept = Vec::with_capacity(sizes.len());
+        for ((group, definition), sizes) in model.groups().iter().enumerate().zip(&sizes) {
+            let execution = self.execution()?;
+            kept.push(match definition.kind() {
+                GroupKind::Population { .. } => {
+                    Kept::Items(relocation.give_items(&execution.population(group)?, sizes)?)
+                }
+                GroupKind::Cells { .. } => {
+                    let give = |(field, size): (usize, &usize)| {
+                        relocation.give(&execution.read(SubstateId { group, field })?, width * size)
+                    };
+                    Kept::Cells(sizes.iter().enumerate().map(give).collect::<Result<_, _>>()?)
+                }
+            });
+        }
+        // There may not be memory for both states.
+        self.execution = None;
+        self.cut = cut;
+        self.begin().map_err(|error| relocation.fail(&error.to_string()))?;
+        for ((group, kept), sizes) in kept.into_iter().enumerate().zip(&sizes) {
+            let execution = self.execution_mut()?;
+            match kept {
+                Kept::Items(own) => {
+                    let items = relocation.take_items(own, sizes)?;
+                    let set = execution.set_population(group, &items);
+                    set.map_err(|fault| relocation.fail(&format!("its items do not fit: {fault}")))?;
+                }
+                Kept::Cells(fields) => {
+                    for (field, (own, size)) in fields.into_iter().zip(sizes).enumerate() {
+                        let values = relocation.take(own, width * size)?;
+                        execution.write(SubstateId { group, field }, &values)?;
+                    }
+                }
+            }
+        }
         Ok(())
     }
 
@@ -108,6 +163,22 @@ impl Worker {
                 let result = self.execution_mut()?.set_population(group, &population);
                 self.ended(result.map_err(|fault| (0, fault)))
             }
+            Command::CollectItems { plane, begins, bytes } => {
+                let groups = self.model.groups().len();
+                self.collected.resize_with(groups, CollectedItems::default);
+                self.collected[plane.group()].add(plane, begins, &bytes);
+                Reply::Done
+            }
+            Command::SetCollectedItems { group } => {
+                let fields = self.model.groups()[group].schema().fields.len();
+                let collected = self.collected.get_mut(group).map(std::mem::take).unwrap_or_default();
+                match self.execution_mut()?.set_population(group, &collected.population(fields)) {
+                    Err(Fault::Engine(EngineFailure::Input(error))) => {
+                        Reply::Refused { reason: error.to_string() }
+                    }
+                    result => self.ended(result.map_err(|fault| (0, fault))),
+                }
+            }
             Command::ItemsOfRows { group } => {
                 let counts = self.execution()?.population(group)?.counts;
                 Reply::ItemsOfRows { items: items_of_rows(&counts, self.model.geometry().extents()[0]) }
@@ -119,10 +190,10 @@ impl Worker {
                 Reply::Census { census: Census { items, left, largest_occupancy } }
             }
             Command::Work => Reply::Work { work: self.execution()?.work() },
-            Command::Restart { cut } => match self.restart(&cut) {
-                Ok(()) => Reply::Done,
-                Err(error) => Reply::Failed { reason: error.to_string() },
-            },
+            Command::Move { cut } => {
+                self.move_to(cut)?;
+                Reply::Done
+            }
             Command::Memory => Reply::Memory { bytes: self.execution()?.memory() },
             Command::Figures => {
                 let figures = self.execution()?.figures().into_iter();
@@ -177,6 +248,13 @@ impl Worker {
 
 fn no_state() -> EngineFailure {
     broken("the part could not start again".to_owned())
+}
+
+/// The rows of a group that stay in a part whose bounds move.
+enum Kept {
+    /// The values of each field.
+    Cells(Vec<Vec<u8>>),
+    Items(Population),
 }
 
 /// The message of a panic.

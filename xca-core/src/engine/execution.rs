@@ -123,6 +123,31 @@ pub trait Execution: Send {
         Ok(false)
     }
 
+    /// Takes the bytes of a plane of a population in these rows of the whole space, for
+    /// [`Self::set_collected_items`]. The rows of each plane come in order, and the counts of rows before their
+    /// labels and values. Row 0 begins anew. `false` if the engine takes populations as a whole only.
+    ///
+    /// # Errors
+    /// Returns an error if the model does not have the plane, the number of bytes is wrong, or the engine lost
+    /// its state.
+    fn collect_items(
+        &mut self,
+        _plane: Plane,
+        _rows: Range<usize>,
+        _bytes: &[u8],
+    ) -> Result<bool, EngineFailure> {
+        Ok(false)
+    }
+
+    /// Replaces all items of a population by those that [`Self::collect_items`] has taken. Whoever gives them
+    /// has to make sure that no two have one label.
+    ///
+    /// # Errors
+    /// As [`Self::set_population`].
+    fn set_collected_items(&mut self, _group: usize) -> Result<(), Fault> {
+        Ok(())
+    }
+
     /// All items of a population.
     ///
     /// # Errors

@@ -156,13 +156,20 @@ pub fn check_population_of_part(
     let GroupKind::Population { slots, .. } = *definition.kind() else {
         return Err(InputError::NotAPopulation(substates).into());
     };
-    let cells = population.counts.iter().take(part.cells(model.geometry()));
-    if let Some((cell, items)) = cells.enumerate().find(|(_, items)| **items as usize > slots) {
-        let cell = part.indices(model.geometry(), cell);
-        return Err(Fault::CellFull { process: None, cell, items: *items as usize, slots });
+    let cells = population.counts.len().min(part.cells(model.geometry()));
+    let place = |cell| part.indices(model.geometry(), cell);
+    if let Some(fault) = full_cell(&population.counts[..cells], slots, place) {
+        return Err(fault);
     }
     let reason = wrong_items(population, definition, precision, slots, (model, part));
     reason.map_or(Ok(()), |reason| Err(InputError::Items { substates, reason }.into()))
+}
+
+/// The fault of the first cell with more items than slots. `place` gives the indices of a cell.
+pub(crate) fn full_cell(counts: &[u32], slots: usize, place: impl Fn(usize) -> [usize; 3]) -> Option<Fault> {
+    let mut counts = counts.iter().map(|items| *items as usize).enumerate();
+    let (cell, items) = counts.find(|(_, items)| *items > slots)?;
+    Some(Fault::CellFull { process: None, cell: place(cell), items, slots })
 }
 
 fn checked_group(model: &Model, SubstateId { group, field }: SubstateId) -> Result<&Group, InputError> {

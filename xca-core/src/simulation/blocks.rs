@@ -125,14 +125,7 @@ impl Simulation {
                 let end = start + rows_in_block(lengths, size);
                 let block = self.execution.read_rows(*plane, start..end)?.unwrap_or_default();
                 if let Plane::Counts(_) = plane {
-                    let counts = block.chunks_exact(width * size_of::<u32>());
-                    items.extend(counts.map(|row| {
-                        row.as_chunks()
-                            .0
-                            .iter()
-                            .map(|count| u32::from_ne_bytes(*count) as usize)
-                            .sum::<usize>()
-                    }));
+                    items.extend(items_of_rows(&block, width));
                 }
                 take(*plane, &block)?;
                 start = end;
@@ -182,7 +175,7 @@ impl Simulation {
         for (group, population) in outline.populations.iter().enumerate() {
             match population {
                 None => simulation.read_cells_of(group, size, &mut read)?,
-                Some(counts) => simulation.read_items_of(group, *counts, &mut read)?,
+                Some(counts) => simulation.read_items_of(group, *counts, size, &mut read)?,
             }
         }
         simulation.take_over(outline);
@@ -223,8 +216,14 @@ impl Simulation {
         &mut self,
         group: usize,
         ItemCounts { items, left }: ItemCounts,
+        size: usize,
         read: &mut impl FnMut(Plane, &mut [u8]) -> Result<(), E>,
     ) -> Result<(), E> {
+        if self.execution.collect_items(Plane::Counts(group), 0..0, &[]).map_err(RunError::from)? {
+            self.collect_items_of(group, items, size, read)?;
+            self.left_before[group] = left.wrapping_sub(self.execution.left(group));
+            return Ok(());
+        }
         let (mut counts, mut labels) = (vec![0; self.model.geometry().cells()], vec![0; items]);
         read(Plane::Counts(group), bytemuck::cast_slice_mut::<u32, u8>(&mut counts))?;
         read(Plane::Labels(group), bytemuck::cast_slice_mut::<u32, u8>(&mut labels))?;
@@ -236,6 +235,48 @@ impl Simulation {
         }
         self.put_items(group, &Population { counts, labels, fields }, left)?;
         Ok(())
+    }
+
+    /// Reads the items of a population by rows.
+    fn collect_items_of<E: From<RunError>>(
+        &mut self,
+        group: usize,
+        count: usize,
+        size: usize,
+        read: &mut impl FnMut(Plane, &mut [u8]) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let [width, height, depth] = self.model.geometry().extents();
+        let (mut items, mut labels, mut block) = (Vec::new(), Vec::new(), Vec::new());
+        for plane in Plane::of_group(group, &self.model.groups()[group]) {
+            let mut start = 0;
+            while start < height * depth {
+                let rows = start..height * depth;
+                let end = start + rows_in_block(self.lengths(plane, &items, rows), size);
+                block.resize(self.lengths(plane, &items, start..end).sum(), 0);
+                read(plane, &mut block)?;
+                match plane {
+                    Plane::Counts(_) => items.extend(items_of_rows(&block, width)),
+                    Plane::Labels(_) => {
+                        labels.extend(block.as_chunks().0.iter().map(|label| u32::from_ne_bytes(*label)));
+                    }
+                    Plane::Values(_) => {}
+                }
+                let taken = self.execution.collect_items(plane, start..end, &block);
+                taken.map_err(|failure| self.unfit(failure))?;
+                start = end;
+            }
+            let in_cells: usize = items.iter().sum();
+            if in_cells != count {
+                let reason = format!("it has {count} items, but {in_cells} in its cells");
+                return Err(self.unfit_because(reason).into());
+            }
+        }
+        labels.sort_unstable();
+        if let Some([label, _]) = labels.array_windows().find(|[one, other]| one == other) {
+            return Err(self.unfit_because(format!("the label {label} stands on two items")).into());
+        }
+        let set = self.execution.set_collected_items(group);
+        Ok(set.map_err(|fault| self.unfit_items(fault))?)
     }
 
     /// The size of each of these rows of a plane, in bytes. `items` are the numbers of items in all rows.
@@ -257,6 +298,12 @@ impl Simulation {
         };
         rows.map(move |row| size * if of_items { items.get(row).copied().unwrap_or(0) } else { width })
     }
+}
+
+/// The number of items in each row of so many cells, from the bytes of the numbers in the cells.
+fn items_of_rows(counts: &[u8], width: usize) -> impl Iterator<Item = usize> {
+    let rows = counts.chunks_exact(width * size_of::<u32>());
+    rows.map(|row| row.as_chunks().0.iter().map(|count| u32::from_ne_bytes(*count) as usize).sum())
 }
 
 /// How many of the rows with these lengths are a block: at least one.

@@ -126,10 +126,7 @@ impl Simulation {
         left: u64,
     ) -> Result<(), RunError> {
         let set = self.execution.set_population(group, population);
-        set.map_err(|fault| match fault {
-            Fault::Engine(failure) => self.unfit(failure),
-            other => does_not_fit(&self.model, other.to_string()).into(),
-        })?;
+        set.map_err(|fault| self.unfit_items(fault))?;
         self.left_before[group] = left.wrapping_sub(self.execution.left(group));
         Ok(())
     }
@@ -137,8 +134,21 @@ impl Simulation {
     /// The error of an engine that takes over a state.
     pub(super) fn unfit(&self, failure: EngineFailure) -> RunError {
         match failure {
-            EngineFailure::Input(error) => does_not_fit(&self.model, error.to_string()).into(),
+            EngineFailure::Input(error) => self.unfit_because(error.to_string()),
             other => other.into(),
+        }
+    }
+
+    /// The error of a state that does not fit the model.
+    pub(super) fn unfit_because(&self, reason: String) -> RunError {
+        does_not_fit(&self.model, reason).into()
+    }
+
+    /// The error of an engine that takes over items.
+    pub(super) fn unfit_items(&self, fault: Fault) -> RunError {
+        match fault {
+            Fault::Engine(failure) => self.unfit(failure),
+            other => self.unfit_because(other.to_string()),
         }
     }
 

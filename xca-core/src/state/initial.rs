@@ -67,16 +67,19 @@ impl State<'_> {
         items: impl Fn(Site) -> I,
     ) -> Result<(), StateError> {
         let group = self.population_of::<S>()?;
-        let mut counts = Vec::with_capacity(self.geometry().cells());
-        let mut states = Vec::new();
-        for site in self.sites(group).iter() {
-            let before = states.len();
-            states.extend(items(site));
-            counts.push((states.len() - before) as u32);
-        }
-        let labels = (0..states.len() as u32).collect();
-        let fields = self.encoded(group, states.into_iter());
-        Ok(self.execution.set_population(group, &Population { counts, labels, fields })?)
+        let width = self.geometry().extents()[0];
+        let mut first = 0;
+        self.set_items_of_rows(group, |state, rows| {
+            let (mut counts, mut states) = (Vec::with_capacity(width * rows.len()), Vec::new());
+            for site in state.sites(group).within(rows.start * width..rows.end * width) {
+                let before = states.len();
+                states.extend(items(site));
+                counts.push((states.len() - before) as u32);
+            }
+            let labels: Vec<u32> = (first..).take(states.len()).collect();
+            first += states.len() as u32;
+            Population { counts, labels, fields: state.encoded(group, states.into_iter()) }
+        })
     }
 
     /// As [`Self::populate`], with the parameters.
@@ -92,7 +95,11 @@ impl State<'_> {
     }
 
     /// The stored bytes of each field of these states.
-    fn encoded<S: Substates>(&self, group: usize, states: impl Iterator<Item = S>) -> Vec<Vec<u8>> {
+    pub(super) fn encoded<S: Substates>(
+        &self,
+        group: usize,
+        states: impl Iterator<Item = S>,
+    ) -> Vec<Vec<u8>> {
         let sizes: Vec<usize> = self.structure.groups()[group]
             .stored(self.precision)
             .iter()

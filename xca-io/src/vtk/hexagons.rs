@@ -1,11 +1,13 @@
 //! Dense substates on hexagons as PolyData.
 
+use std::io::{self, Write};
 use std::path::Path;
 
 use super::super::atomic::write_atomically;
 use super::VtkError;
 use super::appended::{Appended, numbers_as_text};
-use super::values::{DataArray, Values, check_arrays};
+use super::number_type::NumberType;
+use super::values::{DataArray, ValueSource, Values, check_arrays};
 use crate::lattice::Lattice;
 
 /// The corners of a hexagon.
@@ -35,21 +37,22 @@ impl HexagonGrid {
     pub(super) fn count(&self) -> Option<usize> {
         self.cells.iter().try_fold(1_usize, |product, n| product.checked_mul(*n))
     }
+}
 
-    /// The corners of all cells, counterclockwise in each cell.
-    fn points(&self) -> Vec<[f64; 3]> {
+/// The corners of all cells, counterclockwise in each cell.
+impl ValueSource for HexagonGrid {
+    fn write_to(&self, out: &mut dyn Write) -> io::Result<()> {
         let ([columns, rows, layers], [left, low]) = (self.cells, self.corner);
         let around = self.lattice.corners();
-        let mut points = Vec::with_capacity(columns * rows * layers * around.len());
-        for layer in 0..layers {
-            for cell in 0..columns * rows {
-                let [x, y] = self.lattice.centre([cell % columns, cell / columns]);
-                points.extend(around.iter().map(|[u, v]| {
-                    [left + (x + u) * self.side, low + (y + v) * self.side, layer as f64 * self.side]
-                }));
+        for cell in 0..columns * rows * layers {
+            let (layer, place) = (cell / (columns * rows), cell % (columns * rows));
+            let [x, y] = self.lattice.centre([place % columns, place / columns]);
+            for [u, v] in &around {
+                let point = [left + (x + u) * self.side, low + (y + v) * self.side, layer as f64 * self.side];
+                point.iter().try_for_each(|number| out.write_all(&number.to_le_bytes()))?;
             }
         }
-        points
+        Ok(())
     }
 }
 
@@ -110,8 +113,8 @@ pub fn write_hexagons(
     else {
         return Err(too_many());
     };
-    let points = grid.points();
-    let points = DataArray::new("Points", Values::from(points.as_slice()));
+    let points = Values::of_source(NumberType::F64, 3, cells * CORNERS, grid);
+    let points = DataArray::new("Points", points);
     let fields = [
         numbers_as_text(EXTENTS, &grid.cells.map(|n| n as f64)),
         numbers_as_text(CORNER, &grid.corner),

@@ -198,6 +198,10 @@ fn the_host_knows_where_the_processes_are() {
             let ranks = "0: machine 0, 3 threads; 1: machine 0, 3 threads; 2: machine 1, 3 threads; \
                      3: machine 1, 3 threads";
             assert!(facts.contains(&("ranks", ranks.to_owned())), "{facts:?}");
+            // Two of four are on the machine of the host.
+            let all = Cpu::with_threads(1).unwrap().least_memory(&life(20), Precision::F64);
+            assert!(all > 2 * 20 * 9);
+            assert_eq!(engine.least_memory(&life(20), Precision::F64), all / 2);
         },
     );
 }

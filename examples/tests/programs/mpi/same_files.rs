@@ -17,11 +17,15 @@ fn checkpoints(run: &Path) -> Vec<(String, Vec<u8>)> {
 
 /// Frames, observables, pictures and final states on so many ranks, and on one machine without MPI.
 fn compare(program: &str, options: &str, ranks: &[usize]) {
+    compare_on("mpi:cpu:1", program, options, ranks);
+}
+
+fn compare_on(engine: &str, program: &str, options: &str, ranks: &[usize]) {
     let place = Workplace::new();
     place.succeed(program, &format!("{options} --engine cpu:2 --out whole"));
     for ranks in ranks {
         let out = format!("on{ranks}");
-        succeed(&place, *ranks, program, &format!("run {options} --engine mpi:cpu:1 --out {out}"));
+        succeed(&place, *ranks, program, &format!("run {options} --engine {engine} --out {out}"));
         assert_same_results(&place.path("whole"), &place.path(&out), &format!("{options} on {ranks} ranks"));
     }
 }
@@ -46,6 +50,14 @@ fn heat() {
 fn cadem() {
     compare(CADEM, "--case published --steps 60 --every 9", &[1, 2, 3, 4]);
     compare(CADEM, "--case published --walls single --precision f32 --steps 50 --seed 5", &[3]);
+}
+
+/// Each rank with a graphics card, or with the processor in its place.
+#[test]
+fn graphics_cards() {
+    compare_on("mpi:gpu", LIFE, "--steps 12 --every 5", &[2]);
+    compare_on("mpi:gpu", LANDSLIDE, "--steps 10 --every 4", &[3]);
+    compare_on("mpi:1x2:gpu", HEAT, "--size 12 --steps 12 --every 5 --precision f32", &[2]);
 }
 
 /// A run that was begun on three ranks goes on on two, on one, on the reference engine and on parts.

@@ -1,0 +1,51 @@
+//! Items that are made row by row, for engines that take them so.
+
+use super::{State, StateError};
+use crate::engine::{Plane, Population, SubstateId, full_cell};
+use crate::model::GroupKind;
+use std::ops::Range;
+
+/// The size of the blocks in which items are made, in bytes, if a cell has one item.
+const BLOCK: usize = 1 << 22;
+
+impl State<'_> {
+    /// Replaces the items of a population. `make` gives those of some rows, one block of rows after the other.
+    /// An engine that takes items by rows needs no second copy of all.
+    pub(super) fn set_items_of_rows(
+        &mut self,
+        group: usize,
+        mut make: impl FnMut(&Self, Range<usize>) -> Population,
+    ) -> Result<(), StateError> {
+        let [width, height, depth] = self.geometry().extents();
+        let rows = height * depth;
+        if !self.execution.collect_items(Plane::Counts(group), 0..0, &[])? {
+            let population = make(self, 0..rows);
+            return Ok(self.execution.set_population(group, &population)?);
+        }
+        let definition = &self.structure.groups()[group];
+        let GroupKind::Population { slots, .. } = *definition.kind() else { return Ok(()) };
+        let size: usize = definition.stored(self.precision).iter().map(|stored| stored.size()).sum();
+        let step = (BLOCK / (width * size).max(1)).max(1);
+        for start in (0..rows).step_by(step) {
+            let rows = start..(start + step).min(rows);
+            let Population { counts, labels, fields } = make(self, rows.clone());
+            let place = |cell: usize| self.geometry().indices(start * width + cell);
+            full_cell(&counts, slots, place).map_or(Ok(()), Err)?;
+            self.execution.collect_items(
+                Plane::Counts(group),
+                rows.clone(),
+                bytemuck::cast_slice(&counts),
+            )?;
+            self.execution.collect_items(
+                Plane::Labels(group),
+                rows.clone(),
+                bytemuck::cast_slice(&labels),
+            )?;
+            for (field, values) in fields.iter().enumerate() {
+                let plane = Plane::Values(SubstateId { group, field });
+                self.execution.collect_items(plane, rows.clone(), values)?;
+            }
+        }
+        Ok(self.execution.set_collected_items(group)?)
+    }
+}
