@@ -23,8 +23,9 @@ const EXTENTS: [usize; 3] = [64, 64, 64];
 const IN_CELL: usize = 4;
 const ITEMS: u64 = 68 << 20;
 
-/// What blocks may take, in parts, in messages, gathered or scattered; and memory of the first simulation that
-/// the system has not got back when the second one begins. All items at the host would take twice as much.
+/// What blocks may take, in parts, in messages, gathered or scattered; and memory of the first simulation
+/// that the system has not got back when the second one begins. All items at the host would take twice as
+/// much.
 const ROOM: u64 = 92 << 20;
 
 /// The most memory that this process has had. `None` on systems that do not tell it.

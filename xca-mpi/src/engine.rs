@@ -87,7 +87,8 @@ impl Engine for Mpi {
     }
 
     fn least_memory(&self, model: &Model, precision: Precision) -> u128 {
-        // Programs compare it with the memory of the host's machine, which has the cells of the processes on it.
+        // Programs compare it with the memory of the host's machine, which has the cells of the processes
+        // on it.
         let places = self.job.places();
         let here = places.iter().filter(|place| place.machine == places[0].machine).count();
         self.own.least_memory(model, precision) * here as u128 / places.len() as u128

@@ -12,11 +12,10 @@ const BLOCK: usize = 4 << 20;
 
 /// Measures a state whose model names no observables.
 ///
-/// Of each substate: minimum, mean and maximum of floats; minimum, sum and maximum of whole numbers; the mean
-/// of each component of a vector or an array of numbers; how many are true; how many are in each state. Of a
-/// population: the number of items, and the number in the fullest cell.
-/// Cells without ground, where `missing` is true, have no part in them. Floating numbers are added row by row,
-/// as in reductions.
+/// Of each substate: minimum, mean and maximum of floats; minimum, sum and maximum of whole numbers; the
+/// mean of each component of a vector or an array of numbers; how many are true; how many are in each
+/// state. Of a population: the number of items, and the number in the fullest cell. Cells without ground,
+/// where `missing` is true, have no part in them. Floating numbers are added row by row, as in reductions.
 ///
 /// # Errors
 /// Returns an error if the engine lost its state.

@@ -140,8 +140,8 @@ impl Host {
         cut.map_or(Ok(()), |cut| self.move_bounds(cut))
     }
 
-    /// Moves the bounds of parts. The parts give each other their rows, and start anew with these. An execution
-    /// has no other memory, so nothing else changes.
+    /// Moves the bounds of parts. The parts give each other their rows, and start anew with these. An
+    /// execution has no other memory, so nothing else changes.
     fn move_bounds(&mut self, cut: Cut) -> Result<(), EngineFailure> {
         for group in 0..self.left.len() {
             self.left[group] = self.census(group)?.left;

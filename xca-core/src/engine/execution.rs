@@ -124,12 +124,12 @@ pub trait Execution: Send {
     }
 
     /// Takes the bytes of a plane of a population in these rows of the whole space, for
-    /// [`Self::set_collected_items`]. The rows of each plane come in order, and the counts of rows before their
-    /// labels and values. Row 0 begins anew. `false` if the engine takes populations as a whole only.
+    /// [`Self::set_collected_items`]. The rows of each plane come in order, and the counts of rows before
+    /// their labels and values. Row 0 begins anew. `false` if the engine takes populations as a whole only.
     ///
     /// # Errors
-    /// Returns an error if the model does not have the plane, the number of bytes is wrong, or the engine lost
-    /// its state.
+    /// Returns an error if the model does not have the plane, the number of bytes is wrong, or the engine
+    /// lost its state.
     fn collect_items(
         &mut self,
         _plane: Plane,

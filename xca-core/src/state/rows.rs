@@ -9,8 +9,8 @@ use std::ops::Range;
 const BLOCK: usize = 1 << 22;
 
 impl State<'_> {
-    /// Replaces the items of a population. `make` gives those of some rows, one block of rows after the other.
-    /// An engine that takes items by rows needs no second copy of all.
+    /// Replaces the items of a population. `make` gives those of some rows, one block of rows after the
+    /// other. An engine that takes items by rows needs no second copy of all.
     pub(super) fn set_items_of_rows(
         &mut self,
         group: usize,
