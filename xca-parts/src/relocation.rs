@@ -37,7 +37,7 @@ impl Relocation {
     /// The values of the new part, of which `own` are there already.
     pub(crate) fn take(&self, own: Vec<u8>, length: usize) -> Result<Vec<u8>, EngineFailure> {
         let shares = self.receive(own, Ok)?;
-        self.taken.gather(&shares, Lengths::Same(length)).ok_or_else(|| self.garbled())
+        self.taken.gather(&shares, Lengths::Same(length)).ok_or_else(garbled)
     }
 
     /// As [`Self::give`], of items. `sizes` are those of their substates, in bytes.
@@ -56,7 +56,7 @@ impl Relocation {
         let mut shares = self.receive(own, |bytes| decode(&bytes))?;
         let empty = shares.iter_mut().filter(|share| share.counts.is_empty());
         empty.for_each(|share| *share = nothing());
-        self.taken.gather_items(shares, sizes).ok_or_else(|| self.garbled())
+        self.taken.gather_items(shares, sizes).ok_or_else(garbled)
     }
 
     /// Sends each part its share. Returns the own one.
@@ -70,8 +70,8 @@ impl Relocation {
             if part == self.own {
                 own = share;
             } else if self.given.has(part) {
-                let sent = self.link.lock().send(part, Tag::Rows, bytes(share).map_err(|e| self.fail(&e))?);
-                sent.map_err(|error| self.fail(&error.to_string()))?;
+                // A part that has ended tells the host why. The others need their rows all the same.
+                let _ = self.link.lock().send(part, Tag::Rows, bytes(share).map_err(broken)?);
             }
         }
         Ok(own)
@@ -90,8 +90,7 @@ impl Relocation {
                 own.take().unwrap_or_default()
             } else if self.taken.has(part) {
                 let received: Result<Vec<u8>, TransportError> = self.link.lock().receive(part, Tag::Rows);
-                let bytes = received.map_err(|error| self.fail(&error.to_string()))?;
-                share(bytes).map_err(|error| self.fail(&error))?
+                share(received.map_err(|_| EngineFailure::Elsewhere)?).map_err(broken)?
             } else {
                 T::default()
             };
@@ -99,14 +98,8 @@ impl Relocation {
         }
         Ok(shares)
     }
+}
 
-    fn garbled(&self) -> EngineFailure {
-        self.fail("the rows of another part do not fit")
-    }
-
-    /// Ends the own part, so that no other one waits for it.
-    pub(crate) fn fail(&self, reason: &str) -> EngineFailure {
-        self.link.lock().end();
-        broken(reason.to_owned())
-    }
+fn garbled() -> EngineFailure {
+    broken("the rows of another part do not fit".to_owned())
 }

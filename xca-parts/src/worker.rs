@@ -88,14 +88,14 @@ impl Worker {
         // There may not be memory for both states.
         self.execution = None;
         self.cut = cut;
-        self.begin().map_err(|error| relocation.fail(&error.to_string()))?;
+        self.begin().map_err(|error| broken(error.to_string()))?;
         for ((group, kept), sizes) in kept.into_iter().enumerate().zip(&sizes) {
             let execution = self.execution_mut()?;
             match kept {
                 Kept::Items(own) => {
                     let items = relocation.take_items(own, sizes)?;
                     let set = execution.set_population(group, &items);
-                    set.map_err(|fault| relocation.fail(&format!("its items do not fit: {fault}")))?;
+                    set.map_err(|fault| broken(format!("its items do not fit: {fault}")))?;
                 }
                 Kept::Cells(fields) => {
                     for (field, (own, size)) in fields.into_iter().zip(sizes).enumerate() {
