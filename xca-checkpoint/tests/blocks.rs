@@ -7,9 +7,9 @@ use std::path::Path;
 use xca_checkpoint::{
     Checkpoint, CheckpointFile, CheckpointFolder, Description, Identity, Origin, Outputs, Recorded,
 };
-use xca_core::Outline;
 use xca_core::engine::{Plane, SubstateId};
 use xca_core::prelude::*;
+use xca_core::{EngineFailure, Outline};
 use xca_cpu::Cpu;
 use xca_io::atomic::OutputFolder;
 use xca_parts::{Balance, Grid, Parts};
@@ -287,6 +287,29 @@ fn parts_take_cells_in_blocks() -> TestResult {
         }
     }
     assert_eq!(largest(&Reference, 1)?, 7 * 6 * 5 * 24, "takes whole planes");
+    Ok(())
+}
+
+/// What was collected before row 0 counts no more, and what does not fit changes nothing.
+#[test]
+fn items_are_collected_anew() -> TestResult {
+    let model = slope()?;
+    let reference = Simulation::new(&model, &Reference, RunOptions::default())?;
+    let (planes, _) = planes(&reference, usize::MAX)?;
+    let mut execution = parts([2, 1])?.start(&model, Precision::F64)?;
+    let of_stones = || planes.iter().filter(|(plane, _)| plane.group() == 1);
+    for _ in 0..2 {
+        for (plane, bytes) in of_stones() {
+            assert!(execution.collect_items(*plane, 0..30, bytes)?);
+            let error = execution.collect_items(*plane, 0..30, &bytes[4..]);
+            assert!(matches!(error, Err(EngineFailure::Input(_))), "{plane:?}: {error:?}");
+            assert!(execution.collect_items(*plane, 0..30, bytes)?);
+        }
+    }
+    assert_eq!(execution.items(1), 0);
+    execution.set_collected_items(1)?;
+    assert_eq!(Some(execution.items(1)), reference.outline().populations[1].map(|counts| counts.items));
+    assert!(execution.population(1)? == reference.read_population(1)?);
     Ok(())
 }
 
