@@ -16,11 +16,11 @@ pub use agreement::{Phase, STEPS_TO_AGREE, Stopped, agree};
 pub use border::Border;
 pub use execution::{Execution, Figure, Interruption, StepContext, Workers, step_by_step};
 pub use fault::{EngineFailure, Fault};
+pub(crate) use input::full_cell;
 pub use input::{
     check_cells, check_cells_of_part, check_plane, check_population, check_population_of_part,
     check_substate, check_values, check_values_of_cells, check_values_of_part, check_values_of_rows,
 };
-pub(crate) use input::full_cell;
 pub use input_error::InputError;
 pub use part::{Part, PartError};
 pub use plane::Plane;

@@ -57,7 +57,8 @@ mod tests {
 
     #[test]
     fn each_kind_in_each_execution_has_its_number() {
-        let parts = [Tag::Command, Tag::Reply, Tag::Least, Tag::Rows].into_iter().chain(Face::ALL.map(Tag::Edge));
+        let parts =
+            [Tag::Command, Tag::Reply, Tag::Least, Tag::Rows].into_iter().chain(Face::ALL.map(Tag::Edge));
         let kinds: Vec<Kind> =
             parts.map(Kind::Part).chain([Kind::Ended, Kind::Order, Kind::Place, Kind::Opened]).collect();
         let all = |execution: u32| kinds.iter().map(move |kind| number(execution, *kind));

@@ -59,8 +59,8 @@ impl<'a> RecordedState<'a> {
     /// # Errors
     /// Where there is no such substate, or the engine has lost its state.
     pub fn values(&self, substate: SubstateId) -> Result<Plane, EngineFailure> {
-        let stored = self.subject.model().stored(substate, self.precision);
-        Ok(Plane::all(stored, &self.source.values(substate)?))
+        let values = self.source.values(substate)?;
+        Ok(Plane::all(self.subject.model().stored(substate, self.precision), &values))
     }
 
     /// What a view draws.

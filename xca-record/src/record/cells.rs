@@ -88,15 +88,12 @@ impl<'a> CellState<'a> {
     pub(super) fn seen(&self) -> Result<Seen, EngineFailure> {
         let schema = self.group.schema();
         let stored = self.group.stored(self.precision);
-        let cells: Vec<usize> = drawn_cells(self.view, self.geometry).collect();
-        let bytes = |field: usize| {
-            let substate = self.substate(field);
-            // All are drawn in their order.
-            if cells.len() == self.geometry.cells() {
-                self.source.values(substate)
-            } else {
-                self.source.values_in(substate, stored[field].size(), &cells)
-            }
+        // Where all are drawn, it is in their order.
+        let is_whole = self.view.block || self.geometry.extents()[self.view.axis] == 1;
+        let cells: Option<Vec<usize>> = (!is_whole).then(|| drawn_cells(self.view, self.geometry).collect());
+        let bytes = |field: usize| match &cells {
+            None => self.source.values(self.substate(field)),
+            Some(cells) => self.source.values_in(self.substate(field), stored[field].size(), cells),
         };
         let plane = |field: usize| Ok::<Plane, EngineFailure>(Plane::all(stored[field], &bytes(field)?));
         let drawn = match self.view.quantity() {
@@ -109,7 +106,8 @@ impl<'a> CellState<'a> {
                 let fields = stored.iter().zip(&all);
                 let fields: Vec<StoredBytes<'_>> =
                     fields.map(|(stored, bytes)| StoredBytes { stored: *stored, bytes }).collect();
-                DrawnValues::of_numbers(computation.values(self.precision, &fields, 0..cells.len()))
+                let count = cells.as_ref().map_or(self.geometry.cells(), Vec::len);
+                DrawnValues::of_numbers(computation.values(self.precision, &fields, 0..count))
             }
         };
         let heights = self.view.relief.map(|(field, _)| plane(field)).transpose()?;
