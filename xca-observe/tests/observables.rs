@@ -128,19 +128,27 @@ struct Star {
     flow: [f64; 2],
 }
 
-/// The sum of the numbers is infinite, their mean is not; also where some cells are left out.
+/// The sum of the numbers is infinite, their mean is not; also where some cells are left out, and where values
+/// come in several blocks.
 #[test]
 fn means_of_the_largest_numbers_are_finite() -> TestResult {
-    let model = Model::builder("stars")
-        .extents([4, 3, 1])
-        .substates::<Star>()
-        .fill(|site| match site.cell() {
-            [0, ..] => Star { mass: f64::NAN, flow: [f64::NAN; 2] },
-            _ => Star { mass: 1.5e308, flow: [1.0, 1.25e308] },
-        })
-        .build()?;
-    let missing: Vec<bool> = (0..12).map(|cell| cell % 4 == 0).collect();
-    let found = measured(&model, Some(&missing))?;
+    for extents in [[4, 3, 1], [64, 128, 100]] {
+        let model = Model::builder("stars")
+            .extents(extents)
+            .substates::<Star>()
+            .fill(|site| match site.cell() {
+                [0, ..] => Star { mass: f64::NAN, flow: [f64::NAN; 2] },
+                _ => Star { mass: 1.5e308, flow: [1.0, 1.25e308] },
+            })
+            .build()?;
+        let missing: Vec<bool> = (0..model.geometry().cells()).map(|cell| cell % extents[0] == 0).collect();
+        let simulation = Simulation::new(&model, &Cpu::with_threads(1)?, RunOptions::default())?;
+        check_means(&measure(&simulation, Some(&missing))?);
+    }
+    Ok(())
+}
+
+fn check_means(found: &[Observable]) {
     let wanted = [
         ("mass_min", 1.5e308),
         ("mass_mean", 1.5e308),
@@ -149,10 +157,9 @@ fn means_of_the_largest_numbers_are_finite() -> TestResult {
         ("flow_1_mean", 1.25e308),
     ];
     assert_eq!(found.len(), wanted.len());
-    for ((name, value), (wanted_name, wanted)) in found.iter().zip(wanted) {
-        assert!(name == wanted_name && (value / wanted - 1.0).abs() < 1e-15, "{name}: {value}");
+    for (Observable { name, value, .. }, (wanted_name, wanted)) in found.iter().zip(wanted) {
+        assert!(name == wanted_name && (value / wanted - 1.0).abs() < 1e-10, "{name}: {value}");
     }
-    Ok(())
 }
 
 #[derive(Substates, Clone, Copy)]
