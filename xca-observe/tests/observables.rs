@@ -117,6 +117,7 @@ fn cells_without_ground_count_for_nothing() -> TestResult {
         ("grain_items", 3.0),
     ];
     assert_eq!(found[10..14], wanted(&last));
+    assert_eq!(found[14..], measured(&model()?, None)?[14..], "grains");
     let none = measured(&model()?, Some(&[true; 12]))?;
     assert!(none[0].1.is_nan() && none[1].1.is_nan() && none[4].1 == 0.0, "{none:?}");
     Ok(())
