@@ -129,8 +129,8 @@ struct Star {
     flow: [f64; 2],
 }
 
-/// The sum of the numbers is infinite, their mean is not; also where some cells are left out, and where values
-/// come in several blocks.
+/// The sum of the numbers is infinite, their mean is not; also where some cells are left out, and where
+/// values come in several blocks.
 #[test]
 fn means_of_the_largest_numbers_are_finite() -> TestResult {
     for extents in [[4, 3, 1], [64, 128, 100]] {
