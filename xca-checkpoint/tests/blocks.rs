@@ -7,9 +7,9 @@ use std::path::Path;
 use xca_checkpoint::{
     Checkpoint, CheckpointFile, CheckpointFolder, Description, Identity, Origin, Outputs, Recorded,
 };
-use xca_core::engine::{Plane, SubstateId};
+use xca_core::engine::{LabelledItems, Plane, SubstateId};
 use xca_core::prelude::*;
-use xca_core::{EngineFailure, Outline};
+use xca_core::{EngineFailure, GroupSnapshot, Outline};
 use xca_cpu::Cpu;
 use xca_io::atomic::OutputFolder;
 use xca_parts::{Balance, Grid, Parts};
@@ -309,7 +309,53 @@ fn items_are_collected_anew() -> TestResult {
     assert_eq!(execution.items(1), 0);
     execution.set_collected_items(1)?;
     assert_eq!(Some(execution.items(1)), reference.outline().populations[1].map(|counts| counts.items));
-    assert!(execution.population(1)? == reference.read_population(1)?);
+    let stones = GroupSnapshot::Population(execution.population(1)?, 0);
+    assert!(stones == reference.snapshot()?.groups[1]);
+    // They also come by label, in any ranges.
+    let all = LabelledItems::of(execution.population(1)?, &[24, 8, 4], |cell| cell as u32);
+    assert_eq!(execution.label_counts(1)?, Some(all.counts()));
+    assert_eq!(execution.label_counts(0)?, None, "cells have no labels");
+    for labels in [0..1, 3..17, 17..1 << 32, 0..1 << 32] {
+        assert!(execution.labelled_items(1, labels.clone())? == all.within(labels.clone(), &[24, 8, 4]));
+        let wanted = all.labels.iter().filter(|label| labels.contains(&u64::from(**label))).count();
+        assert_eq!(execution.labelled_items(1, labels.clone())?.labels.len(), wanted, "{labels:?}");
+    }
+    Ok(())
+}
+
+/// Files have items by label: the same after each step, though parts keep what they have sorted.
+#[test]
+fn items_come_by_label() -> TestResult {
+    let model = slope()?;
+    let by_label = |simulation: &Simulation| -> Result<LabelledItems, EngineFailure> {
+        let mut blocks = Vec::new();
+        simulation.read_items(1, |items| {
+            blocks.push(items);
+            Ok::<(), EngineFailure>(())
+        })?;
+        Ok(LabelledItems::merged(blocks, &[24, 8, 4]))
+    };
+    let mut reference = Simulation::new(&model, &Reference, RunOptions::default())?;
+    let mut all = Vec::new();
+    for cut in CUTS {
+        all.push(Simulation::new(&model, &parts(cut)?, RunOptions::default())?);
+    }
+    for step in 0..4 {
+        let stones: Vec<Item<Stone>> = reference.state().items()?;
+        let wanted = by_label(&reference)?;
+        assert!(wanted.labels.is_sorted() && wanted.labels.len() == stones.len());
+        for stone in stones {
+            let place = wanted.labels.binary_search(&stone.label).unwrap();
+            assert_eq!(wanted.cells[place] as usize, model.geometry().linear(stone.cell));
+            assert_eq!(wanted.fields[1][8 * place..8 * place + 8], stone.state.mass.to_ne_bytes());
+        }
+        for simulation in &mut all {
+            assert!(by_label(simulation)? == wanted, "step {step}");
+            assert!(by_label(simulation)? == wanted, "step {step}, again");
+            simulation.run(1)?;
+        }
+        reference.run(1)?;
+    }
     Ok(())
 }
 

@@ -6,6 +6,7 @@ mod execution;
 mod fault;
 pub(crate) mod input;
 mod input_error;
+mod labelled;
 mod part;
 mod plane;
 mod population;
@@ -22,6 +23,7 @@ pub use input::{
     check_substate, check_values, check_values_of_cells, check_values_of_part, check_values_of_rows,
 };
 pub use input_error::InputError;
+pub use labelled::LabelledItems;
 pub use part::{Part, PartError};
 pub use plane::Plane;
 pub use population::Population;

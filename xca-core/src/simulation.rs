@@ -3,6 +3,7 @@
 mod batch;
 mod blocks;
 mod finite;
+mod labelled;
 mod outputs;
 mod restore;
 mod snapshot;

@@ -42,7 +42,8 @@ pub use read::{ReadColumn, ReadFrame, ReadValues, read};
 pub use space::Space;
 
 use super::atomic::write_atomically;
-use std::io::{self, Write};
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 /// The column of the positions.
@@ -138,29 +139,62 @@ pub fn write(
     positions: &[[f64; 3]],
     columns: &[Column<'_>],
 ) -> Result<(), WriteXyzError> {
+    check_names(path, columns)?;
     check(path, positions.len(), columns)?;
+    write_rows(path, time, space, (positions.len(), columns), |rows| rows.add(positions, columns))
+}
+
+/// Writes one frame of particles that need not be in memory as a whole. `shape` has the number of particles,
+/// and columns with the names and types of all, whose values do not matter. `give` adds the particles.
+///
+/// # Errors
+/// [`WriteXyzError`], also with an error of `give`.
+pub fn write_rows(
+    path: &Path,
+    time: f64,
+    space: Option<&Space>,
+    (particles, columns): (usize, &[Column<'_>]),
+    give: impl FnOnce(&mut Rows<'_>) -> io::Result<()>,
+) -> Result<(), WriteXyzError> {
+    check_names(path, columns)?;
     write_atomically(path, |file| {
-        write!(file, "{}\n{}", positions.len(), comment::lattice(space))?;
+        write!(file, "{particles}\n{}", comment::lattice(space))?;
         write!(file, "Properties={POSITIONS}:R:3")?;
         for column in columns {
             write!(file, ":{}:{}:{}", column.name, column.values.letter(), column.components)?;
         }
         writeln!(file, " Time={time:?}")?;
-        for (particle, [x, y, z]) in positions.iter().enumerate() {
-            write!(file, "{x:?} {y:?} {z:?}")?;
-            for column in columns {
-                for component in 0..column.components {
-                    column.values.write(file, particle * column.components + component)?;
-                }
-            }
-            writeln!(file)?;
-        }
-        Ok(())
+        give(&mut Rows { file })
     })?;
     Ok(())
 }
 
-fn check(path: &Path, particles: usize, columns: &[Column<'_>]) -> Result<(), WriteXyzError> {
+/// The rows of a frame that is written.
+#[derive(Debug)]
+pub struct Rows<'a> {
+    file: &'a mut BufWriter<File>,
+}
+
+impl Rows<'_> {
+    /// Adds particles. Each column has one value per particle and component.
+    ///
+    /// # Errors
+    /// If the system returns an error.
+    pub fn add(&mut self, positions: &[[f64; 3]], columns: &[Column<'_>]) -> io::Result<()> {
+        for (particle, [x, y, z]) in positions.iter().enumerate() {
+            write!(self.file, "{x:?} {y:?} {z:?}")?;
+            for column in columns {
+                for component in 0..column.components {
+                    column.values.write(self.file, particle * column.components + component)?;
+                }
+            }
+            writeln!(self.file)?;
+        }
+        Ok(())
+    }
+}
+
+fn check_names(path: &Path, columns: &[Column<'_>]) -> Result<(), WriteXyzError> {
     for (number, column) in columns.iter().enumerate() {
         let named = || (path.to_owned(), column.name.to_owned());
         if !is_word(column.name) {
@@ -172,6 +206,13 @@ fn check(path: &Path, particles: usize, columns: &[Column<'_>]) -> Result<(), Wr
             let (path, column) = named();
             return Err(WriteXyzError::Repeated { path, column });
         }
+    }
+    Ok(())
+}
+
+fn check(path: &Path, particles: usize, columns: &[Column<'_>]) -> Result<(), WriteXyzError> {
+    for column in columns {
+        let named = || (path.to_owned(), column.name.to_owned());
         let wanted = particles.saturating_mul(column.components);
         if column.components == 0 || column.values.len() != wanted {
             let (path, name) = named();

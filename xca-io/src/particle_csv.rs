@@ -14,6 +14,8 @@ mod lines;
 mod read;
 
 use std::fmt::{self, Write as _};
+use std::fs::File;
+use std::io::{self, BufWriter};
 use std::path::Path;
 
 use super::atomic::write_atomically;
@@ -79,28 +81,59 @@ pub fn write(path: &Path, labels: &[u32], columns: &[(&str, Column<'_>)]) -> Res
     if let Some(pair) = order.windows(2).find(|pair| labels[pair[0]] == labels[pair[1]]) {
         return Err(WriteParticlesError::DuplicateLabel { path: path.to_owned(), label: labels[pair[0]] });
     }
+    let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
+    write_rows(path, &names, |rows| {
+        let columns: Vec<Column<'_>> = columns.iter().map(|(_, column)| *column).collect();
+        order.iter().try_for_each(|place| rows.add(labels, &columns, *place))
+    })
+}
+
+/// Writes particles that need not be in memory as a whole: `give` adds them one by one, by label.
+///
+/// # Errors
+/// [`WriteParticlesError::Write`], also with an error of `give`.
+pub fn write_rows(
+    path: &Path,
+    columns: &[&str],
+    give: impl FnOnce(&mut Rows<'_>) -> io::Result<()>,
+) -> Result<(), WriteParticlesError> {
     write_atomically(path, |file| {
         let mut csv = csv::Writer::from_writer(file);
         csv.write_field(LABEL)?;
-        for (name, _) in columns {
+        for name in columns {
             csv.write_field(name)?;
         }
         csv.write_record(None::<&[u8]>)?;
-        let mut text = String::new();
-        for &i in &order {
-            text.clear();
-            write!(text, "{}", labels[i]).map_err(std::io::Error::other)?;
-            csv.write_field(&text)?;
-            for (_, column) in columns {
-                text.clear();
-                column.format(i, &mut text).map_err(std::io::Error::other)?;
-                csv.write_field(&text)?;
-            }
-            csv.write_record(None::<&[u8]>)?;
-        }
-        csv.flush()
+        let mut rows = Rows { csv, text: String::new() };
+        give(&mut rows)?;
+        rows.csv.flush()
     })?;
     Ok(())
+}
+
+/// The rows of a table that is written.
+#[derive(Debug)]
+pub struct Rows<'a> {
+    csv: csv::Writer<&'a mut BufWriter<File>>,
+    text: String,
+}
+
+impl Rows<'_> {
+    /// Adds the particle at this place of the labels and columns. There are as many columns as names.
+    ///
+    /// # Errors
+    /// If the system returns an error.
+    pub fn add(&mut self, labels: &[u32], columns: &[Column<'_>], place: usize) -> io::Result<()> {
+        self.text.clear();
+        write!(self.text, "{}", labels[place]).map_err(io::Error::other)?;
+        self.csv.write_field(&self.text)?;
+        for column in columns {
+            self.text.clear();
+            column.format(place, &mut self.text).map_err(io::Error::other)?;
+            self.csv.write_field(&self.text)?;
+        }
+        Ok(self.csv.write_record(None::<&[u8]>)?)
+    }
 }
 
 #[cfg(test)]

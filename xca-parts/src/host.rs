@@ -15,9 +15,9 @@ use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use xca_core::engine::{
-    EngineFailure, Execution, Fault, Figure, InputError, Interruption, Part, Plane, Population, StepContext,
-    SubstateId, check_cells, check_plane, check_population, check_substate, check_values,
-    check_values_of_cells, check_values_of_rows,
+    EngineFailure, Execution, Fault, Figure, InputError, Interruption, LabelledItems, Part, Plane,
+    Population, StepContext, SubstateId, check_cells, check_plane, check_population, check_substate,
+    check_values, check_values_of_cells, check_values_of_rows,
 };
 use xca_core::model::GroupKind;
 use xca_core::reduction::{Reduced, ReducedRows, Reduction};
@@ -301,6 +301,29 @@ impl Execution for Host {
         let parts: Option<Vec<Population>> = replies.into_iter().map(population).collect();
         let whole = parts.and_then(|parts| self.rows.gather_items(parts, &self.sizes(group)));
         whole.ok_or_else(|| self.garbled())
+    }
+
+    fn label_counts(&self, group: usize) -> Result<Option<Vec<u32>>, EngineFailure> {
+        if !self.is_population(group) {
+            return Ok(None);
+        }
+        let mut all = Vec::new();
+        for reply in self.ask(&Command::LabelCounts { group })? {
+            let Reply::LabelCounts { counts } = reply else { return Err(self.garbled()) };
+            all.resize(counts.len(), 0);
+            all.iter_mut().zip(counts).for_each(|(all, count)| *all += count);
+        }
+        Ok(Some(all))
+    }
+
+    fn labelled_items(&self, group: usize, labels: Range<u64>) -> Result<LabelledItems, EngineFailure> {
+        let items = |reply| match reply {
+            Reply::LabelledItems { items } => Some(items),
+            _ => None,
+        };
+        let replies = self.ask(&Command::LabelledItems { group, labels })?;
+        let lists: Option<Vec<LabelledItems>> = replies.into_iter().map(items).collect();
+        lists.map(|lists| LabelledItems::merged(lists, &self.sizes(group))).ok_or_else(|| self.garbled())
     }
 
     fn set_population(&mut self, group: usize, population: &Population) -> Result<(), Fault> {

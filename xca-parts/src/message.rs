@@ -5,7 +5,7 @@ use crate::fault::FaultMessage;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
-use xca_core::engine::{Plane, Population, RowWork, StepContext, SubstateId};
+use xca_core::engine::{LabelledItems, Plane, Population, RowWork, StepContext, SubstateId};
 use xca_core::reduction::{ReducedRows, Reduction};
 
 /// A command. All parts get the same commands, with the data of their own cells.
@@ -72,6 +72,15 @@ pub(crate) enum Command {
     SetCollectedItems {
         group: usize,
     },
+    /// Requests the number of items in each block of labels.
+    LabelCounts {
+        group: usize,
+    },
+    /// Requests the items with labels in this range.
+    LabelledItems {
+        group: usize,
+        labels: Range<u64>,
+    },
     /// Requests the number of items in each row.
     ItemsOfRows {
         group: usize,
@@ -87,6 +96,35 @@ pub(crate) enum Command {
     },
     Memory,
     Figures,
+}
+
+impl Command {
+    /// Whether it only asks for something.
+    pub(crate) fn is_question(&self) -> bool {
+        match self {
+            Self::Read { .. }
+            | Self::ReadCells { .. }
+            | Self::ReduceRows { .. }
+            | Self::ReadRows { .. }
+            | Self::Population { .. }
+            | Self::LabelCounts { .. }
+            | Self::LabelledItems { .. }
+            | Self::ItemsOfRows { .. }
+            | Self::Census { .. }
+            | Self::Work
+            | Self::Memory
+            | Self::Figures => true,
+            Self::Run { .. }
+            | Self::RunSteps { .. }
+            | Self::Write { .. }
+            | Self::WriteCells { .. }
+            | Self::WriteRows { .. }
+            | Self::SetPopulation { .. }
+            | Self::CollectItems { .. }
+            | Self::SetCollectedItems { .. }
+            | Self::Move { .. } => false,
+        }
+    }
 }
 
 /// The content of a [`StepContext`], as numbers.
@@ -147,6 +185,12 @@ pub(crate) enum Reply {
     },
     ItemsOfRows {
         items: Vec<usize>,
+    },
+    LabelCounts {
+        counts: Vec<u32>,
+    },
+    LabelledItems {
+        items: LabelledItems,
     },
     Census {
         census: Census,

@@ -13,10 +13,13 @@ use crate::traffic::Traffic;
 use crate::transport::{Tag, Transport, TransportError};
 use serde_bytes::ByteBuf;
 use std::any::Any;
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
-use xca_core::engine::{EngineFailure, Execution, Fault, Plane, Population, StepContext, SubstateId};
+use xca_core::engine::{
+    EngineFailure, Execution, Fault, LabelledItems, Plane, Population, StepContext, SubstateId,
+};
 use xca_core::model::{Group, GroupKind};
 use xca_core::{Engine, Model, ParameterSet, Precision, StartError, StoredType};
 
@@ -32,6 +35,8 @@ pub(crate) struct Worker {
     execution: Option<Box<dyn Execution>>,
     /// Of each group, the items that are to replace those of the execution.
     collected: Vec<CollectedItems>,
+    /// The items of populations by label, by their groups, until the state changes.
+    by_label: BTreeMap<usize, LabelledItems>,
     traffic: Traffic,
 }
 
@@ -41,8 +46,9 @@ impl Worker {
         let (parameters, traffic) = (model.parameters().clone(), Traffic::default());
         let collected = Vec::new();
         let execution = None;
+        let by_label = BTreeMap::new();
         let mut worker =
-            Self { model, precision, parameters, engine, link, cut, execution, collected, traffic };
+            Self { model, precision, parameters, engine, link, cut, execution, collected, by_label, traffic };
         worker.begin()?;
         Ok(worker)
     }
@@ -60,16 +66,30 @@ impl Worker {
         Ok(())
     }
 
+    /// The sizes of the substates of a group, in bytes.
+    fn sizes(&self, group: usize) -> Vec<usize> {
+        self.model.groups()[group].stored(self.precision).into_iter().map(StoredType::size).collect()
+    }
+
+    /// The own items of a population by label.
+    fn by_label(&mut self, group: usize) -> Result<&LabelledItems, EngineFailure> {
+        if !self.by_label.contains_key(&group) {
+            let (geometry, part) = (self.model.geometry(), self.cut.part(self.link.lock().number()));
+            let cell = |number: usize| geometry.linear(part.indices(geometry, number)) as u32;
+            let population = self.execution()?.population(group)?;
+            let items = LabelledItems::of(population, &self.sizes(group), cell);
+            self.by_label.insert(group, items);
+        }
+        Ok(&self.by_label[&group])
+    }
+
     /// Moves the bounds of the part: gives others the rows that become theirs, starts anew, and takes what
     /// others give.
     fn move_to(&mut self, cut: Cut) -> Result<(), EngineFailure> {
         let model = self.model.clone();
         let relocation = Relocation::new(self.link.clone(), model.geometry(), &self.cut, &cut);
         let width = model.geometry().extents()[0];
-        let sizes = |group: &Group| -> Vec<usize> {
-            group.stored(self.precision).into_iter().map(StoredType::size).collect()
-        };
-        let sizes: Vec<Vec<usize>> = model.groups().iter().map(sizes).collect();
+        let sizes: Vec<Vec<usize>> = (0..model.groups().len()).map(|group| self.sizes(group)).collect();
         let mut kept = Vec::with_capacity(sizes.len());
         for ((group, definition), sizes) in model.groups().iter().enumerate().zip(&sizes) {
             let execution = self.execution()?;
@@ -128,6 +148,9 @@ impl Worker {
     }
 
     fn answer(&mut self, command: Command) -> Result<Reply, EngineFailure> {
+        if !command.is_question() {
+            self.by_label.clear();
+        }
         Ok(match command {
             Command::Run { processes, moment } => {
                 let result = self.run(&moment, |execution, context| execution.run(processes, context))?;
@@ -178,6 +201,11 @@ impl Worker {
                     }
                     result => self.ended(result.map_err(|fault| (0, fault))),
                 }
+            }
+            Command::LabelCounts { group } => Reply::LabelCounts { counts: self.by_label(group)?.counts() },
+            Command::LabelledItems { group, labels } => {
+                let sizes = self.sizes(group);
+                Reply::LabelledItems { items: self.by_label(group)?.within(labels, &sizes) }
             }
             Command::ItemsOfRows { group } => {
                 let counts = self.execution()?.population(group)?.counts;

@@ -29,4 +29,4 @@ pub(crate) use space_time::is_row;
 pub use subject::{Subject, View};
 pub use writer::Writer;
 
-pub use crate::record::{CellState, CellSubstate, ItemState, Plane, SubstateValues};
+pub use crate::record::{CellState, CellSubstate, ItemBlock, ItemState, Plane, SubstateValues};

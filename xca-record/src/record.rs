@@ -25,7 +25,7 @@ pub(crate) use cells::lattice;
 pub use drawing::{Drawing, Scales};
 pub(crate) use folder::SERIES;
 pub use folder::{COMPARISON, Claim, ENSEMBLE, FRAMES, FolderError, Kind, LockedFolder, REPORT, RunFolder};
-pub use items::{ItemColumn, ItemState, column_type};
+pub use items::{ItemBlock, ItemColumn, ItemState, column_type};
 pub use look::{Look, ViewKind};
 pub(crate) use painting::Frame;
 pub use saved::SavedError;
@@ -34,6 +34,7 @@ pub use seen::Seen;
 pub(crate) use shown::Shown;
 pub use sight::{Sight, Subject};
 pub(crate) use source::Source;
+pub(crate) use substate_values::Unwritten;
 pub use substate_values::{CellSubstate, SubstateValues};
 pub(crate) use typed::{NoValue, retyped};
 pub use values::Plane;
@@ -169,7 +170,8 @@ impl Recorder {
 
     /// Records the present state as a row of observables and by the formats, unless that is done already.
     pub fn record(&mut self, simulation: &mut Simulation) -> Result<(), RecordError> {
-        check_memory(self.memory_of_outputs(simulation), "the outputs of this state")?;
+        let memory = self.memory_of_outputs(simulation).map_err(RunError::from)?;
+        check_memory(memory, "the outputs of this state")?;
         if self.steps.last() != Some(&simulation.step_number()) {
             self.observe(simulation)?;
             self.write(simulation, |writer, state| writer.record(state))?;

@@ -1,6 +1,6 @@
 //! A model that runs on an engine: its state and its steps.
 
-use super::{EngineFailure, Fault, Plane, Population, RowWork, SubstateId};
+use super::{EngineFailure, Fault, LabelledItems, Plane, Population, RowWork, SubstateId};
 use crate::parameter_set::ParameterSet;
 use crate::reduction::{Reduced, ReducedRows, Reduction};
 use std::any::Any;
@@ -153,6 +153,23 @@ pub trait Execution: Send {
     /// # Errors
     /// As [`Self::read`].
     fn population(&self, group: usize) -> Result<Population, EngineFailure>;
+
+    /// For each block of labels ([`LabelledItems::BLOCK`] of them) the number of items. `None` for a group of
+    /// cells, or if the engine gives populations as a whole only.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    fn label_counts(&self, _group: usize) -> Result<Option<Vec<u32>>, EngineFailure> {
+        Ok(None)
+    }
+
+    /// The items of a population with labels in this range, of an engine with [`Self::label_counts`].
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    fn labelled_items(&self, _group: usize, _labels: Range<u64>) -> Result<LabelledItems, EngineFailure> {
+        Ok(LabelledItems::default())
+    }
 
     /// Replaces all items of a population.
     ///

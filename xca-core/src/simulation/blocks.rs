@@ -100,15 +100,6 @@ impl Simulation {
         self.execution.read_cells(substate, cells)
     }
 
-    /// All items of the population with this number among the groups.
-    ///
-    /// # Errors
-    /// Returns an error if there is no such population, or the engine lost its state.
-    pub fn read_population(&self, group: usize) -> Result<Population, EngineFailure> {
-        check_plane(&self.model, Plane::Labels(group)).map_err(EngineFailure::Input)?;
-        self.execution.population(group)
-    }
-
     /// Passes on the planes of a group by rows.
     fn read_rows_of<E: From<EngineFailure>>(
         &self,

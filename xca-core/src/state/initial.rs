@@ -68,7 +68,7 @@ impl State<'_> {
     ) -> Result<(), StateError> {
         let group = self.population_of::<S>()?;
         let width = self.geometry().extents()[0];
-        let mut first = 0;
+        let mut first = 0_u32;
         self.set_items_of_rows(group, |state, rows| {
             let (mut counts, mut states) = (Vec::with_capacity(width * rows.len()), Vec::new());
             for site in state.sites(group).within(rows.start * width..rows.end * width) {
@@ -76,8 +76,10 @@ impl State<'_> {
                 states.extend(items(site));
                 counts.push((states.len() - before) as u32);
             }
-            let labels: Vec<u32> = (first..).take(states.len()).collect();
-            first += states.len() as u32;
+            // Too many items are refused.
+            let count = states.len() as u32;
+            let labels = (0..count).map(|number| first.wrapping_add(number)).collect();
+            first = first.wrapping_add(count);
             Population { counts, labels, fields: state.encoded(group, states.into_iter()) }
         })
     }

@@ -1,7 +1,7 @@
 //! Items that are made row by row, for engines that take them so.
 
 use super::{State, StateError};
-use crate::engine::{Plane, Population, SubstateId, full_cell};
+use crate::engine::{EngineFailure, InputError, Plane, Population, SubstateId, full_cell};
 use crate::model::GroupKind;
 use std::ops::Range;
 
@@ -26,11 +26,18 @@ impl State<'_> {
         let GroupKind::Population { slots, .. } = *definition.kind() else { return Ok(()) };
         let size: usize = definition.stored(self.precision).iter().map(|stored| stored.size()).sum();
         let step = (BLOCK / (width * size).max(1)).max(1);
+        let mut items = 0;
         for start in (0..rows).step_by(step) {
             let rows = start..(start + step).min(rows);
             let Population { counts, labels, fields } = make(self, rows.clone());
             let place = |cell: usize| self.geometry().indices(start * width + cell);
             full_cell(&counts, slots, place).map_or(Ok(()), Err)?;
+            items += labels.len() as u64;
+            if items > 1 << 32 {
+                let reason = "it has more items than there are labels".to_owned();
+                let substates = definition.schema().name;
+                return Err(EngineFailure::Input(InputError::Items { substates, reason }).into());
+            }
             self.execution.collect_items(
                 Plane::Counts(group),
                 rows.clone(),

@@ -111,7 +111,9 @@ impl<'a> Values<'a> {
         }
     }
 
-    fn numbers(&self) -> NumberType {
+    /// The type of the scalars.
+    #[must_use]
+    pub fn numbers(&self) -> NumberType {
         match self.data {
             Data::U8(_) => NumberType::U8,
             Data::I32(_) => NumberType::I32,
@@ -136,8 +138,11 @@ impl<'a> Values<'a> {
         matches!(self.numbers(), NumberType::F32 | NumberType::F64)
     }
 
-    /// Writes the scalars in little-endian order.
-    pub(super) fn write_to(&self, out: &mut dyn Write) -> io::Result<()> {
+    /// Writes the scalars in little-endian order, as a [`ValueSource`] does.
+    ///
+    /// # Errors
+    /// The error of `out`, or of a source.
+    pub fn write_to(&self, out: &mut dyn Write) -> io::Result<()> {
         match self.data {
             Data::U8(v) => out.write_all(v),
             Data::I32(v) => write_little_endian(out, v, i32::to_le_bytes),

@@ -2,7 +2,7 @@
 
 use super::{Moment, OutputFile, RecordedState, SavedState, SavedView, Subject, View, Writer};
 use crate::failure::Failure;
-use crate::record::{ItemState, NoValue, Plane, SubstateValues, retyped};
+use crate::record::{ItemBlock, ItemState, NoValue, Plane, SubstateValues, Unwritten, retyped};
 use std::collections::BTreeSet;
 use std::path::Path;
 use xca_core::{Precision, ScalarType, StoredScalar};
@@ -46,7 +46,7 @@ impl Writer for ExtendedXyz {
 
     fn record(&mut self, state: RecordedState<'_>) -> Result<(), Failure> {
         for view in state.subject().views() {
-            if let Some(items) = state.items(view)? {
+            if let Some(items) = state.items(view) {
                 write(state, view, &items)?;
             }
         }
@@ -170,23 +170,43 @@ const RESERVED: [&str; 2] = [IDENTIFIER, "pos"];
 
 fn write(state: RecordedState<'_>, view: View<'_>, items: &ItemState<'_>) -> Result<(), Failure> {
     let [origin, sides] = items.space();
-    let periodic = state.subject().model().geometry().toroidal();
+    let space = Space { origin, sides, periodic: state.subject().model().geometry().toroidal() };
+    let (path, precision, count) = (state.path(&file(view)), state.precision(), items.count()?);
+    items.with_none(|none| {
+        with_columns(none, items.radius(), precision, |columns| {
+            extended_xyz::write_rows(&path, state.time(), Some(&space), (count, columns), |rows| {
+                let written = items.blocks(|block| {
+                    let positions = block.positions_on_map().to_points();
+                    let add = |columns: &[Column<'_>]| rows.add(&positions, columns);
+                    Ok::<(), Unwritten>(with_columns(block, items.radius(), precision, add)?)
+                });
+                written.map_err(|Unwritten(error)| error)
+            })
+        })
+    })?;
+    Ok(())
+}
+
+/// Makes columns of items, and does something with them.
+fn with_columns<T>(
+    items: &ItemBlock<'_>,
+    radius: Option<f64>,
+    precision: Precision,
+    work: impl FnOnce(&[Column<'_>]) -> T,
+) -> T {
     let labels: Vec<i64> = items.labels().iter().map(|label| i64::from(*label)).collect();
     let substates = items.substates();
     let named: Vec<NamedNumbers<'_>> =
-        substates.iter().map(|substate| NamedNumbers::new(substate, state.precision())).collect();
+        substates.iter().map(|substate| NamedNumbers::new(substate, precision)).collect();
     // A substate of this name is the radius of each item.
-    let radius = items.radius().filter(|_| named.iter().all(|column| column.name != RADIUS));
+    let radius = radius.filter(|_| named.iter().all(|column| column.name != RADIUS));
     let radii = vec![radius.unwrap_or_default(); labels.len()];
     let mut columns = vec![Column::new(IDENTIFIER, 1, Values::Whole(&labels))];
     if radius.is_some() {
         columns.push(Column::new(RADIUS, 1, Values::F64(&radii)));
     }
     columns.extend(named.iter().map(NamedNumbers::column));
-    let positions = items.positions_on_map().to_points();
-    let space = Space { origin, sides, periodic };
-    extended_xyz::write(&state.path(&file(view)), state.time(), Some(&space), &positions, &columns)?;
-    Ok(())
+    work(&columns)
 }
 
 /// A substate as a column.

@@ -47,10 +47,7 @@ impl<'a> RecordedState<'a> {
     }
 
     /// What a view shows of items; nothing where it shows cells.
-    ///
-    /// # Errors
-    /// Where the engine has lost its state.
-    pub fn items(&self, view: View<'a>) -> Result<Option<ItemState<'a>>, EngineFailure> {
+    pub fn items(&self, view: View<'a>) -> Option<ItemState<'a>> {
         view.shown.items(self.subject.model(), self.precision, self.source)
     }
 

@@ -2,6 +2,7 @@
 
 use super::{Moment, OutputFile, RecordedState, Subject, View, Writer};
 use crate::failure::Failure;
+use crate::record::Unwritten;
 use xca_io::particle_csv::{self, Column};
 
 /// `final.csv` of the first population that is saved, `final_NAME.csv` of the others.
@@ -32,13 +33,23 @@ impl Writer for ItemTable {
 
     fn finish(&mut self, state: RecordedState<'_>) -> Result<(), Failure> {
         for view in state.subject().views() {
-            let Some(items) = state.items(view)? else { continue };
-            let table = items.table();
-            let columns: Vec<(&str, Column<'_>)> = table
-                .iter()
-                .map(|column| (column.header.as_str(), Column::Typed(column.column_type, &column.values)))
-                .collect();
-            particle_csv::write(&state.path(&file(state.subject(), view)), items.labels(), &columns)?;
+            let Some(items) = state.items(view) else { continue };
+            let path = state.path(&file(state.subject(), view));
+            let table = items.with_none(|none| none.table());
+            let headers: Vec<&str> = table.iter().map(|column| column.header.as_str()).collect();
+            particle_csv::write_rows(&path, &headers, |rows| {
+                let written = items.blocks(|block| {
+                    let table = block.table();
+                    let columns = table.iter();
+                    let columns: Vec<Column<'_>> =
+                        columns.map(|column| Column::Typed(column.column_type, &column.values)).collect();
+                    let mut places = 0..block.labels().len();
+                    Ok::<(), Unwritten>(
+                        places.try_for_each(|place| rows.add(block.labels(), &columns, place))?,
+                    )
+                });
+                written.map_err(|Unwritten(error)| error)
+            })?;
         }
         Ok(())
     }

@@ -2,13 +2,14 @@
 
 use super::{Moment, OutputFile, RecordedState, ResumedRun, SavedState, Subject, View, Writer};
 use crate::failure::Failure;
-use crate::record::{CellState, CellSubstate, ItemState, SubstateValues, lattice};
+use crate::record::{CellState, CellSubstate, ItemState, Unwritten, lattice};
 use serde_json::Value;
+use std::io::{self, Write};
 use std::path::Path;
 use xca_io::lattice::Lattice;
 use xca_io::vtk::{
-    Collection, DataArray, GHOST_TYPE, Grid, HexagonGrid, PolyDataFile, ghost_types, read_dense,
-    read_poly_data, write_dense, write_hexagons, write_particles,
+    Collection, DataArray, GHOST_TYPE, Grid, HexagonGrid, PolyDataFile, ValueSource, Values, ghost_types,
+    read_dense, read_poly_data, write_dense, write_hexagons, write_particles,
 };
 use xca_machine::free_memory;
 
@@ -42,7 +43,7 @@ impl Writer for Vtk {
     fn record(&mut self, state: RecordedState<'_>) -> Result<(), Failure> {
         for view in state.subject().views() {
             let [frame, list] = files(state.subject(), view).map(|file| state.path(&file));
-            if let Some(items) = state.items(view)? {
+            if let Some(items) = state.items(view) {
                 write_items(&frame, state.time(), &items)?;
             } else if let Some(cells) = state.cells(view) {
                 write_cells(&frame, state.time(), &cells)?;
@@ -97,10 +98,51 @@ fn write_cells(path: &Path, time: f64, cells: &CellState<'_>) -> Result<(), Fail
 
 /// The substates that have columns, at their place on the map.
 fn write_items(path: &Path, time: f64, items: &ItemState<'_>) -> Result<(), Failure> {
-    let substates = items.substates();
-    let mut arrays = vec![DataArray::new("label", items.labels())];
-    arrays.extend(substates.iter().map(SubstateValues::array));
-    Ok(write_particles(path, time, items.positions_on_map().as_values(), &arrays)?)
+    let count = items.count()?;
+    let fields = items.fields();
+    let [labels, positions] = [What::Labels, What::Positions].map(|what| ItemArray { items, what });
+    let sources: Vec<ItemArray<'_>> =
+        fields.iter().map(|field| ItemArray { items, what: What::Values(*field) }).collect();
+    items.with_none(|none| {
+        let all =
+            |like: Values<'_>, source| Values::of_source(like.numbers(), like.components(), count, source);
+        let substates = none.substates();
+        let mut arrays = vec![DataArray::new("label", all(none.labels().into(), &labels))];
+        for (substate, source) in substates.iter().zip(&sources) {
+            let array = substate.array();
+            arrays.push(DataArray { values: all(array.values, source), ..array });
+        }
+        let place = none.positions_on_map();
+        Ok(write_particles(path, time, all(place.as_values(), &positions), &arrays)?)
+    })
+}
+
+/// An array of all items, which is made block by block.
+#[derive(Debug)]
+struct ItemArray<'a> {
+    items: &'a ItemState<'a>,
+    what: What,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum What {
+    Labels,
+    Positions,
+    /// Of a substate.
+    Values(usize),
+}
+
+impl ValueSource for ItemArray<'_> {
+    fn write_to(&self, out: &mut dyn Write) -> io::Result<()> {
+        let written = self.items.blocks(|block| {
+            Ok::<(), Unwritten>(match self.what {
+                What::Labels => Values::from(block.labels()).write_to(out)?,
+                What::Positions => block.positions_on_map().as_values().write_to(out)?,
+                What::Values(field) => block.plane(field).as_values().write_to(out)?,
+            })
+        });
+        written.map_err(|Unwritten(error)| error)
+    }
 }
 
 /// The most bytes of memory that the values of a file may take.

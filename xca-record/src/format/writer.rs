@@ -37,9 +37,9 @@ use std::path::Path;
 ///
 ///     fn record(&mut self, state: RecordedState<'_>) -> Result<(), Failure> {
 ///         for view in state.subject().views() {
-///             if let Some(items) = state.items(view)? {
+///             if let Some(items) = state.items(view) {
 ///                 let file = OutputFile::of_view(Moment::Each, view, "txt");
-///                 std::fs::write(state.path(&file), items.labels().len().to_string())?;
+///                 std::fs::write(state.path(&file), items.count()?.to_string())?;
 ///             }
 ///         }
 ///         Ok(())

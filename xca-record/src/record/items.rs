@@ -2,31 +2,42 @@
 
 use super::cells::{centre, lattice, sides};
 use super::seen::Seen;
+use super::source::Source;
 use super::substate_values::SubstateValues;
 use super::values::Plane;
 use crate::view::{AnyItemView, Quantity, StoredBytes, TableColumn};
-use std::borrow::Cow;
+use std::cell::OnceCell;
 use xca_checkpoint::components::{DrawnPart, Part};
-use xca_core::engine::Population;
+use xca_core::engine::LabelledItems;
 use xca_core::model::Group;
-use xca_core::{Geometry, Precision, ScalarType, StoredType};
+use xca_core::{EngineFailure, Geometry, Model, Precision, ScalarType, StoredType};
 use xca_io::lattice::Lattice;
 use xca_io::particle_csv::ColumnType;
 
-/// What a view shows of the items in one state, by label.
+/// What a view shows of the items in one state.
 #[derive(Debug)]
 pub struct ItemState<'a> {
     view: &'a AnyItemView,
+    number: usize,
     group: &'a Group,
     geometry: &'a Geometry,
     precision: Precision,
     stored: Vec<StoredType>,
-    population: Cow<'a, Population>,
-    /// The places of the items in the population.
-    which: Vec<usize>,
-    labels: Vec<u32>,
+    source: Source<'a>,
+    /// All items, if the engine gives them at once.
+    whole: OnceCell<LabelledItems>,
     /// The lower corner of the space on the map.
     corner: [f64; 2],
+}
+
+/// Some of the items, by label.
+#[derive(Debug)]
+pub struct ItemBlock<'a> {
+    of: &'a ItemState<'a>,
+    items: &'a LabelledItems,
+    /// The places of those that are shown.
+    which: Vec<usize>,
+    labels: Vec<u32>,
 }
 
 /// A column of a table of items.
@@ -43,59 +54,69 @@ pub struct ItemColumn {
 impl<'a> ItemState<'a> {
     pub(super) fn new(
         view: &'a AnyItemView,
-        group: &'a Group,
-        geometry: &'a Geometry,
-        precision: Precision,
-        population: Cow<'a, Population>,
+        number: usize,
+        model: &'a Model,
+        (precision, source): (Precision, Source<'a>),
         corner: [f64; 2],
     ) -> Self {
-        let stored = group.stored(precision);
-        let mut which: Vec<usize> = (0..population.labels.len()).collect();
-        if let Some((field, value)) = view.only {
-            let values = Plane::all(stored[field], &population.fields[field]).component(0);
-            which.retain(|&place| values[place] == value);
-        }
-        which.sort_unstable_by_key(|&place| population.labels[place]);
-        let labels = which.iter().map(|&place| population.labels[place]).collect();
-        Self { view, group, geometry, precision, stored, population, which, labels, corner }
+        let (group, geometry) = (&model.groups()[number], model.geometry());
+        let (stored, whole) = (group.stored(precision), OnceCell::new());
+        Self { view, number, group, geometry, precision, stored, source, whole, corner }
     }
 
-    fn plane(&self, field: usize) -> Plane {
-        Plane::chosen(self.stored[field], &self.population.fields[field], &self.which)
-    }
-
-    /// Where the items are; those without a position are in the centres of their cells.
+    /// Passes on all items, by label: in blocks from an engine with parts of the space, from others at once.
     ///
-    /// A model takes its cells for boxes, also where they are hexagons. An item is as far from the centre of
-    /// its hexagon as it is from that of its box.
-    fn positions(&self) -> Plane {
-        let field = self.group.schema().position;
-        let position = field.map(|field| self.plane(field));
-        match position {
-            Some(position) if lattice(self.geometry) == Lattice::Squares => position,
-            Some(position) => {
-                let positions = position.to_points();
-                let cells = self.cells();
-                let moved = |(position, cell): (&[f64; 3], &[usize; 3])| {
-                    let (from, to) = (self.geometry.centre(*cell), centre(self.geometry, *cell));
-                    std::array::from_fn(|axis| position[axis] + (to[axis] - from[axis]))
-                };
-                Plane::points(positions.iter().zip(&cells).map(moved).collect())
-            }
-            None => {
-                let cells = self.cells();
-                Plane::points(cells.iter().map(|cell| centre(self.geometry, *cell)).collect())
-            }
+    /// # Errors
+    /// Where the engine has lost its state, or that of `take`.
+    pub fn blocks<E: From<EngineFailure>>(
+        &self,
+        mut take: impl FnMut(&ItemBlock<'_>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        if let Some(items) = self.whole.get() {
+            return take(&self.block(items));
         }
+        let sizes: Vec<usize> = self.stored.iter().map(|stored| stored.size()).collect();
+        let (mut blocks, mut last) = (0, None);
+        self.source.items(self.number, &sizes, |items| {
+            take(&self.block(&items))?;
+            blocks += 1;
+            last = Some(items).filter(|_| blocks == 1);
+            Ok::<(), E>(())
+        })?;
+        // What has come at once need not come again.
+        if let Some(items) = last {
+            let _ = self.whole.set(items);
+        }
+        Ok(())
     }
 
-    /// The cells of the items.
-    fn cells(&self) -> Vec<[usize; 3]> {
-        let mut cells = Vec::with_capacity(self.population.labels.len());
-        for (cell, count) in self.population.counts.iter().enumerate() {
-            cells.extend(std::iter::repeat_n(cell, *count as usize));
+    /// How many items there are.
+    ///
+    /// # Errors
+    /// Where the engine has lost its state.
+    pub fn count(&self) -> Result<usize, EngineFailure> {
+        let mut count = 0;
+        self.blocks(|block| {
+            count += block.labels.len();
+            Ok::<(), EngineFailure>(())
+        })?;
+        Ok(count)
+    }
+
+    /// A block of no items, whose values have the types of all.
+    pub(crate) fn with_none<T>(&self, work: impl FnOnce(&ItemBlock<'_>) -> T) -> T {
+        let fields = vec![Vec::new(); self.stored.len()];
+        work(&self.block(&LabelledItems { fields, ..LabelledItems::default() }))
+    }
+
+    fn block<'b>(&'b self, items: &'b LabelledItems) -> ItemBlock<'b> {
+        let mut which: Vec<usize> = (0..items.labels.len()).collect();
+        if let Some((field, value)) = self.view.only {
+            let values = Plane::all(self.stored[field], &items.fields[field]).component(0);
+            which.retain(|place| values[*place] == value);
         }
-        self.which.iter().map(|place| self.geometry.indices(cells[*place])).collect()
+        let labels = which.iter().map(|place| items.labels[*place]).collect();
+        ItemBlock { of: self, items, which, labels }
     }
 
     /// The columns of the table.
@@ -106,37 +127,15 @@ impl<'a> ItemState<'a> {
         TableColumn::all(self.group.schema())
     }
 
-    /// The labels, in ascending order: the order of all values.
-    pub fn labels(&self) -> &[u32] {
-        &self.labels
-    }
-
-    /// Where the items are on the map: three numbers each, in metres.
-    pub fn positions_on_map(&self) -> Plane {
-        self.positions().shifted(self.corner)
-    }
-
-    /// The columns of the table: components with their headers.
-    pub fn table(&self) -> Vec<ItemColumn> {
-        let fields = self.group.schema().fields;
-        let column = |TableColumn { header, field, component }: TableColumn| ItemColumn {
-            header,
-            column_type: column_type(fields[field].value_type.scalar),
-            values: self.plane(field).component(component),
-        };
-        self.columns().into_iter().map(column).collect()
-    }
-
     /// The substates that have columns, but for the position of items among squares.
-    pub fn substates(&self) -> Vec<SubstateValues> {
+    pub(crate) fn fields(&self) -> Vec<usize> {
         let (schema, columns) = (self.group.schema(), self.columns());
         // Among hexagons an item is drawn elsewhere than at its position, which is saved too.
         let is_apart =
             |field: usize| schema.position != Some(field) || lattice(self.geometry) != Lattice::Squares;
         let is_saved =
             |field: &usize| is_apart(*field) && columns.iter().any(|column| column.field == *field);
-        let fields = (0..schema.fields.len()).filter(is_saved);
-        fields.map(|field| SubstateValues::new(&schema.fields[field], self.plane(field))).collect()
+        (0..schema.fields.len()).filter(is_saved).collect()
     }
 
     /// The radius of an item in metres, if the view knows it.
@@ -151,21 +150,93 @@ impl<'a> ItemState<'a> {
     }
 
     /// Where they are, and what colours them.
-    pub(super) fn seen(&self) -> Seen {
-        let schema = self.group.schema();
-        let values = self.view.colour(schema).map(|drawn| match drawn.quantity {
+    pub(super) fn seen(&self) -> Result<Seen, EngineFailure> {
+        let (mut positions, mut values) = (Vec::new(), Vec::new());
+        self.blocks(|block| {
+            positions.extend(block.positions().to_points());
+            values.extend(block.colours());
+            Ok::<(), EngineFailure>(())
+        })?;
+        Ok(Seen::Items { positions, values })
+    }
+}
+
+impl ItemBlock<'_> {
+    /// The values of a substate.
+    pub(crate) fn plane(&self, field: usize) -> Plane {
+        Plane::chosen(self.of.stored[field], &self.items.fields[field], &self.which)
+    }
+
+    /// Where the items are; those without a position are in the centres of their cells.
+    ///
+    /// A model takes its cells for boxes, also where they are hexagons. An item is as far from the centre of
+    /// its hexagon as it is from that of its box.
+    fn positions(&self) -> Plane {
+        let (group, geometry) = (self.of.group, self.of.geometry);
+        let position = group.schema().position.map(|field| self.plane(field));
+        match position {
+            Some(position) if lattice(geometry) == Lattice::Squares => position,
+            Some(position) => {
+                let positions = position.to_points();
+                let moved = |(position, cell): (&[f64; 3], [usize; 3])| {
+                    let (from, to) = (geometry.centre(cell), centre(geometry, cell));
+                    std::array::from_fn(|axis| position[axis] + (to[axis] - from[axis]))
+                };
+                Plane::points(positions.iter().zip(self.cells()).map(moved).collect())
+            }
+            None => Plane::points(self.cells().map(|cell| centre(geometry, cell)).collect()),
+        }
+    }
+
+    /// The cells of the items.
+    fn cells(&self) -> impl Iterator<Item = [usize; 3]> {
+        self.which.iter().map(|place| self.of.geometry.indices(self.items.cells[*place] as usize))
+    }
+
+    /// The labels, in ascending order: the order of all values.
+    pub fn labels(&self) -> &[u32] {
+        &self.labels
+    }
+
+    /// Where the items are on the map: three numbers each, in metres.
+    pub fn positions_on_map(&self) -> Plane {
+        self.positions().shifted(self.of.corner)
+    }
+
+    /// The columns of the table: components with their headers.
+    pub fn table(&self) -> Vec<ItemColumn> {
+        let fields = self.of.group.schema().fields;
+        let column = |TableColumn { header, field, component }: TableColumn| ItemColumn {
+            header,
+            column_type: column_type(fields[field].value_type.scalar),
+            values: self.plane(field).component(component),
+        };
+        self.of.columns().into_iter().map(column).collect()
+    }
+
+    /// The substates that have columns, but for the position of items among squares.
+    pub fn substates(&self) -> Vec<SubstateValues> {
+        let fields = self.of.group.schema().fields;
+        let of_field = |field: usize| SubstateValues::new(&fields[field], self.plane(field));
+        self.of.fields().into_iter().map(of_field).collect()
+    }
+
+    /// What colours them; nothing where they have no colour.
+    fn colours(&self) -> Vec<f64> {
+        let ItemState { view, group, precision, stored, .. } = self.of;
+        let schema = group.schema();
+        let values = view.colour(schema).map(|drawn| match drawn.quantity {
             Quantity::Part(Part { field, component }) => {
                 self.plane(field).drawn(DrawnPart::of(schema.fields[field].value_type, component))
             }
             Quantity::Computed(computation) => {
-                let fields = self.stored.iter().zip(&self.population.fields);
+                let fields = stored.iter().zip(&self.items.fields);
                 let fields: Vec<StoredBytes<'_>> =
                     fields.map(|(stored, bytes)| StoredBytes { stored: *stored, bytes }).collect();
-                computation.values(self.precision, &fields, self.which.iter().copied())
+                computation.values(*precision, &fields, self.which.iter().copied())
             }
         });
-        let values = values.unwrap_or_default();
-        Seen::Items { positions: self.positions().to_points(), values }
+        values.unwrap_or_default()
     }
 }
 

@@ -3,7 +3,10 @@
 use super::Recorder;
 use crate::set_up::SetUp;
 use crate::view::AnyView;
-use xca_core::{Engine, Model, Precision, Simulation};
+use xca_core::{Engine, EngineFailure, Model, Precision, Simulation};
+
+/// What a picture holds of an item, in bytes: its position and colour.
+const DRAWN_ITEM: u128 = 32;
 
 impl SetUp {
     /// An estimate of the bytes that a run takes on an engine, with its outputs and without items.
@@ -21,10 +24,15 @@ impl Recorder {
     }
 
     /// An estimate of the bytes that outputs of the present state take, beside the state.
-    pub(super) fn memory_of_outputs(&self, simulation: &Simulation) -> u128 {
-        let populations = simulation.outline().populations;
-        let items = |group: usize| populations[group].map_or(0, |counts| counts.items);
-        self.output_memory(simulation.options().precision, items)
+    pub(super) fn memory_of_outputs(&self, simulation: &Simulation) -> Result<u128, EngineFailure> {
+        let populations = simulation.outline().populations.into_iter().enumerate();
+        let mut items = vec![0; self.model().groups().len()];
+        let mut drawn = 0;
+        for (group, counts) in populations.filter_map(|(group, counts)| Some((group, counts?))) {
+            items[group] = simulation.items_at_once(group)?;
+            drawn += counts.items as u128 * DRAWN_ITEM;
+        }
+        Ok(drawn + self.output_memory(simulation.options().precision, |group| items[group]))
     }
 
     fn output_memory(&self, precision: Precision, items: impl Fn(usize) -> usize) -> u128 {

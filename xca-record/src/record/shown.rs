@@ -49,10 +49,10 @@ impl Shown {
         model: &'a Model,
         precision: Precision,
         source: Source<'a>,
-    ) -> Result<Option<ItemState<'a>>, EngineFailure> {
+    ) -> Option<ItemState<'a>> {
         match &self.view {
-            AnyView::Items(view) => self.items_of(view, model, precision, source).map(Some),
-            AnyView::Cells(_) => Ok(None),
+            AnyView::Items(view) => Some(self.items_of(view, model, precision, source)),
+            AnyView::Cells(_) => None,
         }
     }
 
@@ -62,9 +62,8 @@ impl Shown {
         model: &'a Model,
         precision: Precision,
         source: Source<'a>,
-    ) -> Result<ItemState<'a>, EngineFailure> {
-        let (group, population) = (&model.groups()[self.group], source.population(self.group)?);
-        Ok(ItemState::new(view, group, model.geometry(), precision, population, self.ground().corner))
+    ) -> ItemState<'a> {
+        ItemState::new(view, self.group, model, (precision, source), self.ground().corner)
     }
 
     /// The substates of cells, if it is a view of these.
@@ -124,7 +123,7 @@ impl Shown {
         source: Source<'_>,
     ) -> Result<Seen, EngineFailure> {
         match &self.view {
-            AnyView::Items(view) => Ok(self.items_of(view, model, precision, source)?.seen()),
+            AnyView::Items(view) => self.items_of(view, model, precision, source).seen(),
             AnyView::Cells(view) => self.cells_of(view, model, precision, source).seen(),
         }
     }

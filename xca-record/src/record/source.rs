@@ -1,7 +1,6 @@
 //! A state whose values are read when they are needed.
 
-use std::borrow::Cow;
-use xca_core::engine::{Population, SubstateId};
+use xca_core::engine::{LabelledItems, SubstateId};
 use xca_core::{EngineFailure, GroupSnapshot, Simulation, Snapshot};
 
 /// The number of bytes that are read at a time.
@@ -61,15 +60,23 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// The items of a population.
-    pub(crate) fn population(self, group: usize) -> Result<Cow<'a, Population>, EngineFailure> {
-        Ok(match self {
-            Self::Simulation(simulation) => Cow::Owned(simulation.read_population(group)?),
+    /// Passes on the items of a population, by label, in blocks. `sizes` are those of their substates in
+    /// bytes.
+    pub(crate) fn items<E: From<EngineFailure>>(
+        self,
+        group: usize,
+        sizes: &[usize],
+        mut take: impl FnMut(LabelledItems) -> Result<(), E>,
+    ) -> Result<(), E> {
+        match self {
+            Self::Simulation(simulation) => simulation.read_items(group, take),
             Self::Snapshot(snapshot) => match &snapshot.groups[group] {
-                GroupSnapshot::Population(population, _) => Cow::Borrowed(population),
-                GroupSnapshot::Cells(_) => Cow::default(),
+                GroupSnapshot::Population(population, _) => {
+                    take(LabelledItems::of(population.clone(), sizes, |cell| cell as u32))
+                }
+                GroupSnapshot::Cells(_) => Ok(()),
             },
-        })
+        }
     }
 }
 

@@ -156,7 +156,7 @@ impl ValueSource for CellSubstate<'_> {
 }
 
 /// Why values do not get into a file.
-struct Unwritten(io::Error);
+pub(crate) struct Unwritten(pub(crate) io::Error);
 
 impl From<io::Error> for Unwritten {
     fn from(error: io::Error) -> Self {
