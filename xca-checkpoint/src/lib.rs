@@ -6,12 +6,14 @@
 
 mod checkpoint;
 mod checkpoint_file;
+mod checkpoints;
 pub mod components;
 mod description;
 mod file;
 mod folder;
 mod identity;
 mod input_file;
+mod interval;
 mod model_report;
 mod numbers;
 mod origin;
@@ -21,11 +23,13 @@ mod recorded;
 
 pub use checkpoint::Checkpoint;
 pub use checkpoint_file::{CheckpointFile, ResumeError};
+pub use checkpoints::Checkpoints;
 pub use description::{Description, GroupShape, Kind};
 pub use file::{CheckpointError, CheckpointWriteError};
 pub use folder::{CHECKPOINTS, CheckpointFolder};
 pub use identity::Identity;
 pub use input_file::InputFile;
+pub use interval::Interval;
 pub use model_report::ModelReport;
 pub use numbers::Exact;
 pub use origin::{Difference, Origin, Parameter, other_model, other_program};

@@ -209,11 +209,7 @@ impl State<'_> {
     /// Returns an error if the model does not have the population.
     pub fn items<S: Substates>(&self) -> Result<Vec<Item<S>>, StateError> {
         let group = self.population_of::<S>()?;
-        let sizes: Vec<usize> = self.structure.groups()[group]
-            .stored(self.precision)
-            .iter()
-            .map(|stored| stored.size())
-            .collect();
+        let sizes = self.structure.groups()[group].sizes(self.precision);
         let population = self.execution.population(group)?;
         let mut items = Vec::with_capacity(population.labels.len());
         let cells =

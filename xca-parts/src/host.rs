@@ -102,8 +102,8 @@ impl Host {
 
     /// The sizes of the substates of a group in an item, in bytes.
     fn sizes(&self, group: usize) -> Vec<usize> {
-        let stored = self.shared.model.groups().get(group).map(|group| group.stored(self.shared.precision));
-        stored.into_iter().flatten().map(xca_core::StoredType::size).collect()
+        let group = self.shared.model.groups().get(group);
+        group.map(|group| group.sizes(self.shared.precision)).unwrap_or_default()
     }
 
     fn is_population(&self, group: usize) -> bool {

@@ -21,7 +21,7 @@ use xca_core::engine::{
     EngineFailure, Execution, Fault, LabelledItems, Plane, Population, StepContext, SubstateId,
 };
 use xca_core::model::{Group, GroupKind};
-use xca_core::{Engine, Model, ParameterSet, Precision, StartError, StoredType};
+use xca_core::{Engine, Model, ParameterSet, Precision, StartError};
 
 /// A part of the space.
 pub(crate) struct Worker {
@@ -68,7 +68,7 @@ impl Worker {
 
     /// The sizes of the substates of a group, in bytes.
     fn sizes(&self, group: usize) -> Vec<usize> {
-        self.model.groups()[group].stored(self.precision).into_iter().map(StoredType::size).collect()
+        self.model.groups()[group].sizes(self.precision)
     }
 
     /// The own items of a population by label.

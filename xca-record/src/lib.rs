@@ -52,7 +52,6 @@
 
 mod failure;
 pub mod format;
-mod interval;
 mod items_file;
 mod monitor;
 mod place;
@@ -67,7 +66,6 @@ mod set_up;
 mod view;
 
 pub use failure::Failure;
-pub use interval::Interval;
 pub use items_file::{ReadItem, read_items};
 pub use monitor::Monitor;
 pub use record::{FolderError, Kind as FolderKind, RecordError};
@@ -79,7 +77,7 @@ pub use run::{BeginError, Run};
 pub use set_up::{FinalWarning, SetUp, SetUpError};
 pub use view::{CellView, ItemView, ViewError};
 #[doc(no_inline)]
-pub use xca_checkpoint::{CheckpointError, InputFile, Outputs};
+pub use xca_checkpoint::{CheckpointError, InputFile, Interval, Outputs};
 #[doc(no_inline)]
 pub use xca_machine::{NotEnoughMemory, check_memory};
 #[doc(no_inline)]

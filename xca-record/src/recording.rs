@@ -1,10 +1,7 @@
 //! A run under way: the steps, and what is written meanwhile.
 
-mod checkpoints;
 mod finite;
 
-#[doc(hidden)]
-pub(crate) use checkpoints::Checkpoints;
 pub use finite::check as check_finite;
 
 use crate::failure::Failure;
@@ -13,7 +10,7 @@ use crate::record::{Recorder, RunFolder};
 use crate::report::{self, Earlier, Report};
 use std::path::Path;
 use std::time::{Duration, Instant};
-use xca_checkpoint::{Description, Origin};
+use xca_checkpoint::{Checkpoints, Description, Origin};
 use xca_core::{Batch, Simulation};
 use xca_io::numbers::significant;
 use xca_machine::peak_memory;

@@ -1,15 +1,15 @@
 //! How a model is run and recorded.
 
 use crate::failure::Failure;
-use crate::interval::Interval;
 use crate::record::{Claim, FolderError, Kind, REPORT, RecordError, Recorder, RunFolder};
-use crate::recording::{Checkpoints, Recording, check_finite};
+use crate::recording::{Recording, check_finite};
 use crate::report::{Earlier, ReadReportError, Report};
 use crate::set_up::{SetUp, SetUpError};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use xca_checkpoint::{
-    CheckpointError, CheckpointFile, CheckpointFolder, Difference, Identity, Origin, Outputs, ResumeError,
+    CheckpointError, CheckpointFile, CheckpointFolder, Checkpoints, Difference, Identity, Interval, Origin,
+    Outputs, ResumeError,
 };
 use xca_core::{Engine, Model, ModelError, RunError, RunOptions, Simulation};
 use xca_io::atomic::WriteError;
@@ -285,7 +285,7 @@ impl Run {
         let claim =
             Claim { kind: Kind::Run, files: &report.files, inputs, program, overwrite: self.overwrite };
         let folder = RunFolder::prepare(folder.as_ref(), &claim)?;
-        let checkpoints = self.checkpoint_every.map(|interval| Checkpoints::new(interval, &folder, None));
+        let checkpoints = self.checkpoint_every.map(|interval| Checkpoints::new(interval, &folder.top, None));
         Ok(Recording {
             simulation,
             checkpoints: checkpoints.transpose()?,
@@ -371,7 +371,7 @@ impl Run {
         let folder = RunFolder::open(folder)?;
         let simulation = checkpoint.resume(self.recorder.model(), engine, self.options)?;
         let checkpoints =
-            self.checkpoint_every.map(|interval| Checkpoints::new(interval, &folder, Some(path)));
+            self.checkpoint_every.map(|interval| Checkpoints::new(interval, &folder.top, Some(path)));
         let checkpoints = checkpoints.transpose()?;
         self.recorder.resume(folder.clone(), &description.recorded)?;
         if self.checkpoint_every.is_none() {

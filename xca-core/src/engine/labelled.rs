@@ -40,14 +40,11 @@ impl LabelledItems {
     /// Those with labels in this range.
     pub fn within(&self, labels: Range<u64>, sizes: &[usize]) -> Self {
         let place = |end: u64| self.labels.partition_point(|label| u64::from(*label) < end);
-        let places = place(labels.start)..place(labels.end);
-        let field =
-            |(bytes, size): (&Vec<u8>, &usize)| bytes[places.start * size..places.end * size].to_vec();
-        Self {
-            labels: self.labels[places.clone()].to_vec(),
-            cells: self.cells[places.clone()].to_vec(),
-            fields: self.fields.iter().zip(sizes).map(field).collect(),
-        }
+        let (from, to) = (place(labels.start), place(labels.end));
+        let fields =
+            self.fields.iter().zip(sizes).map(|(bytes, size)| bytes[from * size..to * size].to_vec());
+        let fields = fields.collect();
+        Self { labels: self.labels[from..to].to_vec(), cells: self.cells[from..to].to_vec(), fields }
     }
 
     /// The number of items in each block of labels.

@@ -69,6 +69,11 @@ impl Group {
         self.schema.fields.iter().map(|field| field.value_type.stored(precision)).collect()
     }
 
+    /// The sizes of the stored fields in bytes.
+    pub fn sizes(&self, precision: Precision) -> Vec<usize> {
+        self.stored(precision).into_iter().map(StoredType::size).collect()
+    }
+
     /// The stored bytes of a field beyond each flat face. `None` for a population.
     pub fn outside(&self, field: usize, precision: Precision) -> Option<Faces<Vec<u8>>> {
         let GroupKind::Cells { outside } = &self.kind else { return None };

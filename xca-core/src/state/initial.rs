@@ -22,11 +22,11 @@ impl State<'_> {
     pub fn fill<S: Substates>(&mut self, state: impl Fn(Site) -> S) -> Result<(), StateError> {
         let group = self.cells_of::<S>()?;
         let [width, height, depth] = self.geometry().extents();
-        let sizes = self.structure.groups()[group].stored(self.precision);
+        let sizes = self.structure.groups()[group].sizes(self.precision);
         // An engine that takes rows needs no second copy of the whole group.
         let by_rows =
             !sizes.is_empty() && self.execution.write_rows(SubstateId { group, field: 0 }, 0..0, &[])?;
-        let size_of_row = width * sizes.iter().map(|stored| stored.size()).sum::<usize>();
+        let size_of_row = width * sizes.iter().sum::<usize>();
         let step = if by_rows { (BLOCK / size_of_row.max(1)).max(1) } else { height * depth };
         for start in (0..height * depth).step_by(step) {
             let rows = start..(start + step).min(height * depth);
@@ -76,7 +76,6 @@ impl State<'_> {
                 states.extend(items(site));
                 counts.push((states.len() - before) as u32);
             }
-            // Too many items are refused.
             let count = states.len() as u32;
             let labels = (0..count).map(|number| first.wrapping_add(number)).collect();
             first = first.wrapping_add(count);
@@ -102,11 +101,7 @@ impl State<'_> {
         group: usize,
         states: impl Iterator<Item = S>,
     ) -> Vec<Vec<u8>> {
-        let sizes: Vec<usize> = self.structure.groups()[group]
-            .stored(self.precision)
-            .iter()
-            .map(|stored| stored.size())
-            .collect();
+        let sizes = self.structure.groups()[group].sizes(self.precision);
         let count = states.size_hint().0;
         let mut fields: Vec<Vec<u8>> = sizes.iter().map(|size| Vec::with_capacity(size * count)).collect();
         for state in states {

@@ -24,7 +24,7 @@ impl State<'_> {
         }
         let definition = &self.structure.groups()[group];
         let GroupKind::Population { slots, .. } = *definition.kind() else { return Ok(()) };
-        let size: usize = definition.stored(self.precision).iter().map(|stored| stored.size()).sum();
+        let size: usize = definition.sizes(self.precision).iter().sum();
         let step = (BLOCK / (width * size).max(1)).max(1);
         let mut items = 0;
         for start in (0..rows).step_by(step) {
@@ -34,23 +34,16 @@ impl State<'_> {
             full_cell(&counts, slots, place).map_or(Ok(()), Err)?;
             items += labels.len() as u64;
             if items > 1 << 32 {
-                let reason = "it has more items than there are labels".to_owned();
-                let substates = definition.schema().name;
+                let (substates, reason) =
+                    (definition.schema().name, "it has more items than labels".to_owned());
                 return Err(EngineFailure::Input(InputError::Items { substates, reason }).into());
             }
-            self.execution.collect_items(
-                Plane::Counts(group),
-                rows.clone(),
-                bytemuck::cast_slice(&counts),
-            )?;
-            self.execution.collect_items(
-                Plane::Labels(group),
-                rows.clone(),
-                bytemuck::cast_slice(&labels),
-            )?;
-            for (field, values) in fields.iter().enumerate() {
-                let plane = Plane::Values(SubstateId { group, field });
-                self.execution.collect_items(plane, rows.clone(), values)?;
+            let [counts, labels]: [&[u8]; 2] = [&counts, &labels].map(|all| bytemuck::cast_slice(all));
+            let values = |(field, values)| (Plane::Values(SubstateId { group, field }), values);
+            let fields = fields.iter().map(Vec::as_slice).enumerate().map(values);
+            let planes = [(Plane::Counts(group), counts), (Plane::Labels(group), labels)];
+            for (plane, bytes) in planes.into_iter().chain(fields) {
+                self.execution.collect_items(plane, rows.clone(), bytes)?;
             }
         }
         Ok(self.execution.set_collected_items(group)?)

@@ -35,8 +35,8 @@ impl Writer for ItemTable {
         for view in state.subject().views() {
             let Some(items) = state.items(view) else { continue };
             let path = state.path(&file(state.subject(), view));
-            let table = items.with_none(|none| none.table());
-            let headers: Vec<&str> = table.iter().map(|column| column.header.as_str()).collect();
+            let headers = items.headers();
+            let headers: Vec<&str> = headers.iter().map(String::as_str).collect();
             particle_csv::write_rows(&path, &headers, |rows| {
                 let written = items.blocks(|block| {
                     let table = block.table();

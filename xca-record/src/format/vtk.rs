@@ -135,11 +135,12 @@ enum What {
 impl ValueSource for ItemArray<'_> {
     fn write_to(&self, out: &mut dyn Write) -> io::Result<()> {
         let written = self.items.blocks(|block| {
-            Ok::<(), Unwritten>(match self.what {
+            match self.what {
                 What::Labels => Values::from(block.labels()).write_to(out)?,
                 What::Positions => block.positions_on_map().as_values().write_to(out)?,
                 What::Values(field) => block.plane(field).as_values().write_to(out)?,
-            })
+            }
+            Ok::<(), Unwritten>(())
         });
         written.map_err(|Unwritten(error)| error)
     }

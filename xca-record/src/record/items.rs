@@ -75,7 +75,7 @@ impl<'a> ItemState<'a> {
         if let Some(items) = self.whole.get() {
             return take(&self.block(items));
         }
-        let sizes: Vec<usize> = self.stored.iter().map(|stored| stored.size()).collect();
+        let sizes = self.group.sizes(self.precision);
         let (mut blocks, mut last) = (0, None);
         self.source.items(self.number, &sizes, |items| {
             take(&self.block(&items))?;
@@ -117,6 +117,11 @@ impl<'a> ItemState<'a> {
         }
         let labels = which.iter().map(|place| items.labels[*place]).collect();
         ItemBlock { of: self, items, which, labels }
+    }
+
+    /// The headers of the columns of the table.
+    pub fn headers(&self) -> Vec<String> {
+        self.columns().into_iter().map(|column| column.header).collect()
     }
 
     /// The columns of the table.

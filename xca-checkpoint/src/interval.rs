@@ -8,7 +8,7 @@ use std::time::Duration;
 ///
 /// ```
 /// use std::time::Duration;
-/// use xca_record::Interval;
+/// use xca_checkpoint::Interval;
 ///
 /// assert_eq!("500".parse::<Interval>(), Ok(Interval::Steps(500)));
 /// assert_eq!("10min".parse::<Interval>(), Ok(Interval::Time(Duration::from_secs(600))));
