@@ -15,16 +15,15 @@ use xca_core::{Model, Precision, Process, ProcessKind};
 const MOST: u64 = 16;
 
 /// The number of rounds in which all numbers of steps are timed.
-const ROUNDS: u32 = 4;
+const ROUNDS: u32 = 6;
 
 /// The least number of steps in the turn of a number. The first one is slow, because the caches hold what the
 /// number before has left.
 const TURN: u64 = 4;
 
-/// From this round on, numbers take no further part that are slower than the fastest by this factor. Other
-/// programs may have slowed down a number in one round.
-const JUDGED: u32 = 2;
-const TOO_SLOW: f64 = 1.2;
+/// The factor by which a number may be slower than the fastest after a round, to take further part. Other
+/// programs may slow down a number for some rounds, so that the first ones decide little.
+const SLOWEST: [f64; ROUNDS as usize] = [f64::INFINITY, 1.5, 1.5, 1.2, 1.2, 1.2];
 
 /// A number of steps must take less than this share of the time of each smaller number.
 const WORTH: f64 = 0.95;
@@ -97,13 +96,13 @@ impl Stride {
             (passes / stages.max(1)) as u64
         });
         let most = most.clamp(1, MOST);
-        Self {
+        let mut stride = Self {
             fixed,
             most,
             lag: lag.unwrap_or(Lag::NONE),
             column,
             bytes_per_row: (bytes_per_cell(model, precision) * layout.width()).max(1),
-            rivals: rivals(most),
+            rivals: Vec::new(),
             turn: 0,
             steps_of_turn: 0,
             rounds: 0,
@@ -112,7 +111,13 @@ impl Stride {
             next_hold: HOLD[0],
             steps: 0,
             leaps: 0,
-        }
+        };
+        // Where columns pay for some numbers, those without them use more than the caches hold.
+        let has_column =
+            |steps: &u64| fixed.is_none() && *steps > 1 && stride.column(*steps as usize * stages).is_some();
+        stride.most = powers(most).filter(has_column).last().unwrap_or(most);
+        stride.rivals = rivals(stride.most);
+        stride
     }
 
     /// The depth for this number of passes.
@@ -173,9 +178,8 @@ impl Stride {
         }
         (self.turn, self.rounds) = (0, self.rounds + 1);
         let least = self.rivals.iter().map(|rival| rival.seconds).fold(f64::INFINITY, f64::min);
-        if self.rounds >= JUDGED {
-            self.rivals.retain(|rival| rival.seconds <= TOO_SLOW * least);
-        }
+        let slowest = SLOWEST[self.rounds as usize - 1] * least;
+        self.rivals.retain(|rival| rival.seconds <= slowest);
         if self.rounds < ROUNDS && self.rivals.len() > 1 {
             return;
         }
@@ -193,10 +197,14 @@ impl Stride {
     }
 }
 
-/// All numbers up to a largest one, not timed yet.
+/// The numbers of steps up to a largest one.
+fn powers(most: u64) -> impl Iterator<Item = u64> {
+    iter::successors(Some(1), |steps| Some(2 * steps)).take_while(move |steps| *steps <= most)
+}
+
+/// These numbers, not timed yet.
 fn rivals(most: u64) -> Vec<Timed> {
-    let powers = iter::successors(Some(1), |steps| Some(2 * steps)).take_while(|steps| *steps <= most);
-    powers.map(|steps| Timed { steps, seconds: f64::INFINITY }).collect()
+    powers(most).map(|steps| Timed { steps, seconds: f64::INFINITY }).collect()
 }
 
 #[cfg(test)]
@@ -253,7 +261,7 @@ mod tests {
     fn where_it_does_not_pay_steps_are_done_one_by_one() {
         for seconds in [1.0, 0.96] {
             let mut stride = stride(10_000, 2);
-            let mut wanted = ALL.repeat(4);
+            let mut wanted = ALL.repeat(6);
             wanted.extend([1; 200]);
             let seconds = |steps| if steps == 1 { 1.0 } else { seconds };
             assert_eq!(leaps(&mut stride, wanted.len(), seconds), wanted);
@@ -300,7 +308,7 @@ mod tests {
     fn steps_that_are_cut_short_say_nothing_about_more() {
         let mut stride = stride(10_000, 2);
         let mut leaps = Vec::new();
-        while leaps.len() < 80 {
+        while leaps.len() < 50 {
             let mut left = 40;
             while left > 0 {
                 let steps = stride.steps(left);
@@ -311,7 +319,7 @@ mod tests {
                 left -= steps;
             }
         }
-        assert_eq!(leaps[74..80], [8; 6], "{leaps:?}");
+        assert_eq!(leaps[40..50], [8; 10], "{leaps:?}");
     }
 
     #[test]
