@@ -347,16 +347,17 @@ mod tests {
         assert_eq!(most(0..30), 15 + 1);
     }
 
+    fn in_space(extents: [usize; 3], boundary: Boundary) -> Stride {
+        let builder = Model::builder("air").extents(extents).neighbourhood(Neighbourhood::moore(1));
+        let builder = builder.boundaries([boundary; 3]).substates::<Site>().process(smooth);
+        let model = builder.build().unwrap();
+        let layout = crate::layout::Layout::new(model.geometry());
+        Stride::new((&model, &layout, Precision::F64), 1, 2, Choices::default())
+    }
+
     #[test]
     fn columns_hold_what_fits_in_a_cache() {
-        let column = |extents: [usize; 3], boundary, passes| {
-            let builder = Model::builder("air").extents(extents).neighbourhood(Neighbourhood::moore(1));
-            let builder = builder.boundaries([boundary; 3]).substates::<Site>().process(smooth);
-            let model = builder.build().unwrap();
-            let layout = crate::layout::Layout::new(model.geometry());
-            let of = (&model, &layout, Precision::F64);
-            Stride::new(of, 1, 2, Choices::default()).depth(passes).column
-        };
+        let column = |extents, boundary, passes| in_space(extents, boundary).depth(passes).column;
         // Two buffers of 8 bytes per cell: 4 kB a row, and 6 or 10 layers.
         assert_eq!(column([256; 3], Boundary::Flat, 4), Some(42));
         assert_eq!(column([256; 3], Boundary::Reflecting, 8), Some(25));
@@ -365,5 +366,12 @@ mod tests {
         // A whole layer fits. On a torus, rows see each other from end to end.
         assert_eq!(column([256, 40, 256], Boundary::Flat, 4), None);
         assert_eq!(column([256; 3], Boundary::Toroidal, 4), None);
+    }
+    #[test]
+    fn where_columns_pay_steps_without_them_take_no_part() {
+        let most = |extents, boundary| in_space(extents, boundary).most;
+        assert_eq!(most([256; 3], Boundary::Flat), 8);
+        // No number has columns.
+        assert_eq!([most([256, 20, 256], Boundary::Flat), most([256; 3], Boundary::Toroidal)], [16; 2]);
     }
 }
