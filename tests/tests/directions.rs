@@ -8,14 +8,16 @@ use toml::{Table, Value};
 type TestResult = Result<(), Box<dyn Error>>;
 
 /// For each member, the members that it may depend on. A new member finds its place here first.
-const DIRECTIONS: [(&str, &[&str]); 33] = [
+const DIRECTIONS: [(&str, &[&str]); 35] = [
     ("xca-methods", &[]),
-    ("xca-macros", &["xca-methods"]),
+    ("xca-spelling", &[]),
+    ("xca-macros", &["xca-methods", "xca-spelling"]),
     ("xca-values", &[]),
     ("xca-process", &["xca-macros", "xca-methods", "xca-values"]),
     ("xca-core", &["xca-macros", "xca-process", "xca-values"]),
     ("xca-wgsl", &["xca-core", "xca-methods"]),
-    ("xca-cpu", &["xca-core"]),
+    ("xca-wavefront", &[]),
+    ("xca-cpu", &["xca-core", "xca-wavefront"]),
     ("xca-gpu", &["xca-core", "xca-wgsl"]),
     ("xca-parts", &["xca-core"]),
     ("xca-mpi", &["xca-core", "xca-parts"]),

@@ -3,8 +3,8 @@
 use crate::activity::DueRow;
 use crate::layout::Layout;
 use crate::population::Population;
-use crate::wavefront::Depth;
 use std::ops::Range;
+use xca_wavefront::Depth;
 
 /// The number of blocks per thread. Enough to keep the wait for the last block short, few enough that a block
 /// is worth its start.

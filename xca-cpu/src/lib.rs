@@ -38,7 +38,6 @@ mod stride;
 mod threads;
 mod tiles;
 mod upkeep;
-mod wavefront;
 
 use choices::{Choices, LeaveOut};
 use execution::CpuExecution;

@@ -10,6 +10,7 @@
 use crate::arrays::Arrays;
 use crate::layout::Layout;
 use crate::motion::Motion;
+use std::sync::atomic::AtomicU32;
 use xca_core::Geometry;
 use xca_core::kernel::{NO_PLACE, NearLists};
 
@@ -27,8 +28,15 @@ pub(crate) struct Lists {
     pub(crate) owners: Vec<u32>,
     /// Whether each row is searched in cells.
     pub(crate) in_cells: Vec<bool>,
-    /// The approximate common motion of all items since then.
+    /// The approximate common motion of all items since then, and in a pass.
     pub(crate) drift: [f64; 3],
+    pub(crate) pace: [f64; 3],
+    /// The bounds of the candidates, see [`NearLists`].
+    pub(crate) bounds: Vec<AtomicU32>,
+    pub(crate) travelled: f64,
+    pub(crate) rounding: f64,
+    /// An upper limit, in metres, of how much two items have approached each other since then.
+    pub(crate) approach: f64,
 }
 
 /// The limits for neighbour lists.
@@ -52,8 +60,8 @@ impl Room {
 
 impl Lists {
     /// The largest radius, in metres, for which a search can use the lists.
-    pub(crate) fn radius(&self, motion: &Motion, room: &Room) -> f64 {
-        self.made_within - motion.approach() - room.rounding
+    pub(crate) fn radius(&self, room: &Room) -> f64 {
+        self.made_within - self.approach - room.rounding
     }
 
     /// The lists, for kernels.
@@ -66,6 +74,29 @@ impl Lists {
             owners: &self.owners,
             cells: &items.cells,
             radius,
+            bounds: &self.bounds,
+            travelled: self.travelled,
+            rounding: self.rounding,
+        }
+    }
+
+    /// Follows the displacements of a pass.
+    pub(crate) fn moved_in_pass(&mut self, motion: &Motion) {
+        self.travelled += motion.approach();
+        self.approach += motion.approach();
+        if let Some(middle) = motion.middle() {
+            for axis in 0..3 {
+                self.pace[axis] += middle[axis];
+                self.drift[axis] += self.pace[axis];
+            }
+        }
+    }
+
+    /// Knows the displacements since the lists were made.
+    pub(crate) fn measured(&mut self, motion: &Motion) {
+        self.approach = motion.approach();
+        if let Some(middle) = motion.middle() {
+            (0..3).for_each(|axis| self.drift[axis] += middle[axis]);
         }
     }
 
@@ -76,7 +107,7 @@ impl Lists {
 
     /// The size in bytes.
     pub(crate) fn memory(&self) -> usize {
-        let numbers = self.places.capacity() + self.starts.capacity() + 2 * self.candidates.capacity();
+        let numbers = self.places.capacity() + self.starts.capacity() + 3 * self.candidates.capacity();
         numbers * size_of::<u32>() + self.in_cells.capacity()
     }
 

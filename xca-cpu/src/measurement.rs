@@ -13,27 +13,44 @@ impl Population {
     /// have changed. To be called before the population is searched.
     pub(crate) fn slack(&mut self, layout: &Layout, geometry: &Geometry) -> f64 {
         self.searched = true;
-        let motion = self.motion.unwrap_or_else(|| measure(self, layout, geometry));
+        if let Some(motion) = self.motion {
+            return motion.slack;
+        }
+        let motion = self.measure(layout, geometry);
+        if let Some(lists) = &mut self.lists {
+            // In any way since they were last measured.
+            lists.travelled += lists.approach + motion.approach();
+            lists.measured(&motion);
+        }
         self.motion = Some(motion);
         motion.slack
     }
+
+    /// The measures of all items, with the displacements since lists were made.
+    pub(crate) fn measure(&self, layout: &Layout, geometry: &Geometry) -> Motion {
+        let blocks = blocks(layout, &[self], rayon::current_num_threads()).into_par_iter().with_max_len(1);
+        let of_block = |rows: std::ops::Range<usize>| {
+            rows.map(|row| {
+                let (first, end) = self.row(row);
+                let positions = self.position.map_or(&[][..], |field| {
+                    let size = self.types[field].size();
+                    &self.items.fields[field].bytes()[first * size..end * size]
+                });
+                measure_row(self, layout, geometry, row, positions, Since::Lists, None)
+            })
+            .fold(Motion::NONE, Motion::and)
+        };
+        blocks.map(of_block).reduce(|| Motion::NONE, Motion::and)
+    }
 }
 
-/// The measures of all items of a population.
-fn measure(population: &Population, layout: &Layout, geometry: &Geometry) -> Motion {
-    let blocks = blocks(layout, &[population], rayon::current_num_threads()).into_par_iter().with_max_len(1);
-    let of_block = |rows: std::ops::Range<usize>| {
-        rows.map(|row| {
-            let (first, end) = population.row(row);
-            let positions = population.position.map_or(&[][..], |field| {
-                let size = population.types[field].size();
-                &population.items.fields[field].bytes()[first * size..end * size]
-            });
-            measure_row(population, layout, geometry, row, positions, None)
-        })
-        .fold(Motion::NONE, Motion::and)
-    };
-    blocks.map(of_block).reduce(|| Motion::NONE, Motion::and)
+/// The time from which displacements are measured.
+#[derive(Clone, Copy)]
+pub(crate) enum Since<'a> {
+    /// When the lists were made, if there are any.
+    Lists,
+    /// The beginning of the pass, with these positions. None if they stay, or if there are no lists.
+    Pass(&'a [u8]),
 }
 
 /// The measures of the items of a row with these positions. With `answers` of a migration, the slack is that
@@ -44,36 +61,49 @@ pub(crate) fn measure_row(
     geometry: &Geometry,
     row: usize,
     positions: &[u8],
+    since: Since<'_>,
     answers: Option<&[u32]>,
 ) -> Motion {
     let Some(field) = population.position else { return Motion::NONE };
-    let frame = &Frame::new(population, layout, geometry, row, answers);
+    let (first, end) = population.row(row);
+    let references = match since {
+        Since::Lists if population.lists.is_some() => &population.items.references[first..end],
+        _ => &[],
+    };
+    let before = match since {
+        Since::Pass(before) => before,
+        Since::Lists => &[],
+    };
+    let frame = &Frame::new(population, layout, geometry, row, since, answers);
     let mut motion = Motion::NONE;
     match population.types[field].scalar {
         StoredScalar::F32 => {
-            let positions: &[[f32; 3]] = bytemuck::cast_slice(positions);
-            let position = |position: [f32; 3]| position.map(f64::from);
-            kernel::run(Measurement { frame, positions, position, motion: &mut motion });
+            let [positions, before]: [&[[f32; 3]]; 2] = [positions, before].map(cast);
+            kernel::run(Measurement { frame, positions, before, references, motion: &mut motion });
         }
         _ => {
-            let positions: &[[f64; 3]] = bytemuck::cast_slice(positions);
-            let position = |position: [f64; 3]| position;
-            kernel::run(Measurement { frame, positions, position, motion: &mut motion });
+            let [positions, before]: [&[[f64; 3]]; 2] = [positions, before].map(cast);
+            kernel::run(Measurement { frame, positions, before, references, motion: &mut motion });
         }
     }
     motion
 }
 
-/// A row, and the references of its items.
+/// Empty slices need not be aligned.
+fn cast<T: bytemuck::AnyBitPattern>(bytes: &[u8]) -> &[T] {
+    if bytes.is_empty() { &[] } else { bytemuck::cast_slice(bytes) }
+}
+
+/// A row.
 struct Frame<'a> {
     cells: &'a [u32],
     answers: Option<&'a [u32]>,
-    references: &'a [[f32; 3]],
     first_cell: u32,
     side: f64,
     /// The lower corner along y and z.
     low: [f64; 2],
-    drift: [f64; 3],
+    /// The common displacement.
+    common: [f64; 3],
     /// The length of each toroidal axis. Infinite for other axes.
     periods: [f64; 3],
 }
@@ -84,21 +114,24 @@ impl<'a> Frame<'a> {
         layout: &Layout,
         geometry: &Geometry,
         row: usize,
+        since: Since<'_>,
         answers: Option<&'a [u32]>,
     ) -> Self {
         let (first, end) = population.row(row);
         let [_, south, bottom] = layout.origin(row);
         let side = geometry.side();
         let (toroidal, extents) = (geometry.toroidal(), geometry.extents());
-        let listed = population.lists.is_some();
+        let lists = population.lists.as_ref();
         Self {
             cells: &population.items.cells[first..end],
             answers,
-            references: if listed { &population.items.references[first..end] } else { &[] },
             first_cell: layout.linear(row) as u32,
             side,
             low: [south, bottom].map(|index| index as f64 * side),
-            drift: population.lists.as_ref().map_or([0.0; 3], |lists| lists.drift),
+            common: lists.map_or([0.0; 3], |lists| match since {
+                Since::Lists => lists.drift,
+                Since::Pass(_) => lists.pace,
+            }),
             periods: std::array::from_fn(|axis| {
                 if toroidal[axis] { extents[axis] as f64 * side } else { f64::INFINITY }
             }),
@@ -107,12 +140,12 @@ impl<'a> Frame<'a> {
 
     /// The slack of the staying items. Only the distance along x depends on the cell of an item.
     #[inline(always)]
-    fn slack<T: Copy>(&self, positions: &[T], position: impl Fn(T) -> [f64; 3]) -> f64 {
+    fn slack<S: Copy + Into<f64>>(&self, positions: &[[S; 3]]) -> f64 {
         let mut slack: f64 = 0.0;
         let [south, bottom] = self.low;
         let [north, top] = [south + self.side, bottom + self.side];
         for (number, (&place, &cell)) in positions.iter().zip(self.cells).enumerate() {
-            let [x, y, z] = position(place);
+            let [x, y, z] = place.map(Into::into);
             let west = f64::from(cell - self.first_cell) * self.side;
             let across = above(west - x, x - (west + self.side));
             let out = above(across, above(above(south - y, y - north), above(bottom - z, z - top)));
@@ -123,12 +156,16 @@ impl<'a> Frame<'a> {
     }
 
     #[inline(always)]
-    fn moved<T: Copy>(&self, positions: &[T], position: impl Fn(T) -> [f64; 3], motion: &mut Motion) {
+    fn moved<S: Copy + Into<f64>, T: Copy + Into<f64>>(
+        &self,
+        positions: &[[S; 3]],
+        before: &[[T; 3]],
+    ) -> Motion {
+        let Motion { slack, mut square, mut low, mut high } = Motion::NONE;
         let wraps = self.periods.iter().any(|period| period.is_finite());
-        for (&place, reference) in positions.iter().zip(self.references) {
-            let now = position(place);
+        for (now, before) in positions.iter().zip(before) {
             let mut moved: [f64; 3] =
-                std::array::from_fn(|axis| now[axis] - f64::from(reference[axis]) - self.drift[axis]);
+                std::array::from_fn(|axis| now[axis].into() - before[axis].into() - self.common[axis]);
             if wraps {
                 for (moved, period) in
                     moved.iter_mut().zip(self.periods).filter(|(_, period)| period.is_finite())
@@ -136,32 +173,14 @@ impl<'a> Frame<'a> {
                     *moved -= period * (*moved / period).round();
                 }
             }
-            for (moved, (low, high)) in moved.iter().zip(motion.low.iter_mut().zip(&mut motion.high)) {
-                *low = -above(-*low, -moved);
-                *high = above(*high, *moved);
+            for axis in 0..3 {
+                low[axis] = below(low[axis], moved[axis]);
+                high[axis] = above(high[axis], moved[axis]);
             }
             let [x, y, z] = moved;
-            motion.square = above(motion.square, x * x + y * y + z * z);
+            square = above(square, x * x + y * y + z * z);
         }
-    }
-
-    #[inline(always)]
-    fn measure<T: Copy>(&self, positions: &[T], position: impl Fn(T) -> [f64; 3] + Copy) -> Motion {
-        let mut motion = Motion { slack: self.slack(positions, position), ..Motion::NONE };
-        self.moved(positions, position, &mut motion);
-        // Products with 0 are 0, except for NaN and infinities.
-        let mut nothing = [0.0; 3];
-        for &place in positions {
-            let now = position(place);
-            for axis in 0..3 {
-                nothing[axis] += now[axis] * 0.0;
-            }
-        }
-        if nothing != [0.0; 3] {
-            motion.slack = f64::NAN;
-            motion.square = f64::NAN;
-        }
-        motion
+        Motion { slack, square, low, high }
     }
 }
 
@@ -171,17 +190,42 @@ fn above(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 
+/// The smaller number. With NaN, either one.
+#[inline(always)]
+fn below(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
 /// The measurement of a row, compiled for the processor's instructions.
-struct Measurement<'a, T, F> {
+struct Measurement<'a, S> {
     frame: &'a Frame<'a>,
-    positions: &'a [T],
-    position: F,
+    positions: &'a [[S; 3]],
+    /// The positions before the pass, or when lists were made. One of them is empty, or both.
+    before: &'a [[S; 3]],
+    references: &'a [[f32; 3]],
     motion: &'a mut Motion,
 }
 
-impl<T: Copy, F: Fn(T) -> [f64; 3] + Copy> Work for Measurement<'_, T, F> {
+impl<S: Copy + Into<f64>> Work for Measurement<'_, S> {
     #[inline(always)]
     fn run(self) {
-        *self.motion = self.frame.measure(self.positions, self.position);
+        let Self { frame, positions, before, references, motion } = self;
+        let moved = if references.is_empty() {
+            frame.moved(positions, before)
+        } else {
+            frame.moved(positions, references)
+        };
+        *motion = Motion { slack: frame.slack(positions), ..moved };
+        // Products with 0 are 0, except for NaN and infinities.
+        let mut nothing = [0.0; 3];
+        for position in positions {
+            for axis in 0..3 {
+                nothing[axis] += position[axis].into() * 0.0;
+            }
+        }
+        if nothing != [0.0; 3] {
+            motion.slack = f64::NAN;
+            motion.square = f64::NAN;
+        }
     }
 }

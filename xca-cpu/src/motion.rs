@@ -1,12 +1,13 @@
-//! The distance of items from their cells, and their relative motion since neighbour lists were made.
+//! The distance of items from their cells, and their relative motion in a pass or since neighbour lists were
+//! made.
 
 /// Measures of some items. A measure is NaN if a position is NaN.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Motion {
     /// The largest distance in metres, along an axis, of an item from its cell.
     pub(crate) slack: f64,
-    /// The square of the largest distance in metres between an item and its place under the common motion
-    /// alone.
+    /// The square of the largest difference in metres between a displacement and the common one, which is an
+    /// estimate known beforehand.
     pub(crate) square: f64,
     /// The smallest and largest displacements along each axis, minus the common one.
     pub(crate) low: [f64; 3],
@@ -26,6 +27,13 @@ impl Motion {
         let sphere = 2.0 * self.square.sqrt();
         // Keeps NaN.
         if box_ < sphere { box_ } else { sphere }
+    }
+
+    /// The middle of the displacements, minus the common one. `None` if nothing has moved, or if it is not
+    /// finite.
+    pub(crate) fn middle(&self) -> Option<[f64; 3]> {
+        let middle = [0, 1, 2].map(|axis| 0.5 * (self.low[axis] + self.high[axis]));
+        middle.iter().all(|middle| middle.is_finite()).then_some(middle)
     }
 
     /// The measures of both sets of items.

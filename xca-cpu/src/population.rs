@@ -231,15 +231,11 @@ impl Population {
         shifts
     }
 
-    /// Stores the measures of all items, and adds the common motion to the drift of the lists.
+    /// Stores the measures of all items after a pass.
     pub(crate) fn measured(&mut self, motion: Motion) {
         self.motion = Some(motion);
-        if let Some(lists) = &mut self.lists
-            && motion.low.iter().chain(&motion.high).all(|bound| bound.is_finite())
-        {
-            for axis in 0..3 {
-                lists.drift[axis] += 0.5 * (motion.low[axis] + motion.high[axis]);
-            }
+        if let Some(lists) = &mut self.lists {
+            lists.moved_in_pass(&motion);
         }
     }
 

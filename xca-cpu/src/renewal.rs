@@ -4,8 +4,8 @@ use crate::ghosts::rows_at_borders;
 use crate::layout::Layout;
 use crate::listing::{Listed, make};
 use crate::lists::{Lists, Room, STRANGER};
-use crate::motion::Motion;
 use crate::population::Population;
+use std::sync::atomic::AtomicU32;
 use std::time::Instant;
 use xca_core::Geometry;
 
@@ -16,16 +16,24 @@ pub(crate) fn keep_lists(
     layout: &Layout,
     geometry: &Geometry,
     room: &Room,
-    motion: &mut Motion,
 ) -> Option<f64> {
     let widest = population.upkeep.widest();
     if widest <= 0.0 {
         return None;
     }
-    if let Some(lists) = &population.lists {
-        let radius = lists.radius(motion, room);
-        if radius >= widest {
-            return Some(radius);
+    if let Some(lists) = &mut population.lists {
+        lists.rounding = room.rounding;
+        if lists.radius(room) >= widest {
+            return Some(lists.radius(room));
+        }
+    }
+    if population.lists.is_some() {
+        let motion = population.measure(layout, geometry);
+        if let Some(lists) = &mut population.lists {
+            lists.measured(&motion);
+            if lists.radius(room) >= widest {
+                return Some(lists.radius(room));
+            }
         }
         population.upkeep.learn();
     }
@@ -37,8 +45,7 @@ pub(crate) fn keep_lists(
     let start = Instant::now();
     population.lists = None;
     let listed = make(population, layout, geometry, within + room.rounding);
-    let kept = population.store_lists(layout, &listed, within);
-    *motion = Motion { square: 0.0, ..*motion };
+    let kept = population.store_lists(layout, &listed, within, room.rounding);
     let candidates = population.lists.as_ref().map_or(0, |lists| lists.candidates.len());
     population.upkeep.made(within, start.elapsed(), items, candidates);
     kept.then_some(within - room.rounding)
@@ -53,7 +60,7 @@ impl Population {
     }
 
     /// Stores lists of all rows in order. Returns `false` if there are too many entries.
-    fn store_lists(&mut self, layout: &Layout, listed: &[Listed], made_within: f64) -> bool {
+    fn store_lists(&mut self, layout: &Layout, listed: &[Listed], made_within: f64, rounding: f64) -> bool {
         let places = self.own_places();
         let total: usize = listed.iter().map(|listed| listed.list.len()).sum();
         if u32::try_from(total).is_err() {
@@ -89,6 +96,11 @@ impl Population {
             owners,
             in_cells: rows_at_borders(layout),
             drift: [0.0; 3],
+            pace: [0.0; 3],
+            bounds: std::iter::repeat_with(AtomicU32::default).take(total).collect(),
+            travelled: 0.0,
+            rounding,
+            approach: 0.0,
         });
         true
     }

@@ -20,7 +20,6 @@ use crate::blocks::{blocks, blocks_of_due, long_blocks};
 use crate::dense::Halo;
 use crate::group::{Group, population};
 use crate::population::Population;
-use crate::wavefront::{Depth, Piece, Wavefront};
 use found::Found;
 pub(crate) use found::{FirstFault, Mover};
 pub(crate) use ground::{Ground, StageOfStep};
@@ -34,6 +33,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 use xca_core::Model;
+use xca_wavefront::{Depth, Piece, Wavefront};
 
 /// A pass that has done its first rows.
 pub(crate) struct Begun {

@@ -4,11 +4,11 @@
 use crate::choices::Choices;
 use crate::layout::Layout;
 use crate::memory::bytes_per_cell;
-use crate::wavefront::{Depth, Lag};
 use std::iter;
 use std::time::Duration;
 use xca_core::engine::Figure;
 use xca_core::{Model, Precision, Process, ProcessKind};
+use xca_wavefront::{Depth, Lag};
 
 /// The largest number of steps done together. With more, the data between the first and the last step exceeds
 /// every cache.

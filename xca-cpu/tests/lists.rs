@@ -36,6 +36,68 @@ fn look_again(me: &mut Slot<Grain>) {
     }
 }
 
+/// Does nothing for grains without others nearby.
+#[elementary_process]
+fn feel(me: &mut Slot<Grain>) {
+    if me.seen == 0 || !(me.radius > 0.1) {
+        return;
+    }
+    for other in me.others_in_cell_within(0.4) {
+        me.seen = me.seen.wrapping_mul(43).wrapping_add(other.label());
+    }
+    for other in me.others_in_cell() {
+        me.seen = me.seen.wrapping_mul(47).wrapping_add(other.label());
+    }
+}
+
+/// The same, but all values are copied to a second buffer.
+#[elementary_process]
+fn exchange(me: &mut Slot<Grain>) {
+    for other in me.others_within(0.4) {
+        me.seen = me.seen.wrapping_mul(53).wrapping_add(other.seen);
+    }
+}
+
+/// Writes the positions to a second buffer.
+#[elementary_process]
+fn lean(me: &mut Slot<Grain>) {
+    for other in me.others_in_cell() {
+        me.position += (other.position - me.position) * 0.05;
+    }
+}
+
+/// Always does something.
+#[elementary_process]
+fn tally(me: &mut Slot<Grain>) {
+    me.seen = me.seen.wrapping_add(1);
+    for other in me.others_in_neighbours_within(0.4) {
+        me.seen = me.seen.wrapping_add(other.label());
+    }
+}
+
+/// Two radii.
+#[elementary_process]
+fn look_twice(me: &mut Slot<Grain>) {
+    for other in me.others_within(0.3) {
+        me.seen = me.seen.wrapping_mul(61).wrapping_add(other.label());
+    }
+    for other in me.others_within(0.7) {
+        me.seen = me.seen.wrapping_add(other.label());
+    }
+}
+
+/// Does something for some grains.
+#[elementary_process]
+fn tire(me: &mut Slot<Grain>) {
+    if me.radius > 0.5 {
+        me.seen = me.seen.wrapping_mul(59);
+        return;
+    }
+    for other in me.others_within(0.4) {
+        me.seen = me.seen.wrapping_add(other.label());
+    }
+}
+
 #[elementary_process]
 fn fly(me: &mut Slot<Grain>, space: &Space) {
     me.position = space.wrapped(me.position + me.velocity);
@@ -65,35 +127,40 @@ struct Motion {
 const EXTENTS: [usize; 3] = [7, 6, 5];
 
 fn grains(boundaries: [Boundary; 3], motion: &Motion) -> Result<Model, ModelError> {
-    let Motion { together, apart, radius } = *motion;
+    space(boundaries).process((look, look_again, fly, settle)).initialise(placed(600, motion)).build()
+}
+
+fn space(boundaries: [Boundary; 3]) -> ModelBuilder {
     Model::builder("grains")
         .extents(EXTENTS)
         .neighbourhood(Neighbourhood::moore(1))
         .boundaries(boundaries)
         .population::<Grain>(100)
         .items_may_leave::<Grain>()
-        .process(look)
-        .process(look_again)
-        .process(fly)
-        .process(settle)
-        .initialise(move |state| {
-            let item = |label: u32| {
-                let place = [0, 1, 2].map(|axis| number(label, axis) * EXTENTS[axis as usize] as f64);
-                let speed =
-                    [0, 1, 2].map(|axis| together[axis] + apart * (number(label, 3 + axis as u32) - 0.5));
-                let [x, y, z] = place;
-                let [u, v, w] = speed;
-                let state = Grain {
-                    position: Vector3::new(x, y, z),
-                    velocity: Vector3::new(u, v, w),
-                    radius: radius(label),
-                    seen: 0,
-                };
-                Item { label, cell: place.map(|place| place as usize), state }
+}
+
+/// Places so many grains.
+fn placed(
+    count: u32,
+    motion: &Motion,
+) -> impl Fn(&mut State<'_>) -> Result<(), SteeringError> + Send + Sync + use<> {
+    let Motion { together, apart, radius } = *motion;
+    move |state| {
+        let item = |label: u32| {
+            let place = [0, 1, 2].map(|axis| number(label, axis) * EXTENTS[axis as usize] as f64);
+            let speed = [0, 1, 2].map(|axis| together[axis] + apart * (number(label, 3 + axis as u32) - 0.5));
+            let [x, y, z] = place;
+            let [u, v, w] = speed;
+            let state = Grain {
+                position: Vector3::new(x, y, z),
+                velocity: Vector3::new(u, v, w),
+                radius: radius(label),
+                seen: 0,
             };
-            Ok(state.set_items((0..600).map(item).collect())?)
-        })
-        .build()
+            Item { label, cell: place.map(|place| place as usize), state }
+        };
+        Ok(state.set_items((0..count).map(item).collect())?)
+    }
 }
 
 const FLAT: [Boundary; 3] = [Boundary::Flat; 3];
@@ -147,15 +214,119 @@ fn no_skin_and_no_motion_changes_a_bit() -> TestResult {
     ];
     for (name, motion) in &motions {
         for boundaries in [FLAT, TORUS, [Boundary::Toroidal, Boundary::Flat, Boundary::Flat]] {
-            let model = grains(boundaries, motion)?;
-            for precision in [Precision::F32, Precision::F64] {
-                let wanted = run(&model, &Reference, precision, 12)?;
-                for (threads, skin) in [1, 2, 3, 2].into_iter().zip(SKINS) {
-                    let got = run(&model, &with_skin(threads, skin)?, precision, 12)?;
-                    let step = wanted.iter().zip(&got).position(|(wanted, got)| wanted != got);
-                    assert_eq!(step, None, "{name}, {boundaries:?}, {precision}, skin {skin:?}");
-                }
+            compare(name, &grains(boundaries, motion)?)?;
+        }
+    }
+    Ok(())
+}
+
+/// Compares the engine with the reference engine, with all skins.
+fn compare(name: &str, model: &Model) -> TestResult {
+    for precision in [Precision::F32, Precision::F64] {
+        let wanted = run(model, &Reference, precision, 12)?;
+        for (threads, skin) in [1, 2, 3, 2].into_iter().zip(SKINS) {
+            let got = run(model, &with_skin(threads, skin)?, precision, 12)?;
+            let step = wanted.iter().zip(&got).position(|(wanted, got)| wanted != got);
+            assert_eq!(step, None, "{name}, {precision}, skin {skin:?}");
+        }
+    }
+    Ok(())
+}
+
+/// Few grains are near others, so that most are left out where they do nothing.
+#[test]
+fn grains_alone_do_what_they_do_in_the_reference_engine() -> TestResult {
+    for apart in [0.0, 0.05, 0.8] {
+        let motion = Motion { together: [0.02, 0.0, -0.01], apart, radius: |label| number(label, 7) };
+        for boundaries in [FLAT, TORUS] {
+            for grains in [1, 2, 90] {
+                let start = placed(grains, &motion);
+                let builder = space(boundaries)
+                    .process((look_again, feel, exchange, tally, look_twice, tire, fly, settle));
+                compare(&format!("{grains}, {apart}"), &builder.initialise(start).build()?)?;
             }
+        }
+    }
+    Ok(())
+}
+
+/// Lists do not know the motion of a pass that writes positions to a second buffer.
+#[test]
+fn positions_in_a_second_buffer_change_no_bit() -> TestResult {
+    for apart in [0.0, 0.1] {
+        let motion = Motion { together: [0.0; 3], apart, radius: |_| 0.45 };
+        for boundaries in [FLAT, TORUS] {
+            let builder = space(boundaries).process((look, lean, look_again, fly, settle));
+            compare(&apart.to_string(), &builder.initialise(placed(300, &motion)).build()?)?;
+        }
+    }
+    Ok(())
+}
+
+#[derive(Parameters, Clone, Copy, Debug)]
+struct Reach {
+    radius: Real,
+}
+
+#[elementary_process]
+fn reach(me: &mut Slot<Grain>, p: &Reach) {
+    if me.seen > 5 {
+        return;
+    }
+    for other in me.others_within(2.0 * p.radius) {
+        me.seen += other.label();
+    }
+}
+
+#[elementary_process]
+fn grow(me: &mut Slot<Grain>) {
+    me.seen += 1;
+}
+
+#[elementary_process]
+fn divide(me: &mut Slot<Grain>) {
+    if 12 / (4 - me.seen) > 100 {
+        return;
+    }
+    for other in me.others_within(0.4) {
+        me.seen = me.seen.wrapping_add(other.label());
+    }
+}
+
+/// A division by zero in a condition is a fault, also of a grain without others.
+#[test]
+fn a_condition_that_panics_is_a_fault_of_grains_alone() -> TestResult {
+    let motion = Motion { together: [0.0; 3], apart: 0.0, radius: |_| 0.1 };
+    let model = space(FLAT).process((divide, grow)).initialise(placed(3, &motion)).build()?;
+    for skin in SKINS {
+        let engine = with_skin(2, skin)?;
+        let mut simulation = Simulation::new(&model, &engine, RunOptions::default())?;
+        simulation.run(4)?;
+        assert!(simulation.run(1).is_err(), "{skin:?}");
+    }
+    Ok(())
+}
+
+/// A search with a wrong radius is a fault, also of a grain without others.
+#[test]
+fn a_wrong_radius_is_a_fault_of_grains_alone() -> TestResult {
+    let motion = Motion { together: [0.0; 3], apart: 0.0, radius: |_| 0.1 };
+    for radius in ["-0.1", "0.6"] {
+        let builder = space(FLAT).parameters(Reach { radius: 0.1 }).process((look_again, reach));
+        // The radius is right until there are lists.
+        let model = builder
+            .initialise(placed(3, &motion))
+            .steer(Schedule::At(vec![4]), move |state| Ok(state.set_parameter("radius", radius)?))
+            .build()?;
+        let fault = |engine: &dyn Engine| -> Result<String, Box<dyn Error>> {
+            let mut simulation = Simulation::new(&model, engine, RunOptions::default())?;
+            simulation.run(4)?;
+            Ok(simulation.run(1).err().map(|error| error.to_string()).unwrap_or_default())
+        };
+        let wanted = fault(&Reference)?;
+        assert!(!wanted.is_empty(), "{radius}");
+        for skin in SKINS {
+            assert_eq!(fault(&with_skin(2, skin)?)?, wanted, "{radius}, {skin:?}");
         }
     }
     Ok(())

@@ -13,7 +13,6 @@ mod native;
 mod parse;
 mod parts;
 mod size;
-mod spelling;
 mod states;
 
 use parse::Wanted;
@@ -69,9 +68,9 @@ fn expand(attribute: TokenStream, item: TokenStream, wanted: Wanted) -> TokenStr
         Ok(function) => function,
         Err(error) => return no_function(item, wanted, &error).into(),
     };
-    spelling::spell_out_matches(&mut function);
+    xca_spelling::spell_out_matches(&mut function);
     let expanded = if attribute.is_empty() {
-        parse::function(spelling::spell_out(&function), wanted)
+        parse::function(xca_spelling::spell_out(&function), wanted)
             .and_then(|parsed| native::expand(&parsed, &function))
     } else {
         Err(syn::Error::new_spanned(

@@ -5,6 +5,7 @@ mod attributes;
 mod blocks;
 mod body;
 mod check;
+mod company;
 mod expressions;
 mod fetches;
 mod generics;

@@ -18,11 +18,11 @@ mod wanted;
 
 use crate::ast::{Function, FunctionKind, Role};
 use crate::checked::checked;
-use crate::spelling::Spelled;
 pub(crate) use places::plain_operator;
 use scope::Scope;
 use syn::{Error, Result};
 pub(crate) use wanted::Wanted;
+use xca_spelling::Spelled;
 
 /// Parses and checks a function of the given kind; for processes the kind (cells or items) follows from the
 /// first argument.

@@ -82,3 +82,8 @@ float!(f32, F32, words => (words[0] >> 8) as f32 * (1.0 / 16_777_216.0));
 float!(f64, F64, words => {
     (f64::from(words[0] >> 5) * 67_108_864.0 + f64::from(words[1] >> 6)) * (1.0 / 9_007_199_254_740_992.0)
 });
+
+/// A random number in [0, 1) for the host, whose `Real` is `f64`.
+pub fn uniform([first, second, ..]: [u32; 4]) -> f64 {
+    f64::uniform([first, second])
+}

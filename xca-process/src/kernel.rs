@@ -10,6 +10,7 @@
 
 mod cells;
 mod codes;
+mod company;
 mod constants;
 mod distance;
 mod draws;

@@ -21,20 +21,18 @@ pub mod math;
 mod neighbourhood;
 mod parameters;
 mod process;
-mod random;
 mod states;
 mod substates;
 mod vocabulary;
 
 pub use float::Float;
+#[doc(hidden)]
+pub use float::uniform;
 pub use geometry::{Boundary, Face, Faces, Geometry, Reached};
 pub use host_value::{HostScalar, HostValue};
 pub use neighbourhood::{Hexagons, Neighbourhood, NeighbourhoodError, Parity};
 pub use parameters::{AnyParameters, ParameterError, ParameterValue, Parameters};
 pub use process::{Argument, ElementaryProcess, Holds, ParametersArgument, Process, ProcessKind, Processes};
-#[doc(hidden)]
-pub use random::uniform;
-pub use random::{Draw, Stream, philox};
 pub use states::States;
 pub use substates::{HasSubstate, Substate, Substates};
 pub use vocabulary::{Cell, Destination, Other, Others, Slot, Slots, Space};

@@ -5,12 +5,15 @@
 mod interval;
 #[doc(hidden)]
 pub mod methods;
+mod random;
 mod schema;
 mod state_names;
 mod value;
 mod vector;
 
 pub use interval::{End, Interval};
+#[doc(hidden)]
+pub use random::{Draw, Stream, philox};
 pub use schema::{Field, Schema};
 pub use state_names::StateNames;
 #[doc(hidden)]

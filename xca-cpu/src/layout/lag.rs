@@ -1,8 +1,8 @@
 //! The distance between passes that follow each other over the rows.
 
 use super::Layout;
-use crate::wavefront::Lag;
 use xca_core::{Boundary, Face};
+use xca_wavefront::Lag;
 
 impl Layout {
     /// The distance that a pass must keep from the previous pass. `None` if the halo is wider than the space,

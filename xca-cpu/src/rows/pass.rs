@@ -7,7 +7,7 @@ use super::now::{Now, Report};
 use super::prepare::Ready;
 use super::prepared::Prepared;
 use super::search::{Measured, Searches};
-use super::tools::{Cells, Outcome, Work};
+use super::tools::{Buffers, Cells, Outcome, Work};
 use crate::activity::{Activity, DueRow};
 use crate::group::{Group, population};
 use crate::layout::Layout;
@@ -17,6 +17,7 @@ use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use xca_core::engine::Fault;
 use xca_core::kernel::{Frame, Row, RowItems, STAY, StoppedAt};
+use xca_core::storage::Buffer;
 use xca_core::{Model, Parity, ProcessKind, Stream};
 
 /// The places where processes are due.
@@ -154,6 +155,10 @@ impl<'a> Pass<'a> {
             }
             let first = self.layout.first(row);
             let origin = self.layout.origin(row).map(|index| index as u32);
+            work.buffers.positions.resize_with(self.measured.len(), || Buffer::zeroed(0));
+            for (measured, before) in self.measured.iter().zip(&mut work.buffers.positions) {
+                measured.keep(self.groups, row, before);
+            }
             let those = self.prepared[..processes].iter().zip(&populations);
             for (number, (prepared, population)) in those.enumerate() {
                 now.start(number, row, place);
@@ -193,8 +198,9 @@ impl<'a> Pass<'a> {
                     self.collect_movers(population, row, &work.buffers.answers, &mut found.movers);
                 }
             }
-            for (measured, motion) in self.measured.iter().zip(&mut found.motions) {
-                let now = measured.measure_row(model, self.layout, self.groups, row, &work.buffers.answers);
+            let Buffers { positions, answers, .. } = &work.buffers;
+            for ((measured, before), motion) in self.measured.iter().zip(positions).zip(&mut found.motions) {
+                let now = measured.measure_row(model, self.layout, self.groups, row, (before, answers));
                 *motion = motion.and(now);
             }
         }

@@ -4,10 +4,11 @@
 use crate::group::{Group, population};
 use crate::layout::Layout;
 use crate::lists::Room;
-use crate::measurement;
+use crate::measurement::{self, Since};
 use crate::motion::{Motion, largest};
 use crate::renewal::keep_lists;
 use xca_core::kernel::CellFilter;
+use xca_core::storage::Buffer;
 use xca_core::{Model, Precision, Process, ProcessKind};
 
 /// The data for the searches of a pass.
@@ -83,11 +84,10 @@ pub(super) fn prepare(
     let Some(widest) = filter.room(geometry.covered_radius(precision)) else { return searches };
     for &number in &searches.populations {
         if let Group::Population(population) = &mut groups[number]
-            && let Some(mut motion) = population.motion
+            && let Some(motion) = population.motion
         {
             let room = Room::new(widest, geometry, &motion);
-            searches.listed[number] = keep_lists(population, layout, geometry, &room, &mut motion);
-            population.motion = Some(motion);
+            searches.listed[number] = keep_lists(population, layout, geometry, &room);
         }
     }
     searches
@@ -102,6 +102,8 @@ pub(super) struct Measured {
     size: usize,
     /// Whether the pass migrates the population.
     migrates: bool,
+    /// Whether the pass changes positions, and there are lists.
+    moves: bool,
 }
 
 // SAFETY: the pointer leads to positions that are read row by row, each by the thread that has the row.
@@ -136,10 +138,28 @@ impl Measured {
             if second == Some(false) || (migrates && second.is_none()) {
                 let size = population.types[field].size();
                 let positions = population.items.fields[field].as_mut_ptr().cast_const();
-                all.push(Self { population: number, positions, size, migrates });
+                let moves = second.is_some() && population.lists.is_some();
+                all.push(Self { population: number, positions, size, migrates, moves });
             }
         }
         all
+    }
+
+    /// The positions of the items of a row. Not while a kernel of the row runs.
+    fn positions(&self, groups: &[Group], row: usize) -> &[u8] {
+        let Some(population) = population(&groups[self.population]) else { return &[] };
+        let (first, end) = population.row(row);
+        // SAFETY: the row's own items, which this thread alone has; no kernel of the row runs.
+        unsafe {
+            std::slice::from_raw_parts(self.positions.add(first * self.size), (end - first) * self.size)
+        }
+    }
+
+    /// Keeps the positions of a row, before all processes of the pass, if they change.
+    pub(super) fn keep(&self, groups: &[Group], row: usize, before: &mut Buffer) {
+        let positions = if self.moves { self.positions(groups, row) } else { &[] };
+        before.resize(positions.len());
+        before.bytes_mut().copy_from_slice(positions);
     }
 
     /// Measures the items of a row, after all processes of the pass.
@@ -149,17 +169,13 @@ impl Measured {
         layout: &Layout,
         groups: &[Group],
         row: usize,
-        answers: &[u32],
+        (before, answers): (&Buffer, &[u32]),
     ) -> Motion {
         let Some(population) = population(&groups[self.population]) else {
             return Motion::NONE;
         };
-        let (first, end) = population.row(row);
-        // SAFETY: the row's own items, which this thread alone has; the kernels of the row have ended.
-        let positions = unsafe {
-            std::slice::from_raw_parts(self.positions.add(first * self.size), (end - first) * self.size)
-        };
+        let (positions, since) = (self.positions(groups, row), Since::Pass(before.bytes()));
         let answers = self.migrates.then_some(answers);
-        measurement::measure_row(population, layout, model.geometry(), row, positions, answers)
+        measurement::measure_row(population, layout, model.geometry(), row, positions, since, answers)
     }
 }

@@ -3,6 +3,7 @@
 use super::now::Now;
 use std::cell::Cell;
 use xca_core::kernel::{Entry, Scratch};
+use xca_core::storage::Buffer;
 
 /// The outcome of a kernel in some cells.
 #[derive(Default)]
@@ -28,6 +29,8 @@ pub(super) struct Buffers {
     /// The results of a migration for the items of a row.
     pub(super) answers: Vec<u32>,
     pub(super) pieces: Pieces,
+    /// The positions of a row before the pass, of each measured population.
+    pub(super) positions: Vec<Buffer>,
 }
 
 thread_local! {

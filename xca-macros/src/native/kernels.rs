@@ -5,7 +5,9 @@
 
 use super::blocks::Blocks;
 use super::body::Writer;
+use super::company::Company;
 use super::fetches::{Names, fetches};
+use super::loops::{positions, reach_number};
 use super::names::{hidden, own_name, read_name, write_name};
 use super::types::{native_parameters, native_type, parameters};
 use super::work::{Argument, LIFE, Typed, Work};
@@ -216,6 +218,7 @@ fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
     let mut writer = Writer::new(function, Some(uses), real.clone());
     let body = writer.block(&function.body);
     let lists = writer.lists();
+    let turns = turns(function, &mut writer);
     // An item may look at the neighbours of the cell that it stands in.
     let neighbourhood =
         uses.neighbours.then(|| quote!(let #offsets = #row.offsets::<{ ::xca_core::kernel::ANY_SHAPE }>();));
@@ -236,7 +239,7 @@ fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
         #take
         #shorten
         let mut #place = #row.place();
-        for #number in 0..#count {
+        #turns {
             let #item = #first + #number;
             #place.item = ::core::option::Option::Some(#item);
             let #column = #row.column_of(#number);
@@ -246,5 +249,19 @@ fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
             #store
         }
         #place.leave();
+    }
+}
+
+/// The head of the loop over the items: all, or those with company if all others do nothing.
+fn turns(function: &Function, writer: &mut Writer<'_>) -> TokenStream {
+    let [row, number, count, company] = ["row", "number", "count", "company"].map(|name| writer.name(name));
+    let Some(Company { in_cell, radius, reach }) = Company::of(function, writer) else {
+        return quote!(for #number in 0..#count);
+    };
+    let (reach, positions) = (reach_number(reach), positions());
+    quote! {
+        let mut #company = #row.found();
+        #row.with_company::<_, #reach>(#in_cell, #radius, #positions, &mut #company.items);
+        for #number in #company.items.iter().map(|number| *number as usize)
     }
 }

@@ -62,11 +62,7 @@ impl Writer<'_> {
         body: &Block,
     ) -> TokenStream {
         let [row, column, item] = ["row", "column", "item"].map(|name| self.name(name));
-        let number = match reach {
-            Reach::Cell => quote!(0),
-            Reach::Neighbours => quote!(1),
-            Reach::All => quote!(2),
-        };
+        let number = reach_number(reach);
         if reach == Reach::Cell && radius.is_none() {
             let body = self.block(body);
             return quote! {
@@ -84,7 +80,7 @@ impl Writer<'_> {
             None => quote!(#row.others::<#number>(#column, #item, &mut #list.items);),
             Some(radius) => {
                 let radius = self.expression(radius);
-                let positions = read_name(GroupOf::Position, &Ident::new("position", Span::call_site()));
+                let positions = positions();
                 quote!(#row.others_within::<_, #number>(#column, #item, #positions[#item], #radius, #positions, &mut #list.items);)
             }
         };
@@ -98,4 +94,18 @@ impl Writer<'_> {
             }
         }
     }
+}
+
+/// The number of the searched cells, see `xca_core::kernel::reach`.
+pub(super) fn reach_number(reach: Reach) -> TokenStream {
+    match reach {
+        Reach::Cell => quote!(0),
+        Reach::Neighbours => quote!(1),
+        Reach::All => quote!(2),
+    }
+}
+
+/// The argument with the positions of all items.
+pub(super) fn positions() -> Ident {
+    read_name(GroupOf::Position, &Ident::new("position", Span::call_site()))
 }

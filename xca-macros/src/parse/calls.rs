@@ -4,13 +4,13 @@ use super::expressions::no_destination;
 use super::refusals;
 use super::scope::{Binding, Scope};
 use crate::ast::{Builtin, Expression, FunctionKind};
-use crate::spelling::{is_constant, strip};
 use syn::spanned::Spanned;
 use syn::{
     AngleBracketedGenericArguments, Error, Expr, ExprMethodCall, GenericArgument, Ident, Path, PathArguments,
     Result, Type,
 };
 use xca_methods::Method;
+use xca_spelling::{is_constant, strip};
 
 /// What an item can do in a process over items and in a migration.
 const OF_ITEM: &str = "an item has its substates (`me.substate`), label(), index(), random(draw), random_bits(draw), fault(code, value) and \

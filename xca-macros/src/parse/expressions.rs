@@ -6,9 +6,9 @@ use super::scope::{Binding, Scope};
 use super::statements::Item;
 use crate::ast::{ArgumentNumber, ArraySize, Block, Builtin, Expression, FunctionKind};
 use crate::size::bytes;
-use crate::spelling::{is_constant, strip};
 use syn::spanned::Spanned;
 use syn::{BinOp, Error, Expr, ExprMethodCall, Ident, Lit, Member, Path, Result, UnOp};
+use xca_spelling::{is_constant, strip};
 
 const NO_SELF: &str = "a process is a free function: there is no `self`";
 

@@ -4,13 +4,13 @@ use super::expressions::both;
 use super::refusals::WRITE_BY_INDEX;
 use super::scope::{Binding, Scope};
 use crate::ast::{ArgumentNumber, FunctionKind, Loop, LoopKind, Range, Reach, Statement};
-use crate::spelling::strip;
 use proc_macro2::Span;
 use syn::spanned::Spanned;
 use syn::{
     Error, Expr, ExprForLoop, ExprLit, ExprLoop, ExprMethodCall, ExprWhile, Ident, Label, Lifetime, Lit, Pat,
     RangeLimits, Result,
 };
+use xca_spelling::strip;
 
 impl Scope {
     pub(super) fn while_loop(&mut self, while_: &ExprWhile) -> Result<Statement> {

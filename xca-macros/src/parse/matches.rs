@@ -2,9 +2,9 @@
 
 use super::scope::Scope;
 use crate::ast::{Arm, Expression, Pattern};
-use crate::spelling::is_constant;
 use syn::spanned::Spanned;
 use syn::{Error, Expr, Lit, LitInt, Pat, Path, Result};
+use xca_spelling::is_constant;
 
 impl Scope {
     pub(super) fn match_expression(&mut self, match_: &syn::ExprMatch) -> Result<Expression> {

@@ -4,10 +4,10 @@ use super::expressions::both;
 use super::refusals::{WRITE_BY_INDEX, cannot_write, is_component, no_component};
 use super::scope::{Binding, Scope};
 use crate::ast::{ArgumentNumber, FunctionKind, Place, PlaceRoot, Projection, Statement};
-use crate::spelling::strip;
 use proc_macro2::Span;
 use syn::spanned::Spanned;
 use syn::{BinOp, Error, Expr, ExprUnary, Ident, Member, Result, UnOp};
+use xca_spelling::strip;
 
 impl Scope {
     pub(super) fn assignment(

@@ -2,11 +2,11 @@
 
 use super::wanted::Wanted;
 use crate::ast::{Argument, FunctionKind, Role};
-use crate::spelling::is_constant;
 use syn::{
     ConstParam, Error, FnArg, GenericArgument, GenericParam, Ident, ItemFn, Pat, PathArguments, PathSegment,
     Result, ReturnType, Type,
 };
+use xca_spelling::is_constant;
 
 pub(super) struct Signature {
     pub(super) kind: FunctionKind,

@@ -140,7 +140,7 @@ impl Scope {
     }
 
     fn initial_value(&mut self, value: &Expr) -> Result<Initial> {
-        if let Expr::MethodCall(call) = crate::spelling::strip(value)
+        if let Expr::MethodCall(call) = xca_spelling::strip(value)
             && call.method == "neighbour"
             && let Some(argument) = self.cell_argument(&call.receiver)
         {

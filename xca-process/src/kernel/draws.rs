@@ -1,8 +1,8 @@
 //! Values that depend on the step: random numbers, and the number of the step.
 
 use crate::float::Float;
-use crate::random::{Draw, Stream};
 use std::cell::Cell;
+use xca_values::{Draw, Stream};
 
 /// The random numbers of a row. Also records whether the kernel requested one, or the number of the step.
 ///

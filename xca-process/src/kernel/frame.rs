@@ -2,9 +2,9 @@
 
 use super::CellFilter;
 use crate::geometry::Geometry;
-use crate::random::Stream;
 use std::any::Any;
 use std::sync::Arc;
+use xca_values::Stream;
 
 /// The data that all rows of a step share.
 #[derive(Debug, Clone, Copy)]

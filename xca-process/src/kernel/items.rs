@@ -1,5 +1,7 @@
 //! The items of a row, and their neighbour lists, as an engine describes them.
 
+use std::sync::atomic::{AtomicU32, Ordering};
+
 /// The places of the items of a row's cells and of their neighbours.
 #[derive(Debug, Clone, Copy)]
 pub struct RowItems<'a> {
@@ -37,4 +39,31 @@ pub struct NearLists<'a> {
     pub cells: &'a [u32],
     /// A search within this radius, in metres, gives the same result in the lists as in the cells.
     pub radius: f64,
+    /// The bound of each candidate, as the bits of an `f32` in metres, at first 0. The candidate is farther
+    /// away from the owner than a radius if its bound exceeds [`Self::travelled`] by more than the radius and
+    /// the effect of rounding.
+    pub bounds: &'a [AtomicU32],
+    /// An upper limit, in metres, of how much any two items can have approached each other: the sum over all
+    /// passes since the lists were made.
+    pub travelled: f64,
+    /// The largest effect of rounding on a distance, in metres.
+    pub rounding: f64,
+}
+
+/// A factor that exceeds the rounding of a few operations in `f32`.
+const ROUNDED: f32 = 1.0 + 4.0 * f32::EPSILON;
+
+impl NearLists<'_> {
+    /// The largest bound of a candidate that may be within a radius.
+    pub(super) fn limit(&self, radius: f64) -> f32 {
+        (self.travelled + self.rounding + radius) as f32 * ROUNDED
+    }
+
+    /// Stores the bound of a candidate, from the square of its distance to the owner. The square root in `f32`
+    /// is fast, and its rounding is allowed for.
+    #[inline(always)]
+    pub(super) fn bound(&self, candidate: usize, square: f64) {
+        let bound = (self.travelled as f32 + (square as f32).sqrt()) * (2.0 - ROUNDED);
+        self.bounds[candidate].store(bound.to_bits(), Ordering::Relaxed);
+    }
 }

@@ -83,16 +83,14 @@ impl Row<'_> {
         }
         walk.key = Some(key);
         let walk = &mut *walk;
-        let square = radius * radius;
-        self.fetch(filter, positions);
         if self.frame.toroidal.contains(&true) {
             let draws = self.draws();
             let space = self.space::<R>(&draws);
-            walk.fill(items, near, positions, |one, other| {
-                length_squared(space.nearest_image(one - other)) < square
+            walk.fill(items, near, positions, radius, |one, other| {
+                length_squared(space.nearest_image(one - other))
             });
         } else {
-            walk.fill(items, near, positions, |one, other| length_squared(one - other) < square);
+            walk.fill(items, near, positions, radius, |one, other| length_squared(one - other));
         }
         walk.ordered = !plain;
         if plain {

@@ -7,7 +7,7 @@
 
 use super::distance::{keep, length_squared};
 use super::filter::Touched;
-use super::work::{announce, announce_bytes};
+use super::work::announce;
 use super::{CellFilter, Column, Found, Memory, MemoryOf, Row, WRONG_RADIUS, reach, wide};
 use crate::float::Float;
 use std::ops::Range;
@@ -112,12 +112,18 @@ impl<'a> Row<'a> {
     /// is a fault. The result does not depend on the positions of items.
     #[inline(always)]
     fn allows<R: Float, const REACH: u8>(&self, x: usize, item: usize, radius: R) -> bool {
-        let covered = R::from_f64(self.frame.geometry.covered_radius(R::PRECISION));
-        let allowed = radius >= R::from_f64(0.0) && (REACH == reach::CELL || radius <= covered);
+        let allowed = self.is_allowed::<R, REACH>(radius);
         if !allowed {
             self.report(x, Some(self.label(item)), WRONG_RADIUS, radius);
         }
         allowed
+    }
+
+    /// Whether a search may have this radius.
+    #[inline(always)]
+    pub(super) fn is_allowed<R: Float, const REACH: u8>(&self, radius: R) -> bool {
+        let covered = R::from_f64(self.frame.geometry.covered_radius(R::PRECISION));
+        radius >= R::from_f64(0.0) && (REACH == reach::CELL || radius <= covered)
     }
 
     /// Passes on the ranges of items in the searched cells, sorted by neighbour index. Skips cells that the
@@ -174,19 +180,6 @@ impl<'a> Row<'a> {
                 }
             }
         }
-    }
-
-    /// Prefetches the positions that the next row's searches read first: those after the last row of the
-    /// neighbourhood. The processor's own prefetcher cannot predict the jumps of searches.
-    pub(super) fn fetch<R: Float>(&self, filter: &CellFilter, positions: &[Vector3<R>]) {
-        let Some(&last) = self.frame.offsets.last() else { return };
-        let end = self.length.saturating_sub(1 + filter.reach[0] as usize);
-        // SAFETY: an offset of the neighbourhood.
-        let [first, end] = [0, end].map(|number| unsafe { self.items_at(self.column(number), last) });
-        // One row ahead, so that there is time to load them.
-        let next = end.end..(2 * end.end).saturating_sub(first.start);
-        let Some(row) = positions.get(next) else { return };
-        announce_bytes(row.as_ptr().cast(), size_of_val(row));
     }
 
     /// Prefetches what the process reads from these items, which are far apart in memory.

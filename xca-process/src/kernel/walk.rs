@@ -3,6 +3,8 @@
 use super::work::announce;
 use super::{NearLists, RowItems};
 use crate::float::Float;
+use std::ops::Range;
+use std::sync::atomic::Ordering;
 use xca_values::Vector3;
 
 /// The results of all searches of a row, for reuse by other processes of the pass.
@@ -17,6 +19,8 @@ pub(super) struct Walk {
     pub(super) owners: Vec<u32>,
     /// Whether the near items are sorted by neighbour index, not by place.
     pub(super) ordered: bool,
+    /// 1 for each own item with company, otherwise 0. See [`super::company`].
+    pub(super) marks: Vec<u8>,
 }
 
 /// The properties that determine the result of a search.
@@ -36,30 +40,25 @@ impl Walk {
         items: &RowItems<'_>,
         lists: &NearLists<'_>,
         positions: &[Vector3<R>],
-        is_near: impl Fn(Vector3<R>, Vector3<R>) -> bool,
+        radius: R,
+        square: impl Fn(Vector3<R>, Vector3<R>) -> R,
     ) {
         let (first, end) = items.own;
         let numbers = &lists.numbers[first..end];
         let own = &positions[first..end];
+        let limit = lists.limit(radius.to_f64());
         let (mut length, mut start) = (0, 0);
         while start < numbers.len() {
             let base = numbers[start];
             let run =
                 numbers[start..].iter().zip(base..).take_while(|(number, next)| *number == next).count();
-            let (from, to) =
-                (lists.starts[base as usize] as usize, lists.starts[base as usize + run] as usize);
-            self.near.resize(length + to - from, 0);
-            self.owners.resize(length + to - from, 0);
-            let pairs = Pairs {
-                candidates: &lists.candidates[from..to],
-                owners: &lists.owners[from..to],
-                base,
-                own: &own[start..start + run],
-                places: lists.places,
-                positions,
-            };
+            let listed = lists.starts[base as usize] as usize..lists.starts[base as usize + run] as usize;
+            self.near.resize(length + listed.len(), 0);
+            self.owners.resize(length + listed.len(), 0);
+            let own = &own[start..start + run];
+            let pairs = Pairs { lists, listed, base, own, positions, radius, limit };
             let (near, owners) = (&mut self.near[length..], &mut self.owners[length..]);
-            length += keep(pairs, start as u32, near, owners, &is_near);
+            length += keep(pairs, start as u32, near, owners, &square);
             start += run;
         }
         self.near.truncate(length);
@@ -97,40 +96,53 @@ impl Walk {
 
 /// The lists of consecutive items of a row.
 struct Pairs<'a, R> {
-    candidates: &'a [u32],
-    owners: &'a [u32],
+    lists: &'a NearLists<'a>,
+    /// The range of candidates.
+    listed: Range<usize>,
     /// The number of the first item.
     base: u32,
     /// The positions of the items.
     own: &'a [Vector3<R>],
-    places: &'a [u32],
     positions: &'a [Vector3<R>],
+    radius: R,
+    /// Candidates with a larger bound are not near.
+    limit: f32,
 }
 
-/// Keeps the near pairs and returns their number. The output is an argument of its own, so that it does not
-/// overlap the input.
+/// Keeps the near pairs and returns their number. Compares only those that are due by their bounds. The output
+/// is an argument of its own, so that it does not overlap the input.
 #[inline(never)]
 fn keep<R: Float>(
-    Pairs { candidates, owners, base, own, places, positions }: Pairs<'_, R>,
+    Pairs { lists, listed, base, own, positions, radius, limit }: Pairs<'_, R>,
     first: u32,
     near: &mut [u32],
     near_owners: &mut [u32],
-    is_near: &impl Fn(Vector3<R>, Vector3<R>) -> bool,
+    square: &impl Fn(Vector3<R>, Vector3<R>) -> R,
 ) -> usize {
+    let mut due = 0;
+    for (number, bound) in lists.bounds[listed.clone()].iter().enumerate() {
+        near[due] = number as u32;
+        // NaN is due.
+        due += usize::from(!(f32::from_bits(bound.load(Ordering::Relaxed)) > limit));
+    }
+    let candidates = &lists.candidates[listed.clone()];
+    let owners = &lists.owners[listed.clone()];
     // Look up all places first, so that the processor waits for many of them together.
-    for (place, candidate) in near.iter_mut().zip(candidates) {
-        *place = places[*candidate as usize];
+    for (number, place) in near[..due].iter().zip(&mut near_owners[..due]) {
+        *place = lists.places[candidates[*number as usize] as usize];
         announce(positions.as_ptr().wrapping_add(*place as usize).cast());
     }
     let mut count = 0;
-    for (number, owner) in owners.iter().enumerate() {
-        let place = near[number];
-        let owner = owner - base;
+    for index in 0..due {
+        let (number, place) = (near[index] as usize, near_owners[index]);
+        let owner = owners[number] - base;
         // An item that has left the space has no place.
         let Some(other) = positions.get(place as usize) else { continue };
+        let apart = square(own[owner as usize], *other);
+        lists.bound(listed.start + number, apart.to_f64());
         near[count] = place;
         near_owners[count] = first + owner;
-        count += usize::from(is_near(own[owner as usize], *other));
+        count += usize::from(apart < radius * radius);
     }
     count
 }

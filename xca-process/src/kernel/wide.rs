@@ -104,8 +104,8 @@ mod avx2 {
     mod tests {
         use super::super::{Sphere, Wide};
         use crate::kernel::distance;
-        use crate::random::philox;
         use xca_values::Vector3;
+        use xca_values::philox;
 
         /// The plain loop is the reference, for ranges of every length at every place, including distances on
         /// the edge.

@@ -3,8 +3,6 @@
 //! J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw: "Parallel random numbers: as easy as 1, 2, 3", SC11. A
 //! number is a function of its counter and key alone. Threads may therefore draw in any order.
 
-use crate::float::Float;
-
 const MULTIPLIERS: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];
 const KEY_INCREMENTS: [u32; 2] = [0x9E37_79B9, 0xBB67_AE85];
 const ROUNDS: usize = 10;
@@ -88,11 +86,6 @@ impl Draw {
         let high = (self.step >> 32) as u32 & 0xFFFF | u32::from(self.stream.0) << 16;
         philox([self.owner, self.step as u32, high, self.number], [seed as u32, (seed >> 32) as u32])
     }
-}
-
-/// A random number in [0, 1) for the host, whose `Real` is `f64`.
-pub fn uniform([first, second, ..]: [u32; 4]) -> f64 {
-    f64::uniform([first, second])
 }
 
 #[cfg(test)]

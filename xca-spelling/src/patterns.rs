@@ -1,11 +1,11 @@
 //! Names in the patterns of a `match`, and `matches!`.
 
-use super::spelled::{hidden, is_constant};
+use crate::spelled::{hidden, is_constant};
 use syn::visit_mut::VisitMut;
 use syn::{Expr, ExprMatch, Ident, ItemFn, Macro, Pat, Result, Stmt, StmtMacro, Token, parse_quote};
 
 /// Writes each `matches!(value, pattern)` of a function as the `match` that it stands for.
-pub(crate) fn spell_out_matches(function: &mut ItemFn) {
+pub fn spell_out_matches(function: &mut ItemFn) {
     Matches.visit_block_mut(&mut function.block);
 }
 
@@ -51,7 +51,7 @@ fn matched(call: &Macro) -> Result<Expr> {
 }
 
 /// A `match` whose patterns give names to the whole value, without these names.
-pub(super) fn named(match_: &ExprMatch) -> Option<Expr> {
+pub(crate) fn named(match_: &ExprMatch) -> Option<Expr> {
     let mut match_ = match_.clone();
     let (value, matched) = (match_.expr.clone(), hidden("matched"));
     let mut has_names = false;

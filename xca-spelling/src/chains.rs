@@ -1,7 +1,7 @@
 //! Iterators: loops over elements with their indices, and chains that end in a value, such as
 //! `(0..n).filter(|i| …).map(|i| …).sum::<Real>()`. A chain becomes a block with a loop.
 
-use super::spelled::{Spelled, hidden, strip};
+use crate::spelled::{Spelled, hidden, strip};
 use proc_macro2::TokenStream;
 use quote::quote;
 use syn::{
@@ -14,7 +14,7 @@ const ITERATORS: [&str; 9] =
     ["iter", "into_iter", "rev", "step_by", "copied", "cloned", "enumerate", "map", "filter"];
 
 /// Whether a call ends a chain.
-pub(super) fn is_chain(call: &ExprMethodCall) -> bool {
+pub(crate) fn is_chain(call: &ExprMethodCall) -> bool {
     let is_iterator = match strip(&call.receiver) {
         Expr::Range(_) => true,
         Expr::MethodCall(inner) => {
@@ -83,7 +83,7 @@ impl Turn {
 
 impl Spelled {
     /// A loop over elements with their indices, or over what a chain gives.
-    pub(super) fn for_loop(&mut self, for_: &ExprForLoop) -> Result<Expr> {
+    pub(crate) fn for_loop(&mut self, for_: &ExprForLoop) -> Result<Expr> {
         let (stages, over) = stages(&for_.expr);
         let mut for_ = for_.clone();
         if !stages.is_empty() {
@@ -118,7 +118,7 @@ impl Spelled {
     }
 
     /// The block of a chain.
-    pub(super) fn chain(&mut self, call: &ExprMethodCall) -> Result<Expr> {
+    pub(crate) fn chain(&mut self, call: &ExprMethodCall) -> Result<Expr> {
         let (stages, over) = stages(&call.receiver);
         let mut turn = self.stages(&stages, may_borrow(over))?;
         let (end, result) = (call.method.to_string(), hidden("result"));
@@ -159,7 +159,7 @@ impl Spelled {
     }
 
     /// Whether a range or an array contains a value.
-    pub(super) fn contains(&mut self, call: &ExprMethodCall) -> Result<Expr> {
+    pub(crate) fn contains(&mut self, call: &ExprMethodCall) -> Result<Expr> {
         let [argument] = arguments(call, "contains(&value)")?;
         let wanted = if let Expr::Reference(inner) = strip(argument) { &inner.expr } else { argument };
         let (name, element, over) = (hidden("wanted"), hidden("element"), &call.receiver);

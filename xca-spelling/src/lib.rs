@@ -9,11 +9,11 @@ use chains::is_chain;
 use syn::visit_mut::VisitMut;
 use syn::{Error, Expr, ExprClosure, ExprMethodCall, ItemFn, Local, Pat, Stmt, Type, parse_quote};
 
-pub(crate) use patterns::spell_out_matches;
-pub(crate) use spelled::{Spelled, is_constant, strip};
+pub use patterns::spell_out_matches;
+pub use spelled::{Spelled, is_constant, strip};
 
 /// Spells out a function.
-pub(crate) fn spell_out(function: &ItemFn) -> Spelled {
+pub fn spell_out(function: &ItemFn) -> Spelled {
     let mut spelled =
         Spelled { function: function.clone(), references: Vec::new(), errors: Vec::new(), in_closure: false };
     let mut block = spelled.function.block.clone();

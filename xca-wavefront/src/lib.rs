@@ -18,53 +18,54 @@ use std::ops::Range;
 
 /// The order of the rows, and the distance between passes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Lag {
+pub struct Lag {
     /// The number of rows in a layer.
-    pub(crate) layer: usize,
+    pub layer: usize,
     /// The largest distance between layers that see each other.
-    pub(crate) layers: usize,
+    pub layers: usize,
     /// Whether the first and the last layers also see each other.
-    pub(crate) is_ring: bool,
+    pub is_ring: bool,
     /// The largest distance between rows that see each other, in a layer or in layers that see each other.
     /// `None` if all rows may see each other, which excludes columns.
-    pub(crate) along: Option<usize>,
+    pub along: Option<usize>,
     /// Whether another part of the space lies before the first layer, and after the last one.
-    pub(crate) borders: [bool; 2],
+    pub borders: [bool; 2],
 }
 
 impl Lag {
     /// Whether another part of the space lies before the first layer or after the last one.
-    pub(crate) fn has_border(self) -> bool {
+    pub fn has_border(self) -> bool {
         self.borders != [false; 2]
     }
 
     /// For passes that do not affect each other.
-    pub(crate) const NONE: Self =
-        Self { layer: 1, layers: 0, is_ring: false, along: None, borders: [false; 2] };
+    pub const NONE: Self = Self { layer: 1, layers: 0, is_ring: false, along: None, borders: [false; 2] };
 }
 
 /// The number of consecutive passes, and their distances.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Depth {
-    pub(crate) passes: usize,
-    pub(crate) lag: Lag,
+pub struct Depth {
+    /// The number of passes.
+    pub passes: usize,
+    /// The distance between two of them.
+    pub lag: Lag,
     /// The number of layers that a pass does before the next one follows, at least one.
-    pub(crate) chunk: usize,
+    pub chunk: usize,
     /// The number of rows of a layer in a column, at least one. `None` without columns.
-    pub(crate) column: Option<usize>,
+    pub column: Option<usize>,
 }
 
 impl Depth {
     /// The least number of layers in a block. The gaps at its two ends must not overlap, nor what is left at
     /// borders.
-    pub(crate) fn least_block(self) -> usize {
+    pub fn least_block(self) -> usize {
         let passes = if self.lag.has_border() { self.passes } else { self.passes.saturating_sub(1) };
         (2 * passes * self.lag.layers).max(1)
     }
 
     /// The layers that blocks and gaps leave out in a pass: each pass leaves out more, because it sees what
     /// the one before has left out. `layers` is the number of all layers.
-    pub(crate) fn layers_at_borders(self, pass: usize, layers: usize) -> impl Iterator<Item = Range<usize>> {
+    pub fn layers_at_borders(self, pass: usize, layers: usize) -> impl Iterator<Item = Range<usize>> {
         let Lag { layers: lag, borders: [low, high], .. } = self.lag;
         let width = lag * (pass + 1);
         [low.then_some(0..width), high.then_some(layers - width..layers)].into_iter().flatten()
@@ -86,7 +87,7 @@ impl Depth {
 
 /// Several passes over all rows. Their order gives the same result as one pass after the other.
 #[derive(Debug, Clone)]
-pub(crate) struct Wavefront {
+pub struct Wavefront {
     depth: Depth,
     /// The blocks of layers, in order.
     blocks: Vec<Range<usize>>,
@@ -94,7 +95,7 @@ pub(crate) struct Wavefront {
 
 /// A block or a gap: the work of one thread at a time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Piece {
+pub struct Piece {
     low: Edge,
     high: Edge,
     /// The first pass with layers here.
@@ -110,9 +111,11 @@ struct Edge {
 
 /// Rows that one pass does.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Portion {
-    pub(crate) pass: usize,
-    pub(crate) rows: Range<usize>,
+pub struct Portion {
+    /// The index of the pass.
+    pub pass: usize,
+    /// The rows, in order.
+    pub rows: Range<usize>,
 }
 
 impl Edge {
@@ -123,19 +126,19 @@ impl Edge {
 
 impl Wavefront {
     /// Each block must have at least [`Depth::least_block`] layers.
-    pub(crate) fn new(depth: Depth, blocks: Vec<Range<usize>>) -> Self {
+    pub fn new(depth: Depth, blocks: Vec<Range<usize>>) -> Self {
         Self { depth, blocks }
     }
 
     /// A single pass over blocks of rows.
-    pub(crate) fn of_one_pass(blocks: Vec<Range<usize>>) -> Self {
+    pub fn of_one_pass(blocks: Vec<Range<usize>>) -> Self {
         let chunk = blocks.iter().map(ExactSizeIterator::len).max().unwrap_or(0).max(1);
         Self { depth: Depth { passes: 1, lag: Lag::NONE, chunk, column: None }, blocks }
     }
 
     /// The pieces. Those of the first list can run in any order or at the same time, then those of the second
     /// list.
-    pub(crate) fn pieces(&self) -> [Vec<Piece>; 2] {
+    pub fn pieces(&self) -> [Vec<Piece>; 2] {
         let Depth { passes, lag: Lag { layers: lag, is_ring, .. }, .. } = self.depth;
         let lag = lag as isize;
         let layers = self.layers();
@@ -165,7 +168,7 @@ impl Wavefront {
     }
 
     /// The work of a piece, in order.
-    pub(crate) fn portions(&self, piece: Piece) -> impl Iterator<Item = Portion> {
+    pub fn portions(&self, piece: Piece) -> impl Iterator<Item = Portion> {
         let Self { depth, .. } = *self;
         self.turns(piece).flat_map(move |turn| {
             let layer = depth.lag.layer;

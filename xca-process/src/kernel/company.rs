@@ -1,0 +1,64 @@
+//! The items of a row that have others nearby, for processes in which all others do nothing.
+
+use super::walk::Walk;
+use super::{Row, reach};
+use crate::float::Float;
+use xca_values::Vector3;
+
+impl Row<'_> {
+    /// Fills the buffer with the indices of those own items that have others in their cell, if `in_cell` is
+    /// set, or within `radius` in the searched cells. If lists cannot tell, these are all own items, and so
+    /// they are if the process must write the values of all.
+    #[inline(never)]
+    pub fn with_company<R: Float, const REACH: u8>(
+        &self,
+        in_cell: bool,
+        radius: R,
+        positions: &[Vector3<R>],
+        company: &mut Vec<u32>,
+    ) {
+        let count = self.own_items();
+        company.clear();
+        // A process that reads and writes two buffers must copy what it does not change.
+        let copies = self.entries.iter().any(|entry| !entry.read.is_null() && !entry.write.is_null());
+        if copies || !self.is_allowed::<R, REACH>(radius) || !self.walk(radius, positions) {
+            return company.extend(0..count as u32);
+        }
+        self.widest.set(self.widest.get().max(radius.to_f64()));
+        let mut walk = self.scratch.walk.borrow_mut();
+        let Walk { owners, near, marks, .. } = &mut *walk;
+        let Some(items) = self.items.filter(|_| 2 * near.len() < count) else {
+            return company.extend(0..count as u32);
+        };
+        marks.clear();
+        marks.resize(count, 0);
+        if in_cell {
+            mark_shared_cells(marks, items.cells);
+        }
+        for (owner, place) in owners.iter().zip(near) {
+            let owner = *owner as usize;
+            let other = items.cells.get((*place as usize).wrapping_sub(items.own.0));
+            let here = other == items.cells.get(owner);
+            marks[owner] |= u8::from(REACH == reach::ALL || here == (REACH == reach::CELL));
+        }
+        // No branch on what is marked, which the processor could not predict.
+        company.resize(count, 0);
+        let mut length = 0;
+        for (number, mark) in marks.iter().enumerate() {
+            company[length] = number as u32;
+            length += usize::from(*mark);
+        }
+        company.truncate(length);
+    }
+}
+
+/// Marks the items that share their cell with others. Items are sorted by cell.
+fn mark_shared_cells(marks: &mut [u8], cells: &[u32]) {
+    if let ([first, middle @ .., last], [one, two, ..], [.., before, end]) = (marks, cells, cells) {
+        *first = u8::from(one == two);
+        *last = u8::from(before == end);
+        for (mark, cells) in middle.iter_mut().zip(cells.windows(3)) {
+            *mark = u8::from((cells[0] == cells[1]) | (cells[1] == cells[2]));
+        }
+    }
+}
