@@ -28,10 +28,11 @@ pub(crate) struct Lists {
     pub(crate) owners: Vec<u32>,
     /// Whether each row is searched in cells.
     pub(crate) in_cells: Vec<bool>,
-    /// The approximate common motion of all items since then, and in a pass.
+    /// The approximate common motion of all items since then.
     pub(crate) drift: [f64; 3],
+    /// The approximate common motion in a pass.
     pub(crate) pace: [f64; 3],
-    /// The bounds of the candidates, see [`NearLists`].
+    /// See [`NearLists`], as the two following.
     pub(crate) bounds: Vec<AtomicU32>,
     pub(crate) travelled: f64,
     pub(crate) rounding: f64,

@@ -18,7 +18,8 @@ impl Population {
         }
         let motion = self.measure(layout, geometry);
         if let Some(lists) = &mut self.lists {
-            // In any way since they were last measured.
+            // A distance has changed at most by its change until the last measure, undone, and its change
+            // until now.
             lists.travelled += lists.approach + motion.approach();
             lists.measured(&motion);
         }

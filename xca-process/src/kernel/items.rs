@@ -41,7 +41,7 @@ pub struct NearLists<'a> {
     pub radius: f64,
     /// The bound of each candidate, as the bits of an `f32` in metres, at first 0. The candidate is farther
     /// away from the owner than a radius if its bound exceeds [`Self::travelled`] by more than the radius and
-    /// the effect of rounding.
+    /// the effect of rounding. Bounds are written by the row that has the owner.
     pub bounds: &'a [AtomicU32],
     /// An upper limit, in metres, of how much any two items can have approached each other: the sum over all
     /// passes since the lists were made.
@@ -59,8 +59,8 @@ impl NearLists<'_> {
         (self.travelled + self.rounding + radius) as f32 * ROUNDED
     }
 
-    /// Stores the bound of a candidate, from the square of its distance to the owner. The square root in `f32`
-    /// is fast, and its rounding is allowed for.
+    /// Stores the bound of a candidate, from the square of its distance to the owner. The square root in
+    /// `f32` is fast, and its rounding is allowed for.
     #[inline(always)]
     pub(super) fn bound(&self, candidate: usize, square: f64) {
         let bound = (self.travelled as f32 + (square as f32).sqrt()) * (2.0 - ROUNDED);

@@ -109,8 +109,8 @@ struct Pairs<'a, R> {
     limit: f32,
 }
 
-/// Keeps the near pairs and returns their number. Compares only those that are due by their bounds. The output
-/// is an argument of its own, so that it does not overlap the input.
+/// Keeps the near pairs and returns their number. Compares only those that are due by their bounds. The
+/// output is an argument of its own, so that it does not overlap the input.
 #[inline(never)]
 fn keep<R: Float>(
     Pairs { lists, listed, base, own, positions, radius, limit }: Pairs<'_, R>,
