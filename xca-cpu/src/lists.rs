@@ -86,9 +86,9 @@ impl Lists {
         self.travelled += motion.approach();
         self.approach += motion.approach();
         if let Some(middle) = motion.middle() {
-            for axis in 0..3 {
-                self.pace[axis] += middle[axis];
-                self.drift[axis] += self.pace[axis];
+            for ((pace, drift), middle) in self.pace.iter_mut().zip(&mut self.drift).zip(middle) {
+                *pace += middle;
+                *drift += *pace;
             }
         }
     }
@@ -97,7 +97,7 @@ impl Lists {
     pub(crate) fn measured(&mut self, motion: &Motion) {
         self.approach = motion.approach();
         if let Some(middle) = motion.middle() {
-            (0..3).for_each(|axis| self.drift[axis] += middle[axis]);
+            self.drift.iter_mut().zip(middle).for_each(|(drift, middle)| *drift += middle);
         }
     }
 

@@ -122,8 +122,9 @@ fn keep<R: Float>(
     let mut due = 0;
     for (number, bound) in lists.bounds[listed.clone()].iter().enumerate() {
         near[due] = number as u32;
+        let is_far = f32::from_bits(bound.load(Ordering::Relaxed)) > limit;
         // NaN is due.
-        due += usize::from(!(f32::from_bits(bound.load(Ordering::Relaxed)) > limit));
+        due += usize::from(!is_far);
     }
     let candidates = &lists.candidates[listed.clone()];
     let owners = &lists.owners[listed.clone()];
