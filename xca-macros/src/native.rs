@@ -13,6 +13,7 @@ mod helper;
 mod kernels;
 mod labels;
 mod loops;
+mod mates;
 mod names;
 mod types;
 mod unrolled;

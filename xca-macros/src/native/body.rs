@@ -1,6 +1,7 @@
 //! The body in one precision.
 
 use super::labels::{Unrolled, hidden_label};
+use super::mates::Mates;
 use super::names::{hidden, own_name};
 use crate::access::{Access, GroupOf, Uses};
 use crate::ast::{Block, Expression, Function, FunctionKind, Place, PlaceRoot, Projection, Statement};
@@ -17,6 +18,8 @@ pub(super) struct Writer<'a> {
     pub(super) real: TokenStream,
     /// How many lists of found items the body needs.
     pub(super) searches: usize,
+    /// The marks that loops over the others in the cell need.
+    pub(super) mates: Vec<Mates>,
     /// How many loops have been written.
     pub(super) loops: usize,
     /// The loop whose turns are being written out.
@@ -27,7 +30,7 @@ pub(super) struct Writer<'a> {
 
 impl<'a> Writer<'a> {
     pub(super) fn new(function: &'a Function, uses: Option<&'a Uses>, real: TokenStream) -> Self {
-        Self { function, uses, real, searches: 0, loops: 0, unrolled: None, draws: 0 }
+        Self { function, uses, real, searches: 0, mates: Vec::new(), loops: 0, unrolled: None, draws: 0 }
     }
 
     /// How the process uses a substate.

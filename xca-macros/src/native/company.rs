@@ -1,13 +1,14 @@
 //! Processes in which an item without others nearby does nothing.
 
 use super::body::Writer;
+use super::mates::Mates;
 use crate::ast::{Block, Expression, Function, FunctionKind, LoopKind, Reach, Statement};
 use proc_macro2::TokenStream;
 use syn::{BinOp, UnOp};
 
 /// The others without which an item does nothing.
 pub(super) struct Company {
-    /// Whether any in its cell count.
+    /// Whether any in its cell count. If not, those with [`Mates`] do.
     pub(super) in_cell: bool,
     pub(super) radius: TokenStream,
     /// The cells in which those within the radius count.
@@ -30,7 +31,9 @@ impl Company {
                 return None;
             };
             match &turns.kind {
-                LoopKind::Others { reach: Reach::Cell, radius: None, .. } => in_cell = true,
+                LoopKind::Others { variable, reach: Reach::Cell, radius: None } => {
+                    in_cell |= Mates::condition(variable, &turns.body, writer).is_none();
+                }
                 LoopKind::Others { reach, radius: Some(radius), .. } if is_same_for_all(radius) => {
                     let radius = writer.expression(radius);
                     let known = within.get_or_insert((radius.clone(), *reach));
@@ -66,7 +69,7 @@ fn is_plain(condition: &Expression) -> bool {
 }
 
 /// Whether a number is the same for all items, and computing it cannot panic.
-fn is_same_for_all(number: &Expression) -> bool {
+pub(super) fn is_same_for_all(number: &Expression) -> bool {
     match number {
         Expression::Bool(_)
         | Expression::Integer(_)
@@ -82,7 +85,7 @@ fn is_same_for_all(number: &Expression) -> bool {
     }
 }
 
-fn compares(operator: &BinOp) -> bool {
+pub(super) fn compares(operator: &BinOp) -> bool {
     use BinOp::{And, Eq, Ge, Gt, Le, Lt, Ne, Or};
     matches!(operator, And(_) | Or(_) | Eq(_) | Ne(_) | Lt(_) | Le(_) | Gt(_) | Ge(_))
 }

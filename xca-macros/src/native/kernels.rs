@@ -8,6 +8,7 @@ use super::body::Writer;
 use super::company::Company;
 use super::fetches::{Names, fetches};
 use super::loops::{positions, reach_number};
+use super::mates::Mates;
 use super::names::{hidden, own_name, read_name, write_name};
 use super::types::{native_parameters, native_type, parameters};
 use super::work::{Argument, LIFE, Typed, Work};
@@ -218,7 +219,9 @@ fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
     let mut writer = Writer::new(function, Some(uses), real.clone());
     let body = writer.block(&function.body);
     let lists = writer.lists();
-    let turns = turns(function, &mut writer);
+    let mates = std::mem::take(&mut writer.mates);
+    let turns = turns(function, &mut writer, &mates);
+    let mates = mates.iter().map(|mates| &mates.prepare);
     // An item may look at the neighbours of the cell that it stands in.
     let neighbourhood =
         uses.neighbours.then(|| quote!(let #offsets = #row.offsets::<{ ::xca_core::kernel::ANY_SHAPE }>();));
@@ -238,6 +241,7 @@ fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
         let (#first, #count) = (#row.first_item(), #row.own_items());
         #take
         #shorten
+        #(#mates)*
         let mut #place = #row.place();
         #turns {
             let #item = #first + #number;
@@ -253,15 +257,16 @@ fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
 }
 
 /// The head of the loop over the items: all, or those with company if all others do nothing.
-fn turns(function: &Function, writer: &mut Writer<'_>) -> TokenStream {
+fn turns(function: &Function, writer: &mut Writer<'_>, mates: &[Mates]) -> TokenStream {
     let [row, number, count, company] = ["row", "number", "count", "company"].map(|name| writer.name(name));
     let Some(Company { in_cell, radius, reach }) = Company::of(function, writer) else {
         return quote!(for #number in 0..#count);
     };
     let (reach, positions) = (reach_number(reach), positions());
+    let mates = mates.iter().map(|mates| &mates.marks);
     quote! {
         let mut #company = #row.found();
-        #row.with_company::<_, #reach>(#in_cell, #radius, #positions, &mut #company.items);
+        #row.with_company::<_, #reach>(#in_cell, &[#(&#mates.items),*], #radius, #positions, &mut #company.items);
         for #number in #company.items.iter().map(|number| *number as usize)
     }
 }

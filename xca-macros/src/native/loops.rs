@@ -2,6 +2,7 @@
 
 use super::body::Writer;
 use super::labels::hidden_label;
+use super::mates::Mates;
 use super::names::read_name;
 use crate::access::GroupOf;
 use crate::ast::{Block, Expression, Loop, LoopKind, Range, Reach};
@@ -64,8 +65,9 @@ impl Writer<'_> {
         let [row, column, item] = ["row", "column", "item"].map(|name| self.name(name));
         let number = reach_number(reach);
         if reach == Reach::Cell && radius.is_none() {
+            let condition = Mates::condition(variable, body, self);
             let body = self.block(body);
-            return quote! {
+            let turns = quote! {
                 #label for #variable in #row.items(#column) {
                     if #variable == #item {
                         continue;
@@ -73,6 +75,11 @@ impl Writer<'_> {
                     #body
                 }
             };
+            let Some(condition) = condition else { return turns };
+            let (marks, number) = (self.name(&format!("mates_{}", self.mates.len())), self.name("number"));
+            let guarded = quote!(if #marks.items[#number] != 0 { #turns });
+            self.mates.push(Mates::new(marks, variable, &condition, &row));
+            return guarded;
         }
         let list = self.list(self.searches);
         self.searches += 1;

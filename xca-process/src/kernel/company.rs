@@ -6,13 +6,28 @@ use crate::float::Float;
 use xca_values::Vector3;
 
 impl Row<'_> {
+    /// Marks, with 1, those own items that share their cell with another for which the condition holds. All
+    /// others get 0.
+    #[inline(always)]
+    pub fn mates(&self, condition: impl Fn(usize) -> bool, marks: &mut Vec<u32>) {
+        let cells = self.items.map_or(&[][..], |items| items.cells);
+        marks.clear();
+        marks.resize(cells.len(), 0);
+        for number in 0..cells.len() {
+            if condition(self.first_item() + number) {
+                mark_others_in_cell(marks, cells, number);
+            }
+        }
+    }
+
     /// Fills the buffer with the indices of those own items that have others in their cell, if `in_cell` is
-    /// set, or within `radius` in the searched cells. If lists cannot tell, these are all own items, and so
+    /// set, or marks in `mates`, or others within `radius` in the searched cells. If lists cannot tell, these are all own items, and so
     /// they are if the process must write the values of all.
     #[inline(never)]
     pub fn with_company<R: Float, const REACH: u8>(
         &self,
         in_cell: bool,
+        mates: &[&Vec<u32>],
         radius: R,
         positions: &[Vector3<R>],
         company: &mut Vec<u32>,
@@ -35,6 +50,9 @@ impl Row<'_> {
         if in_cell {
             mark_shared_cells(marks, items.cells);
         }
+        for mates in mates {
+            marks.iter_mut().zip(*mates).for_each(|(mark, mate)| *mark |= u8::from(*mate != 0));
+        }
         for (owner, place) in owners.iter().zip(near) {
             let owner = *owner as usize;
             let other = items.cells.get((*place as usize).wrapping_sub(items.own.0));
@@ -50,6 +68,17 @@ impl Row<'_> {
         }
         company.truncate(length);
     }
+}
+
+/// Marks the items that share their cell with this one. Items are sorted by cell.
+fn mark_others_in_cell(marks: &mut [u32], cells: &[u32], number: usize) {
+    let (before, after) = cells.split_at(number);
+    let [cell, after @ ..] = after else { return };
+    let marks_before = marks.iter_mut().take(number).rev();
+    let earlier = before.iter().rev().zip(marks_before);
+    earlier.take_while(|(other, _)| *other == cell).for_each(|(_, mark)| *mark = 1);
+    let later = after.iter().zip(marks.iter_mut().skip(number + 1));
+    later.take_while(|(other, _)| *other == cell).for_each(|(_, mark)| *mark = 1);
 }
 
 /// Marks the items that share their cell with others. Items are sorted by cell.
