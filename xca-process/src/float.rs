@@ -39,6 +39,9 @@ pub trait Float:
     /// The index of the cell of this side that contains the coordinate: `floor(coordinate / side)`. `None` if
     /// there is no such index (NaN, or too far away).
     fn cell_number(coordinate: Self, side: Self) -> Option<i64>;
+
+    /// The same index if it is at least 0 and below `extent`, faster.
+    fn cell_index(coordinate: Self, side: Self, extent: u32) -> Option<u32>;
 }
 
 macro_rules! float {
@@ -74,6 +77,14 @@ macro_rules! float {
                 let cut = quotient as i32;
                 Some(i64::from(cut) - i64::from(cut as $type > quotient))
             }
+
+            #[inline(always)]
+            fn cell_index(coordinate: Self, side: Self, extent: u32) -> Option<u32> {
+                let quotient = coordinate / side;
+                // From 0 on, the cast is the floor. It makes too large numbers the largest, and NaN 0.
+                let index = quotient as u32;
+                ((quotient >= 0.0) & (index < extent)).then_some(index)
+            }
         }
     };
 }
@@ -86,4 +97,31 @@ float!(f64, F64, words => {
 /// A random number in [0, 1) for the host, whose `Real` is `f64`.
 pub fn uniform([first, second, ..]: [u32; 4]) -> f64 {
     f64::uniform([first, second])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Float;
+
+    /// Near all faces of cells, and far away.
+    fn fast_index_is_the_floor<R: Float>() {
+        let (side, extent) = (0.3, 7);
+        let near = (-30..100).flat_map(|number| {
+            let face = 0.1 * f64::from(number);
+            [face, face.next_down(), face.next_up(), face - 1e-7, face + 1e-7]
+        });
+        let far = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -0.0, 1e9, -1e9, 1e30, -1e30, -1e-300];
+        for coordinate in near.chain(far) {
+            let [coordinate, side] = [coordinate, side].map(R::from_f64);
+            let number = R::cell_number(coordinate, side).and_then(|number| u32::try_from(number).ok());
+            let index = R::cell_index(coordinate, side, extent);
+            assert_eq!(index, number.filter(|number| *number < extent), "{coordinate:?}");
+        }
+    }
+
+    #[test]
+    fn fast_index_is_the_floor_in_both_precisions() {
+        fast_index_is_the_floor::<f32>();
+        fast_index_is_the_floor::<f64>();
+    }
 }

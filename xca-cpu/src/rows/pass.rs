@@ -304,10 +304,20 @@ impl<'a> Pass<'a> {
     fn collect_movers(&self, population: &Population, row: usize, answers: &[u32], movers: &mut Vec<Mover>) {
         let (first, end) = population.row(row);
         let cells = &population.items.cells[first..end];
+        // In most rows no item moves. This loop has no branch, and so compares many items at once.
+        let any = cells.iter().zip(answers).fold(false, |any, (from, answer)| any | moves(*from, *answer));
+        if !any {
+            return;
+        }
         for ((item, from), answer) in (first as u32..).zip(cells).zip(answers) {
-            if *answer != STAY && answer != from {
+            if moves(*from, *answer) {
                 movers.push(Mover { item, from: *from, answer: *answer });
             }
         }
     }
+}
+
+/// Whether an item with this answer of a migration leaves its cell.
+fn moves(from: u32, answer: u32) -> bool {
+    (answer != STAY) & (answer != from)
 }

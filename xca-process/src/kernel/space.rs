@@ -93,21 +93,20 @@ impl<'a, R: Float> NativeSpace<'a, R> {
     /// The result of a migration that sends an item to the cell of its position.
     #[inline(always)]
     pub fn cell_containing(&self, position: Vector3<R>) -> u32 {
-        let side = self.side();
-        let [width, height, depth] = self.frame.extents;
-        let (Some(x), Some(y), Some(z)) = (
-            R::cell_number(position.x, side),
-            R::cell_number(position.y, side),
-            R::cell_number(position.z, side),
-        ) else {
-            let nowhere = [position.x, position.y, position.z].iter().any(|along| along.to_f64().is_nan());
-            return if nowhere { NOWHERE } else { OUTSIDE };
-        };
-        let inside = |number: i64, extent: u32| number >= 0 && number < i64::from(extent);
-        if inside(x, width) && inside(y, height) && inside(z, depth) {
-            (z as u32 * height + y as u32) * width + x as u32
-        } else {
-            OUTSIDE
+        let Vector3 { x, y, z } = position;
+        let (side, [width, height, depth]) = (self.side(), self.frame.extents);
+        let index = |coordinate, extent| R::cell_index(coordinate, side, extent);
+        match (index(x, width), index(y, height), index(z, depth)) {
+            (Some(x), Some(y), Some(z)) => (z * height + y) * width + x,
+            _ => self.beyond(position),
         }
+    }
+
+    /// The result of a migration to a position outside of the space.
+    #[cold]
+    fn beyond(&self, position: Vector3<R>) -> u32 {
+        let coordinates = [position.x, position.y, position.z];
+        let is_nowhere = coordinates.iter().any(|coordinate| coordinate.to_f64().is_nan());
+        if is_nowhere { NOWHERE } else { OUTSIDE }
     }
 }
