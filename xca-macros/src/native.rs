@@ -15,6 +15,7 @@ mod labels;
 mod loops;
 mod mates;
 mod names;
+mod plain;
 mod types;
 mod unrolled;
 mod work;

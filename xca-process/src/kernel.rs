@@ -17,7 +17,6 @@ mod draws;
 mod entries;
 mod filter;
 mod frame;
-mod instructions;
 mod items;
 mod near;
 mod neighbours;
@@ -41,7 +40,6 @@ pub use draws::Draws;
 pub use entries::{Entry, Memory, MemoryOf};
 pub use filter::CellFilter;
 pub use frame::Frame;
-pub use instructions::Instructions;
 pub use items::{NO_PLACE, NearLists, RowItems};
 pub use neighbours::{Directions, Offsets};
 pub use row::{Place, Row, RowFault, StoppedAt};
@@ -52,6 +50,7 @@ pub use values::{
 };
 pub use work::{Work, run};
 pub use written::{Stage, WrittenArrays};
+pub use xca_values::Instructions;
 
 /// A kernel: runs a process over one row.
 pub type RowKernel = fn(&Row<'_>);

@@ -2,6 +2,7 @@
 //!
 //! Models import them from `xca_core`, which re-exports all of them.
 
+mod instructions;
 mod interval;
 #[doc(hidden)]
 pub mod methods;
@@ -11,6 +12,8 @@ mod state_names;
 mod value;
 mod vector;
 
+#[doc(hidden)]
+pub use instructions::Instructions;
 pub use interval::{End, Interval};
 #[doc(hidden)]
 pub use random::{Draw, Stream, philox};

@@ -1,14 +1,15 @@
 //! Processes in which an item without others nearby does nothing.
 
 use super::body::Writer;
-use super::mates::Mates;
+use super::mates::Condition;
+use super::plain::{compares, is_same_for_all};
 use crate::ast::{Block, Expression, Function, FunctionKind, LoopKind, Reach, Statement};
 use proc_macro2::TokenStream;
-use syn::{BinOp, UnOp};
+use syn::UnOp;
 
 /// The others without which an item does nothing.
 pub(super) struct Company {
-    /// Whether any in its cell count. If not, those with [`Mates`] do.
+    /// Whether any in its cell count. If not, those that a [`Condition`] wants do.
     pub(super) in_cell: bool,
     pub(super) radius: TokenStream,
     /// The cells in which those within the radius count.
@@ -32,7 +33,7 @@ impl Company {
             };
             match &turns.kind {
                 LoopKind::Others { variable, reach: Reach::Cell, radius: None } => {
-                    in_cell |= Mates::condition(variable, &turns.body, writer).is_none();
+                    in_cell |= Condition::of(variable, &turns.body).is_none();
                 }
                 LoopKind::Others { reach, radius: Some(radius), .. } if is_same_for_all(radius) => {
                     let radius = writer.expression(radius);
@@ -66,26 +67,4 @@ fn is_plain(condition: &Expression) -> bool {
         Expression::Binary(operator, left, right) => compares(operator) && is_plain(left) && is_plain(right),
         other => is_same_for_all(other),
     }
-}
-
-/// Whether a number is the same for all items, and computing it cannot panic.
-pub(super) fn is_same_for_all(number: &Expression) -> bool {
-    match number {
-        Expression::Bool(_)
-        | Expression::Integer(_)
-        | Expression::Float(_)
-        | Expression::Constant(_)
-        | Expression::Parameter { .. } => true,
-        // Of floating-point numbers: the product of integers may overflow.
-        Expression::Binary(BinOp::Mul(_), left, right) => {
-            let floats = [left, right].iter().any(|factor| matches!(***factor, Expression::Float(_)));
-            floats && is_same_for_all(left) && is_same_for_all(right)
-        }
-        _ => false,
-    }
-}
-
-pub(super) fn compares(operator: &BinOp) -> bool {
-    use BinOp::{And, Eq, Ge, Gt, Le, Lt, Ne, Or};
-    matches!(operator, And(_) | Or(_) | Eq(_) | Ne(_) | Lt(_) | Le(_) | Gt(_) | Ge(_))
 }

@@ -2,7 +2,7 @@
 
 use super::body::Writer;
 use super::labels::hidden_label;
-use super::mates::Mates;
+use super::mates::{Condition, Mates};
 use super::names::read_name;
 use crate::access::GroupOf;
 use crate::ast::{Block, Expression, Loop, LoopKind, Range, Reach};
@@ -65,7 +65,10 @@ impl Writer<'_> {
         let [row, column, item] = ["row", "column", "item"].map(|name| self.name(name));
         let number = reach_number(reach);
         if reach == Reach::Cell && radius.is_none() {
-            let condition = Mates::condition(variable, body, self);
+            let condition = Condition::of(variable, body).map(|Condition { expression, value }| {
+                let expression = self.expression(expression);
+                quote!((#expression) == #value)
+            });
             let body = self.block(body);
             let turns = quote! {
                 #label for #variable in #row.items(#column) {

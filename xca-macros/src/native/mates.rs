@@ -1,32 +1,38 @@
 //! Loops over the others in the cell that do something for some of these only, which a condition on the other
 //! tells.
 
-use super::body::Writer;
-use super::company::{compares, is_same_for_all};
+use super::plain::{compares, is_same_for_all};
 use crate::ast::{Block, Expression, Statement};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 use syn::{BinOp, UnOp};
 
-/// Marks of the items that have such others in their cell.
+/// A condition on the other without which a turn of a loop does nothing. Computing it cannot panic, and it
+/// depends on the other alone.
+pub(super) struct Condition<'a> {
+    pub(super) expression: &'a Expression,
+    /// The value that is wanted.
+    pub(super) value: bool,
+}
+
+/// Marks of the items that have wanted others in their cell.
 pub(super) struct Mates {
     pub(super) marks: Ident,
     /// Makes the marks.
     pub(super) prepare: TokenStream,
 }
 
-impl Mates {
-    /// The condition without which a turn of a loop does nothing, if computing it cannot panic and it depends
-    /// on the other alone.
-    pub(super) fn condition(variable: &Ident, body: &Block, writer: &mut Writer<'_>) -> Option<TokenStream> {
+impl<'a> Condition<'a> {
+    /// The condition of a loop: that of an `if` which is all that the body has, or of an `if` that begins the
+    /// body and skips the turn.
+    pub(super) fn of(variable: &Ident, body: &'a Block) -> Option<Self> {
         let Block { statements, value } = body;
         let only = match (&**statements, value.as_deref()) {
             ([], Some(only)) | ([Statement::Expression(only)], None) => Some(only),
             _ => None,
         };
         if let Some(Expression::If { condition, otherwise: None, .. }) = only {
-            let condition = necessary(condition, variable)?;
-            return Some(writer.expression(condition));
+            return Some(Self { expression: necessary(condition, variable)?, value: true });
         }
         let Some(Statement::Expression(Expression::If { condition, then, otherwise: None, .. })) =
             statements.first()
@@ -35,13 +41,12 @@ impl Mates {
         };
         let Block { statements, value: None } = then else { return None };
         let skips = matches!(&**statements, [Statement::Continue(None, _)]);
-        (skips && is_of_other(condition, variable)).then(|| {
-            let condition = writer.expression(condition);
-            quote!(!(#condition))
-        })
+        (skips && is_of_other(condition, variable)).then_some(Self { expression: condition, value: false })
     }
+}
 
-    /// The marks of a loop.
+impl Mates {
+    /// The marks of a loop with this condition.
     pub(super) fn new(marks: Ident, variable: &Ident, condition: &TokenStream, row: &Ident) -> Self {
         let prepare = quote! {
             let mut #marks = #row.found();

@@ -20,9 +20,9 @@ impl Row<'_> {
         }
     }
 
-    /// Fills the buffer with the indices of those own items that have others in their cell, if `in_cell` is
-    /// set, or marks in `mates`, or others within `radius` in the searched cells. If lists cannot tell, these are all own items, and so
-    /// they are if the process must write the values of all.
+    /// Fills the buffer with the indices of those own items that have others within `radius` in the searched
+    /// cells, or a mark in one of `mates`, or, if `in_cell` is set, others in their cell. If lists cannot
+    /// tell, these are all own items, and so they are if the process must write the values of all.
     #[inline(never)]
     pub fn with_company<R: Float, const REACH: u8>(
         &self,

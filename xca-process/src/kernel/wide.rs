@@ -4,9 +4,8 @@
 //! fused operations. The results are therefore equal.
 #![allow(unsafe_code)]
 
-use super::instructions::Instructions;
 use std::ops::Range;
-use xca_values::Vector3;
+use xca_values::{Instructions, Vector3};
 
 /// A proof that the processor has AVX2.
 #[derive(Debug, Clone, Copy)]

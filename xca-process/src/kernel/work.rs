@@ -3,7 +3,7 @@
 //! These change only the speed of a kernel. Each lane performs the operations of the plain code, in the same
 //! order, with the same rounding and without fused operations.
 
-use super::instructions::Instructions;
+use xca_values::Instructions;
 
 /// The work of a kernel on a row.
 pub trait Work {
