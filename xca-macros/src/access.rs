@@ -37,6 +37,7 @@ impl GroupOf {
 }
 
 /// Everything that a body uses.
+#[derive(Default)]
 pub(crate) struct Uses {
     pub(crate) accesses: Vec<Access>,
     /// Whether cells of the neighbourhood, or their items, are looked at.
@@ -51,14 +52,22 @@ pub(crate) struct Uses {
 
 impl Uses {
     pub(crate) fn of(function: &Function) -> Self {
-        let mut uses = Self {
-            accesses: Vec::new(),
-            neighbours: false,
-            directions: false,
-            opposites: false,
-            step: false,
-        };
+        let mut uses = Self::default();
         uses.block(&function.body);
+        uses
+    }
+
+    /// What expressions use.
+    pub(crate) fn of_expressions<'a>(expressions: impl Iterator<Item = &'a Expression>) -> Self {
+        let mut uses = Self::default();
+        expressions.for_each(|expression| uses.expression(expression));
+        uses
+    }
+
+    /// What statements use.
+    pub(crate) fn of_statements(statements: &[&Statement]) -> Self {
+        let mut uses = Self::default();
+        statements.iter().for_each(|statement| uses.statement(statement));
         uses
     }
 

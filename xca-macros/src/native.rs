@@ -2,6 +2,7 @@
 //! check.
 
 mod attributes;
+mod batches;
 mod blocks;
 mod body;
 mod check;
@@ -16,6 +17,7 @@ mod loops;
 mod mates;
 mod names;
 mod plain;
+mod sums;
 mod types;
 mod unrolled;
 mod work;

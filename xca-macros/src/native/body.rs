@@ -26,11 +26,23 @@ pub(super) struct Writer<'a> {
     pub(super) unrolled: Option<Unrolled>,
     /// How many draws have been written.
     pub(super) draws: usize,
+    /// Whether variables hold the values of the other item, which is that of a lane.
+    pub(super) others_in_lanes: bool,
 }
 
 impl<'a> Writer<'a> {
     pub(super) fn new(function: &'a Function, uses: Option<&'a Uses>, real: TokenStream) -> Self {
-        Self { function, uses, real, searches: 0, mates: Vec::new(), loops: 0, unrolled: None, draws: 0 }
+        Self {
+            function,
+            uses,
+            real,
+            searches: 0,
+            mates: Vec::new(),
+            loops: 0,
+            unrolled: None,
+            draws: 0,
+            others_in_lanes: false,
+        }
     }
 
     /// How the process uses a substate.
@@ -58,14 +70,21 @@ impl<'a> Writer<'a> {
             .collect()
     }
 
-    pub(super) fn block(&mut self, block: &Block) -> TokenStream {
-        let statements: Vec<TokenStream> =
-            block.statements.iter().map(|statement| self.statement(statement)).collect();
-        let value = block.value.as_ref().map(|value| self.expression(value));
+    pub(super) fn block(&mut self, Block { statements, value }: &Block) -> TokenStream {
+        self.statements(statements.iter(), value.as_deref())
+    }
+
+    pub(super) fn statements<'s>(
+        &mut self,
+        statements: impl Iterator<Item = &'s Statement>,
+        value: Option<&Expression>,
+    ) -> TokenStream {
+        let statements: Vec<TokenStream> = statements.map(|statement| self.statement(statement)).collect();
+        let value = value.map(|value| self.expression(value));
         quote!({ #(#statements)* #value })
     }
 
-    fn statement(&mut self, statement: &Statement) -> TokenStream {
+    pub(super) fn statement(&mut self, statement: &Statement) -> TokenStream {
         match statement {
             Statement::Let { name, mutable, type_, value } => {
                 let value = self.expression(value);

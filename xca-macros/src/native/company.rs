@@ -11,52 +11,64 @@ use syn::UnOp;
 pub(super) struct Company {
     /// Whether any in its cell count. If not, those that a [`Condition`] wants do.
     pub(super) in_cell: bool,
+    /// Others that are near, if these count too.
+    pub(super) within: Option<Within>,
+}
+
+/// The others within a radius.
+pub(super) struct Within {
     pub(super) radius: TokenStream,
-    /// The cells in which those within the radius count.
+    /// The cells in which they count.
     pub(super) reach: Reach,
 }
 
 impl Company {
     /// `None` if an item may do something alone, or if the radius may differ between items.
-    pub(super) fn of(function: &Function, writer: &mut Writer<'_>) -> Option<Self> {
+    pub(super) fn of(
+        function: &Function,
+        statements: &[&Statement],
+        writer: &mut Writer<'_>,
+    ) -> Option<Self> {
         if function.kind != FunctionKind::Items || function.body.value.is_some() {
             return None;
         }
-        let mut in_cell = false;
-        let mut within: Option<(TokenStream, Reach)> = None;
-        for statement in &function.body.statements {
+        let (mut in_cell, mut mates) = (false, false);
+        let mut within: Option<Within> = None;
+        for statement in statements {
             let Statement::Loop(turns) = statement else {
-                if is_plain_return(statement) {
+                if return_condition(statement).is_some() {
                     continue;
                 }
                 return None;
             };
             match &turns.kind {
                 LoopKind::Others { variable, reach: Reach::Cell, radius: None } => {
-                    in_cell |= Condition::of(variable, &turns.body).is_none();
+                    let is_conditional = Condition::of(variable, &turns.body).is_some();
+                    in_cell |= !is_conditional;
+                    mates |= is_conditional;
                 }
                 LoopKind::Others { reach, radius: Some(radius), .. } if is_same_for_all(radius) => {
                     let radius = writer.expression(radius);
-                    let known = within.get_or_insert((radius.clone(), *reach));
-                    if known.0.to_string() != radius.to_string() {
+                    let known = within.get_or_insert(Within { radius: radius.clone(), reach: *reach });
+                    if known.radius.to_string() != radius.to_string() {
                         return None;
                     }
-                    known.1 = if known.1 == *reach { *reach } else { Reach::All };
+                    known.reach = if known.reach == *reach { *reach } else { Reach::All };
                 }
                 _ => return None,
             }
         }
-        within.map(|(radius, reach)| Self { in_cell, radius, reach })
+        (within.is_some() || (mates && !in_cell)).then_some(Self { in_cell, within })
     }
 }
 
-/// Whether this is `if condition { return; }`, with a condition that cannot panic.
-fn is_plain_return(statement: &Statement) -> bool {
+/// The condition of `if condition { return; }`, if it cannot panic.
+pub(super) fn return_condition(statement: &Statement) -> Option<&Expression> {
     let Statement::Expression(Expression::If { condition, then, otherwise: None, .. }) = statement else {
-        return false;
+        return None;
     };
-    let Block { statements, value: None } = then else { return false };
-    matches!(&**statements, [Statement::Return(None, _)]) && is_plain(condition)
+    let Block { statements, value: None } = then else { return None };
+    (matches!(&**statements, [Statement::Return(None, _)]) && is_plain(condition)).then_some(condition)
 }
 
 /// Whether computing a condition cannot panic, and changes nothing.

@@ -1,7 +1,7 @@
 //! Expressions in one precision.
 
 use super::body::Writer;
-use super::names::{hidden, own_name, read_name};
+use super::names::{hidden, other_name, own_name, read_name};
 use super::types::{native_type, operation};
 use crate::access::GroupOf;
 use crate::ast::{ArgumentNumber, Arm, Builtin, Expression, FunctionKind, Pattern};
@@ -66,6 +66,10 @@ impl Writer<'_> {
             Expression::NamedNeighbour { argument, name, field } => {
                 let (read, column) = (self.read_of(*argument, field), self.name("column"));
                 quote!(#read.at(#column, #name))
+            }
+            Expression::Other { argument, field, .. } if self.others_in_lanes => {
+                let other = other_name(GroupOf::Argument(*argument), field);
+                quote!(#other)
             }
             Expression::Other { argument, name, field } => {
                 let (read, type_) = (self.read_of(*argument, field), self.type_of(*argument, field));

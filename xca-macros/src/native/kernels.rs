@@ -5,15 +5,16 @@
 
 use super::blocks::Blocks;
 use super::body::Writer;
-use super::company::Company;
+use super::company::{Company, Within};
 use super::fetches::{Names, fetches};
 use super::loops::{positions, reach_number};
 use super::mates::Mates;
 use super::names::{hidden, own_name, read_name, write_name};
+use super::sums::Split;
 use super::types::{native_parameters, native_type, parameters};
 use super::work::{Argument, LIFE, Typed, Work};
 use crate::access::{Access, GroupOf, Uses, structs};
-use crate::ast::{Function, FunctionKind, Role};
+use crate::ast::{Function, FunctionKind, Role, Statement};
 use crate::checked::checked_value;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
@@ -42,6 +43,7 @@ pub(super) fn row(function: &Function, uses: &Uses, real: &TokenStream) -> Token
             };
             arguments.push(Argument {
                 name: read_name(access.group, &access.field),
+                written: false,
                 row: Typed { type_: argument, value: quote!(#row.#take::<#type_>(#number)) },
                 block: None,
             });
@@ -56,7 +58,7 @@ pub(super) fn row(function: &Function, uses: &Uses, real: &TokenStream) -> Token
                 let value = quote!(#row.write_items::<#type_>(#number));
                 (Typed { type_: quote!(&#LIFE mut [#memory]), value }, None)
             };
-            arguments.push(Argument { name: write_name(&access.field), row, block });
+            arguments.push(Argument { name: write_name(&access.field), written: true, row, block });
         }
     }
     let mut take_parameters = TokenStream::new();
@@ -66,10 +68,14 @@ pub(super) fn row(function: &Function, uses: &Uses, real: &TokenStream) -> Token
             quote!(let ::core::option::Option::Some(#name) = #row.parameters::<#native>() else { return; };),
         );
         let row = Typed { type_: quote!(&#LIFE #native), value: quote!(#name) };
-        arguments.push(Argument { name: name.clone(), row, block: None });
+        arguments.push(Argument { name: name.clone(), written: false, row, block: None });
     }
     let shape = hidden("SHAPE", span);
-    let body = if over_cells { cells(function, uses, real, &shape) } else { items(function, uses, real) };
+    let body = if over_cells {
+        cells(function, uses, real, &shape)
+    } else {
+        items(function, uses, real, &arguments)
+    };
     let checked_row = checked_value(&quote!(#row));
     let work = Work { function, arguments, blocks, body: quote!({ let #row = #checked_row; #body }) };
     let definition = work.definition();
@@ -178,7 +184,7 @@ fn cells(function: &Function, uses: &Uses, real: &TokenStream, shape: &Ident) ->
     }
 }
 
-fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
+fn items(function: &Function, uses: &Uses, real: &TokenStream, arguments: &[Argument]) -> TokenStream {
     let span = function.name.span();
     let [row, x, column, item, number, count, place, first, offsets, destinations, answer] = [
         "row",
@@ -217,10 +223,12 @@ fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
         }
     }
     let mut writer = Writer::new(function, Some(uses), real.clone());
-    let body = writer.block(&function.body);
+    let Split { sums, rest, is_done } = Split::of(function, uses);
+    let sums: Vec<_> = sums.iter().map(|sums| sums.code(&mut writer, arguments)).collect();
+    let body = writer.statements(rest.iter().copied(), function.body.value.as_deref());
     let lists = writer.lists();
     let mates = std::mem::take(&mut writer.mates);
-    let turns = turns(function, &mut writer, &mates);
+    let turns = turns(function, &rest, &mut writer, &mates);
     let mates = mates.iter().map(|mates| &mates.prepare);
     // An item may look at the neighbours of the cell that it stands in.
     let neighbourhood =
@@ -233,6 +241,13 @@ fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
     } else {
         (TokenStream::new(), quote!('body: #body))
     };
+    if is_done {
+        return quote! {
+            let (#first, #count) = (#row.first_item(), #row.own_items());
+            #shorten
+            #(#sums)*
+        };
+    }
     // Item after item, and not cell after cell: a loop over the few items of a cell is mostly its end.
     quote! {
         #space
@@ -241,6 +256,7 @@ fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
         let (#first, #count) = (#row.first_item(), #row.own_items());
         #take
         #shorten
+        #(#sums)*
         #(#mates)*
         let mut #place = #row.place();
         #turns {
@@ -257,16 +273,23 @@ fn items(function: &Function, uses: &Uses, real: &TokenStream) -> TokenStream {
 }
 
 /// The head of the loop over the items: all, or those with company if all others do nothing.
-fn turns(function: &Function, writer: &mut Writer<'_>, mates: &[Mates]) -> TokenStream {
+fn turns(function: &Function, rest: &[&Statement], writer: &mut Writer<'_>, mates: &[Mates]) -> TokenStream {
     let [row, number, count, company] = ["row", "number", "count", "company"].map(|name| writer.name(name));
-    let Some(Company { in_cell, radius, reach }) = Company::of(function, writer) else {
+    let Some(Company { in_cell, within }) = Company::of(function, rest, writer) else {
         return quote!(for #number in 0..#count);
     };
-    let (reach, positions) = (reach_number(reach), positions());
     let mates = mates.iter().map(|mates| &mates.marks);
+    let mates = quote!(&[#(&#mates.items),*]);
+    let find = match within {
+        None => quote!(#row.with_mates(#mates, &mut #company.items);),
+        Some(Within { radius, reach }) => {
+            let (reach, positions) = (reach_number(reach), positions());
+            quote!(#row.with_company::<_, #reach>(#in_cell, #mates, #radius, #positions, &mut #company.items);)
+        }
+    };
     quote! {
         let mut #company = #row.found();
-        #row.with_company::<_, #reach>(#in_cell, &[#(&#mates.items),*], #radius, #positions, &mut #company.items);
+        #find
         for #number in #company.items.iter().map(|number| *number as usize)
     }
 }

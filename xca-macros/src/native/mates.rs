@@ -34,15 +34,18 @@ impl<'a> Condition<'a> {
         if let Some(Expression::If { condition, otherwise: None, .. }) = only {
             return Some(Self { expression: necessary(condition, variable)?, value: true });
         }
-        let Some(Statement::Expression(Expression::If { condition, then, otherwise: None, .. })) =
-            statements.first()
-        else {
-            return None;
-        };
-        let Block { statements, value: None } = then else { return None };
-        let skips = matches!(&**statements, [Statement::Continue(None, _)]);
-        (skips && is_of_other(condition, variable)).then_some(Self { expression: condition, value: false })
+        let expression = skip_condition(statements.first()?)?;
+        is_of_other(expression, variable).then_some(Self { expression, value: false })
     }
+}
+
+/// The condition of an `if` that skips the turn of a loop.
+pub(super) fn skip_condition(statement: &Statement) -> Option<&Expression> {
+    let Statement::Expression(Expression::If { condition, then, otherwise: None, .. }) = statement else {
+        return None;
+    };
+    let Block { statements, value: None } = then else { return None };
+    matches!(&**statements, [Statement::Continue(None, _)]).then_some(condition)
 }
 
 impl Mates {

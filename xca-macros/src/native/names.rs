@@ -24,6 +24,11 @@ pub(super) fn read_name(group: GroupOf, field: &Ident) -> Ident {
     hidden(&format!("{prefix}_{}", field.unraw()), field.span())
 }
 
+/// The variable that holds a substate of the other item of a pair.
+pub(super) fn other_name(group: GroupOf, field: &Ident) -> Ident {
+    hidden(&format!("other_{}", read_name(group, field)), field.span())
+}
+
 /// The argument to which a substate is written.
 pub(super) fn write_name(field: &Ident) -> Ident {
     hidden(&format!("write_{}", field.unraw()), field.span())

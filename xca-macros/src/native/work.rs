@@ -23,6 +23,8 @@ impl ToTokens for Life {
 /// What a kernel is handed: of a row, and of a block of it.
 pub(super) struct Argument {
     pub(super) name: Ident,
+    /// Whether it is written.
+    pub(super) written: bool,
     pub(super) row: Typed,
     /// Another type and value where those of a block are not those of the row.
     pub(super) block: Option<Typed>,

@@ -20,6 +20,24 @@ impl Row<'_> {
         }
     }
 
+    /// Fills the buffer with the indices of those own items that have a mark in one of `mates`. These are all
+    /// own items if the process must write the values of all.
+    #[inline(never)]
+    pub fn with_mates(&self, mates: &[&Vec<u32>], company: &mut Vec<u32>) {
+        company.clear();
+        let count = self.own_items() as u32;
+        if self.copies() {
+            return company.extend(0..count);
+        }
+        let has_mate = |number: &u32| mates.iter().any(|marks| marks[*number as usize] != 0);
+        company.extend((0..count).filter(has_mate));
+    }
+
+    /// Whether the process reads and writes two buffers, so that it must copy what it does not change.
+    fn copies(&self) -> bool {
+        self.entries.iter().any(|entry| !entry.read.is_null() && !entry.write.is_null())
+    }
+
     /// Fills the buffer with the indices of those own items that have others within `radius` in the searched
     /// cells, or a mark in one of `mates`, or, if `in_cell` is set, others in their cell. If lists cannot
     /// tell, these are all own items, and so they are if the process must write the values of all.
@@ -34,9 +52,7 @@ impl Row<'_> {
     ) {
         let count = self.own_items();
         company.clear();
-        // A process that reads and writes two buffers must copy what it does not change.
-        let copies = self.entries.iter().any(|entry| !entry.read.is_null() && !entry.write.is_null());
-        if copies || !self.is_allowed::<R, REACH>(radius) || !self.walk(radius, positions) {
+        if self.copies() || !self.is_allowed::<R, REACH>(radius) || !self.walk(radius, positions) {
             return company.extend(0..count as u32);
         }
         self.widest.set(self.widest.get().max(radius.to_f64()));

@@ -98,15 +98,16 @@ impl Row<'_> {
         } else {
             self.order(near, filter, walk);
         }
-        walk.count(items.own.1 - items.own.0);
-        self.announce(&walk.near);
+        walk.starts.clear();
+        self.announce(&walk.near, positions.as_ptr().cast());
         true
     }
 
     /// Adds the stored near items of one item.
     #[inline(always)]
     pub(super) fn walked<const REACH: u8>(&self, cell: Column<'_>, item: usize, found: &mut Vec<u32>) {
-        let walk = self.scratch.walk.borrow();
+        let mut walk = self.scratch.walk.borrow_mut();
+        walk.count(self.own_items());
         let number = item - self.first_item();
         let (start, end) = (walk.starts[number] as usize, walk.starts[number + 1] as usize);
         if start == end {

@@ -183,11 +183,14 @@ impl<'a> Row<'a> {
     }
 
     /// Prefetches what the process reads from these items, which are far apart in memory.
-    pub(super) fn announce(&self, places: &[u32]) {
+    pub(super) fn announce(&self, places: &[u32], seen: *const u8) {
         for entry in self.entries {
             let Memory { element, length, of: MemoryOf::Items { all: true, count } } = entry.memory else {
                 continue;
             };
+            if element == 1 || entry.read == seen {
+                continue;
+            }
             for place in places.iter().map(|place| *place as usize).filter(|place| *place < count) {
                 announce(entry.read.wrapping_add(place * element * length));
             }

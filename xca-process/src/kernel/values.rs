@@ -3,8 +3,9 @@
 //! An engine stores each substate of cells in planes at a fixed stride: one for a single value, one for each
 //! element of an array. Values of items are stored whole, one after the other.
 
+use super::BATCH;
 use crate::states::States;
-use bytemuck::Pod;
+use bytemuck::{Pod, Zeroable};
 use std::ops::Range;
 use xca_values::{Vector2, Vector3, Vector4};
 
@@ -13,17 +14,45 @@ pub trait KernelElement: Copy + 'static {
     /// The form in memory.
     type Memory: Pod;
 
+    /// The values of a batch of pairs. Each number of a vector is beside that of the next lane.
+    type Batch: Zeroable;
+
     /// The value of any memory content.
     fn from_memory(memory: Self::Memory) -> Self;
 
     /// The memory content of the value.
     fn to_memory(self) -> Self::Memory;
+
+    /// The value of a pair.
+    fn lane(batch: &Self::Batch, lane: usize) -> Self;
+
+    /// Replaces the value of a pair.
+    fn set_lane(batch: &mut Self::Batch, lane: usize, value: Self);
+}
+
+/// Values of which each number stands in memory as one.
+macro_rules! in_lanes {
+    ($memory:ty) => {
+        type Batch = [$memory; BATCH];
+
+        #[inline(always)]
+        fn lane(batch: &[$memory; BATCH], lane: usize) -> Self {
+            <Self as KernelElement>::from_memory(batch[lane])
+        }
+
+        #[inline(always)]
+        fn set_lane(batch: &mut [$memory; BATCH], lane: usize, value: Self) {
+            batch[lane] = KernelElement::to_memory(value);
+        }
+    };
 }
 
 macro_rules! plain_elements {
     ($($type:ident)*) => {$(
         impl KernelElement for $type {
             type Memory = $type;
+
+            in_lanes!($type);
 
             #[inline(always)]
             fn from_memory(memory: $type) -> $type {
@@ -41,9 +70,10 @@ macro_rules! plain_elements {
 plain_elements!(u8 i32 u32 f32 f64);
 
 macro_rules! vector_elements {
-    ($($type:ident)*) => {$(
+    ($($type:ident($($number:ident)*))*) => {$(
         impl<T: Pod> KernelElement for $type<T> {
             type Memory = Self;
+            type Batch = $type<[T; BATCH]>;
 
             #[inline(always)]
             fn from_memory(memory: Self) -> Self {
@@ -54,14 +84,26 @@ macro_rules! vector_elements {
             fn to_memory(self) -> Self {
                 self
             }
+
+            #[inline(always)]
+            fn lane(batch: &$type<[T; BATCH]>, lane: usize) -> Self {
+                Self { $($number: batch.$number[lane]),* }
+            }
+
+            #[inline(always)]
+            fn set_lane(batch: &mut $type<[T; BATCH]>, lane: usize, value: Self) {
+                $(batch.$number[lane] = value.$number;)*
+            }
         }
     )*};
 }
 
-vector_elements!(Vector2 Vector3 Vector4);
+vector_elements!(Vector2(x y) Vector3(x y z) Vector4(x y z w));
 
 impl KernelElement for bool {
     type Memory = u8;
+
+    in_lanes!(u8);
 
     #[inline(always)]
     fn from_memory(memory: u8) -> bool {
@@ -76,6 +118,8 @@ impl KernelElement for bool {
 
 impl<T: States> KernelElement for T {
     type Memory = u8;
+
+    in_lanes!(u8);
 
     #[inline(always)]
     fn from_memory(memory: u8) -> T {
@@ -111,6 +155,9 @@ pub trait KernelValue: Copy + 'static {
     /// The largest number of cells in a block.
     const BLOCK: usize;
 
+    /// The values of a batch of pairs.
+    type Batch: Zeroable;
+
     /// The value with these elements.
     fn from_elements(element: impl FnMut(usize) -> Self::Element) -> Self;
 
@@ -119,6 +166,12 @@ pub trait KernelValue: Copy + 'static {
 
     /// The memory content of the value.
     fn to_memory(self) -> Self::Memory;
+
+    /// The value of a pair.
+    fn lane(batch: &Self::Batch, lane: usize) -> Self;
+
+    /// Replaces the value of a pair.
+    fn set_lane(batch: &mut Self::Batch, lane: usize, value: Self);
 }
 
 /// The planes of a row's cells, as the engine describes them.
@@ -186,6 +239,12 @@ pub fn load<T: KernelValue>(memory: T::Memory) -> T {
 #[inline(always)]
 pub fn store<T: KernelValue>(value: T) -> T::Memory {
     value.to_memory()
+}
+
+/// Room for the numbers of a batch of pairs.
+#[inline(always)]
+pub fn empty_batch<T: KernelValue>() -> T::Batch {
+    T::Batch::zeroed()
 }
 
 /// An element of an array in memory.

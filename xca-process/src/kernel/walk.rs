@@ -11,7 +11,7 @@ use xca_values::Vector3;
 #[derive(Debug, Default)]
 pub(super) struct Walk {
     pub(super) key: Option<Key>,
-    /// The start in `near` for each own item, then the length of `near`.
+    /// The start in `near` for each own item, then the length of `near`. Empty until it is needed.
     pub(super) starts: Vec<u32>,
     /// The places of near items.
     pub(super) near: Vec<u32>,
@@ -67,21 +67,21 @@ impl Walk {
 
     /// Sorts the near items of each item by place. They are nearly sorted.
     pub(super) fn sort(&mut self) {
-        let mut start = 0;
-        while start < self.owners.len() {
-            let owner = self.owners[start];
-            let count = self.owners[start..].iter().take_while(|other| **other == owner).count();
-            let near = &mut self.near[start..start + count];
-            if !near.is_sorted() {
-                near.sort_unstable();
+        let Self { near, owners, .. } = self;
+        for index in 1..near.len() {
+            let mut place = index;
+            while place > 0 && owners[place - 1] == owners[index] && near[place - 1] > near[place] {
+                near.swap(place - 1, place);
+                place -= 1;
             }
-            start += count;
         }
     }
 
     /// Stores the start of each item's results.
     pub(super) fn count(&mut self, items: usize) {
-        self.starts.clear();
+        if !self.starts.is_empty() {
+            return;
+        }
         self.starts.resize(items + 1, 0);
         for owner in &self.owners {
             self.starts[*owner as usize + 1] += 1;

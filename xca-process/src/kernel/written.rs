@@ -202,6 +202,7 @@ impl<T: KernelElement> KernelValue for T {
     type Stage = ();
     type Lanes<'b> = &'b mut [T::Memory];
     const BLOCK: usize = usize::MAX;
+    type Batch = T::Batch;
 
     #[inline(always)]
     fn from_elements(mut element: impl FnMut(usize) -> T) -> T {
@@ -217,6 +218,16 @@ impl<T: KernelElement> KernelValue for T {
     fn to_memory(self) -> T::Memory {
         KernelElement::to_memory(self)
     }
+
+    #[inline(always)]
+    fn lane(batch: &T::Batch, lane: usize) -> T {
+        T::lane(batch, lane)
+    }
+
+    #[inline(always)]
+    fn set_lane(batch: &mut T::Batch, lane: usize, value: T) {
+        T::set_lane(batch, lane, value);
+    }
 }
 
 impl<T: KernelElement, const N: usize> KernelValue for [T; N] {
@@ -227,6 +238,7 @@ impl<T: KernelElement, const N: usize> KernelValue for [T; N] {
     type Stage = Stage<T::Memory, N>;
     type Lanes<'b> = &'b mut Stage<T::Memory, N>;
     const BLOCK: usize = staged::<T::Memory>();
+    type Batch = [T::Batch; N];
 
     #[inline(always)]
     fn from_elements(element: impl FnMut(usize) -> T) -> Self {
@@ -241,6 +253,18 @@ impl<T: KernelElement, const N: usize> KernelValue for [T; N] {
     #[inline(always)]
     fn to_memory(self) -> Self::Memory {
         self.map(KernelElement::to_memory)
+    }
+
+    #[inline(always)]
+    fn lane(batch: &[T::Batch; N], lane: usize) -> Self {
+        std::array::from_fn(|element| <T as KernelElement>::lane(&batch[element], lane))
+    }
+
+    #[inline(always)]
+    fn set_lane(batch: &mut [T::Batch; N], lane: usize, value: Self) {
+        for (batch, value) in batch.iter_mut().zip(value) {
+            <T as KernelElement>::set_lane(batch, lane, value);
+        }
     }
 }
 
