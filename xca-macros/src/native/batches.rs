@@ -105,7 +105,9 @@ impl Sums<'_> {
                 }
             }
 
-            ::xca_core::kernel::run(#sums { #row, #pairs: &#pairs, #(#names: #values),* });
+            if !#pairs.is_empty() {
+                ::xca_core::kernel::run(#sums { #row, #pairs: &#pairs, #(#names: #values),* });
+            }
         }
     }
 }
@@ -182,7 +184,7 @@ struct Turns {
 
 impl Turns {
     fn add(&mut self, statement: &Statement, writer: &mut Writer<'_>) {
-        let [batch, lane] = ["batch", "lane"].map(|name| writer.name(name));
+        let [row, batch, lane] = ["row", "batch", "lane"].map(|name| writer.name(name));
         let Statement::Assign { place: Place { root: PlaceRoot::Own(field), .. }, operator, value, .. } =
             statement
         else {
@@ -196,6 +198,6 @@ impl Turns {
         let of_value = quote!(<#type_ as ::xca_core::kernel::KernelValue>);
         self.prepare.extend(quote!(let mut #numbers = ::xca_core::kernel::empty_batch::<#type_>();));
         self.turn.extend(quote!(#of_value::set_lane(&mut #numbers, #lane, #value);));
-        self.add.extend(quote!(#batch.#method::<#type_>(&#numbers, #write);));
+        self.add.extend(quote!(#batch.#method::<#type_>(#row, &#numbers, #write);));
     }
 }

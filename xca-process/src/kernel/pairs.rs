@@ -7,7 +7,7 @@ use xca_values::Vector3;
 
 /// The largest number of pairs in a batch. With more, the values would leave the nearest cache. With few, the
 /// compiler would write out the loops that read values.
-pub const BATCH: usize = 64;
+pub const BATCH: usize = 32;
 
 /// The number of pairs that a kernel computes together.
 pub const GROUP: usize = 16;
@@ -59,19 +59,20 @@ impl<'a> Row<'a> {
     #[inline(always)]
     fn add_walked<const REACH: u8>(&self, pairs: &mut Pairs<'_>, counts: impl Fn(usize, usize) -> bool) {
         let walk = self.scratch.walk.borrow();
-        let Some(items) = self.items else { return };
+        let cells = self.items.map_or(&[][..], |items| items.cells);
+        let Some(last) = cells.len().checked_sub(1) else { return };
         let room = walk.near.len();
         let (owners, others) = (&mut pairs.owners.items, &mut pairs.others.items);
         owners.resize(room, 0);
         others.resize(room, 0);
         let (owners, others) = (&mut owners[..room], &mut others[..room]);
-        let last = items.cells.len().saturating_sub(1);
-        let mut count = 0;
+        let (first, mut count) = (self.first_item(), 0);
         // No branch on what is kept, which the processor could not predict.
         for (owner, place) in walk.owners.iter().zip(&walk.near) {
             let (number, other) = (*owner as usize, *place as usize);
-            let index = other.wrapping_sub(items.own.0);
-            let here = (index < items.cells.len()) & (items.cells[index.min(last)] == items.cells[number]);
+            // Comparing with the item's own row needs no memory of other rows.
+            let index = other.wrapping_sub(first);
+            let here = (index <= last) & (cells[index.min(last)] == cells[number]);
             owners[count] = *owner;
             others[count] = *place;
             count += usize::from((here == (REACH == reach::CELL)) & counts(number, other));
@@ -112,6 +113,12 @@ impl Pairs<'_> {
             items.truncate(count);
             items.resize(whole, items.last().copied().unwrap_or_default());
         }
+    }
+
+    /// Whether there are none.
+    #[inline(always)]
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
     }
 
     /// The pairs in batches.
@@ -158,23 +165,38 @@ impl Batch<'_> {
 
     /// Adds the numbers of the pairs to the values of the searching items.
     #[inline(always)]
-    pub fn add<T: KernelValue + AddAssign>(&self, numbers: &T::Batch, sums: &mut [T::Memory]) {
-        for (lane, owner) in self.owners.iter().enumerate().take(self.count) {
-            let sum = &mut sums[*owner as usize];
-            let mut value = T::from_memory(*sum);
-            value += T::lane(numbers, lane);
-            *sum = value.to_memory();
-        }
+    pub fn add<T: KernelValue + AddAssign>(&self, row: &Row<'_>, numbers: &T::Batch, sums: &mut [T::Memory]) {
+        self.change_sums(row, sums, |sum: &mut T, lane| *sum += T::lane(numbers, lane));
     }
 
     /// Subtracts the numbers of the pairs from the values of the searching items.
     #[inline(always)]
-    pub fn subtract<T: KernelValue + SubAssign>(&self, numbers: &T::Batch, sums: &mut [T::Memory]) {
+    pub fn subtract<T: KernelValue + SubAssign>(
+        &self,
+        row: &Row<'_>,
+        numbers: &T::Batch,
+        sums: &mut [T::Memory],
+    ) {
+        self.change_sums(row, sums, |sum: &mut T, lane| *sum -= T::lane(numbers, lane));
+    }
+
+    /// Changes the values of the searching items, pair by pair. The sum of integers may overflow.
+    #[inline(always)]
+    fn change_sums<T: KernelValue>(
+        &self,
+        row: &Row<'_>,
+        sums: &mut [T::Memory],
+        mut change: impl FnMut(&mut T, usize),
+    ) {
+        let mut place = row.place();
         for (lane, owner) in self.owners.iter().enumerate().take(self.count) {
-            let sum = &mut sums[*owner as usize];
+            let number = *owner as usize;
+            place.item = Some(row.first_item() + number);
+            let Some(sum) = sums.get_mut(number) else { continue };
             let mut value = T::from_memory(*sum);
-            value -= T::lane(numbers, lane);
+            change(&mut value, lane);
             *sum = value.to_memory();
         }
+        place.leave();
     }
 }

@@ -182,13 +182,15 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// Prefetches what the process reads from these items, which are far apart in memory.
-    pub(super) fn announce(&self, places: &[u32], seen: *const u8) {
+    /// Prefetches what the process reads from these items, which are far apart in memory. What stands at
+    /// `known` has just been read.
+    pub(super) fn announce(&self, places: &[u32], known: *const u8) {
         for entry in self.entries {
             let Memory { element, length, of: MemoryOf::Items { all: true, count } } = entry.memory else {
                 continue;
             };
-            if element == 1 || entry.read == seen {
+            // Values of one byte share few cache lines.
+            if element * length == 1 || entry.read == known {
                 continue;
             }
             for place in places.iter().map(|place| *place as usize).filter(|place| *place < count) {

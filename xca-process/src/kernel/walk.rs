@@ -23,6 +23,9 @@ pub(super) struct Walk {
     pub(super) marks: Vec<u8>,
 }
 
+/// The number of pairs whose order is checked at a time.
+const CHECKED: usize = 32;
+
 /// The properties that determine the result of a search.
 #[derive(Debug, PartialEq)]
 pub(super) struct Key {
@@ -68,11 +71,23 @@ impl Walk {
     /// Sorts the near items of each item by place. They are nearly sorted.
     pub(super) fn sort(&mut self) {
         let Self { near, owners, .. } = self;
-        for index in 1..near.len() {
-            let mut place = index;
-            while place > 0 && owners[place - 1] == owners[index] && near[place - 1] > near[place] {
-                near.swap(place - 1, place);
-                place -= 1;
+        for first in (1..near.len()).step_by(CHECKED) {
+            let end = near.len().min(first + CHECKED);
+            // Without a branch, so that the compiler compares many at once.
+            let pairs = near[first - 1..end].windows(2).zip(owners[first - 1..end].windows(2));
+            let is_sorted = pairs.fold(true, |sorted, (near, owners)| {
+                sorted & ((near[0] <= near[1]) | (owners[0] != owners[1]))
+            });
+            if is_sorted {
+                continue;
+            }
+            for index in first..end {
+                let owner = owners[index];
+                if owners[index - 1] == owner && near[index - 1] > near[index] {
+                    let start = owners.partition_point(|other| *other < owner);
+                    let end = owners.partition_point(|other| *other <= owner);
+                    near[start..end].sort_unstable();
+                }
             }
         }
     }
