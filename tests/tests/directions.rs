@@ -8,12 +8,13 @@ use toml::{Table, Value};
 type TestResult = Result<(), Box<dyn Error>>;
 
 /// For each member, the members that it may depend on. A new member finds its place here first.
-const DIRECTIONS: [(&str, &[&str]); 35] = [
+const DIRECTIONS: [(&str, &[&str]); 36] = [
     ("xca-methods", &[]),
     ("xca-spelling", &[]),
     ("xca-macros", &["xca-methods", "xca-spelling"]),
     ("xca-values", &[]),
-    ("xca-process", &["xca-macros", "xca-methods", "xca-values"]),
+    ("xca-space", &["xca-values"]),
+    ("xca-process", &["xca-macros", "xca-methods", "xca-space", "xca-values"]),
     ("xca-core", &["xca-macros", "xca-process", "xca-values"]),
     ("xca-wgsl", &["xca-core", "xca-methods"]),
     ("xca-wavefront", &[]),
@@ -96,15 +97,16 @@ const DIRECTIONS: [(&str, &[&str]); 35] = [
 ];
 
 /// Members that may use nothing from elsewhere but this.
-const FEW_FRIENDS: [(&str, &[&str]); 4] = [
+const FEW_FRIENDS: [(&str, &[&str]); 5] = [
     ("xca-values", &["bytemuck", "serde", "thiserror"]),
+    ("xca-space", &["serde", "thiserror"]),
     ("xca-process", &["bytemuck", "serde", "thiserror"]),
     ("xca-core", &["bytemuck", "serde", "thiserror"]),
     ("cadem", &["serde", "thiserror"]),
 ];
 
 /// The members that name no engine.
-const WITHOUT_ENGINES: [&str; 4] = ["xca-values", "xca-process", "xca-core", "cadem"];
+const WITHOUT_ENGINES: [&str; 5] = ["xca-values", "xca-space", "xca-process", "xca-core", "cadem"];
 
 /// What drives threads and devices, and the members that may: engines, and the benchmarks, which measure
 /// loops by hand.

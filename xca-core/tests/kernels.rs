@@ -29,6 +29,7 @@ struct Wide;
 
 impl KernelElement for Wide {
     type Memory = u128;
+    type Batch = ();
 
     fn from_memory(_: u128) -> Self {
         Self
@@ -37,6 +38,12 @@ impl KernelElement for Wide {
     fn to_memory(self) -> u128 {
         0
     }
+
+    fn lane((): &(), _: usize) -> Self {
+        Self
+    }
+
+    fn set_lane((): &mut (), _: usize, _: Self) {}
 }
 
 const LAND: Argument = Argument { type_id: TypeId::of::<Land>, schema: Land::SCHEMA, holds: Holds::Cells };

@@ -33,7 +33,6 @@ mod wide;
 mod work;
 mod written;
 
-pub use crate::neighbourhood::shapes::{ANY as ANY_SHAPE, ShapeNumber};
 pub use cells::{AroundRead, Blocks, CentreRead, Column, Columns, Offset};
 pub use codes::{BEYOND_NEIGHBOURHOOD, NOWHERE, OUTSIDE, STAY, WRONG_RADIUS};
 pub use constants::{KernelConstant, constant};
@@ -53,6 +52,7 @@ pub use values::{
 };
 pub use work::{Work, run};
 pub use written::{Stage, WrittenArrays};
+pub use xca_space::shapes::{ANY as ANY_SHAPE, ShapeNumber};
 pub use xca_values::Instructions;
 
 /// A kernel: runs a process over one row.

@@ -9,16 +9,13 @@ extern crate self as xca_core;
 
 #[doc(hidden)]
 pub mod checks;
-pub mod directions;
 #[doc(hidden)]
 pub mod field_type;
 mod float;
-mod geometry;
 mod host_value;
 pub mod ir;
 pub mod kernel;
 pub mod math;
-mod neighbourhood;
 mod parameters;
 mod process;
 mod states;
@@ -28,14 +25,16 @@ mod vocabulary;
 pub use float::Float;
 #[doc(hidden)]
 pub use float::uniform;
-pub use geometry::{Boundary, Face, Faces, Geometry, Reached};
 pub use host_value::{HostScalar, HostValue};
-pub use neighbourhood::{Hexagons, Neighbourhood, NeighbourhoodError, Parity};
 pub use parameters::{AnyParameters, ParameterError, ParameterValue, Parameters};
 pub use process::{Argument, ElementaryProcess, Holds, ParametersArgument, Process, ProcessKind, Processes};
 pub use states::States;
 pub use substates::{HasSubstate, Substate, Substates};
 pub use vocabulary::{Cell, Destination, Other, Others, Slot, Slots, Space};
+#[doc(no_inline)]
+pub use xca_space::{
+    Boundary, Face, Faces, Geometry, Hexagons, Neighbourhood, NeighbourhoodError, Parity, Reached, directions,
+};
 #[doc(no_inline)]
 pub use xca_values::*;
 

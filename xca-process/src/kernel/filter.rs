@@ -1,8 +1,7 @@
 //! The cells that a search can skip.
 
 use super::wide::Wide;
-use crate::geometry::Geometry;
-use crate::neighbourhood::Parity;
+use xca_space::{Geometry, Parity};
 use xca_values::Precision;
 
 /// Finds the cells of a neighbourhood that can hold items within a radius of a position, and contiguous

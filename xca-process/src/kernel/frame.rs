@@ -1,9 +1,9 @@
 //! The data that all rows of a step share.
 
 use super::CellFilter;
-use crate::geometry::Geometry;
 use std::any::Any;
 use std::sync::Arc;
+use xca_space::Geometry;
 use xca_values::Stream;
 
 /// The data that all rows of a step share.

@@ -1,13 +1,13 @@
 //! The positions of the neighbours of a row's cells.
 //!
-//! Kernels are generic in the [shape](crate::neighbourhood::shapes) of the neighbourhood. For a known shape,
+//! Kernels are generic in the [shape](xca_space::shapes) of the neighbourhood. For a known shape,
 //! indices, opposites and displacements are constants of the kernel.
 
 use super::Row;
 use super::cells::Offset;
-use crate::geometry::{Boundary, Faces};
-use crate::neighbourhood::shapes::{self, ANY, HEXAGONAL, Shape, ShapeNumber};
 use std::marker::PhantomData;
+use xca_space::shapes::{self, ANY, HEXAGONAL, Shape, ShapeNumber};
+use xca_space::{Boundary, Faces};
 use xca_values::Vector3;
 
 /// The neighbourhood of a row's cells as distances in memory. An index beyond it is a fault, and refers to

@@ -7,16 +7,16 @@ pub type ShapeNumber = u8;
 pub const ANY: ShapeNumber = 0;
 
 /// The six cells around a hexagon. Their displacements differ between rows or columns.
-pub(crate) const HEXAGONAL: ShapeNumber = 6;
+pub const HEXAGONAL: ShapeNumber = 6;
 
 /// The largest number of cells of a shape.
-pub(crate) const MOST: usize = 27;
+pub const MOST: usize = 27;
 
 /// Cells at most one step away along each axis, in the order of the ready-made neighbourhoods.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Shape {
-    pub(crate) size: usize,
-    pub(crate) displacements: [[i32; 3]; MOST],
+pub struct Shape {
+    pub size: usize,
+    pub displacements: [[i32; 3]; MOST],
 }
 
 impl Shape {
@@ -44,13 +44,13 @@ impl Shape {
     }
 
     /// The index of the neighbour in the opposite direction. The list is symmetric.
-    pub(crate) const fn opposite(&self, index: usize) -> usize {
+    pub const fn opposite(&self, index: usize) -> usize {
         if index == 0 { 0 } else { self.size - index }
     }
 }
 
 /// The shape with this number. Its size is 0 if the neighbourhood is known only at run time.
-pub(crate) const fn shape(number: ShapeNumber) -> Shape {
+pub const fn shape(number: ShapeNumber) -> Shape {
     match number {
         1 => Shape::ball(0, 1),
         2 => Shape::ball(1, 1),
@@ -63,7 +63,7 @@ pub(crate) const fn shape(number: ShapeNumber) -> Shape {
 }
 
 /// The shape of a neighbourhood that is the same for all cells.
-pub(crate) fn number_of(displacements: &[[i32; 3]]) -> ShapeNumber {
+pub fn number_of(displacements: &[[i32; 3]]) -> ShapeNumber {
     let known = |number: &ShapeNumber| {
         let shape = shape(*number);
         shape.displacements[..shape.size] == *displacements

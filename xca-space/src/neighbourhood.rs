@@ -4,7 +4,8 @@ use shapes::ShapeNumber;
 use std::collections::HashMap;
 use std::fmt;
 
-pub(crate) mod shapes;
+#[doc(hidden)]
+pub mod shapes;
 
 /// The cells that a process sees, as displacements from the central cell. The central cell has index 0.
 ///
@@ -209,12 +210,14 @@ impl Neighbourhood {
     }
 
     /// [`Self::opposite`] for each index.
-    pub(crate) fn opposites(&self) -> &[Option<usize>] {
+    #[doc(hidden)]
+    pub fn opposites(&self) -> &[Option<usize>] {
         &self.opposites
     }
 
     /// The shape for kernels.
-    pub(crate) fn shape(&self) -> ShapeNumber {
+    #[doc(hidden)]
+    pub fn shape(&self) -> ShapeNumber {
         self.shape
     }
 
