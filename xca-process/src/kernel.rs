@@ -42,13 +42,13 @@ pub use filter::CellFilter;
 pub use frame::Frame;
 pub use items::{NO_PLACE, NearLists, RowItems};
 pub use neighbours::{Directions, Offsets};
-pub use pairs::{BATCH, Batch, GROUP, Pairs};
+pub use pairs::{Batch, GROUP, Pairs};
 pub use row::{Place, Row, RowFault, StoppedAt};
 pub use scratch::{Found, Scratch};
 pub use space::NativeSpace;
 pub use values::{
-    ArrayValue, KernelElement, KernelValue, Lanes, Planes, Written, block, empty_batch, load, load_element,
-    store,
+    ArrayValue, BATCH, KernelElement, KernelValue, Lanes, Planes, Written, block, empty_batch, load,
+    load_element, store,
 };
 pub use work::{Work, run};
 pub use written::{Stage, WrittenArrays};

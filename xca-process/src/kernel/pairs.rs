@@ -1,13 +1,9 @@
 //! The pairs of near items of a row, in batches. A kernel computes the pairs of a batch lane by lane.
 
-use super::{Found, KernelValue, Row, reach};
+use super::{BATCH, Found, KernelValue, Row, reach};
 use crate::float::Float;
 use std::ops::{AddAssign, SubAssign};
 use xca_values::Vector3;
-
-/// The largest number of pairs in a batch. With more, the values would leave the nearest cache. With few, the
-/// compiler would write out the loops that read values.
-pub const BATCH: usize = 32;
 
 /// The number of pairs that a kernel computes together.
 pub const GROUP: usize = 16;

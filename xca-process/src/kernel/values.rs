@@ -3,11 +3,14 @@
 //! An engine stores each substate of cells in planes at a fixed stride: one for a single value, one for each
 //! element of an array. Values of items are stored whole, one after the other.
 
-use super::BATCH;
 use crate::states::States;
 use bytemuck::{Pod, Zeroable};
 use std::ops::Range;
 use xca_values::{Vector2, Vector3, Vector4};
+
+/// The largest number of pairs in a batch. With more, the values would leave the nearest cache. With few, the
+/// compiler would write out the loops that read values.
+pub const BATCH: usize = 32;
 
 /// A single value: a number, a bool, a state or a small vector.
 pub trait KernelElement: Copy + 'static {
