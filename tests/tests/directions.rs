@@ -8,10 +8,11 @@ use toml::{Table, Value};
 type TestResult = Result<(), Box<dyn Error>>;
 
 /// For each member, the members that it may depend on. A new member finds its place here first.
-const DIRECTIONS: [(&str, &[&str]); 36] = [
+const DIRECTIONS: [(&str, &[&str]); 37] = [
     ("xca-methods", &[]),
     ("xca-spelling", &[]),
-    ("xca-macros", &["xca-methods", "xca-spelling"]),
+    ("xca-fields", &[]),
+    ("xca-macros", &["xca-fields", "xca-methods", "xca-spelling"]),
     ("xca-values", &[]),
     ("xca-space", &["xca-values"]),
     ("xca-process", &["xca-macros", "xca-methods", "xca-space", "xca-values"]),

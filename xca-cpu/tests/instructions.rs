@@ -38,6 +38,7 @@ struct Grain {
     #[position]
     position: Vector3<Real>,
     push: Vector3<Real>,
+    crowd: Real,
 }
 
 /// Grains push each other apart.
@@ -49,6 +50,14 @@ fn repel(grain: &mut Slot<Grain>) {
         push += away * (0.9 - away.length());
     }
     grain.push = push;
+}
+
+/// Grains count those around them, many pairs at a time.
+#[elementary_process]
+fn look_around(grain: &mut Slot<Grain>) {
+    for other in grain.others_in_neighbours_within(0.9) {
+        grain.crowd += 1.0 / (0.1 + (grain.position - other.position).length()).sqrt();
+    }
 }
 
 #[elementary_process]
@@ -68,7 +77,7 @@ fn model(extents: [usize; 3]) -> Result<Model, ModelError> {
         .substates::<Site>()
         .population::<Grain>(24)
         .items_may_leave::<Grain>()
-        .process((flow, repel, go, settle))
+        .process((flow, repel, look_around, go, settle))
         .fill(|site| {
             let kind = (site.cell().iter().sum::<usize>() % 7) as u8;
             Site { warmth: site.random(0), kind, count: 0, flows: [site.random(1); 3] }
@@ -78,7 +87,7 @@ fn model(extents: [usize; 3]) -> Result<Model, ModelError> {
             let grain = |number: usize| {
                 let offset = |axis: usize| site.random(3 * number + axis) - 0.5;
                 let position = site.centre() + Vector3::new(offset(0), offset(1), offset(2));
-                Grain { position, push: Vector3::splat(0.0) }
+                Grain { position, push: Vector3::splat(0.0), crowd: 0.0 }
             };
             (0..number).map(grain).collect::<Vec<_>>()
         })

@@ -1,12 +1,9 @@
 //! `derive(Substates)` and `derive(Parameters)`: the fields of a struct.
 
-mod attributes;
 mod parameters;
 mod substates;
-mod words;
 
 use crate::checked::{self, checked};
-use attributes::{About, Wanted};
 pub(crate) use parameters::parameters;
 use proc_macro2::{Literal, TokenStream};
 use quote::{quote, quote_spanned};
@@ -14,8 +11,8 @@ pub(crate) use substates::substates;
 use syn::ext::IdentExt;
 use syn::spanned::Spanned;
 use syn::{Data, DeriveInput, Error, Fields, Ident, Result, Type, Visibility};
-use words::{check_type, is_position, marked};
-pub(crate) use words::{is_value_type, may_be_states, meant, with_real};
+use xca_fields::{About, Wanted, check_type, is_position, marked};
+pub(crate) use xca_fields::{is_value_type, may_be_states, meant, with_real};
 
 /// A field of a struct that is derived from.
 struct Field {
@@ -132,7 +129,7 @@ fn schema(item: &DeriveInput, fields: &[Field]) -> TokenStream {
     let struct_name = item.ident.to_string();
     let descriptions = fields.iter().map(|field| {
         let (name, field_type) = (field.name.unraw().to_string(), field_type(field));
-        let documentation = attributes::documentation(&field.documentation);
+        let documentation = xca_fields::documentation(&field.documentation);
         let about = field.about.tokens();
         quote! {
             ::xca_core::Field { name: #name, value_type: #field_type::TYPE, documentation: #documentation, #about }

@@ -1,11 +1,11 @@
 //! `derive(Parameters)`.
 
-use super::attributes::Wanted;
 use super::{field_type, fields, schema, value};
 use crate::checked::checked;
 use proc_macro2::{Span, TokenStream};
 use quote::{format_ident, quote};
 use syn::{DeriveInput, Error, Ident, Result};
+use xca_fields::Wanted;
 
 pub(crate) fn parameters(item: &DeriveInput) -> Result<TokenStream> {
     let fields = fields(item, Wanted::Parameter)?;

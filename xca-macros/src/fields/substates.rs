@@ -1,12 +1,12 @@
 //! `derive(Substates)`.
 
-use super::attributes::Wanted;
 use super::{POSITION, field_type, fields, handle, name_number, schema, value};
 use crate::checked::checked;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use syn::ext::IdentExt;
 use syn::{DeriveInput, Ident, Result};
+use xca_fields::Wanted;
 
 pub(crate) fn substates(item: &DeriveInput) -> Result<TokenStream> {
     let fields = fields(item, Wanted::Substate)?;

@@ -2,6 +2,7 @@
 
 use proc_macro2::TokenStream;
 use quote::quote;
+use std::fmt;
 use syn::meta::ParseNestedMeta;
 use syn::{
     Attribute, Error, Expr, ExprLit, ExprRange, ExprUnary, Lit, LitStr, Meta, Path, RangeLimits, Result,
@@ -9,9 +10,11 @@ use syn::{
 };
 
 /// What a struct is derived for.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Wanted {
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Wanted {
+    /// Substates.
     Substate,
+    /// Parameters.
     Parameter,
 }
 
@@ -36,13 +39,19 @@ impl Wanted {
 
 /// What is said of a field.
 #[derive(Default)]
-pub(super) struct About {
+pub struct About {
     unit: Option<LitStr>,
     range: Option<(Path, Expr)>,
     positive: Option<Path>,
     low: Option<End>,
     high: Option<End>,
     computed: bool,
+}
+
+impl fmt::Debug for About {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("About").field("computed", &self.computed).finish_non_exhaustive()
+    }
 }
 
 /// An end of a range.
@@ -52,7 +61,11 @@ struct End {
 }
 
 impl About {
-    pub(super) fn of(field: &syn::Field, wanted: Wanted) -> Result<Self> {
+    /// Reads the attributes of a field.
+    ///
+    /// # Errors
+    /// An attribute that is none of a field, or says something twice or nothing that makes sense.
+    pub fn of(field: &syn::Field, wanted: Wanted) -> Result<Self> {
         let mut about = Self::default();
         for attribute in &field.attrs {
             if attribute.path().is_ident(wanted.attribute()) {
@@ -115,12 +128,12 @@ impl About {
     }
 
     /// The word that gives a range.
-    pub(super) fn limited_by(&self) -> Option<&Path> {
+    pub fn limited_by(&self) -> Option<&Path> {
         self.positive.as_ref().or(self.range.as_ref().map(|(word, _)| word))
     }
 
     /// The fields of `xca_core::Field` that follow from it.
-    pub(super) fn tokens(&self) -> TokenStream {
+    pub fn tokens(&self) -> TokenStream {
         let unit = match &self.unit {
             Some(unit) => quote!(::core::option::Option::Some(#unit)),
             None => quote!(::core::option::Option::None),
@@ -165,7 +178,7 @@ fn number(end: &Expr) -> Option<f64> {
 }
 
 /// The lines of a documentation, joined.
-pub(super) fn documentation(attributes: &[Attribute]) -> String {
+pub fn documentation(attributes: &[Attribute]) -> String {
     let line = |attribute: &Attribute| match &attribute.meta {
         Meta::NameValue(meta) => match &meta.value {
             Expr::Lit(ExprLit { lit: Lit::Str(text), .. }) => Some(text.value().trim().to_owned()),

@@ -14,12 +14,12 @@ const OTHER_TYPES: [&str; 16] = [
 ];
 
 /// Whether the word is a type of values, not a struct of the user.
-pub(crate) fn is_value_type(word: &str) -> bool {
+pub fn is_value_type(word: &str) -> bool {
     SCALARS.contains(&word) || OTHER_TYPES.contains(&word) || VECTORS.contains(&word)
 }
 
 /// Whether the word may be the name of an enum of states.
-pub(crate) fn may_be_states(word: &str) -> bool {
+pub fn may_be_states(word: &str) -> bool {
     !is_value_type(word)
 }
 
@@ -27,7 +27,7 @@ const VECTORS: [&str; 3] = ["Vector2", "Vector3", "Vector4"];
 
 /// Whether the words of a type are those of a substate or parameter. What they mean is proved by the code
 /// that the derive writes.
-pub(super) fn check_type(type_: &Type) -> Result<()> {
+pub fn check_type(type_: &Type) -> Result<()> {
     let type_ = bare(type_);
     if let Type::Array(array) = type_ {
         if let Type::Array(inner) = bare(&array.elem) {
@@ -71,18 +71,19 @@ fn bare(type_: &Type) -> &Type {
     }
 }
 
-pub(super) fn is_position(type_: &Type) -> bool {
+/// Whether a type is that of a position: `Vector3<Real>`.
+pub fn is_position(type_: &Type) -> bool {
     let text = quote!(#type_).to_string().replace(' ', "");
     text.ends_with("Vector3<Real>")
 }
 
 /// The type with the word `Real` marked, by which `xca_core::field_type` knows all about it.
-pub(super) fn marked(type_: &Type) -> TokenStream {
+pub fn marked(type_: &Type) -> TokenStream {
     with_real(type_, &quote!(::xca_core::field_type::RealWord))
 }
 
 /// A type of the user with `Real` replaced by another type.
-pub(crate) fn with_real(type_: &Type, real: &TokenStream) -> TokenStream {
+pub fn with_real(type_: &Type, real: &TokenStream) -> TokenStream {
     let mut type_ = type_.clone();
     syn::visit_mut::visit_type_mut(&mut ReplaceReal(real), &mut type_);
     ReplaceReal(real).replace(&mut type_);
@@ -90,7 +91,7 @@ pub(crate) fn with_real(type_: &Type, real: &TokenStream) -> TokenStream {
 }
 
 /// The type that the words of a type mean, whatever they are aliases of.
-pub(crate) fn meant(type_: &Type) -> TokenStream {
+pub fn meant(type_: &Type) -> TokenStream {
     match type_ {
         Type::Array(array) => {
             let (element, length) = (meant(&array.elem), &array.len);
