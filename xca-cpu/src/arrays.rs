@@ -1,5 +1,6 @@
 //! The stored data of the items of a population.
 
+use bytemuck::Pod;
 use xca_core::StoredType;
 use xca_core::storage::Buffer;
 
@@ -50,9 +51,37 @@ impl Arrays {
         all.filter(|values| !values.bytes.is_empty()).collect()
     }
 
+    /// Replaces each array by one with so many places, which `fill` gets with the old one and with the size of
+    /// a value in bytes. One array after the other, because both exist meanwhile.
+    pub(crate) fn replace(
+        &mut self,
+        types: &[StoredType],
+        places: usize,
+        fill: impl Fn(&[u8], &mut [u8], usize),
+    ) {
+        for numbers in [&mut self.labels, &mut self.cells, &mut self.numbers] {
+            replace(numbers, places, &fill);
+        }
+        replace(&mut self.references, places, &fill);
+        for (field, stored) in self.fields.iter_mut().zip(types) {
+            let mut new = Buffer::zeroed(places * stored.size());
+            fill(field.bytes(), new.bytes_mut(), stored.size());
+            *field = new;
+        }
+    }
+
     pub(crate) fn memory(&self) -> usize {
         let numbers = self.labels.capacity() + self.cells.capacity() + self.numbers.capacity();
         let references = self.references.capacity() * size_of::<[f32; 3]>();
         numbers * size_of::<u32>() + references + self.fields.iter().map(Buffer::capacity).sum::<usize>()
+    }
+}
+
+/// Replaces a vector by one of this length. An empty one stays empty.
+fn replace<T: Pod>(values: &mut Vec<T>, length: usize, fill: impl Fn(&[u8], &mut [u8], usize)) {
+    if !values.is_empty() {
+        let mut new = bytemuck::allocation::zeroed_vec(length);
+        fill(bytemuck::cast_slice(values), bytemuck::cast_slice_mut(&mut new), size_of::<T>());
+        *values = new;
     }
 }

@@ -11,24 +11,36 @@ use xca_core::kernel::{Work, run};
 /// The number of items that are compared at a time.
 const LANES: usize = 8;
 
-/// The lists of some rows.
+/// The lists of all items, by place.
 #[derive(Default)]
-pub(crate) struct Listed {
-    pub(crate) list: Vec<u32>,
+pub(crate) struct Entries {
+    /// The start of each list in `candidates`, then the length of that. A place without an item has an empty
+    /// list.
+    pub(crate) starts: Vec<u32>,
+    pub(crate) candidates: Vec<u32>,
+    /// The place that has the list of each candidate.
+    pub(crate) owners: Vec<u32>,
+}
+
+/// The lists of some rows.
+struct Listed {
+    rows: Range<usize>,
+    list: Vec<u32>,
     /// The length of `list` after each item.
-    pub(crate) ends: Vec<u32>,
+    ends: Vec<u32>,
 }
 
 /// Lists for each item the places of all items nearer than `within` metres, and possibly of some that are
-/// slightly farther. Leaves out ghosts. Returns the lists of blocks of rows, in order. The box of the
-/// neighbourhood must hold all of these items: none may be too far outside its cell.
+/// slightly farther. Leaves out ghosts. The box of the neighbourhood must hold all of these items: none may
+/// be too far outside its cell. `None` if there are too many entries.
 pub(crate) fn make(
     population: &Population,
     layout: &Layout,
     geometry: &Geometry,
     within: f64,
-) -> Vec<Listed> {
-    let planes = Planes::new(&population.references());
+    before: Entries,
+) -> Option<Entries> {
+    let planes = Planes::new(&population.items.references);
     let toroidal = geometry.toroidal();
     let periods = std::array::from_fn(|axis| {
         let period = geometry.extents()[axis] as f64 * geometry.side();
@@ -40,11 +52,88 @@ pub(crate) fn make(
     let blocks = blocks(layout, &[population], rayon::current_num_threads());
     let blocks = blocks.into_par_iter().with_max_len(1);
     let list = |rows: Range<usize>| {
-        let mut listed = Listed::default();
+        let mut listed = Listed { rows: rows.clone(), list: Vec::new(), ends: Vec::new() };
         rows.for_each(|row| run(OfRow { maker: &maker, row, listed: &mut listed }));
         listed
     };
-    blocks.map(list).collect()
+    let listed: Vec<Listed> = blocks.map(list).collect();
+    drop(maker);
+    before.replaced(population, listed)
+}
+
+/// Gives a vector new values. Its memory is used again, because large pieces that come and go leave holes
+/// that no one can use. It gets a quarter more than it needs.
+pub(crate) fn refill<T>(values: &mut Vec<T>, length: usize, value: impl FnMut() -> T) {
+    values.clear();
+    if values.capacity() < length {
+        *values = Vec::new();
+        values.reserve_exact(length + length / 4);
+    }
+    values.resize_with(length, value);
+}
+
+/// Some rows, and their part of all entries.
+struct Part<'a> {
+    population: &'a Population,
+    listed: Listed,
+    /// The number of entries of earlier rows.
+    before: u32,
+    starts: &'a mut [u32],
+    candidates: &'a mut [u32],
+    owners: &'a mut [u32],
+}
+
+impl Entries {
+    /// The entries of blocks of rows, in order. Each block is dropped when it has been copied.
+    fn replaced(mut self, population: &Population, listed: Vec<Listed>) -> Option<Self> {
+        let total = listed.iter().map(|listed| listed.list.len()).sum();
+        let end = u32::try_from(total).ok()?;
+        refill(&mut self.starts, population.own_places() + 1, || end);
+        refill(&mut self.candidates, total, || 0);
+        refill(&mut self.owners, total, || 0);
+        let (mut starts, mut candidates, mut owners) =
+            (&mut *self.starts, &mut *self.candidates, &mut *self.owners);
+        let mut before = 0;
+        let mut parts = Vec::with_capacity(listed.len());
+        for listed in listed {
+            let Range { start, end } = listed.rows;
+            let places = (population.rows[end] - population.rows[start]) as usize;
+            let length = listed.list.len();
+            parts.push(Part {
+                population,
+                listed,
+                before,
+                starts: starts.split_off_mut(..places)?,
+                candidates: candidates.split_off_mut(..length)?,
+                owners: owners.split_off_mut(..length)?,
+            });
+            before += length as u32;
+        }
+        parts.into_par_iter().with_max_len(1).for_each(Part::fill);
+        Some(self)
+    }
+}
+
+impl Part<'_> {
+    fn fill(self) {
+        let Self { population, listed: Listed { rows, list, ends }, before, starts, candidates, owners } =
+            self;
+        candidates.copy_from_slice(&list);
+        let first_place = population.rows[rows.start] as usize;
+        let mut ends = ends.into_iter();
+        let mut end = 0;
+        for row in rows {
+            let (first, occupied) = population.row(row);
+            for place in first..first + population.room(row) {
+                starts[place - first_place] = before + end;
+                if place < occupied {
+                    let start = end;
+                    end = ends.next().unwrap_or(start);
+                    owners[start as usize..end as usize].fill(place as u32);
+                }
+            }
+        }
+    }
 }
 
 /// The positions in `f32`, as an array for each axis. Padding at the end allows reading [`LANES`] at a time.

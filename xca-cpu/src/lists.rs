@@ -9,6 +9,7 @@
 
 use crate::arrays::Arrays;
 use crate::layout::Layout;
+use crate::listing::Entries;
 use crate::motion::Motion;
 use std::sync::atomic::AtomicU32;
 use xca_core::Geometry;
@@ -18,14 +19,13 @@ use xca_core::kernel::{NO_PLACE, NearLists};
 pub(crate) const STRANGER: u32 = u32::MAX;
 
 /// The items that were near each item when the lists were made.
+#[derive(Default)]
 pub(crate) struct Lists {
     /// The radius at that time, in metres.
     pub(crate) made_within: f64,
     /// The place of the item with each number.
     pub(crate) places: Vec<u32>,
-    pub(crate) starts: Vec<u32>,
-    pub(crate) candidates: Vec<u32>,
-    pub(crate) owners: Vec<u32>,
+    pub(crate) entries: Entries,
     /// Whether each row is searched in cells.
     pub(crate) in_cells: Vec<bool>,
     /// The approximate common motion of all items since then.
@@ -70,9 +70,9 @@ impl Lists {
         NearLists {
             numbers: &items.numbers,
             places: &self.places,
-            starts: &self.starts,
-            candidates: &self.candidates,
-            owners: &self.owners,
+            starts: &self.entries.starts,
+            candidates: &self.entries.candidates,
+            owners: &self.entries.owners,
             cells: &items.cells,
             radius,
             bounds: &self.bounds,
@@ -108,8 +108,9 @@ impl Lists {
 
     /// The size in bytes.
     pub(crate) fn memory(&self) -> usize {
-        let numbers = self.places.capacity() + self.starts.capacity() + 3 * self.candidates.capacity();
-        numbers * size_of::<u32>() + self.in_cells.capacity()
+        let Entries { starts, candidates, owners } = &self.entries;
+        let numbers = [&self.places, starts, candidates, owners].map(Vec::capacity).iter().sum::<usize>();
+        (numbers + self.bounds.capacity()) * size_of::<u32>() + self.in_cells.capacity()
     }
 
     /// Updates the places of the items of a row.

@@ -2,10 +2,10 @@
 
 use crate::blocks::blocks;
 use crate::layout::Layout;
-use crate::motion::Motion;
+use crate::motion::{Motion, moves};
 use crate::population::Population;
 use rayon::prelude::*;
-use xca_core::kernel::{self, STAY, Work};
+use xca_core::kernel::{self, Work};
 use xca_core::{Geometry, StoredScalar};
 
 impl Population {
@@ -139,21 +139,26 @@ impl<'a> Frame<'a> {
         }
     }
 
-    /// The slack of the staying items. Only the distance along x depends on the cell of an item.
+    /// The slack of the staying items.
     #[inline(always)]
     fn slack<S: Copy + Into<f64>>(&self, positions: &[[S; 3]]) -> f64 {
-        let mut slack: f64 = 0.0;
         let [south, bottom] = self.low;
         let [north, top] = [south + self.side, bottom + self.side];
-        for (number, (&place, &cell)) in positions.iter().zip(self.cells).enumerate() {
+        let mut slack = rank(0.0);
+        let mut exponent = 0;
+        // Without a migration all items stay.
+        let answers = self.answers.unwrap_or(self.cells);
+        for ((place, &cell), &answer) in positions.iter().zip(self.cells).zip(answers) {
             let [x, y, z] = place.map(Into::into);
             let west = f64::from(cell - self.first_cell) * self.side;
             let across = above(west - x, x - (west + self.side));
             let out = above(across, above(above(south - y, y - north), above(bottom - z, z - top)));
-            let stays = self.answers.is_none_or(|answers| answers[number] == STAY || answers[number] == cell);
-            slack = above(slack, if stays { out } else { 0.0 });
+            slack = slack.max(if moves(cell, answer) { rank(0.0) } else { rank(out) });
+            for number in [x, y, z] {
+                exponent = exponent.max(number.to_bits() & EXPONENT);
+            }
         }
-        slack
+        if exponent == EXPONENT { f64::NAN } else { number(slack) }
     }
 
     #[inline(always)]
@@ -162,8 +167,9 @@ impl<'a> Frame<'a> {
         positions: &[[S; 3]],
         before: &[[T; 3]],
     ) -> Motion {
-        let Motion { slack, mut square, mut low, mut high } = Motion::NONE;
         let wraps = self.periods.iter().any(|period| period.is_finite());
+        let Motion { slack, square, low, high } = Motion::NONE;
+        let (mut square, mut low, mut high) = (rank(square), low.map(rank), high.map(rank));
         for (now, before) in positions.iter().zip(before) {
             let mut moved: [f64; 3] =
                 std::array::from_fn(|axis| now[axis].into() - before[axis].into() - self.common[axis]);
@@ -175,26 +181,42 @@ impl<'a> Frame<'a> {
                 }
             }
             for axis in 0..3 {
-                low[axis] = below(low[axis], moved[axis]);
-                high[axis] = above(high[axis], moved[axis]);
+                low[axis] = low[axis].min(rank(moved[axis]));
+                high[axis] = high[axis].max(rank(moved[axis]));
             }
             let [x, y, z] = moved;
-            square = above(square, x * x + y * y + z * z);
+            square = square.max(rank(x * x + y * y + z * z));
         }
-        Motion { slack, square, low, high }
+        Motion { slack, square: number(square), low: low.map(number), high: high.map(number) }
     }
+}
+
+/// The bits of the exponent. All are set in infinities and NaN.
+const EXPONENT: u64 = 0x7FF << 52;
+
+/// The integer that stands for a number in the total order. The compiler computes the largest of many
+/// integers in lanes, but that of many floating-point numbers one by one, because of NaN.
+#[inline(always)]
+fn rank(number: f64) -> i64 {
+    flip(number.to_bits() as i64)
+}
+
+/// The number with this rank.
+#[inline(always)]
+fn number(rank: i64) -> f64 {
+    f64::from_bits(flip(rank) as u64)
+}
+
+/// Reverses the order of negative numbers, whose bits grow with their size.
+#[inline(always)]
+fn flip(bits: i64) -> i64 {
+    bits ^ (bits >> 63 & i64::MAX)
 }
 
 /// The larger number. With NaN, either one.
 #[inline(always)]
 fn above(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
-}
-
-/// The smaller number. With NaN, either one.
-#[inline(always)]
-fn below(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
 }
 
 /// The measurement of a row, compiled for the processor's instructions.
@@ -217,15 +239,7 @@ impl<S: Copy + Into<f64>> Work for Measurement<'_, S> {
             frame.moved(positions, references)
         };
         *motion = Motion { slack: frame.slack(positions), ..moved };
-        // Products with 0 are 0, except for NaN and infinities.
-        let mut nothing = [0.0; 3];
-        for position in positions {
-            for axis in 0..3 {
-                nothing[axis] += position[axis].into() * 0.0;
-            }
-        }
-        if nothing != [0.0; 3] {
-            motion.slack = f64::NAN;
+        if motion.slack.is_nan() {
             motion.square = f64::NAN;
         }
     }

@@ -1,6 +1,8 @@
 //! The distance of items from their cells, and their relative motion in a pass or since neighbour lists were
 //! made.
 
+use xca_core::kernel::STAY;
+
 /// Measures of some items. A measure is NaN if a position is NaN.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Motion {
@@ -58,6 +60,12 @@ pub(crate) fn outside(position: [f64; 3], cell: [usize; 3], side: f64) -> f64 {
         let low = cell[axis] as f64 * side;
         largest(largest(most, low - position[axis]), position[axis] - (low + side))
     })
+}
+
+/// Whether an item with this answer of a migration leaves its cell.
+#[inline(always)]
+pub(crate) fn moves(cell: u32, answer: u32) -> bool {
+    (answer != STAY) & (answer != cell)
 }
 
 #[cfg(test)]

@@ -20,6 +20,9 @@ use xca_core::{Precision, StoredScalar, StoredType};
 /// average.
 const LEAST_ROOM: u32 = 4;
 
+/// The number of rows that are worth the start of a thread.
+const ROWS_WORTH_A_START: usize = 64;
+
 /// A row has one extra place for each of this many items.
 const ITEMS_WORTH_A_PLACE: u32 = 8;
 
@@ -200,22 +203,21 @@ impl Population {
     /// items of each row (wrapping).
     pub(crate) fn make_room(&mut self, layout: &Layout, counts: &[u32]) -> Vec<u32> {
         let rows = rows_with_room(layout, counts);
-        let mut arrays = Arrays::new(&self.types, rows[layout.rows()] as usize);
-        if self.lists.is_some() {
-            arrays.numbers.resize(arrays.labels.len(), 0);
-            arrays.references.resize(arrays.labels.len(), [0.0; 3]);
-        }
         let moved = |(first, place): (&u32, &u32)| place.wrapping_sub(*first);
         let shifts: Vec<u32> = self.rows.iter().zip(&rows).map(moved).take(layout.rows()).collect();
-        let old = self.items.values(&self.types);
-        let (firsts, ends, new_rows) = (&self.rows, &self.row_ends, &rows);
-        old.into_iter().zip(arrays.values(&self.types)).par_bridge().for_each(|(old, new)| {
-            let size = new.size;
-            for row in 0..layout.rows() {
-                let (first, end) = (firsts[row] as usize * size, ends[row] as usize * size);
-                let place = new_rows[row] as usize * size;
-                new.bytes[place..place + end - first].copy_from_slice(&old.bytes[first..end]);
-            }
+        let places = rows[layout.rows()] as usize;
+        let Self { types, items, rows: firsts, row_ends: ends, .. } = self;
+        items.replace(types, places, |old, mut new, size| {
+            let of_rows = firsts.iter().zip(ends.iter()).zip(rows.windows(2));
+            let of_rows: Vec<_> = of_rows
+                .filter_map(|((first, end), places)| {
+                    let room = new.split_off_mut(..(places[1] - places[0]) as usize * size)?;
+                    Some((&old[*first as usize * size..*end as usize * size], room))
+                })
+                .collect();
+            of_rows.into_par_iter().with_min_len(ROWS_WORTH_A_START).for_each(|(values, room)| {
+                room[..values.len()].copy_from_slice(values);
+            });
         });
         for (row, shift) in shifts.iter().enumerate() {
             let cells = layout.first(row)..layout.first(row) + layout.width();
@@ -224,7 +226,6 @@ impl Population {
             }
             self.row_ends[row] = self.row_ends[row].wrapping_add(*shift);
         }
-        self.items = arrays;
         self.rows = rows;
         self.fill_halo(layout);
         (0..layout.rows()).for_each(|row| self.follow(row));
@@ -247,15 +248,17 @@ impl Population {
         }
     }
 
-    /// The positions of all places, as references for lists.
-    pub(crate) fn references(&self) -> Vec<[f32; 3]> {
-        let Some(field) = self.position else { return Vec::new() };
-        let bytes = self.items.fields[field].bytes();
-        match self.types[field].scalar {
-            StoredScalar::F32 => bytemuck::cast_slice(bytes).to_vec(),
+    /// Stores the positions of all places, as references for lists.
+    pub(crate) fn store_references(&mut self) {
+        let Self { items: Arrays { references, fields, .. }, types, .. } = self;
+        let Some(field) = self.position else { return };
+        let bytes = fields[field].bytes();
+        references.clear();
+        match types[field].scalar {
+            StoredScalar::F32 => references.extend_from_slice(bytemuck::cast_slice(bytes)),
             _ => {
                 let positions: &[[f64; 3]] = bytemuck::cast_slice(bytes);
-                positions.iter().map(|position| position.map(|value| value as f32)).collect()
+                references.extend(positions.iter().map(|position| position.map(|value| value as f32)));
             }
         }
     }

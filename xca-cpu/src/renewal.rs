@@ -2,7 +2,8 @@
 
 use crate::ghosts::rows_at_borders;
 use crate::layout::Layout;
-use crate::listing::{Listed, make};
+use crate::listing::{make, refill};
+
 use crate::lists::{Lists, Room, STRANGER};
 use crate::population::Population;
 use std::sync::atomic::AtomicU32;
@@ -43,12 +44,10 @@ pub(crate) fn keep_lists(
         return None;
     };
     let start = Instant::now();
-    population.lists = None;
-    let listed = make(population, layout, geometry, within + room.rounding);
-    let kept = population.store_lists(layout, &listed, within, room.rounding);
-    let candidates = population.lists.as_ref().map_or(0, |lists| lists.candidates.len());
+    population.make_lists(layout, geometry, within, room.rounding)?;
+    let candidates = population.lists.as_ref().map_or(0, |lists| lists.entries.candidates.len());
     population.upkeep.made(within, start.elapsed(), items, candidates);
-    kept.then_some(within - room.rounding)
+    Some(within - room.rounding)
 }
 
 impl Population {
@@ -59,49 +58,30 @@ impl Population {
         self.items.references = Vec::new();
     }
 
-    /// Stores lists of all rows in order. Returns `false` if there are too many entries.
-    fn store_lists(&mut self, layout: &Layout, listed: &[Listed], made_within: f64, rounding: f64) -> bool {
-        let places = self.own_places();
-        let total: usize = listed.iter().map(|listed| listed.list.len()).sum();
-        if u32::try_from(total).is_err() {
+    /// Makes lists, in which the current places become the numbers. None if there are too many entries.
+    fn make_lists(&mut self, layout: &Layout, geometry: &Geometry, within: f64, rounding: f64) -> Option<()> {
+        let Lists { entries, mut places, mut bounds, .. } = self.lists.take().unwrap_or_default();
+        self.store_references();
+        let Some(entries) = make(self, layout, geometry, within + rounding, entries) else {
             self.forget_lists();
-            return false;
-        }
-        // The current places become the numbers. A place without an item has an empty list.
-        let mut starts = Vec::with_capacity(places + 1);
-        let mut candidates = Vec::with_capacity(total);
-        let mut owners = Vec::with_capacity(total);
-        let mut end = 0;
-        let mut occupied = self.places().flatten();
-        for Listed { list, ends } in listed {
-            let before = candidates.len() as u32;
-            // The order matters: `zip` takes a place only if there is an end for it.
-            for (length, place) in ends.iter().zip(occupied.by_ref()) {
-                starts.resize(place + 1, end);
-                end = before + length;
-                owners.resize(end as usize, place as u32);
-            }
-            candidates.extend_from_slice(list);
-        }
-        drop(occupied);
-        starts.resize(places + 1, end);
-        self.items.numbers = (0..places as u32).collect();
+            return None;
+        };
+        let mut number = 0..;
+        let own_places = self.own_places();
+        refill(&mut places, own_places, || number.next().unwrap_or(STRANGER));
+        self.items.numbers.clone_from(&places);
         self.items.numbers.resize(self.items.labels.len(), STRANGER);
-        self.items.references = self.references();
+        refill(&mut bounds, entries.candidates.len(), AtomicU32::default);
+        let in_cells = rows_at_borders(layout);
         self.lists = Some(Lists {
-            made_within,
-            places: (0..places as u32).collect(),
-            starts,
-            candidates,
-            owners,
-            in_cells: rows_at_borders(layout),
-            drift: [0.0; 3],
-            pace: [0.0; 3],
-            bounds: std::iter::repeat_with(AtomicU32::default).take(total).collect(),
-            travelled: 0.0,
+            made_within: within,
+            entries,
+            places,
+            bounds,
+            in_cells,
             rounding,
-            approach: 0.0,
+            ..Lists::default()
         });
-        true
+        Some(())
     }
 }

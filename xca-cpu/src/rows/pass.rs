@@ -11,7 +11,7 @@ use super::tools::{Buffers, Cells, Outcome, Work};
 use crate::activity::{Activity, DueRow};
 use crate::group::{Group, population};
 use crate::layout::Layout;
-use crate::motion::Motion;
+use crate::motion::{Motion, moves};
 use crate::population::Population;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -315,9 +315,4 @@ impl<'a> Pass<'a> {
             }
         }
     }
-}
-
-/// Whether an item with this answer of a migration leaves its cell.
-fn moves(from: u32, answer: u32) -> bool {
-    (answer != STAY) & (answer != from)
 }

@@ -1,6 +1,6 @@
 //! The items of a row that have others nearby, for processes in which all others do nothing.
 
-use super::walk::Walk;
+use super::walk::{Share, Walk};
 use super::{Row, reach};
 use crate::float::Float;
 use xca_values::Vector3;
@@ -11,12 +11,21 @@ impl Row<'_> {
     #[inline(always)]
     pub fn mates(&self, condition: impl Fn(usize) -> bool, marks: &mut Vec<u32>) {
         let cells = self.items.map_or(&[][..], |items| items.cells);
+        let first = self.first_item();
         marks.clear();
         marks.resize(cells.len(), 0);
-        for number in 0..cells.len() {
-            if condition(self.first_item() + number) {
-                mark_others_in_cell(marks, cells, number);
-            }
+        // Items are sorted by cell. Those before each item in its cell count first, then those after it. No
+        // branch, which the processor could not predict.
+        let (mut cell, mut any) = (u32::MAX, 0);
+        for (number, mark) in marks.iter_mut().enumerate() {
+            *mark = if cells[number] == cell { any } else { 0 };
+            (cell, any) = (cells[number], *mark | u32::from(condition(first + number)));
+        }
+        (cell, any) = (u32::MAX, 0);
+        for (number, mark) in marks.iter_mut().enumerate().rev() {
+            let after = if cells[number] == cell { any } else { 0 };
+            *mark |= after;
+            (cell, any) = (cells[number], after | u32::from(condition(first + number)));
         }
     }
 
@@ -25,14 +34,13 @@ impl Row<'_> {
     #[inline(never)]
     pub fn with_mates(&self, mates: &[&Vec<u32>], company: &mut Vec<u32>) {
         company.clear();
-        let count = self.own_items() as u32;
+        let count = self.own_items();
         if self.copies() {
-            return company.extend(0..count);
+            return company.extend(0..count as u32);
         }
         // Most rows have no mates at all. The compiler reads many marks at once here, and one by one below.
         if mates.iter().any(|marks| marks.iter().fold(0, |any, mark| any | mark) != 0) {
-            let has_mate = |number: &u32| mates.iter().any(|marks| marks[*number as usize] != 0);
-            company.extend((0..count).filter(has_mate));
+            keep_marked(company, count, |number| mates.iter().fold(0, |any, marks| any | marks[number]) != 0);
         }
     }
 
@@ -60,7 +68,7 @@ impl Row<'_> {
         }
         self.widest.set(self.widest.get().max(radius.to_f64()));
         let mut walk = self.scratch.walk.borrow_mut();
-        let Walk { owners, near, marks, .. } = &mut *walk;
+        let Walk { all: Share { near, owners }, marks, .. } = &mut *walk;
         let Some(items) = self.items.filter(|_| 2 * near.len() < count) else {
             return company.extend(0..count as u32);
         };
@@ -78,26 +86,21 @@ impl Row<'_> {
             let here = other == items.cells.get(owner);
             marks[owner] |= u8::from(REACH == reach::ALL || here == (REACH == reach::CELL));
         }
-        // No branch on what is marked, which the processor could not predict.
-        company.resize(count, 0);
-        let mut length = 0;
-        for (number, mark) in marks.iter().enumerate() {
-            company[length] = number as u32;
-            length += usize::from(*mark);
-        }
-        company.truncate(length);
+        keep_marked(company, count, |number| marks[number] != 0);
     }
 }
 
-/// Marks the items that share their cell with this one. Items are sorted by cell.
-fn mark_others_in_cell(marks: &mut [u32], cells: &[u32], number: usize) {
-    let (before, after) = cells.split_at(number);
-    let [cell, after @ ..] = after else { return };
-    let marks_before = marks.iter_mut().take(number).rev();
-    let earlier = before.iter().rev().zip(marks_before);
-    earlier.take_while(|(other, _)| *other == cell).for_each(|(_, mark)| *mark = 1);
-    let later = after.iter().zip(marks.iter_mut().skip(number + 1));
-    later.take_while(|(other, _)| *other == cell).for_each(|(_, mark)| *mark = 1);
+/// Keeps the indices of marked items, of so many. No branch on what is marked, which the processor could not
+/// predict.
+#[inline(always)]
+fn keep_marked(company: &mut Vec<u32>, count: usize, is_marked: impl Fn(usize) -> bool) {
+    company.resize(count, 0);
+    let mut length = 0;
+    for number in 0..count {
+        company[length] = number as u32;
+        length += usize::from(is_marked(number));
+    }
+    company.truncate(length);
 }
 
 /// Marks the items that share their cell with others. Items are sorted by cell.

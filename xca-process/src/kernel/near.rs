@@ -6,7 +6,7 @@
 //! memory.
 
 use super::distance::length_squared;
-use super::walk::{Key, Walk};
+use super::walk::{Key, Share, Walk};
 use super::{CellFilter, Column, NearLists, Row, RowItems, reach};
 use crate::float::Float;
 use xca_values::Vector3;
@@ -99,7 +99,8 @@ impl Row<'_> {
             self.order(near, filter, walk);
         }
         walk.starts.clear();
-        self.announce(&walk.near, positions.as_ptr().cast());
+        (walk.is_split, walk.is_joined) = (false, false);
+        self.announce(&walk.all.near, positions.as_ptr().cast());
         true
     }
 
@@ -113,7 +114,7 @@ impl Row<'_> {
         if start == end {
             return;
         }
-        let near = &walk.near[start..end];
+        let near = &walk.all.near[start..end];
         let own = self.items(cell);
         // The items of the own cell are contiguous: in the middle by place, or first.
         let count =
@@ -136,8 +137,9 @@ impl Row<'_> {
         let geometry = self.frame.geometry;
         let indices = |place: usize| geometry.indices(near.cells[place] as usize).map(|index| index as i32);
         let (extents, toroidal, first) = (self.frame.extents, self.frame.toroidal, self.first_item());
-        let mut ordered: Vec<(u32, usize, u32)> = Vec::with_capacity(walk.near.len());
-        for (&owner, &place) in walk.owners.iter().zip(&walk.near) {
+        let Share { near: near_items, owners } = &mut walk.all;
+        let mut ordered: Vec<(u32, usize, u32)> = Vec::with_capacity(near_items.len());
+        for (&owner, &place) in owners.iter().zip(&*near_items) {
             let (here, there) = (indices(first + owner as usize), indices(place as usize));
             let displacement = std::array::from_fn(|axis| {
                 let (step, extent) = (there[axis] - here[axis], extents[axis] as i32);
@@ -152,11 +154,11 @@ impl Row<'_> {
             }
         }
         ordered.sort_unstable();
-        walk.owners.clear();
-        walk.near.clear();
+        owners.clear();
+        near_items.clear();
         for (owner, _, place) in ordered {
-            walk.owners.push(owner);
-            walk.near.push(place);
+            owners.push(owner);
+            near_items.push(place);
         }
     }
 }

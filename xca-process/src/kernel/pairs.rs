@@ -1,5 +1,6 @@
 //! The pairs of near items of a row, in batches. A kernel computes the pairs of a batch lane by lane.
 
+use super::walk::Share;
 use super::{BATCH, Found, KernelValue, Row, reach};
 use crate::float::Float;
 use std::ops::{AddAssign, SubAssign};
@@ -39,9 +40,7 @@ impl<'a> Row<'a> {
         counts: impl Fn(usize, usize) -> bool,
     ) -> Pairs<'a> {
         let mut pairs = Pairs { owners: self.found(), others: self.found(), count: 0 };
-        // Among the cells of the row and their neighbours, a walk does not put those of the own cell first.
-        let in_order = REACH != reach::ALL;
-        if in_order && self.is_allowed::<R, REACH>(radius) && self.walk(radius, positions) {
+        if self.is_allowed::<R, REACH>(radius) && self.walk(radius, positions) {
             self.widest.set(self.widest.get().max(radius.to_f64()));
             self.add_walked::<REACH>(&mut pairs, |number, other| acts(number) && counts(number, other));
         } else {
@@ -54,24 +53,27 @@ impl<'a> Row<'a> {
     /// Adds the pairs of the walk.
     #[inline(always)]
     fn add_walked<const REACH: u8>(&self, pairs: &mut Pairs<'_>, counts: impl Fn(usize, usize) -> bool) {
-        let walk = self.scratch.walk.borrow();
-        let cells = self.items.map_or(&[][..], |items| items.cells);
-        let Some(last) = cells.len().checked_sub(1) else { return };
-        let room = walk.near.len();
+        let mut walk = self.scratch.walk.borrow_mut();
+        let Some(items) = &self.items else { return };
+        if REACH != reach::ALL {
+            walk.split(items);
+        }
         let (owners, others) = (&mut pairs.owners.items, &mut pairs.others.items);
+        let Share { near, owners: near_owners } = match REACH {
+            reach::CELL => &walk.here,
+            reach::NEIGHBOURS => &walk.elsewhere,
+            _ => walk.join(items),
+        };
+        let room = near.len();
         owners.resize(room, 0);
         others.resize(room, 0);
         let (owners, others) = (&mut owners[..room], &mut others[..room]);
-        let (first, mut count) = (self.first_item(), 0);
+        let mut count = 0;
         // No branch on what is kept, which the processor could not predict.
-        for (owner, place) in walk.owners.iter().zip(&walk.near) {
-            let (number, other) = (*owner as usize, *place as usize);
-            // Comparing with the item's own row needs no memory of other rows.
-            let index = other.wrapping_sub(first);
-            let here = (index <= last) & (cells[index.min(last)] == cells[number]);
+        for (owner, place) in near_owners.iter().zip(near) {
             owners[count] = *owner;
             others[count] = *place;
-            count += usize::from((here == (REACH == reach::CELL)) & counts(number, other));
+            count += usize::from(counts(*owner as usize, *place as usize));
         }
         pairs.count = count;
     }

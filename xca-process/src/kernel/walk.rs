@@ -11,16 +11,30 @@ use xca_values::Vector3;
 #[derive(Debug, Default)]
 pub(super) struct Walk {
     pub(super) key: Option<Key>,
-    /// The start in `near` for each own item, then the length of `near`. Empty until it is needed.
+    /// The start in `all` for each own item, then the length of that. Empty until it is needed.
     pub(super) starts: Vec<u32>,
+    /// All pairs, by owner, then by place.
+    pub(super) all: Share,
+    /// Whether they are sorted by neighbour index and not by place.
+    pub(super) ordered: bool,
+    /// The same pairs, split by whether both items are in one cell. Only if `is_split`.
+    pub(super) here: Share,
+    pub(super) elsewhere: Share,
+    pub(super) is_split: bool,
+    /// The same pairs, for each owner those in its cell first. Only if `is_joined`.
+    joined: Share,
+    pub(super) is_joined: bool,
+    /// 1 for each own item with company, otherwise 0. See [`super::company`].
+    pub(super) marks: Vec<u8>,
+}
+
+/// Some pairs.
+#[derive(Debug, Default)]
+pub(super) struct Share {
     /// The places of near items.
     pub(super) near: Vec<u32>,
     /// The index of the searching item among the row's own items.
     pub(super) owners: Vec<u32>,
-    /// Whether the near items are sorted by neighbour index, not by place.
-    pub(super) ordered: bool,
-    /// 1 for each own item with company, otherwise 0. See [`super::company`].
-    pub(super) marks: Vec<u8>,
 }
 
 /// The number of pairs whose order is checked at a time.
@@ -56,21 +70,19 @@ impl Walk {
             let run =
                 numbers[start..].iter().zip(base..).take_while(|(number, next)| *number == next).count();
             let listed = lists.starts[base as usize] as usize..lists.starts[base as usize + run] as usize;
-            self.near.resize(length + listed.len(), 0);
-            self.owners.resize(length + listed.len(), 0);
+            self.all.resize(length + listed.len());
             let own = &own[start..start + run];
             let pairs = Pairs { lists, listed, base, own, positions, radius, limit };
-            let (near, owners) = (&mut self.near[length..], &mut self.owners[length..]);
+            let (near, owners) = (&mut self.all.near[length..], &mut self.all.owners[length..]);
             length += keep(pairs, start as u32, near, owners, &square);
             start += run;
         }
-        self.near.truncate(length);
-        self.owners.truncate(length);
+        self.all.resize(length);
     }
 
     /// Sorts the near items of each item by place. They are nearly sorted.
     pub(super) fn sort(&mut self) {
-        let Self { near, owners, .. } = self;
+        let Share { near, owners } = &mut self.all;
         for first in (1..near.len()).step_by(CHECKED) {
             let end = near.len().min(first + CHECKED);
             // Without a branch, so that the compiler compares many at once.
@@ -92,13 +104,64 @@ impl Walk {
         }
     }
 
+    /// Splits the pairs by whether both items are in one cell.
+    pub(super) fn split(&mut self, items: &RowItems<'_>) {
+        let Self { all: Share { near, owners }, here, elsewhere, is_split, .. } = self;
+        let (first, cells) = (items.own.0, items.cells);
+        if *is_split {
+            return;
+        }
+        let (last, room) = (cells.len().saturating_sub(1), near.len());
+        let [mut here_length, mut elsewhere_length] = [0; 2];
+        here.resize(room);
+        elsewhere.resize(room);
+        // Each pair is written to both. No branch on where it stays, which the processor could not predict.
+        let [heres, elsewheres] =
+            [&mut *here, elsewhere].map(|share| (&mut share.near[..room], &mut share.owners[..room]));
+        for (owner, place) in owners.iter().zip(&*near) {
+            // Comparing with the item's own row needs no memory of other rows.
+            let index = (*place as usize).wrapping_sub(first);
+            let is_here = (index <= last) & (cells[index.min(last)] == cells[*owner as usize]);
+            (heres.0[here_length], heres.1[here_length]) = (*place, *owner);
+            (elsewheres.0[elsewhere_length], elsewheres.1[elsewhere_length]) = (*place, *owner);
+            here_length += usize::from(is_here);
+            elsewhere_length += usize::from(!is_here);
+        }
+        here.resize(here_length);
+        elsewhere.resize(elsewhere_length);
+        *is_split = true;
+    }
+
+    /// All pairs, for each owner those in its cell first, then by place. `items` is the number of own items.
+    pub(super) fn join(&mut self, items: &RowItems<'_>) -> &Share {
+        if self.ordered {
+            return &self.all;
+        }
+        if !self.is_joined {
+            self.split(items);
+            self.count(items.cells.len());
+            let Self { here, elsewhere, joined, starts, .. } = self;
+            let mut next = starts.clone();
+            joined.resize(here.near.len() + elsewhere.near.len());
+            for Share { near, owners } in [here, elsewhere] {
+                for (owner, place) in owners.iter().zip(near) {
+                    let slot = &mut next[*owner as usize];
+                    (joined.near[*slot as usize], joined.owners[*slot as usize]) = (*place, *owner);
+                    *slot += 1;
+                }
+            }
+            self.is_joined = true;
+        }
+        &self.joined
+    }
+
     /// Stores the start of each item's results.
     pub(super) fn count(&mut self, items: usize) {
         if !self.starts.is_empty() {
             return;
         }
         self.starts.resize(items + 1, 0);
-        for owner in &self.owners {
+        for owner in &self.all.owners {
             self.starts[*owner as usize + 1] += 1;
         }
         let mut sum = 0;
@@ -106,6 +169,13 @@ impl Walk {
             sum += *start;
             *start = sum;
         }
+    }
+}
+
+impl Share {
+    fn resize(&mut self, length: usize) {
+        self.near.resize(length, 0);
+        self.owners.resize(length, 0);
     }
 }
 
