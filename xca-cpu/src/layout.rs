@@ -88,13 +88,6 @@ impl Layout {
         self.reach
     }
 
-    /// The distances in padded cells from a row to all rows in the box of the neighbourhood, in order.
-    pub(crate) fn rows_in_reach(&self) -> impl Iterator<Item = isize> {
-        let [line, layer] = self.steps();
-        let [_, along, up] = self.reach.map(|reach| reach as isize);
-        (-up..=up).flat_map(move |z| (-along..=along).map(move |y| z * layer + y * line))
-    }
-
     /// The number of rows of the space.
     pub(crate) fn rows(&self) -> usize {
         self.extents[1] * self.extents[2]

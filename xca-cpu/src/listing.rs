@@ -26,8 +26,27 @@ pub(crate) struct Entries {
 struct Listed {
     rows: Range<usize>,
     list: Vec<u32>,
-    /// The length of `list` after each item.
+    /// The number of entries in `list`.
+    length: usize,
+    /// This number after each item.
     ends: Vec<u32>,
+}
+
+impl Listed {
+    /// The places after all entries.
+    #[inline(always)]
+    fn next(&mut self) -> &mut [u32; LANES] {
+        if self.list.len() < self.length + LANES {
+            self.grow();
+        }
+        // `grow` has made room.
+        self.list[self.length..].first_chunk_mut().expect("room for all lanes")
+    }
+
+    #[cold]
+    fn grow(&mut self) {
+        self.list.resize(self.length + self.length / 4 + 1024, 0);
+    }
 }
 
 /// Lists for each item the places of all items nearer than `within` metres, and possibly of some that are
@@ -37,7 +56,7 @@ pub(crate) fn make(
     population: &Population,
     layout: &Layout,
     geometry: &Geometry,
-    within: f64,
+    (within, rounding): (f64, f64),
     before: Entries,
 ) -> Option<Entries> {
     let planes = Planes::new(&population.items.references);
@@ -46,14 +65,18 @@ pub(crate) fn make(
         let period = geometry.extents()[axis] as f64 * geometry.side();
         toroidal[axis].then_some(period as f32)
     });
-    let square = (within * within) as f32;
+    let square = ((within + rounding) * (within + rounding)) as f32;
     let square = square + square * f32::EPSILON;
-    let maker = Maker { population, layout, planes, periods, square };
+    let slack = population.motion.map_or(f64::INFINITY, |motion| motion.slack + rounding) as f32;
+    let side = geometry.side();
+    let rows = rows_in_reach(layout);
+    let maker = Maker { population, layout, planes, periods, side, rows, slack, square };
     let blocks = blocks(layout, &[population], rayon::current_num_threads());
     let blocks = blocks.into_par_iter().with_max_len(1);
     let list = |rows: Range<usize>| {
-        let mut listed = Listed { rows: rows.clone(), list: Vec::new(), ends: Vec::new() };
+        let mut listed = Listed { rows: rows.clone(), list: Vec::new(), length: 0, ends: Vec::new() };
         rows.for_each(|row| run(OfRow { maker: &maker, row, listed: &mut listed }));
+        listed.list.truncate(listed.length);
         listed
     };
     let listed: Vec<Listed> = blocks.map(list).collect();
@@ -116,7 +139,7 @@ impl Entries {
 
 impl Part<'_> {
     fn fill(self) {
-        let Self { population, listed: Listed { rows, list, ends }, before, starts, candidates, owners } =
+        let Self { population, listed: Listed { rows, list, ends, .. }, before, starts, candidates, owners } =
             self;
         candidates.copy_from_slice(&list);
         let first_place = population.rows[rows.start] as usize;
@@ -165,7 +188,28 @@ struct Maker<'a> {
     planes: Planes,
     /// The length of each toroidal axis.
     periods: [Option<f32>; 3],
+    side: f64,
+    /// The rows in the box of the neighbourhood.
+    rows: Vec<NearRow>,
+    /// The largest distance of an item from its cell along an axis, with the effect of rounding.
+    slack: f32,
     square: f32,
+}
+
+/// The rows in the box of the neighbourhood, in order.
+fn rows_in_reach(layout: &Layout) -> Vec<NearRow> {
+    let [line, layer] = layout.steps();
+    let [_, along, up] = layout.reach().map(|reach| reach as isize);
+    let of_layer = |z| (-along..=along).map(move |y| NearRow { offset: z * layer + y * line, steps: [y, z] });
+    (-up..=up).flat_map(of_layer).collect()
+}
+
+/// A row in the box of the neighbourhood of another.
+struct NearRow {
+    /// The distance in padded cells.
+    offset: isize,
+    /// The distances in rows along y and z.
+    steps: [isize; 2],
 }
 
 /// Makes the lists of a row with the widest instructions of the processor.
@@ -191,56 +235,67 @@ impl Maker<'_> {
             return;
         }
         let padded = layout.first(row);
-        let mut strips = Vec::new();
+        let [_, y, z] = layout.origin(row);
         for x in 0..layout.width() {
             let own = population.starts[padded + x]..population.ends[padded + x];
-            if own.is_empty() {
-                continue;
-            }
-            self.strips(padded, x, &mut strips);
+            let low = [x, y, z].map(|index| (index as f64 * self.side) as f32);
             for item in own {
-                for strip in &strips {
-                    self.keep(item, strip.clone(), &mut listed.list);
-                }
-                listed.ends.push(listed.list.len() as u32);
+                let here = [0, 1, 2].map(|axis| self.planes.axes[axis][item as usize]);
+                let inside = std::array::from_fn(|axis| here[axis] - low[axis]);
+                self.list_item(item, (padded, x), inside, listed);
+                listed.ends.push(listed.length as u32);
             }
         }
     }
 
-    /// The places of the items in the box around a cell: one range for each row, and one for each cell in the
-    /// halo.
+    /// Lists the near items of an item of a cell. Leaves out rows and cells that are too far from its position
+    /// `inside` of its cell.
     #[inline(always)]
-    fn strips(&self, padded: usize, x: usize, strips: &mut Vec<Range<u32>>) {
+    fn list_item(&self, item: u32, (padded, x): (usize, usize), inside: [f32; 3], listed: &mut Listed) {
         let Population { starts, ends, .. } = self.population;
         let own_places = self.population.own_places();
         let [reach, ..] = self.layout.reach();
         let width = self.layout.width();
-        let (low, high) = (x.saturating_sub(reach), (x + reach).min(width - 1));
-        strips.clear();
-        for offset in self.layout.rows_in_reach() {
-            let row = padded.wrapping_add_signed(offset);
-            let mut add = |range: Range<u32>| {
+        let side = self.side as f32;
+        // The square of the least distance from the items of the cells so many steps away along an axis.
+        let square = |axis: usize, steps: isize| {
+            let [before, after] =
+                [inside[axis] - (steps + 1) as f32 * side, steps as f32 * side - inside[axis]];
+            let gap = (before.max(after) - self.slack).max(0.0);
+            gap * gap
+        };
+        let near = |steps: &isize| square(0, *steps) < self.square;
+        let reach_in_cells = reach as isize;
+        let west = (-reach_in_cells..0).filter(near).count();
+        let east = (1..=reach_in_cells).filter(near).count();
+        let (low, high) = (x.saturating_sub(west), (x + east).min(width - 1));
+        for NearRow { offset, steps: [along, up] } in &self.rows {
+            if square(1, *along) + square(2, *up) >= self.square {
+                continue;
+            }
+            let row = padded.wrapping_add_signed(*offset);
+            let mut keep = |range: Range<u32>| {
                 // Ghosts come after all own places.
-                if !range.is_empty() && (range.start as usize) < own_places {
-                    strips.push(range);
+                if (range.start as usize) < own_places {
+                    self.keep(item, range, listed);
                 }
             };
-            add(starts[row + low]..ends[row + high]);
+            keep(starts[row + low]..ends[row + high]);
             if self.periods[0].is_some() {
                 // The halo repeats cells at the other end of the row.
                 let before = (x + 1..=reach).map(|step| row - (step - x));
                 let after = (width..=x + reach).map(|cell| row + cell);
-                before.chain(after).for_each(|cell| add(starts[cell]..ends[cell]));
+                before.chain(after).for_each(|cell| keep(starts[cell]..ends[cell]));
             }
         }
     }
 
-    /// Adds the near items of a strip.
+    /// Adds the near items of a strip. All places of the strip are written, and then some are written over: no
+    /// branch on what is near, which the processor could not predict.
     #[inline(always)]
-    fn keep(&self, item: u32, strip: Range<u32>, list: &mut Vec<u32>) {
+    fn keep(&self, item: u32, strip: Range<u32>, listed: &mut Listed) {
         let here = [0, 1, 2].map(|axis| self.planes.axes[axis][item as usize]);
-        let mut first = strip.start;
-        while first < strip.end {
+        for first in strip.clone().step_by(LANES) {
             let mut squares = [0.0_f32; LANES];
             for (axis, here) in here.iter().enumerate() {
                 let there = self.planes.lanes(axis, first as usize);
@@ -252,21 +307,34 @@ impl Maker<'_> {
                     squares[lane] += way * way;
                 }
             }
-            // One byte for each, so that usually one comparison shows that none is near.
+            let wanted = (1_u32 << (strip.end - first).min(LANES as u32)) - 1;
+            let own = item.wrapping_sub(first);
+            let own = u32::from(own < LANES as u32) << (own % LANES as u32);
+            // One byte for each, and then one bit: the product moves byte n to bit 56 + n.
             let near: [u8; LANES] = std::array::from_fn(|lane| u8::from(squares[lane] < self.square));
-            let mut bits = u64::from_le_bytes(near);
-            let count = (strip.end - first) as usize;
-            if count < LANES {
-                bits &= (1 << (8 * count)) - 1;
-            }
-            while bits != 0 {
-                let place = first + bits.trailing_zeros() / 8;
-                bits &= bits - 1;
-                if place != item {
-                    list.push(place);
-                }
-            }
-            first += LANES as u32;
+            let near = (u64::from_le_bytes(near).wrapping_mul(0x0102_0408_1020_4080) >> 56) as u32;
+            let near = near & wanted & !own;
+            let lanes = SET_BITS[near as usize];
+            *listed.next() = std::array::from_fn(|number| first + lanes[number]);
+            listed.length += near.count_ones() as usize;
         }
     }
 }
+
+/// The indices of the set bits of each byte, then zeros.
+static SET_BITS: [[u32; LANES]; 256] = {
+    let mut all = [[0; LANES]; 256];
+    let mut byte = 0;
+    while byte < all.len() {
+        let (mut bit, mut count) = (0, 0);
+        while bit < LANES {
+            if byte >> bit & 1 == 1 {
+                all[byte][count] = bit as u32;
+                count += 1;
+            }
+            bit += 1;
+        }
+        byte += 1;
+    }
+    all
+};

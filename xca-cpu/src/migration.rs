@@ -275,6 +275,8 @@ struct Span {
     origin: Origin,
     first: u32,
     count: u32,
+    /// The place of the first one after the change.
+    to: u32,
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -306,21 +308,26 @@ struct Part<'a> {
 
 impl Part<'_> {
     fn change(mut self) {
-        let (mut spans, mut kept) = (Vec::new(), Vec::new());
+        let (mut spans, mut moves) = (Vec::new(), Vec::new());
         for change in self.changes {
             spans.clear();
             let first = self.merge(change, &mut spans);
+            in_order(&mut spans, first, &mut moves);
             for (Values { size, bytes }, carried) in self.values.iter_mut().zip(self.carried) {
-                kept.clear();
-                for Span { origin, first, count } in &spans {
-                    let (values, first) = match origin {
-                        Origin::Here => (&**bytes, *first as usize - self.first_place),
-                        Origin::Carried => (carried.as_slice(), *first as usize),
-                    };
-                    kept.extend_from_slice(&values[first * *size..(first + *count as usize) * *size]);
+                for Span { origin, first, count, to } in &moves {
+                    let [count, to] =
+                        [*count as usize, *to as usize - self.first_place].map(|places| places * *size);
+                    match origin {
+                        Origin::Here => {
+                            let first = (*first as usize - self.first_place) * *size;
+                            bytes.copy_within(first..first + count, to);
+                        }
+                        Origin::Carried => {
+                            let first = *first as usize * *size;
+                            bytes[to..to + count].copy_from_slice(&carried[first..first + count]);
+                        }
+                    }
                 }
-                let place = (first as usize - self.first_place) * *size;
-                bytes[place..place + kept.len()].copy_from_slice(&kept);
             }
         }
     }
@@ -393,12 +400,28 @@ impl Part<'_> {
     }
 }
 
+/// Places spans one after the other from `place` on. Collects those that move, in an order in which none is
+/// written over before it has moved: the values of a row stay in order, so only those that move up can be in
+/// the way of others that move up, and only those that move down in the way of others that move down.
+fn in_order(spans: &mut [Span], mut place: u32, moves: &mut Vec<Span>) {
+    for span in &mut *spans {
+        span.to = place;
+        place += span.count;
+    }
+    let (here, carried) =
+        (|span: &&Span| span.origin == Origin::Here, |span: &&Span| span.origin == Origin::Carried);
+    moves.clear();
+    moves.extend(spans.iter().rev().filter(here).filter(|span| span.to > span.first));
+    moves.extend(spans.iter().filter(here).filter(|span| span.to < span.first));
+    moves.extend(spans.iter().filter(carried));
+}
+
 /// Adds values. Extends the previous span if they follow it.
 fn push(spans: &mut Vec<Span>, origin: Origin, first: u32, count: u32) {
     match spans.last_mut() {
         _ if count == 0 => {}
         Some(last) if last.origin == origin && last.first + last.count == first => last.count += count,
-        _ => spans.push(Span { origin, first, count }),
+        _ => spans.push(Span { origin, first, count, to: 0 }),
     }
 }
 

@@ -62,7 +62,7 @@ impl Population {
     fn make_lists(&mut self, layout: &Layout, geometry: &Geometry, within: f64, rounding: f64) -> Option<()> {
         let Lists { entries, mut places, mut bounds, .. } = self.lists.take().unwrap_or_default();
         self.store_references();
-        let Some(entries) = make(self, layout, geometry, within + rounding, entries) else {
+        let Some(entries) = make(self, layout, geometry, (within, rounding), entries) else {
             self.forget_lists();
             return None;
         };
