@@ -25,6 +25,11 @@ struct Grain {
     total: Real,
     warmth: Real,
     filled: Real,
+    mean: Vector3<Real>,
+    near: u32,
+    spread: Real,
+    grown: Real,
+    hidden: Real,
 }
 
 #[derive(Parameters, Clone, Copy, Debug)]
@@ -136,6 +141,55 @@ fn warm(me: &mut Slot<Grain>, law: &Law) {
     }
 }
 
+/// Adds to local variables.
+#[elementary_process]
+fn average(me: &mut Slot<Grain>, law: &Law) {
+    if me.weight < 0.2 {
+        return;
+    }
+    let mut flow = Vector3::new(0.0, 0.0, 0.5);
+    let mut weight = 1.5;
+    let mut count: u32 = 2;
+    for other in me.others_within(law.reach) {
+        if other.kind != me.kind {
+            continue;
+        }
+        let part = other.velocity * other.weight;
+        flow += part;
+        weight -= other.weight;
+        count += 1;
+    }
+    if me.kind == 2 {
+        return;
+    }
+    let mut spread: Real = 0.0;
+    for other in me.others_in_neighbours_within(law.reach) {
+        spread += (other.velocity - me.velocity).length();
+        me.near += 1;
+    }
+    me.near += count;
+    me.mean = flow / weight;
+    weight *= 0.5;
+    me.spread = spread + weight;
+}
+
+/// Local variables that are no plain sums: one that is read while it grows, and one that another one hides.
+#[elementary_process]
+fn grow(me: &mut Slot<Grain>, law: &Law) {
+    let mut grown = 1.0;
+    let mut hidden = 1.0;
+    for other in me.others_within(law.reach) {
+        grown += 0.25 * grown + other.weight;
+    }
+    for other in me.others_within(law.reach) {
+        let mut hidden = 0.5;
+        hidden += other.weight;
+        me.hidden += hidden;
+    }
+    hidden += grown;
+    me.grown = hidden;
+}
+
 #[elementary_process]
 fn fly(me: &mut Slot<Grain>, space: &Space) {
     me.position = space.wrapped(me.position + me.velocity);
@@ -206,6 +260,27 @@ fn expected(me: &Item<Grain>, others: &[Item<Grain>], torus: bool) -> Grain {
             grain.filled += other.weight;
         }
     }
+    let mut grown = 1.0;
+    for other in &others_near {
+        grown += 0.25 * grown + other.weight;
+        grain.hidden += 0.5 + other.weight;
+    }
+    grain.grown = 1.0 + grown;
+    if grain.weight >= 0.2 && grain.kind != 2 {
+        let (mut flow, mut weight, mut count, mut spread) = (Vector3::new(0.0, 0.0, 0.5), 1.5, 2, 0.0);
+        for other in others_near.iter().filter(|other| other.kind == grain.kind) {
+            flow += other.velocity * other.weight;
+            weight -= other.weight;
+            count += 1;
+        }
+        for other in beside.clone() {
+            spread += (other.velocity - grain.velocity).length();
+            count += 1;
+        }
+        grain.near += count;
+        grain.mean = flow / weight;
+        grain.spread = spread + weight * 0.5;
+    }
     if grain.weight >= 0.3 {
         others_near.iter().for_each(|other| grain.warmth += 0.01 * (other.warmth - other.weight));
     }
@@ -260,6 +335,11 @@ fn grain(label: u32) -> Item<Grain> {
         total: 0.0,
         warmth: number(label, 11),
         filled: 0.0,
+        mean: Vector3::splat(0.0),
+        near: 0,
+        spread: 0.0,
+        grown: 0.0,
+        hidden: 0.0,
     };
     Item { label, cell: [x, y, z].map(|place| place as usize), state }
 }
@@ -271,7 +351,8 @@ fn model(count: u32, boundary: Boundary) -> Result<Model, ModelError> {
         .boundaries([boundary; 3])
         .population::<Grain>(100)
         .parameters(LAW)
-        .process((press, chain, add_twice, fill, warm, fly, settle))
+        .process((press, chain, add_twice, fill, warm))
+        .process((average, grow, fly, settle))
         .initialise(move |state| Ok(state.set_items((0..count).map(grain).collect())?));
     if boundary == Boundary::Toroidal { builder.build() } else { builder.items_may_leave::<Grain>().build() }
 }

@@ -179,6 +179,7 @@ pub(crate) struct Place {
     pub(crate) path: Vec<Projection>,
 }
 
+#[derive(PartialEq)]
 pub(crate) enum PlaceRoot {
     Local(Ident),
     Own(Ident),

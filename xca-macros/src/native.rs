@@ -13,6 +13,7 @@ mod generics;
 mod helper;
 mod kernels;
 mod labels;
+mod local_sums;
 mod loops;
 mod mates;
 mod names;

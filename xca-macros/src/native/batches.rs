@@ -1,6 +1,7 @@
 //! The code of loops that only add: many pairs at a time.
 
 use super::body::Writer;
+use super::local_sums::LocalSum;
 use super::loops::{positions, reach_number};
 use super::mates::Condition;
 use super::names::{hidden, other_name, own_name, read_name, write_name};
@@ -56,6 +57,9 @@ impl Sums<'_> {
                 .map(|name| writer.name(name));
         let real = writer.real.clone();
         let frame = Lifetime::new("'__xca_frame", Span::mixed_site());
+        let locals: Vec<_> = self.locals.iter().filter(|local| self.adds_to(local.name)).collect();
+        let of_locals: Vec<_> = locals.iter().map(|local| local.argument(&real)).collect();
+        let arguments: Vec<_> = arguments.iter().chain(&of_locals).collect();
         let constants = &writer.function.constants;
         let given: Vec<_> = constants.iter().map(|constant| &constant.ident).collect();
         let names: Vec<_> = arguments.iter().map(|argument| &argument.name).collect();
@@ -68,7 +72,7 @@ impl Sums<'_> {
         let Batches { room, gather, lanes } = Batches::of(&self.turn, writer);
         let mut turns = Turns::default();
         writer.others_in_lanes = true;
-        self.turn.iter().for_each(|statement| turns.add(statement, writer));
+        self.turn.iter().for_each(|statement| turns.add(statement, &locals, writer));
         writer.others_in_lanes = false;
         let Turns { prepare, turn, add } = turns;
         quote! {
@@ -183,16 +187,22 @@ struct Turns {
 }
 
 impl Turns {
-    fn add(&mut self, statement: &Statement, writer: &mut Writer<'_>) {
+    fn add(&mut self, statement: &Statement, locals: &[&LocalSum<'_>], writer: &mut Writer<'_>) {
         let [row, batch, lane] = ["row", "batch", "lane"].map(|name| writer.name(name));
-        let Statement::Assign { place: Place { root: PlaceRoot::Own(field), .. }, operator, value, .. } =
-            statement
-        else {
+        let Statement::Assign { place: Place { root, .. }, operator, value, .. } = statement else {
             return self.turn.extend(writer.statement(statement));
         };
-        let numbers = hidden(&format!("numbers_{}", field.unraw()), field.span());
-        let (type_, write) =
-            (native_type(GroupOf::SUBJECT, field, writer.function, &writer.real), write_name(field));
+        let (sum, type_, write) = match root {
+            PlaceRoot::Own(field) => {
+                let type_ = native_type(GroupOf::SUBJECT, field, writer.function, &writer.real);
+                (field, type_, write_name(field))
+            }
+            PlaceRoot::Local(name) => match locals.iter().find(|local| local.name == name) {
+                Some(local) => (name, local.native_type(&writer.real), local.values()),
+                None => return self.turn.extend(writer.statement(statement)),
+            },
+        };
+        let numbers = hidden(&format!("numbers_{}", write.unraw()), sum.span());
         let value = writer.expression(value);
         let method = if matches!(operator, Some(BinOp::Sub(_))) { quote!(subtract) } else { quote!(add) };
         let of_value = quote!(<#type_ as ::xca_core::kernel::KernelValue>);

@@ -223,7 +223,11 @@ fn items(function: &Function, uses: &Uses, real: &TokenStream, arguments: &[Argu
         }
     }
     let mut writer = Writer::new(function, Some(uses), real.clone());
-    let Split { sums, rest, is_done } = Split::of(function, uses);
+    let Split { sums, locals, rest, is_done } = Split::of(function, uses);
+    for local in &locals {
+        load.extend(local.load(&writer));
+    }
+    let rooms: Vec<_> = locals.iter().map(|local| local.room(&mut writer)).collect();
     let sums: Vec<_> = sums.iter().map(|sums| sums.code(&mut writer, arguments)).collect();
     let body = writer.statements(rest.iter().copied(), function.body.value.as_deref());
     let lists = writer.lists();
@@ -245,6 +249,7 @@ fn items(function: &Function, uses: &Uses, real: &TokenStream, arguments: &[Argu
         return quote! {
             let (#first, #count) = (#row.first_item(), #row.own_items());
             #shorten
+            #(#rooms)*
             #(#sums)*
         };
     }
@@ -256,6 +261,7 @@ fn items(function: &Function, uses: &Uses, real: &TokenStream, arguments: &[Argu
         let (#first, #count) = (#row.first_item(), #row.own_items());
         #take
         #shorten
+        #(#rooms)*
         #(#sums)*
         #(#mates)*
         let mut #place = #row.place();
