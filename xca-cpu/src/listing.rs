@@ -264,10 +264,9 @@ impl Maker<'_> {
             let gap = (before.max(after) - self.slack).max(0.0);
             gap * gap
         };
-        let near = |steps: &isize| square(0, *steps) < self.square;
-        let reach_in_cells = reach as isize;
-        let west = (-reach_in_cells..0).filter(near).count();
-        let east = (1..=reach_in_cells).filter(near).count();
+        let steps = 1..=reach as isize;
+        let west = steps.clone().filter(|steps| square(0, -steps) < self.square).count();
+        let east = steps.filter(|steps| square(0, *steps) < self.square).count();
         let (low, high) = (x.saturating_sub(west), (x + east).min(width - 1));
         for NearRow { offset, steps: [along, up] } in &self.rows {
             if square(1, *along) + square(2, *up) >= self.square {

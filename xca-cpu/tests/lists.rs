@@ -250,6 +250,19 @@ fn grains_alone_do_what_they_do_in_the_reference_engine() -> TestResult {
     Ok(())
 }
 
+/// Without a migration, grains move away from their cells.
+#[test]
+fn grains_outside_of_their_cells_change_no_bit() -> TestResult {
+    for apart in [0.01, 0.05, 0.1] {
+        let motion = Motion { together: [0.0; 3], apart, radius: |_| 0.3 };
+        for boundaries in [FLAT, TORUS] {
+            let builder = space(boundaries).process((look, fly));
+            compare(&apart.to_string(), &builder.initialise(placed(1500, &motion)).build()?)?;
+        }
+    }
+    Ok(())
+}
+
 /// Lists do not know the motion of a pass that writes positions to a second buffer.
 #[test]
 fn positions_in_a_second_buffer_change_no_bit() -> TestResult {
