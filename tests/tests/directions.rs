@@ -8,7 +8,7 @@ use toml::{Table, Value};
 type TestResult = Result<(), Box<dyn Error>>;
 
 /// For each member, the members that it may depend on. A new member finds its place here first.
-const DIRECTIONS: [(&str, &[&str]); 37] = [
+const DIRECTIONS: [(&str, &[&str]); 38] = [
     ("xca-methods", &[]),
     ("xca-spelling", &[]),
     ("xca-fields", &[]),
@@ -18,8 +18,9 @@ const DIRECTIONS: [(&str, &[&str]); 37] = [
     ("xca-process", &["xca-macros", "xca-methods", "xca-space", "xca-values"]),
     ("xca-core", &["xca-macros", "xca-process", "xca-values"]),
     ("xca-wgsl", &["xca-core", "xca-methods"]),
+    ("xca-pace", &[]),
     ("xca-wavefront", &[]),
-    ("xca-cpu", &["xca-core", "xca-wavefront"]),
+    ("xca-cpu", &["xca-core", "xca-pace", "xca-wavefront"]),
     ("xca-gpu", &["xca-core", "xca-wgsl"]),
     ("xca-parts", &["xca-core"]),
     ("xca-mpi", &["xca-core", "xca-parts"]),

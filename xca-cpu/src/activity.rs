@@ -11,13 +11,13 @@
 
 use crate::choices::LeaveOut;
 use crate::layout::Layout;
-use crate::pace::{Pace, Step};
 use crate::tiles::{BITS, Marks, Tiles, zeros};
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 use xca_core::engine::{Figure, SubstateId};
 use xca_core::{Model, ParameterSet, ProcessKind};
+use xca_pace::{Pace, Step};
 
 /// The number of cells in a tile. Few, because fronts are narrow, but enough to be worth the start of a
 /// kernel.

@@ -51,7 +51,7 @@ impl Arrays {
         all.filter(|values| !values.bytes.is_empty()).collect()
     }
 
-    /// Replaces each array by one with so many places, which `fill` gets with the old one and with the size of
+    /// Replaces each array by one with so many places. `fill` gets the old one, the new one and the size of
     /// a value in bytes. One array after the other, because both exist meanwhile.
     pub(crate) fn replace(
         &mut self,

@@ -26,7 +26,6 @@ mod measurement;
 mod memory;
 mod migration;
 mod motion;
-mod pace;
 mod part;
 mod population;
 mod reductions;

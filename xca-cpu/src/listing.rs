@@ -2,6 +2,7 @@
 
 use crate::blocks::blocks;
 use crate::layout::Layout;
+use crate::lists::{Entries, refill};
 use crate::population::Population;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -10,17 +11,6 @@ use xca_core::kernel::{Work, run};
 
 /// The number of items that are compared at a time.
 const LANES: usize = 8;
-
-/// The lists of all items, by place.
-#[derive(Default)]
-pub(crate) struct Entries {
-    /// The start of each list in `candidates`, then the length of that. A place without an item has an empty
-    /// list.
-    pub(crate) starts: Vec<u32>,
-    pub(crate) candidates: Vec<u32>,
-    /// The place that has the list of each candidate.
-    pub(crate) owners: Vec<u32>,
-}
 
 /// The lists of some rows.
 struct Listed {
@@ -82,17 +72,6 @@ pub(crate) fn make(
     let listed: Vec<Listed> = blocks.map(list).collect();
     drop(maker);
     before.replaced(population, listed)
-}
-
-/// Gives a vector new values. Its memory is used again, because large pieces that come and go leave holes
-/// that no one can use. It gets a quarter more than it needs.
-pub(crate) fn refill<T>(values: &mut Vec<T>, length: usize, value: impl FnMut() -> T) {
-    values.clear();
-    if values.capacity() < length {
-        *values = Vec::new();
-        values.reserve_exact(length + length / 4);
-    }
-    values.resize_with(length, value);
 }
 
 /// Some rows, and their part of all entries.
@@ -248,8 +227,8 @@ impl Maker<'_> {
         }
     }
 
-    /// Lists the near items of an item of a cell. Leaves out rows and cells that are too far from its position
-    /// `inside` of its cell.
+    /// Lists the near items of an item of a cell. Leaves out rows and cells that are too far from its
+    /// position `inside` of its cell.
     #[inline(always)]
     fn list_item(&self, item: u32, (padded, x): (usize, usize), inside: [f32; 3], listed: &mut Listed) {
         let Population { starts, ends, .. } = self.population;
@@ -289,8 +268,8 @@ impl Maker<'_> {
         }
     }
 
-    /// Adds the near items of a strip. All places of the strip are written, and then some are written over: no
-    /// branch on what is near, which the processor could not predict.
+    /// Adds the near items of a strip. The places of eight items are always written, the near ones first, and
+    /// those after them are written over: no branch on what is near, which the processor could not predict.
     #[inline(always)]
     fn keep(&self, item: u32, strip: Range<u32>, listed: &mut Listed) {
         let here = [0, 1, 2].map(|axis| self.planes.axes[axis][item as usize]);

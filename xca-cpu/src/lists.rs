@@ -9,7 +9,6 @@
 
 use crate::arrays::Arrays;
 use crate::layout::Layout;
-use crate::listing::Entries;
 use crate::motion::Motion;
 use std::sync::atomic::AtomicU32;
 use xca_core::Geometry;
@@ -38,6 +37,17 @@ pub(crate) struct Lists {
     pub(crate) rounding: f64,
     /// An upper limit, in metres, of how much two items have approached each other since then.
     pub(crate) approach: f64,
+}
+
+/// The lists of all items, by place.
+#[derive(Default)]
+pub(crate) struct Entries {
+    /// The start of each list in `candidates`, then the length of that. A place without an item has an empty
+    /// list.
+    pub(crate) starts: Vec<u32>,
+    pub(crate) candidates: Vec<u32>,
+    /// The place that has the list of each candidate.
+    pub(crate) owners: Vec<u32>,
 }
 
 /// The limits for neighbour lists.
@@ -136,4 +146,15 @@ impl Lists {
     pub(crate) fn met_stranger(&mut self, layout: &Layout, row: usize) {
         layout.rows_around(row).for_each(|row| self.in_cells[row] = true);
     }
+}
+
+/// Gives a vector new values. Its memory is used again, because large pieces that come and go leave holes
+/// that no one can use. It gets a quarter more than it needs.
+pub(crate) fn refill<T>(values: &mut Vec<T>, length: usize, value: impl FnMut() -> T) {
+    values.clear();
+    if values.capacity() < length {
+        *values = Vec::new();
+        values.reserve_exact(length + length / 4);
+    }
+    values.resize_with(length, value);
 }

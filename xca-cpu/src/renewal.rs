@@ -2,9 +2,9 @@
 
 use crate::ghosts::rows_at_borders;
 use crate::layout::Layout;
-use crate::listing::{make, refill};
+use crate::listing::make;
 
-use crate::lists::{Lists, Room, STRANGER};
+use crate::lists::{Lists, Room, STRANGER, refill};
 use crate::population::Population;
 use std::sync::atomic::AtomicU32;
 use std::time::Instant;

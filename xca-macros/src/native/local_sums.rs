@@ -1,5 +1,5 @@
-//! Local variables to which the loops at the beginning of a body only add. A kernel keeps their values for all
-//! items of a row.
+//! Local variables to which the loops at the beginning of a body only add. A kernel keeps their values for
+//! all items of a row.
 
 use super::body::Writer;
 use super::names::hidden;

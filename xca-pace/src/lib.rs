@@ -22,7 +22,7 @@ const DOUBT: f64 = 3.0;
 
 /// Whether cells are skipped.
 #[derive(Debug)]
-pub(crate) struct Pace {
+pub struct Pace {
     /// Whether cells are always skipped, for tests.
     always: bool,
     /// The number of remaining steps on all cells.
@@ -40,36 +40,38 @@ pub(crate) struct Pace {
 
 /// A finished step.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Step {
+pub struct Step {
     /// The number of cells of the step, counted for each process.
-    pub(crate) cells: u64,
-    pub(crate) time: Duration,
+    pub cells: u64,
+    /// The time that the step took.
+    pub time: Duration,
 }
 
 impl Pace {
-    pub(crate) fn new(always: bool) -> Self {
+    /// A pace that finds out by times. With `always`, cells are always skipped, for tests.
+    pub fn new(always: bool) -> Self {
         let pause = if always { 0 } else { PAUSES[0] };
         let (whole, part) = (f64::INFINITY, f64::INFINITY);
         Self { always, pause, next_pause: PAUSES[1], tried: 0, whole, part, doubt: DOUBT }
     }
 
     /// Whether the step skips cells.
-    pub(crate) fn is_on(&self) -> bool {
+    pub fn is_on(&self) -> bool {
         self.pause == 0
     }
 
     /// The number of following steps that skip no cells.
-    pub(crate) fn pause(&self) -> u64 {
+    pub fn pause(&self) -> u64 {
         self.pause
     }
 
     /// Whether the step is the first one after a pause, during which changes were not tracked.
-    pub(crate) fn is_first(&self) -> bool {
+    pub fn is_first(&self) -> bool {
         self.is_on() && self.tried == 0
     }
 
     /// Records a finished step. Returns whether the share of due cells is needed, see [`Self::judge_share`].
-    pub(crate) fn ended(&mut self, step: Step) -> bool {
+    pub fn ended(&mut self, step: Step) -> bool {
         if self.always {
             self.tried += 1;
             return false;
@@ -99,7 +101,7 @@ impl Pace {
     }
 
     /// Judges by the share of due cells, after a step that tracked all changes.
-    pub(crate) fn judge_share(&mut self, due: f64) {
+    pub fn judge_share(&mut self, due: f64) {
         if due > MOST_DUE {
             self.judge(false);
         }
