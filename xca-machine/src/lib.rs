@@ -12,9 +12,11 @@
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics has failed, as it should"))]
 
+mod allocation;
 mod limits;
 mod table;
 
+pub use allocation::return_large_pieces;
 use limits::Free;
 use std::fs;
 use std::path::Path;

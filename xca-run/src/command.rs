@@ -164,6 +164,7 @@ impl<'a> CommandLine<'a> {
 }
 
 fn main_of(definition: &Definition<'_>) -> ExitCode {
+    xca_machine::return_large_pieces();
     let arguments: Vec<OsString> = std::env::args_os().collect();
     let panics = Panics::caught();
     // After a panic nothing of the definition is used.
