@@ -57,12 +57,14 @@ impl Arrays {
         &mut self,
         types: &[StoredType],
         places: usize,
+        has_lists: bool,
         fill: impl Fn(&[u8], &mut [u8], usize),
     ) {
-        for numbers in [&mut self.labels, &mut self.cells, &mut self.numbers] {
-            replace(numbers, places, &fill);
-        }
-        replace(&mut self.references, places, &fill);
+        let listed = if has_lists { places } else { 0 };
+        replace(&mut self.labels, places, &fill);
+        replace(&mut self.cells, places, &fill);
+        replace(&mut self.numbers, listed, &fill);
+        replace(&mut self.references, listed, &fill);
         for (field, stored) in self.fields.iter_mut().zip(types) {
             let mut new = Buffer::zeroed(places * stored.size());
             fill(field.bytes(), new.bytes_mut(), stored.size());
@@ -77,11 +79,11 @@ impl Arrays {
     }
 }
 
-/// Replaces a vector by one of this length. An empty one stays empty.
+/// Replaces a vector by one of this length.
 fn replace<T: Pod>(values: &mut Vec<T>, length: usize, fill: impl Fn(&[u8], &mut [u8], usize)) {
-    if !values.is_empty() {
-        let mut new = bytemuck::allocation::zeroed_vec(length);
+    let mut new = bytemuck::allocation::zeroed_vec(length);
+    if length > 0 {
         fill(bytemuck::cast_slice(values), bytemuck::cast_slice_mut(&mut new), size_of::<T>());
-        *values = new;
     }
+    *values = new;
 }

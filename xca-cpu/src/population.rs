@@ -206,8 +206,8 @@ impl Population {
         let moved = |(first, place): (&u32, &u32)| place.wrapping_sub(*first);
         let shifts: Vec<u32> = self.rows.iter().zip(&rows).map(moved).take(layout.rows()).collect();
         let places = rows[layout.rows()] as usize;
-        let Self { types, items, rows: firsts, row_ends: ends, .. } = self;
-        items.replace(types, places, |old, mut new, size| {
+        let Self { types, items, rows: firsts, row_ends: ends, lists, .. } = self;
+        items.replace(types, places, lists.is_some(), |old, mut new, size| {
             let of_rows = firsts.iter().zip(ends.iter()).zip(rows.windows(2));
             let of_rows: Vec<_> = of_rows
                 .filter_map(|((first, end), places)| {
